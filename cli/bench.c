@@ -1,0 +1,181 @@
+/* zipact bench: what a step costs on this machine, in CPU time of one thread. */
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cli.h"
+#include "plain_kernel.h"
+
+enum { REPEATS = 5 };
+
+/* What the paper says of its MATLAB code on one thread of an i7-8700: section III. */
+typedef struct PaperCost {
+  int nodes;
+  double mean_step;   /* s */
+  double cpu_seconds; /* per simulated second */
+} PaperCost;
+static const PaperCost paper[] = {{21, 5.04e-6, 386}, {61, 0.99e-6, 1022}, {130, 0.49e-6, 2596}};
+
+typedef struct Row {
+  const char *name;
+  int nodes;
+  double ns_per_node_step; /* a node of either ribbon */
+  double steps_per_second; /* simulated */
+  double cpu;              /* spent on the row, s */
+  double paper_ratio;      /* the paper's cost over this one; NAN where it gives none */
+} Row;
+
+static double cpu_clock(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double median(double *values) {
+  qsort(values, REPEATS, sizeof *values, compare);
+  return values[REPEATS / 2];
+}
+
+static void set(ZpAssignment *list, size_t *count, const char *key, double value) {
+  list[(*count)++] = (ZpAssignment){zp_key_find(key), value};
+}
+
+/* One run of `span` simulated seconds from equilibrium => seconds per step and mean step. */
+static ZpStatus time_run(const ZpActuatorDef *def, double span, double *per_step, double *mean_step, ZpError *err) {
+  ZpModel *model;
+  ZpSim *sim = NULL;
+  ZpStatus status = zp_model_create(def, &model, err);
+  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, err);
+  if (status == ZP_OK) {
+    double samples[REPEATS] = {0};
+    *mean_step = NAN;
+    for (int k = 0; k < REPEATS; k++) {
+      ZpRunInfo info;
+      double start = cpu_clock();
+      zp_sim_run(sim, span * (k + 1), false, NULL, &info);
+      samples[k] = (cpu_clock() - start) / (double)info.steps;
+      *mean_step = info.simulated_time / (double)info.steps;
+    }
+    *per_step = median(samples);
+  }
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return status;
+}
+
+/* The whole step of preset paper-code with the field found anew in every step. */
+static ZpStatus paper_code_row(const PaperCost *cost, Row *row, ZpError *err) {
+  ZpAssignment list[4];
+  size_t count = 0;
+  set(list, &count, "preset", ZP_PRESET_PAPER_CODE);
+  set(list, &count, "mesh.nodes", cost->nodes);
+  set(list, &count, "electro.refresh_period", 0);
+  ZpActuatorDef def;
+  ZpStatus status = zp_def_resolve(&def, list, count, err);
+  double per_step = NAN, own_step, start = cpu_clock();
+  if (status == ZP_OK) status = time_run(&def, 4e-3, &per_step, &own_step, err);
+  *row = (Row){.name = "explicit paper-code",
+               .nodes = cost->nodes,
+               .ns_per_node_step = 1e9 * per_step / (2 * cost->nodes),
+               .steps_per_second = 1 / cost->mean_step,
+               .cpu = cpu_clock() - start,
+               .paper_ratio = cost->cpu_seconds / (per_step / cost->mean_step)};
+  return status;
+}
+
+/* The default actuator at its own steps. */
+static ZpStatus default_row(int nodes, Row *row, ZpError *err) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = nodes;
+  def.solver.tolerance = 1e-2; /* the start need not be settled to the last digit here */
+  double per_step = NAN, mean_step = NAN, start = cpu_clock();
+  ZpStatus status = time_run(&def, 4e-3, &per_step, &mean_step, err);
+  *row = (Row){.name = "explicit default actuator",
+               .nodes = nodes,
+               .ns_per_node_step = 1e9 * per_step / (2 * nodes),
+               .steps_per_second = 1 / mean_step,
+               .cpu = cpu_clock() - start,
+               .paper_ratio = NAN};
+  return status;
+}
+
+static ZpStatus plain_row(const PaperCost *cost, Row *row, ZpError *err) {
+  static const long node_steps = 20000000; /* about 0.1 s */
+  long steps = node_steps / (2 * cost->nodes);
+  double l = 0.045 / (cost->nodes - 1), samples[REPEATS], start = cpu_clock();
+  PlainKernel kernel = {l, 1e3, 10, 1e-5, 9.81, 0.1, 1e-6};
+  for (int k = 0; k < REPEATS; k++) {
+    double begin = cpu_clock();
+    if (isnan(plain_kernel_run(&kernel, cost->nodes, steps))) {
+      *err = (ZpError){ZP_MACHINE, "no memory"};
+      return ZP_MACHINE;
+    }
+    samples[k] = (cpu_clock() - begin) / (double)steps;
+  }
+  double per_step = median(samples);
+  *row = (Row){.name = "plain mechanics kernel",
+               .nodes = cost->nodes,
+               .ns_per_node_step = 1e9 * per_step / (2 * cost->nodes),
+               .steps_per_second = 1 / cost->mean_step,
+               .cpu = cpu_clock() - start,
+               .paper_ratio = cost->cpu_seconds / (per_step / cost->mean_step)};
+  return ZP_OK;
+}
+
+static double cost_per_second(const Row *row) {
+  return 1e-9 * row->ns_per_node_step * 2 * row->nodes * row->steps_per_second;
+}
+
+static void print_table(const Row *row, int rows) {
+  printf("%-26s %5s %12s %14s %16s %12s\n", "", "nodes", "ns per node", "steps per", "CPU s per", "times faster");
+  printf("%-26s %5s %12s %14s %16s %12s\n", "", "", "and step", "simulated s", "simulated s", "than paper");
+  for (int i = 0; i < rows; i++) {
+    printf("%-26s %5d %12.2f %14.0f %16.4f", row[i].name, row[i].nodes, row[i].ns_per_node_step,
+           row[i].steps_per_second, cost_per_second(&row[i]));
+    if (isnan(row[i].paper_ratio)) printf(" %12s\n", "-");
+    else printf(" %12.0f\n", row[i].paper_ratio);
+  }
+}
+
+static json_t *row_json(const Row *row) {
+  json_t *ratio = isnan(row->paper_ratio) ? json_null() : json_real(row->paper_ratio);
+  return json_pack("{s:s, s:i, s:f, s:f, s:f, s:f, s:n, s:o}", "name", row->name, "nodes", row->nodes,
+                   "ns_per_node_step", row->ns_per_node_step, "steps_per_simulated_second", row->steps_per_second,
+                   "seconds_per_simulated_second", cost_per_second(row), "cpu_s", row->cpu, "error",
+                   "paper_cost_over_this", ratio);
+}
+
+static int print_json(const Row *row, int rows) {
+  json_t *array = json_array(), *all = json_pack("{s:s, s:o}", "version", ZP_VERSION, "rows", array);
+  bool done = all != NULL;
+  for (int i = 0; i < rows && done; i++)
+    done = json_array_append_new(array, row_json(&row[i])) == 0;
+  done = done && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6)) == 0;
+  json_decref(all);
+  putchar('\n');
+  return done ? EXIT_DONE : cli_fail(&(ZpError){ZP_MACHINE, "cannot write to standard output"});
+}
+
+int cli_bench(const Options *options) {
+  enum { SIZES = sizeof paper / sizeof paper[0] };
+  Row row[3 * SIZES];
+  ZpError err;
+  int rows = 0;
+  for (int i = 0; i < SIZES; i++)
+    if (plain_row(&paper[i], &row[rows++], &err) != ZP_OK) return cli_fail(&err);
+  for (int i = 0; i < SIZES; i++)
+    if (paper_code_row(&paper[i], &row[rows++], &err) != ZP_OK) return cli_fail(&err);
+  for (int i = 0; i < SIZES; i++)
+    if (default_row(paper[i].nodes, &row[rows++], &err) != ZP_OK) return cli_fail(&err);
+  if (options->json) return print_json(row, rows);
+  print_table(row, rows);
+  return EXIT_DONE;
+}

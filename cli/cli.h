@@ -1,0 +1,43 @@
+/* The command: what its files share. */
+#ifndef ZP_CLI_CLI_H
+#define ZP_CLI_CLI_H
+
+#include <stdbool.h>
+
+#include <zipact/zipact.h>
+
+#include <zipact/io.h>
+
+/* Exit statuses; docs/interface.md. */
+enum { EXIT_DONE = 0, EXIT_NUMERICS = 1, EXIT_INPUT = 2, EXIT_MACHINE = 3, EXIT_INTERRUPTED = 130 };
+
+/* What the words of the command line say. */
+typedef struct Options {
+  const char *scenario;  /* NULL: the defaults */
+  const char **set;      /* [sets] values of --set, in order */
+  int sets;
+  const char *directory; /* NULL: out/STUDY */
+  bool json, yaml, quiet, help;
+} Options;
+
+/* Say why and give the exit status. */
+int cli_fail(const ZpError *err);
+
+/* `study` NULL: the one that the scenario names. */
+int cli_study(const char *study, const Options *options);
+int cli_keys(const Options *options);
+int cli_bench(const Options *options);
+
+/* Progress on stderr where it is a terminal, and Ctrl-C. `of` runs, this is number `index`. */
+typedef struct Progress {
+  bool shown;
+  size_t index, of;
+  double last; /* wall time of the last line, s */
+} Progress;
+void cli_watch_interrupts(void);
+bool cli_interrupted(void);
+ZpHooks cli_hooks(Progress *progress);
+void cli_progress_end(Progress *progress);
+double cli_wall_clock(void *unused);
+
+#endif

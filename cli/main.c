@@ -1,0 +1,122 @@
+/* zipact: the words of the command line. */
+#include <getopt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+static const char usage[] =
+    "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--json] [--quiet]\n"
+    "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
+    "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
+    "zipact bench [--json]               speed on this machine\n"
+    "zipact --version | --help | STUDY --help\n"
+    "\n"
+    "Studies\n";
+
+static const char study_usage[] =
+    "\n"
+    "  SCENARIO.yaml     values for keys; without it, the defaults. A key with a list is swept\n"
+    "  --set KEY=VALUE   a value for a key, \"load.mass=20 g\"; wins over the file; may be repeated\n"
+    "  -o, --output DIR  folder for results; default out/STUDY\n"
+    "  --json            print the summary as JSON on standard output, and nothing else\n"
+    "  --quiet           no progress, no messages but errors\n"
+    "\n"
+    "Values take units (\"130 um\", \"10 kV\", \"8 g\"); a bare number is SI. `zipact keys` lists the keys.\n"
+    "Exit status: 0 done; 1 the numerics ended badly; 2 wrong input; 3 the machine failed; 130 interrupted.\n";
+
+int cli_fail(const ZpError *err) {
+  fprintf(stderr, "zipact: %s\n", err->message);
+  return err->status == ZP_MACHINE ? EXIT_MACHINE : EXIT_INPUT;
+}
+
+static int fail_usage(const char *what, const char *word) {
+  fprintf(stderr, "zipact: %s%s; see zipact --help\n", what, word);
+  return EXIT_INPUT;
+}
+
+static const ZpKey *study_key(void) {
+  return zp_key(zp_key_find("study"));
+}
+
+static void print_help(void) {
+  fputs(usage, stdout);
+  for (int i = 0; i <= (int)study_key()->max; i++)
+    printf("  %-14s %s\n", study_key()->choices[i].word, study_key()->choices[i].help);
+  fputs(study_usage, stdout);
+}
+
+static int print_study_help(const char *study) {
+  int place = zp_key_choice(zp_key_find("study"), study);
+  printf("zipact %s [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--json] [--quiet]\n", study);
+  printf("%s\n", place >= 0 ? study_key()->choices[place].help : "the study that the scenario names");
+  fputs(study_usage, stdout);
+  return EXIT_DONE;
+}
+
+/* Read what follows the first word; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
+static int read_options(int argc, char **argv, const char **set, Options *options) {
+  static const struct option known[] = {
+      {"set", required_argument, NULL, 's'}, {"output", required_argument, NULL, 'o'},
+      {"json", no_argument, NULL, 'j'},      {"yaml", no_argument, NULL, 'y'},
+      {"quiet", no_argument, NULL, 'q'},     {"help", no_argument, NULL, 'h'},
+      {NULL, 0, NULL, 0}};
+  *options = (Options){.set = set};
+  for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
+    if (c == 's') set[options->sets++] = optarg;
+    else if (c == 'o') options->directory = optarg;
+    else if (c == 'j') options->json = true;
+    else if (c == 'y') options->yaml = true;
+    else if (c == 'q') options->quiet = true;
+    else if (c == 'h') options->help = true;
+    else return EXIT_INPUT; /* getopt has said why */
+  }
+  if (optind < argc) options->scenario = argv[optind++];
+  return optind < argc ? fail_usage("one scenario at a time, not also ", argv[optind]) : EXIT_DONE;
+}
+
+static int no_results_options(const char *word, const Options *o) {
+  if (o->scenario) return fail_usage("takes no scenario: ", word);
+  if (o->sets || o->directory) return fail_usage("takes neither --set nor -o: ", word);
+  return EXIT_DONE;
+}
+
+static int dispatch(const char *word, const Options *o) {
+  bool is_study = zp_key_choice(zp_key_find("study"), word) >= 0, is_run = strcmp(word, "run") == 0;
+  if (is_study || is_run) {
+    if (o->help) return print_study_help(word);
+    if (o->yaml) return fail_usage("--yaml goes with keys, not with ", word);
+    if (is_run && !o->scenario) return fail_usage("run needs a scenario file", "");
+    return cli_study(is_run ? NULL : word, o);
+  }
+  bool is_keys = strcmp(word, "keys") == 0, is_bench = strcmp(word, "bench") == 0;
+  if (!is_keys && !is_bench) return fail_usage("no such study or command: ", word);
+  if (o->help) {
+    print_help();
+    return EXIT_DONE;
+  }
+  int status = no_results_options(word, o);
+  if (status != EXIT_DONE) return status;
+  if (is_bench && o->yaml) return fail_usage("--yaml goes with keys, not with ", word);
+  return is_keys ? cli_keys(o) : cli_bench(o);
+}
+
+int main(int argc, char **argv) {
+  if (argc < 2) return fail_usage("a study or command is missing", "");
+  if (strcmp(argv[1], "--version") == 0) {
+    puts("zipact " ZP_VERSION);
+    return EXIT_DONE;
+  }
+  if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+    print_help();
+    return EXIT_DONE;
+  }
+  const char **set = calloc((size_t)argc, sizeof *set);
+  if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
+  Options options;
+  int status = read_options(argc - 1, argv + 1, set, &options);
+  if (status == EXIT_DONE) status = dispatch(argv[1], &options);
+  free(set);
+  return status;
+}

@@ -1,0 +1,66 @@
+/* Progress, Ctrl-C and the clock: what long calls ask of the outside. */
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+/* The one thing a signal handler may touch. */
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+  interrupted = 1;
+  signal(signal_number, SIG_DFL); /* a second one ends the program at once */
+}
+
+void cli_watch_interrupts(void) {
+  struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+}
+
+bool cli_interrupted(void) {
+  return interrupted;
+}
+
+double cli_wall_clock(void *unused) {
+  (void)unused;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void draw(const Progress *progress, const char *stage, double fraction) {
+  enum { WIDTH = 40 };
+  char bar[WIDTH + 1];
+  int filled = (int)(fraction * WIDTH);
+  for (int i = 0; i < WIDTH; i++)
+    bar[i] = i < filled ? '#' : '.';
+  bar[WIDTH] = 0;
+  if (progress->of > 1) fprintf(stderr, "\r%zu of %zu ", progress->index + 1, progress->of);
+  else fputc('\r', stderr);
+  fprintf(stderr, "[%s] %3.0f %% %-12s", bar, 100 * fraction, stage);
+  fflush(stderr);
+}
+
+static bool on_progress(void *user, const char *stage, double fraction) {
+  static const double between = 0.1; /* s */
+  Progress *progress = user;
+  if (!progress->shown) return interrupted;
+  double now = cli_wall_clock(NULL);
+  if (now - progress->last >= between) {
+    draw(progress, stage, fraction);
+    progress->last = now;
+  }
+  return interrupted;
+}
+
+ZpHooks cli_hooks(Progress *progress) {
+  return (ZpHooks){.user = progress, .progress = on_progress, .clock = cli_wall_clock};
+}
+
+void cli_progress_end(Progress *progress) {
+  if (progress->shown && progress->last > 0) fprintf(stderr, "\r%78s\r", "");
+}

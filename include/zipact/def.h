@@ -1,0 +1,127 @@
+/* What the user wants: plain data, one field per key of keys.def.
+ *
+ * A Def may be filled in three ways that give the same thing: by assigning its fields
+ * (def.load.mass = 0.008), by key (zp_def_set), or from a list of assignments (zp_def_resolve), which
+ * also applies presets. Nothing is checked until zp_def_check, which every user of a Def calls.
+ * All numbers are SI. A key that may be `auto` is then NAN.
+ */
+#ifndef ZIPACT_DEF_H
+#define ZIPACT_DEF_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <zipact/error.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The enumerations: one type per list of choices.def, values from 0 in the order written there. */
+#define ZP_CHOICES(type) typedef enum type {
+#define ZP_CHOICE(enumerator, word, help) enumerator,
+#define ZP_CHOICES_END(type) \
+  type##_COUNT               \
+  }                          \
+  type;
+#include <zipact/choices.def>
+#undef ZP_CHOICES
+#undef ZP_CHOICE
+#undef ZP_CHOICES_END
+
+/* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; meaning, unit,
+ * default and range of each are in keys.def (or: `zipact keys`). */
+#define ZP_GROUP(group) struct {
+#define ZP_GROUP_END(group) \
+  }                         \
+  group;
+#define ZP_REAL(path, name, unit, shown, def, min, max, help) double name;
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) double name;
+#define ZP_INT(path, name, def, min, max, help) int name;
+#define ZP_BOOL(path, name, def, help) bool name;
+#define ZP_ENUM(path, name, type, def, help) type name;
+typedef struct ZpActuatorDef {
+#include <zipact/keys.def>
+} ZpActuatorDef;
+#undef ZP_GROUP
+#undef ZP_GROUP_END
+#undef ZP_REAL
+#undef ZP_REAL_AUTO
+#undef ZP_INT
+#undef ZP_BOOL
+#undef ZP_ENUM
+
+/* Kind of value that a key takes. */
+typedef enum ZpKeyType {
+  ZP_KEY_REAL,      /* a number with a unit */
+  ZP_KEY_REAL_AUTO, /* a number with a unit, or auto (NAN), which is its default */
+  ZP_KEY_INT,       /* a whole number */
+  ZP_KEY_BOOL,      /* 0 or 1; written true, false */
+  ZP_KEY_ENUM       /* one of `choices`, by its place in the list */
+} ZpKeyType;
+
+/* A word of a choice key. */
+typedef struct ZpChoice {
+  const char *word; /* as written in a scenario */
+  const char *help; /* one line */
+} ZpChoice;
+
+/* All there is to know of a key: one row of keys.def. */
+typedef struct ZpKey {
+  const char *name;        /* "ribbon.length" */
+  ZpKeyType type;          /* kind of value */
+  const char *unit;        /* SI unit that UDUNITS reads; "1" for a pure number or a word */
+  const char *shown;       /* unit in which people write it, e.g. "mm"; "" for a pure number */
+  double def;              /* default, SI; NAN for auto */
+  double min;              /* smallest value allowed */
+  double max;              /* largest value allowed */
+  const char *help;        /* one line */
+  const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
+  size_t offset;           /* of its field in ZpActuatorDef, bytes */
+} ZpKey;
+
+/* A value for a key, on its way into a Def. */
+typedef struct ZpAssignment {
+  int key;      /* index of the key, see zp_key_find */
+  double value; /* SI; NAN for auto; the place of a word in its list; 0 or 1 */
+} ZpAssignment;
+
+/* Number of keys. */
+int zp_key_count(void);
+
+/* Key `index`, 0 <= index < zp_key_count(), in the order of keys.def. */
+const ZpKey *zp_key(int index);
+
+/* Index of the key called `name`, or -1. */
+int zp_key_find(const char *name);
+
+/* The key name that differs least from `name`, for "did you mean". Never NULL. */
+const char *zp_key_nearest(const char *name);
+
+/* Place of `word` in the list of the choice key `index`, or -1. */
+int zp_key_choice(int index, const char *word);
+
+/* The default of every key: the paper's actuator, physically right. */
+ZpActuatorDef zp_actuator_def_default(void);
+
+/* Value of key `index` in `def`, as in ZpAssignment. */
+double zp_def_get(const ZpActuatorDef *def, int index);
+
+/* Set one key. ZP_BAD_INPUT with key, value, unit and range if the value is out of range or not a
+ * number; `def` is then unchanged. */
+ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
+
+/* Fill `def` from the defaults, those of the kind, the preset and `count` assignments, in this order;
+ * later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the
+ * user and it is not given. */
+ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
+
+/* Check the range of every key and what keys ask of one another. */
+ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
+
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,79 @@
+/* Files: scenarios in, results out. The only part that knows units other than SI, file names and
+ * pictures. Needs libfyaml, UDUNITS-2, jansson and HDF5, and gnuplot when it draws. */
+#ifndef ZIPACT_IO_H
+#define ZIPACT_IO_H
+
+#include <stdio.h>
+
+#include <zipact/study.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A scenario: values for keys, some of them lists. Its product of lists is a set of Defs. */
+typedef struct ZpScenario ZpScenario;
+
+/* A new scenario in which every key has its default. NULL if there is no memory. */
+ZpScenario *zp_scenario_create(void);
+void zp_scenario_destroy(ZpScenario *scenario);
+
+/* Read a YAML file into `scenario`. ZP_BAD_INPUT names file, line, key, value, unit, range and the
+ * nearest known key, also a file that does not exist; ZP_MACHINE if it cannot be read. On failure `scenario` is as before. */
+ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError *err);
+
+/* The same from `size` bytes in memory; `name` stands for the file in messages. */
+ZpStatus zp_scenario_parse(ZpScenario *scenario, const char *text, size_t size, const char *name, ZpError *err);
+
+/* Set from "KEY=VALUE" as --set gives it; wins over the file. VALUE as in YAML, a list "[1, 2]" too. */
+ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
+
+/* How many Defs the scenario stands for: the product of the lengths of its lists (1 without lists). */
+size_t zp_scenario_count(const ZpScenario *scenario);
+
+/* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
+const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
+
+/* Def number `index`, resolved (zp_def_resolve) and checked. The last list key varies fastest. */
+ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
+
+/* Write the scenario as YAML, all keys as resolved, lists as lists: it reads back to the same bits. */
+ZpStatus zp_scenario_write(const ZpScenario *scenario, FILE *file, ZpError *err);
+
+/* Write the table of keys: as JSON, as a starter scenario with help as comments, or for people. */
+typedef enum ZpKeysFormat { ZP_KEYS_TEXT, ZP_KEYS_JSON, ZP_KEYS_YAML } ZpKeysFormat;
+ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
+
+/* Read a value for key `index` as a person writes it: "130 um", "auto", "true", "plates"; a bare number
+ * is SI. ZP_BAD_INPUT names key, value, unit and range. */
+ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
+
+/* Write a value of key `index` as a person would: "100 mm", "auto", "true", "plates". Reads back to the
+ * same bits. `text` gets at most `size` bytes with the final 0. */
+void zp_value_print(int index, double value, char *text, size_t size);
+
+/* Where results go, and what was run. */
+typedef struct ZpReport {
+  const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
+  const ZpScenario *scenario; /* what was run */
+  ZpResult *const *result;    /* [count] */
+  size_t count;               /* zp_scenario_count, fewer if interrupted */
+  double wall_time;           /* of all, s */
+} ZpReport;
+
+/* Write summary.json (also what --json prints) to `file`. */
+ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
+
+/* Write scenario.yaml, summary.json, table.csv, results.h5, shapes.pvd with its .vtp files, and plots/.
+ * Each file appears under its name when it is complete. Without gnuplot the pictures are left out, the
+ * .gp files stay, and `notice` (may be NULL) says so. */
+ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
+
+/* Make sure, before a long run, that results can be written to `directory` (and its parents made). */
+ZpStatus zp_report_prepare(const char *directory, ZpError *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

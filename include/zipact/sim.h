@@ -1,0 +1,108 @@
+/* A simulation in time: a model, the state that it has reached, and how it got there. */
+#ifndef ZIPACT_SIM_H
+#define ZIPACT_SIM_H
+
+#include <stdint.h>
+
+#include <zipact/model.h>
+#include <zipact/table.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ZpSim ZpSim;
+
+/* How the numerics ended. */
+typedef enum ZpOutcome {
+  ZP_REACHED_END, /* "end_time": the time asked for was reached */
+  ZP_ZIPPED,      /* "zipped": the actuator has closed */
+  ZP_INTERRUPTED, /* "interrupted": the progress hook asked to stop */
+  ZP_NOT_SETTLED, /* "not_settled": no equilibrium to start from was found */
+  ZP_DIVERGED,    /* "diverged": numbers left all bounds */
+  ZP_STEP_LIMIT   /* "step_limit": solver.max_steps were not enough */
+} ZpOutcome;
+
+/* The word for an outcome, as in summary.json. */
+const char *zp_outcome_name(ZpOutcome outcome);
+
+/* True if the outcome is an answer, false if the numerics ended badly (or were interrupted). */
+bool zp_outcome_good(ZpOutcome outcome);
+
+/* What the caller may want to know and say while a long call works. All may be NULL. */
+typedef struct ZpHooks {
+  void *user; /* handed to the functions below */
+  /* Called some times a second of wall time with the stage and its progress, 0 .. 1. Return true to
+   * stop; what was reached is kept. */
+  bool (*progress)(void *user, const char *stage, double fraction);
+  /* Wall clock in s; without it wall times are NAN. */
+  double (*clock)(void *user);
+} ZpHooks;
+
+/* What bounds a time step. Steps are counted by it. */
+typedef enum ZpStepLimit {
+  ZP_LIMIT_TIME_STEP, /* solver.time_step */
+  ZP_LIMIT_STABILITY, /* the stiffest spring */
+  ZP_LIMIT_DRAG,      /* first bound of eq. (9) of the paper */
+  ZP_LIMIT_EVENT,     /* a pair meets inside the step */
+  ZP_LIMIT_END,       /* the end of the run */
+  ZP_LIMIT_COUNT
+} ZpStepLimit;
+
+/* The word for a step limit, as in summary.json. */
+const char *zp_step_limit_name(ZpStepLimit limit);
+
+/* How a run went. */
+typedef struct ZpRunInfo {
+  ZpOutcome outcome;
+  char message[256];              /* one sentence for people */
+  int64_t steps;                  /* taken */
+  int64_t limited[ZP_LIMIT_COUNT]; /* how many of them each bound set */
+  double smallest_bound[3];       /* of eq. (9): drag, axial, shear; s; over the recorded rows */
+  double simulated_time;          /* s */
+  double wall_time;               /* of the stepping, s; NAN without a clock */
+  int64_t settle_steps;           /* pseudo-time steps to the hanging equilibrium */
+  double settle_residual;         /* largest force left there over all weight */
+} ZpRunInfo;
+
+/* A new simulation at its initial state, at t = 0, the voltage on. `model` must outlive it. Finds the
+ * hanging equilibrium first, as the start and as the reference of contraction; if it is not found, the
+ * next zp_sim_run says so and does nothing else. `hooks` may be NULL. */
+ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
+void zp_sim_destroy(ZpSim *sim);
+
+/* Where rows and shapes go during a run; each may be NULL. Columns are those of signals.def
+ * (zp_signal_columns). The caller keeps them. */
+void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
+
+/* Run until `end_time` (s), or until zipped where `stop_when_zipped`. `hooks` and `info` may be NULL. */
+ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info);
+
+/* Change the potential difference from now on. ZP_BAD_INPUT if it is out of the range of drive.voltage. */
+ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
+
+/* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. */
+double zp_sim_get(const ZpSim *sim, const char *name);
+
+/* Present shape; its pointers are valid until the simulation goes on. */
+ZpShape zp_sim_shape(const ZpSim *sim);
+
+/* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN
+ * if not yet. */
+double zp_sim_zip_time(const ZpSim *sim);
+
+/* A copy of all that evolves. Its size is that of the model's state. */
+size_t zp_sim_state_size(const ZpSim *sim);
+void zp_sim_save(const ZpSim *sim, void *state);
+
+/* Go back to a state saved by a simulation of the same model. ZP_BAD_INPUT if it is of another size. */
+ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
+
+/* The columns of a time series: one per line of signals.def. */
+const ZpColumn *zp_signal_columns(size_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,90 @@
+/* Results as plain data: a table of numbers with named columns, and a film of shapes.
+ *
+ * Both have a bounded size: when they are full, every second row is dropped and from then on only every
+ * second, fourth, ... offered row is kept. The first row stays; zp_table_keep_last keeps the last one.
+ */
+#ifndef ZIPACT_TABLE_H
+#define ZIPACT_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A column of a table. The strings must outlive the table. */
+typedef struct ZpColumn {
+  const char *name; /* with its unit, "stroke_m" */
+  const char *unit; /* "m"; "1" for a pure number */
+  const char *help; /* one line */
+} ZpColumn;
+
+/* A table: rows of `columns` doubles, row after row. NAN stands for a value that does not exist. */
+typedef struct ZpTable {
+  const ZpColumn *column; /* [columns] */
+  size_t columns;
+  size_t rows;     /* filled */
+  size_t capacity; /* rows at most */
+  size_t stride;   /* one in `stride` offered rows is kept */
+  size_t offered;  /* rows offered so far */
+  double *value;   /* [capacity][columns] */
+} ZpTable;
+
+/* A new empty table of at most `capacity` rows (2 or more), or NULL if there is no memory. */
+ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity);
+void zp_table_destroy(ZpTable *table);
+
+/* Offer a row of table->columns values; true if it was kept. */
+bool zp_table_offer(ZpTable *table, const double *row);
+
+/* Make `row` the last row, whatever the thinning says; nothing if it is the last row already (same
+ * value in column 0). In a full table it takes the place of the last row. */
+void zp_table_keep_last(ZpTable *table, const double *row);
+
+/* Value in row `row` of the column called `name`; NAN if there is none. */
+double zp_table_get(const ZpTable *table, size_t row, const char *name);
+
+/* What is known of every node in one shape. Station i of ribbon r is at [i * ribbons + r]; ribbon 0 is
+ * the upper one (kind ribbon: the only one). Insulator faces, m; x to the right from the clip's place in
+ * the straight actuator, y upwards from the upper platform (kind ribbon: from the clamp). */
+typedef struct ZpShape {
+  double time;        /* s */
+  double voltage;     /* V */
+  size_t zipped;      /* pairs 0 .. zipped are closed (the clip is pair 0) */
+  const double *x;    /* [nodes * ribbons] m */
+  const double *y;    /* [nodes * ribbons] m */
+  const double *gap;  /* [nodes] m, distance of the faces; NULL for the kind ribbon */
+  const double *line_force; /* [nodes] N/m, attraction per length; NULL for the kind ribbon */
+} ZpShape;
+
+/* A film of shapes of one actuator. */
+typedef struct ZpShapes {
+  size_t ribbons;  /* 1 or 2 */
+  size_t nodes;    /* per ribbon */
+  size_t frames;   /* filled */
+  size_t capacity; /* frames at most */
+  size_t stride;   /* as in ZpTable */
+  size_t offered;
+  size_t frame_size; /* doubles per frame */
+  double *value;     /* [capacity][frame_size] */
+} ZpShapes;
+
+/* A new empty film of at most `capacity` frames (2 or more), or NULL if there is no memory. */
+ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity);
+void zp_shapes_destroy(ZpShapes *shapes);
+
+/* Offer a shape; true if it was kept (copied). */
+bool zp_shapes_offer(ZpShapes *shapes, const ZpShape *shape);
+
+/* As zp_table_keep_last, told by the time. */
+void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape);
+
+/* Frame `frame` of the film; its pointers are valid until the film changes. */
+ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

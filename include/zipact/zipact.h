@@ -1,0 +1,14 @@
+/* zipact: simulation of electrostatic zipping actuators. This header is all of the library's core;
+ * files are read and written by zipact/io.h. */
+#ifndef ZIPACT_ZIPACT_H
+#define ZIPACT_ZIPACT_H
+
+#include <zipact/def.h>
+#include <zipact/error.h>
+#include <zipact/model.h>
+#include <zipact/sim.h>
+#include <zipact/study.h>
+#include <zipact/table.h>
+#include <zipact/version.h>
+
+#endif

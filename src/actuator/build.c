@@ -1,0 +1,185 @@
+/* Def => Model: numbers nodes, finds stiffnesses and masses, clamps the ends. */
+#include <math.h>
+#include <string.h>
+
+#include "actuator/model.h"
+#include "base/fail.h"
+
+static ZpSection section_of(const ZpActuatorDef *def) {
+  ZpLayer layers[2] = {
+      {def->ribbon.thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density},
+      {def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density},
+  };
+  return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane == ZP_PLANE_STRAIN);
+}
+
+static ZpMassSpringParams spring_of(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double elements = (double)(model->nodes - 1), K_S = def->mass_spring.shear_coefficient;
+  double text = model->section.EA * elements / model->L, code = model->section.EA / (elements * model->L);
+  bool two = model->s == 2;
+  return (ZpMassSpringParams){
+      .ribbons = model->s,
+      .nodes = model->nodes,
+      .l = model->l,
+      .K_D = def->mass_spring.axial == ZP_AXIAL_TEXT ? text : code,
+      .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(model->section.EI, model->l, (int)model->nodes) : K_S,
+      .left_slope = true,
+      .right_slope = two || def->actuator.right_end != ZP_END_FREE};
+}
+
+static ZpPlatesParams plates_of(const ZpModel *model) {
+  /* Bare faces that touch: below this the law would divide by nothing. A nanometre is no liquid. */
+  static const double least_gap = 1e-9;
+  const ZpActuatorDef *def = &model->def;
+  double share = def->electro.voltage_share, offset = def->electro.insulator_offset;
+  double eps_m = def->medium.permittivity;
+  return (ZpPlatesParams){
+      .nodes = model->nodes,
+      .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
+      .d = isnan(offset) ? 2 * def->insulator.thickness * eps_m / def->insulator.permittivity : offset,
+      .h_per_volt = def->electro.breakdown_cap ? share / def->medium.breakdown_field : 0,
+      .h_least = least_gap,
+      .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
+      .switch_offset = def->electro.switch_offset,
+      .flat_length = def->platform.electrode ? def->platform.length / 2 : 0};
+}
+
+/* Which coordinates of node j are held, and what it weighs. */
+typedef struct Node {
+  bool held_x, held_y;
+  double mass;
+} Node;
+
+/* Eq. (6) of the paper: each particle has 1/N of the ribbon's mass, the last one the load as well. */
+static Node node_of(const ZpModel *model, size_t j) {
+  const ZpActuatorDef *def = &model->def;
+  size_t s = model->s, last = s * (model->nodes - 1);
+  Node node = {false, false, model->section.mu * model->L / (double)model->nodes};
+  if (s == 2) { /* the upper platform is held, the lower one slides; the clip hangs free */
+    node.held_x = j >= last;
+    node.held_y = j == last;
+    if (j == last + 1) node.mass += def->load.share * def->load.mass;
+    return node;
+  }
+  bool clamped_right = def->actuator.right_end == ZP_END_CLAMPED;
+  node.held_x = node.held_y = j == 0 || (j == last && clamped_right);
+  if (j == last) node.mass += def->load.share * def->load.mass;
+  return node;
+}
+
+typedef struct Arrays {
+  double *weight, *mass, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
+} Arrays;
+
+static size_t carve(const ZpModel *model, void *block, Arrays *a) {
+  ZpCarver carver = {block, 0};
+  double **of_nodes[] = {&a->weight, &a->mass, &a->x1, &a->y1, &a->px1, &a->py1};
+  double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
+  for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
+    *of_nodes[k] = zp_carve(&carver, model->count);
+  for (size_t k = 0; k < sizeof of_pairs / sizeof of_pairs[0]; k++)
+    *of_pairs[k] = zp_carve(&carver, model->nodes);
+  return carver.used;
+}
+
+/* 1 / (m1 + m2) of two joined nodes from 1/m1 and 1/m2; 0 where one is held. */
+static double joined(double inverse1, double inverse2) {
+  return inverse1 > 0 && inverse2 > 0 ? 1 / (1 / inverse1 + 1 / inverse2) : 0;
+}
+
+static void fill_masses(ZpModel *model, Arrays *a) {
+  /* a frequency of 1.4 in unit steps, below what relaxation allows */
+  double pseudo = model->pseudo_mass = 0.5 * (4 * model->spring.K_D + 16 * model->spring.K_S);
+  model->total_weight = 0;
+  for (size_t j = 0; j < model->count; j++) {
+    Node node = node_of(model, j);
+    a->mass[j] = node.mass;
+    a->weight[j] = node.mass * model->def.gravity;
+    a->x1[j] = node.held_x ? 0 : 1 / node.mass;
+    a->y1[j] = node.held_y ? 0 : 1 / node.mass;
+    a->px1[j] = node.held_x ? 0 : 1 / pseudo;
+    a->py1[j] = node.held_y ? 0 : 1 / pseudo;
+    if (!node.held_y) model->total_weight += a->weight[j];
+  }
+  for (size_t i = 0; model->s == 2 && i < model->nodes; i++) {
+    a->x2[i] = joined(a->x1[2 * i], a->x1[2 * i + 1]);
+    a->y2[i] = joined(a->y1[2 * i], a->y1[2 * i + 1]);
+    a->px2[i] = joined(a->px1[2 * i], a->px1[2 * i + 1]);
+    a->py2[i] = joined(a->py1[2 * i], a->py1[2 * i + 1]);
+  }
+  model->mass = a->mass;
+  model->weight = a->weight;
+  model->masses = (ZpMasses){{a->x1, a->x2}, {a->y1, a->y2}};
+  model->pseudo = (ZpMasses){{a->px1, a->px2}, {a->py1, a->py2}};
+}
+
+static void derive(ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  model->s = two ? 2 : 1;
+  model->nodes = (size_t)def->mesh.nodes;
+  model->count = model->s * model->nodes;
+  model->field = two;
+  model->parts = two ? 2 : 1;
+  model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  model->l = model->L / (double)(model->nodes - 1);
+  model->section = section_of(def);
+  model->spring = spring_of(model);
+  model->plates = plates_of(model);
+  double lightest = model->section.mu * model->L / (double)model->nodes;
+  /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it */
+  model->stable_step = 0.8 * 2 / zp_massspring_frequency_bound(&model->spring, lightest);
+}
+
+ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
+  *out = NULL;
+  ZpStatus status = zp_def_check(def, err);
+  if (status != ZP_OK) return status;
+  ZpModel *model = zp_calloc(1, sizeof *model);
+  if (!model) return zp_fail_memory(err);
+  model->def = *def;
+  derive(model);
+  Arrays arrays;
+  model->memory = zp_calloc(1, carve(model, NULL, &arrays));
+  if (!model->memory) {
+    zp_model_destroy(model);
+    return zp_fail_memory(err);
+  }
+  carve(model, model->memory, &arrays);
+  fill_masses(model, &arrays);
+  *out = model;
+  return ZP_OK;
+}
+
+void zp_model_destroy(ZpModel *model) {
+  if (!model) return;
+  zp_free(model->memory);
+  zp_free(model);
+}
+
+const ZpActuatorDef *zp_model_def(const ZpModel *model) {
+  return &model->def;
+}
+
+ZpModelInfo zp_model_info(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double metal_to_metal = 2 * def->insulator.thickness;
+  return (ZpModelInfo){.ribbons = (int)model->s,
+                       .nodes = (int)model->nodes,
+                       .flexible_length = model->L,
+                       .element_length = model->l,
+                       .bending_stiffness = model->section.EI,
+                       .axial_stiffness = model->section.EA,
+                       .line_mass = model->section.mu,
+                       .axial_spring = model->spring.K_D,
+                       .shear_coefficient = model->spring.K_S,
+                       .insulator_offset = model->plates.d,
+                       .closed_line_force = zp_plates_law(&model->plates, def->drive.voltage, 0).W,
+                       .closed_insulator_field = metal_to_metal > 0 ? def->drive.voltage / metal_to_metal : 0,
+                       .stable_time_step = model->stable_step};
+}
+
+size_t zp_state_size(const ZpModel *model) {
+  return sizeof(ZpState) + (4 * model->count + model->nodes) * sizeof(double);
+}

@@ -1,0 +1,73 @@
+/* The inside of a model, a state and an eval: what actuator/, sim/ and study/ share.
+ *
+ * Node i of ribbon r is at [i * s + r] (s ribbons; of two, the upper is 0). Coordinates q hold all x, then
+ * all y; velocities v likewise.
+ */
+#ifndef ZP_ACTUATOR_MODEL_H
+#define ZP_ACTUATOR_MODEL_H
+
+#include <zipact/model.h>
+#include <zipact/sim.h>
+
+#include "contact/zip.h"
+#include "electro/surface.h"
+#include "ribbon/massspring.h"
+#include "ribbon/section.h"
+
+/* 1 / mass of nodes and of joined pairs along x and y, 0 where held. For true and for pseudo-masses. */
+typedef struct ZpMasses {
+  ZpZipMasses x, y;
+} ZpMasses;
+
+struct ZpModel {
+  ZpActuatorDef def;
+  size_t s, nodes, count; /* ribbons, N, s N */
+  bool field;             /* two ribbons that attract each other */
+  double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
+  double L, l;            /* flexible length, element, m */
+  ZpSection section;
+  ZpMassSpringParams spring;
+  ZpPlatesParams plates;
+  ZpMasses masses;        /* true masses */
+  ZpMasses pseudo;        /* for settling: all free nodes move at the same pace */
+  double pseudo_mass;     /* kg, in units of the pseudo-time step */
+  const double *weight;   /* [count] of each node with its load, N */
+  const double *mass;     /* [count] kg */
+  double total_weight;    /* of what moves, N */
+  double stable_step;     /* s */
+  void *memory;           /* the block that holds the arrays */
+};
+
+/* All that evolves. One block of zp_state_size bytes: copying it is snapshot, rollback and restart. */
+typedef struct ZpState {
+  double t;            /* s */
+  double U;            /* held input: potential difference, V */
+  ZpZipState zip;
+  double zip_time;     /* s; NAN until zipped */
+  double opening0;     /* of the hanging equilibrium, m */
+  double base_charge;  /* per part, at the last voltage step, C */
+  double base_energy;  /* per part: kinetic + stored without field at the start, J */
+  double base_field;   /* per part: field energy at the last voltage step, J */
+  double work;         /* per part: of the source up to the last voltage step, J */
+  double drag_loss;    /* per part, J */
+  double contact_loss; /* per part, J */
+  double refreshed;    /* time of the last refresh of a held electric force, s; NAN: due now */
+  double data[];       /* q [2 count], v [2 count], held Fy [N] */
+} ZpState;
+
+static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
+  (void)model;
+  return state->data;
+}
+
+static inline double *zp_state_v(const ZpModel *model, ZpState *state) {
+  return state->data + 2 * model->count;
+}
+
+static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
+  return state->data + 4 * model->count;
+}
+
+size_t zp_state_size(const ZpModel *model);
+
+#endif

@@ -1,0 +1,143 @@
+/* Tables and films of bounded size (zipact/table.h). */
+#include <zipact/table.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* Thinning, common to both: rows of `size` doubles, of which every second is dropped when full. */
+typedef struct Thinned {
+  double *value;
+  size_t size;
+  size_t *rows, *stride, *offered;
+  size_t capacity;
+} Thinned;
+
+static void drop_every_second(const Thinned *t) {
+  size_t kept = (*t->rows + 1) / 2;
+  for (size_t i = 1; i < kept; i++)
+    memcpy(t->value + i * t->size, t->value + 2 * i * t->size, t->size * sizeof(double));
+  *t->rows = kept;
+  *t->stride *= 2;
+}
+
+/* The place for an offered row, or NULL if the thinning passes it over. */
+static double *offer(const Thinned *t) {
+  size_t index = (*t->offered)++;
+  if (index % *t->stride) return NULL;
+  if (*t->rows == t->capacity) {
+    drop_every_second(t);
+    if (index % *t->stride) return NULL;
+  }
+  return t->value + (*t->rows)++ * t->size;
+}
+
+/* The place for a row that must be the last, or NULL if the last row has this `mark` in its column 0. */
+static double *keep_last(const Thinned *t, double mark) {
+  if (*t->rows && t->value[(*t->rows - 1) * t->size] == mark) return NULL;
+  if (*t->rows == t->capacity) return t->value + (*t->rows - 1) * t->size;
+  return t->value + (*t->rows)++ * t->size;
+}
+
+static Thinned of_table(ZpTable *t) {
+  return (Thinned){t->value, t->columns, &t->rows, &t->stride, &t->offered, t->capacity};
+}
+
+static Thinned of_shapes(ZpShapes *s) {
+  return (Thinned){s->value, s->frame_size, &s->frames, &s->stride, &s->offered, s->capacity};
+}
+
+ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
+  ZpTable *table = zp_calloc(1, sizeof *table);
+  if (!table) return NULL;
+  *table = (ZpTable){.column = column, .columns = columns, .capacity = capacity, .stride = 1};
+  table->value = zp_calloc(capacity, columns * sizeof(double));
+  if (table->value) return table;
+  zp_free(table);
+  return NULL;
+}
+
+void zp_table_destroy(ZpTable *table) {
+  if (!table) return;
+  zp_free(table->value);
+  zp_free(table);
+}
+
+bool zp_table_offer(ZpTable *table, const double *row) {
+  Thinned t = of_table(table);
+  double *place = offer(&t);
+  if (place) memcpy(place, row, t.size * sizeof(double));
+  return place != NULL;
+}
+
+void zp_table_keep_last(ZpTable *table, const double *row) {
+  Thinned t = of_table(table);
+  double *place = keep_last(&t, row[0]);
+  if (place) memcpy(place, row, t.size * sizeof(double));
+}
+
+double zp_table_get(const ZpTable *table, size_t row, const char *name) {
+  for (size_t c = 0; c < table->columns && row < table->rows; c++)
+    if (strcmp(table->column[c].name, name) == 0) return table->value[row * table->columns + c];
+  return NAN;
+}
+
+/* A frame: time, voltage, zipped, x, y, and for two ribbons gap and line force. */
+enum { FRAME_HEAD = 3 };
+
+ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity) {
+  ZpShapes *shapes = zp_calloc(1, sizeof *shapes);
+  if (!shapes) return NULL;
+  size_t frame_size = FRAME_HEAD + 2 * ribbons * nodes + (ribbons == 2 ? 2 * nodes : 0);
+  *shapes = (ZpShapes){
+      .ribbons = ribbons, .nodes = nodes, .capacity = capacity, .stride = 1, .frame_size = frame_size};
+  shapes->value = zp_calloc(capacity, frame_size * sizeof(double));
+  if (shapes->value) return shapes;
+  zp_free(shapes);
+  return NULL;
+}
+
+void zp_shapes_destroy(ZpShapes *shapes) {
+  if (!shapes) return;
+  zp_free(shapes->value);
+  zp_free(shapes);
+}
+
+static void fill_frame(const ZpShapes *shapes, double *frame, const ZpShape *shape) {
+  size_t all = shapes->ribbons * shapes->nodes;
+  frame[0] = shape->time;
+  frame[1] = shape->voltage;
+  frame[2] = (double)shape->zipped;
+  memcpy(frame + FRAME_HEAD, shape->x, all * sizeof(double));
+  memcpy(frame + FRAME_HEAD + all, shape->y, all * sizeof(double));
+  if (shapes->ribbons < 2) return;
+  memcpy(frame + FRAME_HEAD + 2 * all, shape->gap, shapes->nodes * sizeof(double));
+  memcpy(frame + FRAME_HEAD + 2 * all + shapes->nodes, shape->line_force, shapes->nodes * sizeof(double));
+}
+
+bool zp_shapes_offer(ZpShapes *shapes, const ZpShape *shape) {
+  Thinned t = of_shapes(shapes);
+  double *frame = offer(&t);
+  if (frame) fill_frame(shapes, frame, shape);
+  return frame != NULL;
+}
+
+void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape) {
+  Thinned t = of_shapes(shapes);
+  double *frame = keep_last(&t, shape->time);
+  if (frame) fill_frame(shapes, frame, shape);
+}
+
+ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame) {
+  const double *f = shapes->value + frame * shapes->frame_size;
+  size_t all = shapes->ribbons * shapes->nodes;
+  bool two = shapes->ribbons == 2;
+  return (ZpShape){.time = f[0],
+                   .voltage = f[1],
+                   .zipped = (size_t)f[2],
+                   .x = f + FRAME_HEAD,
+                   .y = f + FRAME_HEAD + all,
+                   .gap = two ? f + FRAME_HEAD + 2 * all : NULL,
+                   .line_force = two ? f + FRAME_HEAD + 2 * all + shapes->nodes : NULL};
+}

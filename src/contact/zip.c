@@ -1,0 +1,91 @@
+#include "contact/zip.h"
+
+#include <math.h>
+
+#include "base/kernel.h"
+
+static void share(size_t i, const ZpZipMasses *masses, const double *force, double *acceleration) {
+  acceleration[2 * i] = acceleration[2 * i + 1] = (force[2 * i] + force[2 * i + 1]) * masses->pair[i];
+}
+
+ZP_KERNEL static void divide_by_mass(size_t count, const double *restrict force, const double *restrict inverse_mass,
+                                     double *restrict acceleration) {
+  ZP_SIMD
+  for (size_t j = 0; j < count; j++)
+    acceleration[j] = force[j] * inverse_mass[j];
+}
+
+void zp_zip_accelerate(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, const double *force,
+                       double *acceleration) {
+  divide_by_mass(2 * nodes, force, masses->single, acceleration);
+  for (size_t i = 0; i <= state->front; i++)
+    share(i, masses, force, acceleration);
+  if (state->platform) share(nodes - 1, masses, force, acceleration);
+}
+
+/* First s in [0, dt] with g + w s + c s^2 <= 0 and falling, or dt. */
+static double first_meeting(double g, double w, double c, double dt) {
+  if (g <= 0) return w < 0 || (w == 0 && c < 0) ? 0 : dt;
+  double discriminant = w * w - 4 * c * g;
+  if (discriminant < 0) return dt;
+  double q = -0.5 * (w + copysign(sqrt(discriminant), w));
+  double first = g / q, second = q / c; /* either may be infinite or negative: no meeting */
+  double s = dt;
+  if (first >= 0 && first < s) s = first;
+  if (second >= 0 && second < s) s = second;
+  return s;
+}
+
+static double meeting(size_t i, const double *y, const double *vy, const double *ay, double dt) {
+  return first_meeting(y[2 * i] - y[2 * i + 1], vy[2 * i] - vy[2 * i + 1], ay[2 * i] - ay[2 * i + 1], dt);
+}
+
+double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const double *vy, const double *ay,
+                   double dt, size_t *pair) {
+  size_t end = nodes - 1, next = state->front + 1;
+  if (next < end) {
+    double s = meeting(next, y, vy, ay, dt);
+    if (s < dt) {
+      dt = s;
+      *pair = next;
+    }
+  }
+  if (next <= end && !state->platform) {
+    double s = meeting(end, y, vy, ay, dt);
+    if (s < dt) {
+      dt = s;
+      *pair = end;
+    }
+  }
+  return dt;
+}
+
+double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity) {
+  double upper = masses->single[2 * i], lower = masses->single[2 * i + 1], sum = upper + lower;
+  if (sum == 0) return 0;
+  double difference = velocity[2 * i] - velocity[2 * i + 1];
+  velocity[2 * i] = velocity[2 * i + 1] = (lower * velocity[2 * i] + upper * velocity[2 * i + 1]) / sum;
+  return 0.5 * difference * difference / sum;
+}
+
+ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i) {
+  size_t end = nodes - 1;
+  if (i == end) state.platform = true;
+  if (i == state.front + 1 && i < end) state.front = i;
+  if (state.platform && state.front == end - 1) state.front = end;
+  return state;
+}
+
+static bool pulled_apart(size_t i, const ZpZipMasses *masses, const double *force_y) {
+  return force_y[2 * i] * masses->single[2 * i] > force_y[2 * i + 1] * masses->single[2 * i + 1];
+}
+
+ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const ZpZipMasses *masses, const double *force_y) {
+  size_t end = nodes - 1;
+  if (state.platform && pulled_apart(end, masses, force_y)) {
+    state.platform = false;
+    if (state.front == end) state.front = end - 1;
+  }
+  if (!state.platform && state.front > 0 && pulled_apart(state.front, masses, force_y)) state.front--;
+  return state;
+}

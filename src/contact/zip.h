@@ -1,0 +1,59 @@
+/* The paper's sequential zipping: pairs of facing nodes join one after the other, from the clip on.
+ *
+ * State: `front` z, the last joined pair, and `platform`, whether the platforms' faces have met.
+ *
+ *                 pair z+1 meets: z -> z+1                    z = N-1
+ *      +-----+  ------------------------->  +-----------+  ----------->  closed
+ *      | z=0 |                              | 0<z<N-1   |
+ *      +-----+  <-------------------------  +-----------+  (the same from closed)
+ *                 no voltage, and pair z is pulled apart: z -> z-1
+ *
+ *      platform: false -> true when pair N-1 meets before the front is there; back with no voltage, likewise.
+ *
+ * Invariants
+ *   1. Pairs 0 .. z, and pair N-1 if `platform`, are joined: both nodes have the same velocity and
+ *      acceleration, so their gap, 0, and their offset along x never change.
+ *   2. Joining keeps the momentum of the pair and every position; it happens at the instant of the meeting,
+ *      found inside the step. Kinetic energy is lost; how much is returned.
+ *   3. While there is a voltage z never falls. Pair 0, the clip, is always joined.
+ *   4. Only pair z+1 and the platform are looked at: ribbons may pass through each other elsewhere, a
+ *      limit of the paper's model.
+ *
+ * Arrays hold upper and lower node of pair i at [2 i] and [2 i + 1].
+ */
+#ifndef ZP_CONTACT_ZIP_H
+#define ZP_CONTACT_ZIP_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* 1 / mass along one axis; 0 where a node is held. */
+typedef struct ZpZipMasses {
+  const double *single; /* [2 N] of each node, 1/kg */
+  const double *pair;   /* [N] of two joined nodes, 1/kg; 0 where one is held */
+} ZpZipMasses;
+
+typedef struct ZpZipState {
+  size_t front;  /* z */
+  bool platform; /* the platforms' faces have met */
+} ZpZipState;
+
+/* (forces along one axis) => accelerations of `nodes` pairs: f / m, shared in joined pairs. */
+void zp_zip_accelerate(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, const double *force,
+                       double *acceleration);
+
+/* Time until the next meeting if velocity grows by acceleration * step and position by the new velocity *
+ * step (eq. (1) of the paper), at most `dt`; *pair gets the pair that meets, or stays as it is. */
+double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const double *vy, const double *ay,
+                   double dt, size_t *pair);
+
+/* Join pair i: common velocity along one axis. => kinetic energy lost, J. */
+double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity);
+
+/* The state after pair i has met. */
+ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i);
+
+/* The state without voltage: the front (and the platform) opens where forces along y pull it apart. */
+ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const ZpZipMasses *masses, const double *force_y);
+
+#endif

@@ -1,0 +1,287 @@
+/* The table of keys, made from keys.def, and what works on it: defaults, presets, checks. */
+#include <zipact/def.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+
+/* The words of each choice type. */
+#define ZP_CHOICES(type) static const ZpChoice words_of_##type[] = {
+#define ZP_CHOICE(enumerator, word, help) {word, help},
+#define ZP_CHOICES_END(type) \
+  }                          \
+  ;
+#include <zipact/choices.def>
+#undef ZP_CHOICES
+#undef ZP_CHOICE
+#undef ZP_CHOICES_END
+
+#define OFFSET(path, name) offsetof(ZpActuatorDef, path name)
+#define ZP_GROUP(group)
+#define ZP_GROUP_END(group)
+#define ZP_REAL(path, name, unit, shown, def, min, max, help) \
+  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name)},
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) \
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name)},
+#define ZP_INT(path, name, def, min, max, help) \
+  {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, OFFSET(path, name)},
+#define ZP_BOOL(path, name, def, help) {#path #name, ZP_KEY_BOOL, "1", "", def, 0, 1, help, NULL, OFFSET(path, name)},
+#define ZP_ENUM(path, name, type, def, help) \
+  {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, OFFSET(path, name)},
+static const ZpKey keys[] = {
+#include <zipact/keys.def>
+};
+#undef ZP_GROUP
+#undef ZP_GROUP_END
+#undef ZP_REAL
+#undef ZP_REAL_AUTO
+#undef ZP_INT
+#undef ZP_BOOL
+#undef ZP_ENUM
+
+enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
+
+/* Values that go with a kind or a preset, at one N or (nodes 0) at any. */
+typedef struct PresetValue {
+  int selector; /* ZpActuatorKind or ZpPreset */
+  const char *key;
+  int nodes;
+  double value;
+} PresetValue;
+
+#define ZP_KIND_VALUE(kind, key, value) {kind, key, 0, value},
+#define ZP_PRESET_VALUE(preset, key, value)
+#define ZP_PRESET_AT(preset, key, nodes, value)
+static const PresetValue kind_values[] = {
+#include <zipact/presets.def>
+};
+#undef ZP_KIND_VALUE
+#undef ZP_PRESET_VALUE
+#undef ZP_PRESET_AT
+#define ZP_KIND_VALUE(kind, key, value)
+#define ZP_PRESET_VALUE(preset, key, value) {preset, key, 0, value},
+#define ZP_PRESET_AT(preset, key, nodes, value) {preset, key, nodes, value},
+static const PresetValue preset_values[] = {
+#include <zipact/presets.def>
+};
+#undef ZP_KIND_VALUE
+#undef ZP_PRESET_VALUE
+#undef ZP_PRESET_AT
+
+enum {
+  KIND_VALUES = sizeof kind_values / sizeof kind_values[0],
+  PRESET_VALUES = sizeof preset_values / sizeof preset_values[0]
+};
+
+int zp_key_count(void) {
+  return KEY_COUNT;
+}
+
+const ZpKey *zp_key(int index) {
+  return &keys[index];
+}
+
+int zp_key_find(const char *name) {
+  for (int i = 0; i < KEY_COUNT; i++)
+    if (strcmp(keys[i].name, name) == 0) return i;
+  return -1;
+}
+
+/* Edit distance (insert, delete, replace) of two words of at most 63 characters; longer ones are cut. */
+static int edit_distance(const char *a, const char *b) {
+  enum { LONGEST = 64 };
+  int row[LONGEST];
+  int len = (int)strnlen(b, LONGEST - 1);
+  for (int j = 0; j <= len; j++)
+    row[j] = j;
+  for (int i = 1; i < LONGEST && a[i - 1]; i++) {
+    int diagonal = row[0];
+    row[0] = i;
+    for (int j = 1; j <= len; j++) {
+      int replaced = diagonal + (a[i - 1] != b[j - 1]);
+      int shifted = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+      diagonal = row[j];
+      row[j] = replaced < shifted ? replaced : shifted;
+    }
+  }
+  return row[len];
+}
+
+const char *zp_key_nearest(const char *name) {
+  const char *nearest = keys[0].name;
+  int least = 1000;
+  for (int i = 0; i < KEY_COUNT; i++) {
+    const char *dot = strrchr(keys[i].name, '.');
+    int whole = edit_distance(name, keys[i].name);
+    int last = dot ? edit_distance(name, dot + 1) + 1 : whole;
+    int distance = whole < last ? whole : last;
+    if (distance < least) {
+      least = distance;
+      nearest = keys[i].name;
+    }
+  }
+  return nearest;
+}
+
+int zp_key_choice(int index, const char *word) {
+  const ZpKey *key = &keys[index];
+  for (int i = 0; key->choices && i <= (int)key->max; i++)
+    if (strcmp(key->choices[i].word, word) == 0) return i;
+  return -1;
+}
+
+/* Write a value that is known to be right into its field. */
+static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
+  void *field = (char *)def + key->offset;
+  switch (key->type) {
+  case ZP_KEY_REAL:
+  case ZP_KEY_REAL_AUTO:
+    memcpy(field, &value, sizeof value);
+    break;
+  case ZP_KEY_BOOL:
+    *(bool *)field = value != 0;
+    break;
+  case ZP_KEY_INT:
+  case ZP_KEY_ENUM:
+    memcpy(field, &(int){(int)value}, sizeof(int));
+    break;
+  }
+}
+
+ZpActuatorDef zp_actuator_def_default(void) {
+  ZpActuatorDef def;
+  memset(&def, 0, sizeof def);
+  for (int i = 0; i < KEY_COUNT; i++)
+    store(&def, &keys[i], keys[i].def);
+  return def;
+}
+
+double zp_def_get(const ZpActuatorDef *def, int index) {
+  const ZpKey *key = &keys[index];
+  const void *field = (const char *)def + key->offset;
+  double real;
+  int whole;
+  switch (key->type) {
+  case ZP_KEY_REAL:
+  case ZP_KEY_REAL_AUTO:
+    memcpy(&real, field, sizeof real);
+    return real;
+  case ZP_KEY_BOOL:
+    return *(const bool *)field;
+  case ZP_KEY_INT:
+  case ZP_KEY_ENUM:
+    break;
+  }
+  memcpy(&whole, field, sizeof whole);
+  return whole;
+}
+
+static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
+  const char *unit = strcmp(key->unit, "1") == 0 ? "" : key->unit;
+  const char *space = *unit ? " " : "";
+  if (key->type == ZP_KEY_REAL_AUTO && isnan(value)) return ZP_OK;
+  if (!isfinite(value)) return zp_fail(err, ZP_BAD_INPUT, "%s: not a finite number", key->name);
+  bool whole = key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO;
+  if (whole && value != floor(value))
+    return zp_fail(err, ZP_BAD_INPUT, "%s = %g: not a whole number", key->name, value);
+  if (value < key->min || value > key->max)
+    return zp_fail(err, ZP_BAD_INPUT, "%s = %g%s%s: out of range; %g to %g%s%s", key->name, value, space, unit,
+                   key->min, key->max, space, unit);
+  return ZP_OK;
+}
+
+ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
+  ZpStatus status = check_value(&keys[index], value, err);
+  if (status == ZP_OK) store(def, &keys[index], value);
+  return status;
+}
+
+static bool is_given(int key, const ZpAssignment *list, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (list[i].key == key) return true;
+  return false;
+}
+
+static ZpStatus apply_assignments(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < count && status == ZP_OK; i++)
+    status = zp_def_set(def, list[i].key, list[i].value, err);
+  return status;
+}
+
+/* The values of the preset, those for `nodes` among them. */
+static void apply_preset(ZpActuatorDef *def, ZpPreset preset, int nodes) {
+  for (int i = 0; i < PRESET_VALUES; i++) {
+    const PresetValue *p = &preset_values[i];
+    if (p->selector == (int)preset && (p->nodes == 0 || p->nodes == nodes))
+      store(def, &keys[zp_key_find(p->key)], p->value);
+  }
+}
+
+static void apply_kind(ZpActuatorDef *def, ZpActuatorKind kind) {
+  for (int i = 0; i < KIND_VALUES; i++)
+    if (kind_values[i].selector == (int)kind) store(def, &keys[zp_key_find(kind_values[i].key)], kind_values[i].value);
+}
+
+/* A key that the preset has only for certain N must be given for any other. */
+static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssignment *list, size_t count,
+                                      ZpError *err) {
+  for (int i = 0; i < PRESET_VALUES; i++) {
+    const PresetValue *p = &preset_values[i];
+    if (p->selector != (int)preset || p->nodes == 0) continue;
+    bool has_n = false;
+    for (int j = 0; j < PRESET_VALUES; j++)
+      has_n |= preset_values[j].selector == (int)preset && strcmp(preset_values[j].key, p->key) == 0 &&
+               preset_values[j].nodes == nodes;
+    if (!has_n && !is_given(zp_key_find(p->key), list, count))
+      return zp_fail(err, ZP_BAD_INPUT, "%s: preset %s has no value for mesh.nodes = %d; give one", p->key,
+                     words_of_ZpPreset[preset].word, nodes);
+  }
+  return ZP_OK;
+}
+
+ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+  ZpActuatorDef given = zp_actuator_def_default();
+  ZpStatus status = apply_assignments(&given, list, count, err);
+  if (status == ZP_OK) status = check_preset_complete(given.preset, given.mesh.nodes, list, count, err);
+  if (status != ZP_OK) return status;
+
+  ZpActuatorDef with_preset = zp_actuator_def_default();
+  apply_preset(&with_preset, given.preset, given.mesh.nodes);
+  ZpActuatorKind kind =
+      is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
+
+  *def = zp_actuator_def_default();
+  apply_kind(def, kind);
+  apply_preset(def, given.preset, given.mesh.nodes);
+  return apply_assignments(def, list, count, err);
+}
+
+ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
+  for (int i = 0; i < KEY_COUNT; i++) {
+    ZpStatus status = check_value(&keys[i], zp_def_get(def, i), err);
+    if (status != ZP_OK) return status;
+  }
+  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  if (two && def->platform.length > 0.9 * def->ribbon.length)
+    return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",
+                   def->platform.length, 0.9 * def->ribbon.length);
+  double offset = def->electro.insulator_offset;
+  bool bare = isnan(offset) ? def->insulator.thickness == 0 : offset == 0;
+  if (two && bare && !def->electro.breakdown_cap)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
+                   "force has no bound");
+  if (two && def->contact.complete_margin > def->mesh.nodes - 2)
+    return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
+                   def->contact.complete_margin, def->mesh.nodes - 2);
+  if (def->electro.switch_offset > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.switch_offset = %g m: goes with electro.surface bezier only",
+                   def->electro.switch_offset);
+  if (def->electro.refresh_period > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
+                   def->electro.refresh_period);
+  return ZP_OK;
+}

@@ -1,0 +1,67 @@
+/* The parallel-plates law: attraction of two insulated electrodes per length, as if each piece were a
+ * plane capacitor of liquid and two insulators in series; and its sum over a polyline of nodes.
+ *
+ * Stations are pairs of nodes that face each other. All forces are of one modelled half.
+ */
+#ifndef ZP_ELECTRO_PLATES_H
+#define ZP_ELECTRO_PLATES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/memory.h"
+
+#define ZP_EPS0 8.8541878128e-12 /* electric constant, F/m, CODATA 2018 */
+
+typedef struct ZpPlatesParams {
+  size_t nodes;         /* N stations */
+  double k;             /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
+  double d;             /* liquid thickness that stands for both insulators, m */
+  double h_per_volt;    /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
+  double h_least;       /* g + d below which the law is not followed further, m: touching bare faces */
+  double h_switch_per_volt; /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
+  double switch_offset;     /* what it takes for g + d - g, m */
+  double flat_length;   /* of the platform's electrode, at the gap of the last station, m; 0 without */
+} ZpPlatesParams;
+
+/* Written by zp_plates_polyline. */
+typedef struct ZpPlatesEval {
+  double *gap;    /* [N] face distance, m */
+  double *Fy;     /* [N] attraction: upwards on the lower, downwards on the upper ribbon, N */
+  double *Fx;     /* [N] along x, the same on both ribbons, N */
+  double *A, *B;  /* [N-1] parts of Fy from the element right (A) and left (B) of a station, N */
+  double *P;      /* [N-1] mean potential per length of an element, J/m */
+  double *dx;     /* [N-1] mean of both ribbons' x-lengths of an element, m */
+} ZpPlatesEval;
+
+/* The law at one gap. */
+typedef struct ZpPlatesLaw {
+  double W; /* attraction per length, N/m; at most the cap, eq. (4.3) */
+  double P; /* potential per length at constant voltage, J/m: W = dP/dg, eq. (4.4) */
+  double q; /* charge per length = -dP/dU, C/m, eq. (4.5) */
+} ZpPlatesLaw;
+ZpPlatesLaw zp_plates_law(const ZpPlatesParams *params, double voltage, double gap);
+
+/* The g + d below which the force does not rise any more at this voltage, m. */
+double zp_plates_least_h(const ZpPlatesParams *params, double voltage);
+
+void zp_plates_carve(const ZpPlatesParams *params, ZpPlatesEval *eval, ZpCarver *carver);
+
+/* (x, y of interleaved upper and lower nodes) => eval->gap and eval->dx. */
+void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double *y, ZpPlatesEval *eval);
+
+/* (x, y of interleaved upper and lower nodes, voltage) => gaps and nodal forces, the exact gradient
+ * of the potential in zp_plates_totals. */
+void zp_plates_polyline(const ZpPlatesParams *params, const double *x, const double *y, double voltage,
+                        ZpPlatesEval *eval);
+
+/* Integrals over the polyline at the gaps of the last eval. */
+typedef struct ZpPlatesTotals {
+  double force;       /* sum of W, N */
+  double potential;   /* sum of P, J */
+  double charge;      /* sum of q, C */
+  double inverse_gap; /* sum of length / (g + d): capacitance over eps0 eps_m w */
+} ZpPlatesTotals;
+ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage);
+
+#endif

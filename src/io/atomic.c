@@ -1,0 +1,150 @@
+/* Writing a file under a temporary name in the folder where it belongs, so that a reader never meets half
+ * of it and a failure leaves the one that was there before. rename() replaces it in one step, and only
+ * inside one file system: hence the same folder. The data are brought to the disk before the name is,
+ * since some file systems tell of a full disk only then. */
+#include "io/atomic.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/fail.h"
+
+char *zp_path_join(const char *directory, const char *name) {
+  char *path = NULL;
+  return asprintf(&path, "%s/%s", directory, name) < 0 ? NULL : path;
+}
+
+static ZpStatus cannot_write(const char *path, int error, ZpError *err) {
+  return zp_fail(err, ZP_MACHINE, "cannot write %s: %s", path, strerror(error));
+}
+
+static void forget(ZpAtomic *atomic) {
+  free(atomic->path);
+  free(atomic->temporary);
+  *atomic = (ZpAtomic){0};
+}
+
+/* The process id keeps two programs that write to one folder apart. The name begins with a point so that
+ * patterns such as *.csv do not meet it. */
+static bool make_names(ZpAtomic *atomic, const char *directory, const char *name) {
+  *atomic = (ZpAtomic){.path = zp_path_join(directory, name)};
+  if (asprintf(&atomic->temporary, "%s/.%s.%ld.tmp", directory, name, (long)getpid()) < 0) atomic->temporary = NULL;
+  return atomic->path && atomic->temporary;
+}
+
+/* A new file; one of the same temporary name can only be what a killed process of our number left. */
+static int create(const char *path) {
+  const int flags = O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
+  int fd = open(path, flags, 0666);
+  if (fd < 0 && errno == EEXIST && unlink(path) == 0) fd = open(path, flags, 0666);
+  return fd;
+}
+
+ZpStatus zp_atomic_reserve(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
+  if (!make_names(atomic, directory, name)) {
+    forget(atomic);
+    return zp_fail_memory(err);
+  }
+  int fd = create(atomic->temporary);
+  if (fd < 0) {
+    ZpStatus status = cannot_write(atomic->path, errno, err);
+    forget(atomic);
+    return status;
+  }
+  close(fd); /* nothing was written, so nothing can be lost */
+  return ZP_OK;
+}
+
+/* What the stream hands its bytes to. A FILE forgets the errno of a write that failed some time before it
+ * is closed; this does not. */
+typedef struct ZpSink {
+  int fd;
+  int error; /* errno of the first failure, or 0 */
+} ZpSink;
+
+static ssize_t sink_write(void *cookie, const char *data, size_t size) {
+  ZpSink *sink = cookie;
+  size_t done = 0;
+  while (done < size && !sink->error) {
+    ssize_t written = write(sink->fd, data + done, size - done);
+    if (written >= 0)
+      done += (size_t)written;
+    else if (errno != EINTR)
+      sink->error = errno;
+  }
+  return (ssize_t)done;
+}
+
+/* A stream into the file `path`, which exists; NULL with errno if that fails. */
+static FILE *open_stream(const char *path, ZpSink **sink) {
+  *sink = calloc(1, sizeof **sink);
+  if (!*sink) return NULL;
+  (*sink)->fd = open(path, O_WRONLY | O_CLOEXEC);
+  FILE *file = (*sink)->fd < 0 ? NULL : fopencookie(*sink, "w", (cookie_io_functions_t){.write = sink_write});
+  if (file) return file;
+  int error = errno;
+  if ((*sink)->fd >= 0) close((*sink)->fd);
+  free(*sink);
+  errno = error;
+  return NULL;
+}
+
+ZpStatus zp_atomic_open(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
+  ZpStatus status = zp_atomic_reserve(atomic, directory, name, err);
+  if (status != ZP_OK) return status;
+  atomic->file = open_stream(atomic->temporary, &atomic->sink);
+  if (atomic->file) return ZP_OK;
+  status = cannot_write(atomic->path, errno, err);
+  zp_atomic_abandon(atomic);
+  return status;
+}
+
+/* Close stream and file => 0, or the errno of what failed first: a write of long ago, the last one, the
+ * disk or the close. */
+static int finish_stream(ZpAtomic *atomic) {
+  ZpSink *sink = atomic->sink;
+  bool bad = ferror(atomic->file) != 0;
+  bad = fclose(atomic->file) != 0 || bad;
+  int error = sink->error ? sink->error : bad ? EIO : 0;
+  if (!error && fsync(sink->fd) != 0) error = errno;
+  if (close(sink->fd) != 0 && !error) error = errno;
+  free(sink);
+  atomic->file = NULL;
+  return error;
+}
+
+/* The same for a file that another program wrote. */
+static int sync_path(const char *path) {
+  int fd = open(path, O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return errno;
+  int error = fsync(fd) == 0 ? 0 : errno;
+  close(fd);
+  return error;
+}
+
+ZpStatus zp_atomic_commit(ZpAtomic *atomic, ZpError *err) {
+  int error = atomic->file ? finish_stream(atomic) : sync_path(atomic->temporary);
+  if (!error && rename(atomic->temporary, atomic->path) != 0) error = errno;
+  ZpStatus status = error ? cannot_write(atomic->path, error, err) : ZP_OK;
+  if (error) unlink(atomic->temporary);
+  forget(atomic);
+  return status;
+}
+
+ZpStatus zp_atomic_finish(ZpAtomic *atomic, ZpStatus status, ZpError *err) {
+  if (status == ZP_OK || ferror(atomic->file)) return zp_atomic_commit(atomic, err);
+  zp_atomic_abandon(atomic);
+  return status;
+}
+
+void zp_atomic_abandon(ZpAtomic *atomic) {
+  if (!atomic->path) return;
+  if (atomic->file) finish_stream(atomic);
+  unlink(atomic->temporary);
+  forget(atomic);
+}

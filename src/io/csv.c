@@ -1,0 +1,95 @@
+/* table.csv: the time series of one run, or one row per run of a sweep.
+ *
+ * No field needs quotes: names and outcomes have no commas. A value that does not exist is an empty
+ * cell. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "io/atomic.h"
+#include "io/number.h"
+#include "io/report.h"
+
+static void put_number(FILE *file, double value) {
+  char text[ZP_NUMBER_SIZE];
+  if (isnan(value)) return;
+  zp_number_print(value, text, sizeof text);
+  fputs(text, file);
+}
+
+static void write_series(FILE *file, const ZpTable *table) {
+  for (size_t i = 0; i < table->columns; i++)
+    fprintf(file, "%s%s", i ? "," : "", table->column[i].name);
+  fputc('\n', file);
+  for (size_t row = 0; row < table->rows; row++) {
+    for (size_t i = 0; i < table->columns; i++) {
+      if (i) fputc(',', file);
+      put_number(file, table->value[row * table->columns + i]);
+    }
+    fputc('\n', file);
+  }
+}
+
+static void write_head(FILE *file, const ZpReport *report, const ZpScalarNames *names) {
+  size_t keys;
+  const int *key = zp_scenario_lists(report->scenario, &keys);
+  for (size_t i = 0; i < keys; i++) {
+    char column[ZP_KEY_COLUMN_SIZE];
+    zp_key_column(key[i], column, sizeof column);
+    fprintf(file, "%s,", column);
+  }
+  fputs("outcome", file);
+  for (size_t i = 0; i < names->count; i++)
+    fprintf(file, ",%s", names->item[i].name);
+  fputc('\n', file);
+}
+
+/* The values of the list keys that make this run different from the others. */
+static ZpStatus write_keys(FILE *file, const ZpReport *report, size_t run, ZpError *err) {
+  size_t keys;
+  const int *key = zp_scenario_lists(report->scenario, &keys);
+  ZpActuatorDef def;
+  ZpStatus status = zp_scenario_def(report->scenario, run, &def, err);
+  for (size_t i = 0; i < keys && status == ZP_OK; i++) {
+    double value = zp_def_get(&def, key[i]);
+    const char *word = zp_key_word(key[i], value);
+    if (word)
+      fputs(word, file);
+    else
+      put_number(file, value);
+    fputc(',', file);
+  }
+  return status;
+}
+
+static ZpStatus write_sweep(FILE *file, const ZpReport *report, ZpError *err) {
+  ZpScalarNames names;
+  if (!zp_report_scalars(report, false, &names)) return zp_fail_memory(err);
+  ZpStatus status = ZP_OK;
+  write_head(file, report, &names);
+  for (size_t run = 0; run < report->count && status == ZP_OK; run++) {
+    status = write_keys(file, report, run, err);
+    fputs(zp_outcome_name(report->result[run]->outcome), file);
+    for (size_t i = 0; i < names.count; i++) {
+      fputc(',', file);
+      put_number(file, zp_result_get(report->result[run], names.item[i].name));
+    }
+    fputc('\n', file);
+  }
+  free(names.item);
+  return status;
+}
+
+ZpStatus zp_csv_write(const ZpReport *report, ZpError *err) {
+  const ZpResult *single = zp_report_single(report);
+  bool sweep = zp_report_is_sweep(report);
+  if (!sweep && (!single || !single->series)) return zp_remove_file(report->directory, "table.csv", err);
+  ZpAtomic out;
+  ZpStatus status = zp_atomic_open(&out, report->directory, "table.csv", err);
+  if (status != ZP_OK) return status;
+  if (sweep)
+    status = write_sweep(out.file, report, err);
+  else
+    write_series(out.file, single->series);
+  return zp_atomic_finish(&out, status, err);
+}

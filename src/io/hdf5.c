@@ -1,0 +1,332 @@
+/* results.h5: all numbers of a report with their units.
+ *
+ *   /scenario                        text of scenario.yaml
+ *   one run:  /series/COLUMN         one dataset per column of the table
+ *             /shapes/...            time, voltage, zipped [frame]; x, y [frame][ribbon][node];
+ *                                    gap, line_force [frame][node]
+ *             /summary/SCALAR        what does not follow from wall time
+ *   a sweep:  /table/COLUMN          as table.csv, one value per run
+ *             /runs/0000/series, shapes, summary of each run
+ *
+ * HDF5 builds the file in memory and zp_atomic writes its bytes: HDF5 never meets a full disk, from which
+ * it does not recover, and the reason is the system's own. Times of objects are not kept and every NaN
+ * has the same bits, so the same numbers give the same bytes. */
+#include <hdf5.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "io/atomic.h"
+#include "io/report.h"
+
+/* The file grows in memory by this much at a time. */
+#define GROWTH (1 << 20)
+
+/* What an array is, for its attributes. Strings may be NULL. */
+typedef struct Meaning {
+  const char *name, *unit, *help;
+} Meaning;
+
+/* Where a dataset goes, and how objects are made. A call that fails sets `bad`, and from then on nothing
+ * is done, so that only the end of the writing has to look. */
+typedef struct Store {
+  hid_t file;
+  hid_t plain; /* creation of datasets: no times */
+  bool bad;
+} Store;
+
+static bool is_bad(Store *store, hid_t result) {
+  if (result < 0) store->bad = true;
+  return store->bad;
+}
+
+/* A string type for exactly this text. */
+static hid_t text_type(const char *text) {
+  hid_t type = H5Tcopy(H5T_C_S1);
+  if (type < 0) return type;
+  if (H5Tset_size(type, strlen(text) + 1) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0) return type;
+  H5Tclose(type);
+  return -1;
+}
+
+static void put_attribute(Store *store, hid_t object, const char *name, const char *text) {
+  if (store->bad || !text) return;
+  hid_t type = text_type(text), space = H5Screate(H5S_SCALAR);
+  hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  if (!is_bad(store, attribute)) is_bad(store, H5Awrite(attribute, type, text));
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Tclose(type);
+}
+
+/* One dataset of `rank` dimensions (0: a single value) from `value` of the type `memory`. */
+static void put_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, hid_t memory, int rank,
+                      const hsize_t *size, const void *value) {
+  if (store->bad) return;
+  hid_t space = rank ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
+  hid_t set = H5Dcreate2(group, meaning->name, disk, space, H5P_DEFAULT, store->plain, H5P_DEFAULT);
+  if (!is_bad(store, set)) is_bad(store, H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
+  put_attribute(store, set, "unit", meaning->unit);
+  put_attribute(store, set, "help", meaning->help);
+  H5Dclose(set);
+  H5Sclose(space);
+}
+
+static void put_reals(Store *store, hid_t group, const Meaning *meaning, int rank, const hsize_t *size,
+                      const double *value) {
+  put_array(store, group, meaning, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, value);
+}
+
+static void put_text(Store *store, hid_t group, const char *name, const char *text) {
+  hid_t type = text_type(text);
+  if (!is_bad(store, type)) put_array(store, group, &(Meaning){.name = name}, type, type, 0, NULL, text);
+  H5Tclose(type);
+}
+
+static hid_t open_group(Store *store, hid_t parent, const char *name) {
+  hid_t group = store->bad ? -1 : H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  is_bad(store, group);
+  return group;
+}
+
+/* Room for `count` doubles, at least one; NULL makes the store bad. */
+static double *numbers(Store *store, size_t count) {
+  double *value = store->bad ? NULL : calloc(count + 1, sizeof *value);
+  if (!value) store->bad = true;
+  return value;
+}
+
+static double clean(double value) {
+  return isnan(value) ? (double)NAN : value;
+}
+
+static void put_series(Store *store, hid_t parent, const ZpTable *table) {
+  if (!table) return;
+  hid_t group = open_group(store, parent, "series");
+  double *value = numbers(store, table->rows);
+  for (size_t i = 0; i < table->columns && !store->bad; i++) {
+    const ZpColumn *c = &table->column[i];
+    for (size_t row = 0; row < table->rows; row++)
+      value[row] = clean(table->value[row * table->columns + i]);
+    put_reals(store, group, &(Meaning){c->name, c->unit, c->help}, 1, &(hsize_t){table->rows}, value);
+  }
+  free(value);
+  H5Gclose(group);
+}
+
+/* Time, voltage and number of closed pairs of each frame. */
+static void put_frames(Store *store, hid_t group, const ZpShapes *shapes) {
+  const hsize_t size = shapes->frames;
+  double *time = numbers(store, shapes->frames), *voltage = numbers(store, shapes->frames);
+  long long *zipped = calloc(shapes->frames + 1, sizeof *zipped);
+  if (!zipped) store->bad = true;
+  for (size_t i = 0; i < shapes->frames && !store->bad; i++) {
+    const ZpShape shape = zp_shapes_get(shapes, i);
+    time[i] = clean(shape.time);
+    voltage[i] = clean(shape.voltage);
+    zipped[i] = (long long)shape.zipped;
+  }
+  put_reals(store, group, &(Meaning){"time", "s", "time of the frame"}, 1, &size, time);
+  put_reals(store, group, &(Meaning){"voltage", "V", "potential difference of the electrodes"}, 1, &size, voltage);
+  put_array(store, group, &(Meaning){"zipped", "1", "pairs 0 .. zipped are closed; the clip is pair 0"}, H5T_STD_I64LE,
+            H5T_NATIVE_LLONG, 1, &size, zipped);
+  free(time);
+  free(voltage);
+  free(zipped);
+}
+
+/* Which numbers of a shape: those of every node, or of every pair. */
+typedef enum Field { FIELD_X, FIELD_Y, FIELD_GAP, FIELD_LINE_FORCE } Field;
+
+static const double *field_of(const ZpShape *shape, Field field) {
+  const double *const pointer[] = {shape->x, shape->y, shape->gap, shape->line_force};
+  return pointer[field];
+}
+
+/* One field of all frames, ribbon after ribbon; nothing if the shapes do not have it. */
+static void put_field(Store *store, hid_t group, const ZpShapes *shapes, Field field, const Meaning *meaning) {
+  const bool pairs = field == FIELD_GAP || field == FIELD_LINE_FORCE;
+  const size_t ribbons = pairs ? 1 : shapes->ribbons, nodes = shapes->nodes;
+  const hsize_t with_ribbons[] = {shapes->frames, ribbons, nodes}, without[] = {shapes->frames, nodes};
+  if (pairs && shapes->ribbons < 2) return;
+  double *value = numbers(store, shapes->frames * ribbons * nodes), *next = value;
+  for (size_t i = 0; i < shapes->frames && !store->bad; i++) {
+    const ZpShape shape = zp_shapes_get(shapes, i);
+    const double *from = field_of(&shape, field);
+    for (size_t r = 0; r < ribbons; r++)
+      for (size_t n = 0; n < nodes; n++)
+        *next++ = from ? clean(from[n * ribbons + r]) : (double)NAN;
+  }
+  put_reals(store, group, meaning, pairs ? 2 : 3, pairs ? without : with_ribbons, value);
+  free(value);
+}
+
+static void put_shapes(Store *store, hid_t parent, const ZpShapes *shapes) {
+  if (!shapes) return;
+  hid_t group = open_group(store, parent, "shapes");
+  put_frames(store, group, shapes);
+  put_field(store, group, shapes, FIELD_X,
+            &(Meaning){"x", "m", "place of a node, to the right; [frame][ribbon][node]"});
+  put_field(store, group, shapes, FIELD_Y, &(Meaning){"y", "m", "place of a node, upwards; [frame][ribbon][node]"});
+  put_field(store, group, shapes, FIELD_GAP, &(Meaning){"gap", "m", "distance of the faces; [frame][node]"});
+  put_field(store, group, shapes, FIELD_LINE_FORCE,
+            &(Meaning){"line_force", "N/m", "attraction per length; [frame][node]"});
+  H5Gclose(group);
+}
+
+static void put_summary(Store *store, hid_t parent, const ZpResult *result) {
+  hid_t group = open_group(store, parent, "summary");
+  put_attribute(store, group, "outcome", zp_outcome_name(result->outcome));
+  for (size_t i = 0; i < result->scalars; i++) {
+    const ZpScalar *s = &result->scalar[i];
+    const double value = clean(s->value);
+    if (!s->timing) put_reals(store, group, &(Meaning){.name = s->name, .unit = s->unit}, 0, NULL, &value);
+  }
+  H5Gclose(group);
+}
+
+static void put_run(Store *store, hid_t parent, const ZpResult *result) {
+  put_series(store, parent, result->series);
+  put_shapes(store, parent, result->shapes);
+  put_summary(store, parent, result);
+}
+
+/* Columns of the table that hold the list keys. A choice is its place in its list of words. */
+static void put_keys(Store *store, hid_t group, const ZpReport *report) {
+  size_t keys;
+  const int *key = zp_scenario_lists(report->scenario, &keys);
+  double *value = numbers(store, report->count);
+  for (size_t i = 0; i < keys && !store->bad; i++) {
+    char name[ZP_KEY_COLUMN_SIZE];
+    ZpActuatorDef def;
+    for (size_t run = 0; run < report->count && !store->bad; run++) {
+      store->bad = zp_scenario_def(report->scenario, run, &def, NULL) != ZP_OK;
+      if (!store->bad) value[run] = clean(zp_def_get(&def, key[i]));
+    }
+    zp_key_column(key[i], name, sizeof name);
+    const ZpKey *k = zp_key(key[i]);
+    put_reals(store, group, &(Meaning){name, k->unit, k->help}, 1, &(hsize_t){report->count}, value);
+  }
+  free(value);
+}
+
+/* All outcomes take the same room, as an array of strings in HDF5 must. */
+#define OUTCOME_SIZE 16
+
+static void put_outcomes(Store *store, hid_t group, const ZpReport *report) {
+  char *text = calloc(report->count + 1, OUTCOME_SIZE);
+  hid_t type = H5Tcopy(H5T_C_S1);
+  if (!text) store->bad = true;
+  if (!is_bad(store, type)) is_bad(store, H5Tset_size(type, OUTCOME_SIZE));
+  for (size_t run = 0; run < report->count && !store->bad; run++)
+    snprintf(text + run * OUTCOME_SIZE, OUTCOME_SIZE, "%s", zp_outcome_name(report->result[run]->outcome));
+  put_array(store, group, &(Meaning){.name = "outcome", .help = "how the numerics ended"}, type, type, 1,
+            &(hsize_t){report->count}, text);
+  H5Tclose(type);
+  free(text);
+}
+
+static void put_table(Store *store, const ZpReport *report) {
+  ZpScalarNames names;
+  hid_t group = open_group(store, store->file, "table");
+  double *value = numbers(store, report->count);
+  put_keys(store, group, report);
+  put_outcomes(store, group, report);
+  if (!zp_report_scalars(report, false, &names)) store->bad = true;
+  for (size_t i = 0; !store->bad && i < names.count; i++) {
+    const ZpScalar *s = &names.item[i];
+    for (size_t run = 0; run < report->count; run++)
+      value[run] = clean(zp_result_get(report->result[run], s->name));
+    put_reals(store, group, &(Meaning){.name = s->name, .unit = s->unit}, 1, &(hsize_t){report->count}, value);
+  }
+  free(names.item);
+  free(value);
+  H5Gclose(group);
+}
+
+static void put_runs(Store *store, const ZpReport *report) {
+  hid_t runs = open_group(store, store->file, "runs");
+  for (size_t i = 0; i < report->count; i++) {
+    char name[32];
+    snprintf(name, sizeof name, "%04zu", i);
+    hid_t group = open_group(store, runs, name);
+    put_run(store, group, report->result[i]);
+    H5Gclose(group);
+  }
+  H5Gclose(runs);
+}
+
+static void put_all(Store *store, const ZpReport *report, const char *scenario) {
+  const ZpResult *single = zp_report_single(report);
+  put_text(store, store->file, "scenario", scenario);
+  put_attribute(store, store->file, "study", zp_report_study(report));
+  if (single) put_run(store, store->file, single);
+  if (zp_report_is_sweep(report)) {
+    put_table(store, report);
+    put_runs(store, report);
+  }
+}
+
+/* A file that lives in memory only. HDF5 first looks whether a file of this name is there, so the name is
+ * one that cannot be. */
+static hid_t open_memory_file(void) {
+  hid_t file = -1, access = H5Pcreate(H5P_FILE_ACCESS);
+  if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
+    file = H5Fcreate("/dev/null/results.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  H5Pclose(access);
+  return file;
+}
+
+/* The bytes of the file, to be freed; NULL if that failed. */
+static void *take_image(hid_t file, size_t *size) {
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) return NULL;
+  ssize_t length = H5Fget_file_image(file, NULL, 0);
+  void *image = length > 0 ? malloc((size_t)length) : NULL;
+  *size = (size_t)length;
+  if (image && H5Fget_file_image(file, image, *size) == length) return image;
+  free(image);
+  return NULL;
+}
+
+static void *build_image(const ZpReport *report, const char *scenario, size_t *size) {
+  Store store = {.file = open_memory_file(), .plain = H5Pcreate(H5P_DATASET_CREATE)};
+  is_bad(&store, store.file);
+  if (!is_bad(&store, store.plain)) is_bad(&store, H5Pset_obj_track_times(store.plain, false));
+  put_all(&store, report, scenario);
+  void *image = store.bad ? NULL : take_image(store.file, size);
+  H5Pclose(store.plain);
+  H5Fclose(store.file);
+  return image;
+}
+
+/* HDF5 prints its own stack of errors on stderr unless told not to; the caller's setting comes back. */
+static void *build_silently(const ZpReport *report, const char *scenario, size_t *size) {
+  H5E_auto2_t print = NULL;
+  void *data = NULL;
+  bool saved = H5Eget_auto2(H5E_DEFAULT, &print, &data) >= 0;
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  void *image = build_image(report, scenario, size);
+  if (saved) H5Eset_auto2(H5E_DEFAULT, print, data);
+  return image;
+}
+
+ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err) {
+  char *scenario;
+  size_t size = 0;
+  ZpAtomic out;
+  ZpStatus status = zp_scenario_text(report, &scenario, err);
+  if (status != ZP_OK) return status;
+  void *image = build_silently(report, scenario, &size);
+  free(scenario);
+  if (!image)
+    return zp_fail(err, ZP_MACHINE, "cannot make %s/results.h5: HDF5 could not build it in memory", report->directory);
+  status = zp_atomic_open(&out, report->directory, "results.h5", err);
+  if (status == ZP_OK) {
+    fwrite(image, 1, size, out.file); /* the commit finds what goes wrong here */
+    status = zp_atomic_commit(&out, err);
+  }
+  free(image);
+  return status;
+}

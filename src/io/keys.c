@@ -1,0 +1,172 @@
+/* The table of keys as text for people, as JSON for programs, as a scenario to start from. */
+#include <zipact/io.h>
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "base/fail.h"
+#include "io/value.h"
+#include "io/yaml.h"
+
+enum { COMMENT_COLUMN = 34 }; /* where the comments of the starter scenario begin */
+
+static bool is_number(const ZpKey *key) {
+  return key->type != ZP_KEY_BOOL && key->type != ZP_KEY_ENUM;
+}
+
+/* What may be given: a range, or words joined by `between`. */
+static void allowed(int index, const char *between, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  if (is_number(key)) {
+    zp_value_range(index, text, size);
+    return;
+  }
+  snprintf(text, size, "%s", key->choices ? key->choices[0].word : "true");
+  int words = key->choices ? (int)key->max + 1 : 0;
+  size_t used = strlen(text);
+  if (!words && used < size) snprintf(text + used, size - used, "%sfalse", between);
+  for (int i = 1; i < words && (used = strlen(text)) < size; i++)
+    snprintf(text + used, size - used, "%s%s", between, key->choices[i].word);
+}
+
+/* Widths of the columns that come before the help. */
+typedef struct Widths {
+  int name, value, range;
+} Widths;
+
+static int longer(int width, const char *text) {
+  int length = (int)strlen(text);
+  return length > width ? length : width;
+}
+
+/* The range column is for numbers; the words of a choice stand on lines of their own. */
+static void row_texts(int index, char value[ZP_VALUE_SIZE], char range[ZP_RANGE_SIZE]) {
+  zp_value_print(index, zp_key(index)->def, value, ZP_VALUE_SIZE);
+  range[0] = 0;
+  if (!zp_key(index)->choices) allowed(index, ", ", range, ZP_RANGE_SIZE);
+}
+
+static Widths find_widths(void) {
+  char value[ZP_VALUE_SIZE], range[ZP_RANGE_SIZE];
+  Widths w = {(int)strlen("key"), (int)strlen("default"), (int)strlen("range")};
+  for (int i = 0; i < zp_key_count(); i++) {
+    row_texts(i, value, range);
+    w.name = longer(w.name, zp_key(i)->name);
+    w.value = longer(w.value, value);
+    w.range = longer(w.range, range);
+  }
+  return w;
+}
+
+static void write_text(FILE *file) {
+  char value[ZP_VALUE_SIZE], range[ZP_RANGE_SIZE];
+  Widths w = find_widths();
+  fprintf(file, "%-*s  %-*s  %-*s  help\n", w.name, "key", w.value, "default", w.range, "range");
+  for (int i = 0; i < zp_key_count(); i++) {
+    const ZpKey *key = zp_key(i);
+    row_texts(i, value, range);
+    fprintf(file, "%-*s  %-*s  %-*s  %s\n", w.name, key->name, w.value, value, w.range, range, key->help);
+    for (int j = 0; key->choices && j <= (int)key->max; j++)
+      fprintf(file, "%*s    %s: %s\n", w.name, "", key->choices[j].word, key->choices[j].help);
+  }
+}
+
+static void write_yaml(FILE *file) {
+  char value[ZP_VALUE_SIZE], range[ZP_VALUE_SIZE];
+  const char *before = NULL;
+  fputs("# A scenario with every key at its default. Keep the lines that you change and delete the others:\n"
+        "# a line given here wins over a preset.\n",
+        file);
+  for (int i = 0; i < zp_key_count(); i++) {
+    const ZpKey *key = zp_key(i);
+    int width = zp_yaml_write_key(file, key->name, before);
+    zp_value_print(i, key->def, value, sizeof value);
+    allowed(i, " | ", range, sizeof range);
+    fprintf(file, "%s%*s  # %s (%s)\n", value, longer(COMMENT_COLUMN - width, value) - (int)strlen(value), "",
+            key->help, range);
+    before = key->name;
+  }
+}
+
+static const char *type_word(ZpKeyType type) {
+  static const char *const words[] = {"real", "real_auto", "int", "bool", "enum"};
+  return words[type];
+}
+
+/* A value of a key as JSON has it: number, word, "auto" or bool. */
+static json_t *json_of_value(int index, double value) {
+  const ZpKey *key = zp_key(index);
+  switch (key->type) {
+  case ZP_KEY_BOOL:
+    return json_boolean(value != 0);
+  case ZP_KEY_ENUM:
+    return json_string(key->choices[(int)value].word);
+  case ZP_KEY_INT:
+    return json_integer((json_int_t)value);
+  case ZP_KEY_REAL:
+  case ZP_KEY_REAL_AUTO:
+    break;
+  }
+  return isnan(value) ? json_string("auto") : json_real(value);
+}
+
+static json_t *json_of_choices(const ZpKey *key) {
+  json_t *list = json_array();
+  for (int i = 0; list && key->choices && i <= (int)key->max; i++) {
+    json_t *choice = json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help);
+    if (!choice || json_array_append_new(list, choice)) {
+      json_decref(list);
+      return NULL;
+    }
+  }
+  return list;
+}
+
+/* One key; NULL if there is no memory. json_pack takes over the values and frees them if it fails. */
+static json_t *json_of_key(int index) {
+  const ZpKey *key = zp_key(index);
+  json_t *least = is_number(key) ? json_of_value(index, key->min) : json_null();
+  json_t *most = is_number(key) ? json_of_value(index, key->max) : json_null();
+  return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s}", "key", key->name, "type", type_word(key->type), "unit",
+                   key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices",
+                   json_of_choices(key), "help", key->help);
+}
+
+static ZpStatus write_json(FILE *file, ZpError *err) {
+  json_t *list = json_array();
+  int failed = !list;
+  for (int i = 0; i < zp_key_count() && !failed; i++)
+    failed = json_array_append_new(list, json_of_key(i));
+  if (failed) {
+    json_decref(list);
+    return zp_fail_memory(err);
+  }
+  /* 15 digits give back every number of keys.def, none of which is written with more; 17 would show
+   * 0.1 as 0.10000000000000001. */
+  failed = json_dumpf(list, file, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
+  json_decref(list);
+  if (failed) return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));
+  fputc('\n', file);
+  return ZP_OK;
+}
+
+ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  switch (format) {
+  case ZP_KEYS_TEXT:
+    write_text(file);
+    break;
+  case ZP_KEYS_JSON:
+    status = write_json(file, err);
+    break;
+  case ZP_KEYS_YAML:
+    write_yaml(file);
+    break;
+  }
+  if (status == ZP_OK && (fflush(file) || ferror(file)))
+    return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));
+  return status;
+}

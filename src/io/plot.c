@@ -1,0 +1,115 @@
+/* What the pictures share. */
+#include "io/plot.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <zipact/version.h>
+
+ZpPlotUnit zp_plot_unit(double largest, const char *unit) {
+  static const char *const prefix[] = {"f", "p", "n", "µ", "m", "", "k", "M", "G", "T"};
+  int step = 0;
+  if (isfinite(largest) && largest > 0) step = (int)floor((log10(largest) + 1e-9) / 3);
+  step = step < -5 ? -5 : step > 4 ? 4 : step;
+  ZpPlotUnit shown = {.factor = pow(10, -3.0 * step)};
+  snprintf(shown.text, sizeof shown.text, "%s%s", prefix[step + 5], unit);
+  return shown;
+}
+
+/* Column number, or table->columns if there is none of this name. */
+static size_t column_of(const ZpTable *table, const char *name) {
+  size_t i = 0;
+  while (i < table->columns && strcmp(table->column[i].name, name) != 0)
+    i++;
+  return i;
+}
+
+/* (table, column) => largest absolute value, and how many values are numbers. */
+static double largest_of(const ZpTable *table, const char *name, size_t *numbers) {
+  size_t column = column_of(table, name);
+  double largest = 0;
+  *numbers = 0;
+  for (size_t row = 0; column < table->columns && row < table->rows; row++) {
+    double value = fabs(table->value[row * table->columns + column]);
+    if (!isfinite(value)) continue;
+    ++*numbers;
+    if (value > largest) largest = value;
+  }
+  return largest;
+}
+
+ZpPlotUnit zp_plot_table_unit(const ZpTable *table, const char *const *column, const char *unit) {
+  double largest = 0;
+  for (; *column; column++) {
+    size_t numbers;
+    double value = largest_of(table, *column, &numbers);
+    if (value > largest) largest = value;
+  }
+  return zp_plot_unit(largest, unit);
+}
+
+bool zp_plot_has(const ZpTable *table, const char *column) {
+  size_t numbers = 0;
+  if (table) largest_of(table, column, &numbers);
+  return numbers >= 2;
+}
+
+void zp_plot_text(FILE *file, const char *text) {
+  fputc('\'', file);
+  for (; *text; text++) {
+    if (strchr("_^@&~{}\\", *text)) fputc('\\', file);
+    if (*text == '\'') fputc('\'', file);
+    fputc(*text, file);
+  }
+  fputc('\'', file);
+}
+
+void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right) {
+  fprintf(file,
+          "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s.gp\n"
+          "if (!exists('out')) out = '%s.svg'\n"
+          "set encoding utf8\n"
+          "set terminal svg size 800,500 dynamic enhanced font 'Helvetica,14' background '#ffffff'\n"
+          "set output out\n"
+          "set grid lc rgb '#dddddd' lw 1 lt 1\n"
+          "set border lc rgb '#333333'\n"
+          "set tics nomirror\n"
+          "set lmargin at screen 0.11\n"
+          "set rmargin at screen %g\n"
+          "set bmargin at screen 0.17\n"
+          "set tmargin at screen 0.86\n"
+          "set key at screen %g,0.86 left top Left reverse samplen 2 spacing 1.2 font ',12'\n",
+          name, name, right, right + 0.015);
+  fputs("set label 1 ", file);
+  zp_plot_text(file, title);
+  fputs(" at screen 0.11,0.955 left font ',17'\nset label 2 ", file);
+  zp_plot_text(file, plot->subtitle);
+  fputs(" at screen 0.11,0.905 left font ',12' tc rgb '#555555'\n", file);
+}
+
+const char *zp_plot_drag_note(const ZpPlot *plot) {
+  return plot->def.damping.drag > 0
+             ? "no drag of the liquid is modelled but c |v| v on each particle: the times are not a prediction"
+             : "no drag of the liquid is modelled: the times are not a prediction";
+}
+
+void zp_plot_foot(const ZpPlot *plot, FILE *file, const char *more) {
+  fputs("set label 3 ", file);
+  zp_plot_text(file, zp_plot_drag_note(plot));
+  fputs(" at screen 0.985,0.025 right font ',10' tc rgb '#555555'\n", file);
+  if (!more) return;
+  fputs("set label 4 ", file);
+  zp_plot_text(file, more);
+  fputs(" at screen 0.015,0.025 left font ',10' tc rgb '#555555'\n", file);
+}
+
+const char *zp_plot_colour(size_t index) {
+  static const char *const colour[ZP_COLOURS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                 "#56b4e9", "#e69f00", "#000000", "#b8a800"};
+  return colour[index % ZP_COLOURS];
+}
+
+void zp_plot_curve(FILE *file, bool first, ZpPlotUnit time, const char *expression, const char *title, size_t colour) {
+  fprintf(file, "%s'../table.csv' using (column('time_s')*%g):(%s) with lines lw 2 lc rgb '%s' title '%s'",
+          first ? "plot " : ", \\\n     ", time.factor, expression, zp_plot_colour(colour), title);
+}

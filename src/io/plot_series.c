@@ -1,0 +1,183 @@
+/* Pictures of one run over time: stroke.svg, zipped_length.svg, energies.svg, electric.svg. */
+#include <math.h>
+#include <string.h>
+
+#include "io/plot.h"
+
+/* Right edge of the plot area; the legend is to the right of it. */
+#define RIGHT 0.76
+
+static bool is_film(const ZpPlot *plot) {
+  return plot->study == ZP_STUDY_ACTUATE && plot->single;
+}
+
+static bool is_ribbon(const ZpPlot *plot) {
+  return plot->def.actuator.kind == ZP_KIND_RIBBON;
+}
+
+static const ZpTable *series(const ZpPlot *plot) {
+  return plot->single->series;
+}
+
+static ZpPlotUnit time_unit(const ZpPlot *plot) {
+  return zp_plot_table_unit(series(plot), (const char *const[]){"time_s", NULL}, "s");
+}
+
+/* What follows the head of a picture that reads the table. */
+static void begin(FILE *file, ZpPlotUnit time) {
+  fputs("set datafile separator ','\nset key autotitle columnhead\nset xrange [0:*]\n", file);
+  fprintf(file, "set xlabel 'time / %s'\n", time.text);
+}
+
+/* Upper and lower of two panels. Title and small print belong to the whole and are drawn once. */
+static void upper_panel(FILE *file) {
+  fputs("set multiplot\nset bmargin at screen 0.555\nset format x ''\nunset xlabel\n", file);
+}
+
+static void lower_panel(FILE *file, ZpPlotUnit time) {
+  fprintf(file,
+          "unset label\nset tmargin at screen 0.505\nset bmargin at screen 0.17\n"
+          "set key at screen %g,0.505\nset format x '%%g'\nset xlabel 'time / %s'\n",
+          RIGHT + 0.015, time.text);
+}
+
+/* A dashed line where the actuator has zipped. */
+static void mark_zip(const ZpPlot *plot, FILE *file, ZpPlotUnit time) {
+  double zip = zp_result_get(plot->single, "zip_time_s") * time.factor;
+  if (isfinite(zip))
+    fprintf(file, "set arrow 1 from %.17g, graph 0 to %.17g, graph 1 nohead dt 2 lw 1.5 lc rgb '#555555'\n", zip, zip);
+}
+
+static void name_zip(const ZpPlot *plot, FILE *file, ZpPlotUnit time) {
+  double zip = zp_result_get(plot->single, "zip_time_s") * time.factor;
+  if (isfinite(zip))
+    fprintf(file,
+            "set label 5 'zip time %.4g %s' at screen %g, screen 0.20 left font ',12' tc rgb '#555555'\n"
+            "set arrow 2 from screen %g, screen 0.20 to screen %g, screen 0.20 nohead dt 2 lw 1.5 lc rgb '#555555'\n",
+            zip, time.text, RIGHT + 0.06, RIGHT + 0.02, RIGHT + 0.052);
+}
+
+static bool has_stroke(const ZpPlot *plot) {
+  return is_film(plot) && zp_plot_has(series(plot), "stroke_m");
+}
+
+/* Curves of the columns that have numbers. `label` is of the y axis. */
+static void plot_columns(const ZpPlot *plot, FILE *file, ZpPlotUnit time, ZpPlotUnit unit, const char *label,
+                         const char *const (*curve)[2], size_t curves) {
+  bool first = true;
+  fprintf(file, "set ylabel '%s / %s' offset 0.5\n", label, unit.text);
+  for (size_t i = 0; i < curves; i++) {
+    char expression[128];
+    if (!zp_plot_has(series(plot), curve[i][0])) continue;
+    snprintf(expression, sizeof expression, "column('%s')*%g", curve[i][0], unit.factor);
+    zp_plot_curve(file, first, time, expression, curve[i][1], i);
+    first = false;
+  }
+  fputc('\n', file);
+}
+
+static void script_stroke(const ZpPlot *plot, FILE *file) {
+  const char *const curve[][2] = {{"stroke_m", "stroke"}, {"opening_m", "opening"}};
+  const bool contracts = zp_plot_has(series(plot), "contraction");
+  const bool opens = zp_plot_has(series(plot), "opening_m");
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"stroke_m", "opening_m", NULL}, "m");
+  zp_plot_head(plot, file, "stroke", opens ? "Stroke and opening over time" : "Stroke over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  if (contracts) upper_panel(file);
+  mark_zip(plot, file, time);
+  if (!contracts) name_zip(plot, file, time);
+  plot_columns(plot, file, time, length, opens ? "length" : "stroke", curve, 2);
+  if (!contracts) return;
+  lower_panel(file, time);
+  name_zip(plot, file, time);
+  fputs("set ylabel 'contraction / %' offset 0.5\n", file);
+  zp_plot_curve(file, true, time, "column('contraction')*100", "contraction", 2);
+  fputs("\nunset multiplot\n", file);
+}
+
+static bool has_zipped_length(const ZpPlot *plot) {
+  return is_film(plot) && !is_ribbon(plot) && zp_plot_has(series(plot), "zipped_length_m");
+}
+
+static void script_zipped_length(const ZpPlot *plot, FILE *file) {
+  const char *const curve[][2] = {{"zipped_length_m", "zipped length"}};
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"zipped_length_m", NULL}, "m");
+  zp_plot_head(plot, file, "zipped_length", "Closed length from the clip, one half, over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  mark_zip(plot, file, time);
+  name_zip(plot, file, time);
+  plot_columns(plot, file, time, length, "zipped length", curve, 1);
+}
+
+static bool has_energies(const ZpPlot *plot) {
+  return is_film(plot) && zp_plot_has(series(plot), "kinetic_energy_J");
+}
+
+/* A curve of energies: the sum of one or two columns. */
+typedef struct Energy {
+  const char *column, *second, *title;
+  bool electric; /* always 0 for the kind ribbon */
+} Energy;
+
+static const Energy energies[] = {
+    {"kinetic_energy_J", NULL, "kinetic", false},     {"axial_energy_J", "bending_energy_J", "axial + bending", false},
+    {"gravity_energy_J", NULL, "gravity", false},     {"field_energy_J", NULL, "field", true},
+    {"electric_work_J", NULL, "electric work", true}, {"drag_loss_J", "contact_loss_J", "losses", false},
+    {"energy_imbalance_J", NULL, "imbalance", false},
+};
+
+#define ENERGIES (sizeof energies / sizeof energies[0])
+
+static void script_energies(const ZpPlot *plot, FILE *file) {
+  const char *column[ENERGIES + 1] = {NULL};
+  bool first = true;
+  for (size_t i = 0; i < ENERGIES; i++)
+    column[i] = energies[i].column;
+  ZpPlotUnit time = time_unit(plot), energy = zp_plot_table_unit(series(plot), column, "J");
+  zp_plot_head(plot, file, "energies", "Energies over time", RIGHT);
+  begin(file, time);
+  fprintf(file, "set ylabel 'energy / %s' offset 0.5\n", energy.text);
+  for (size_t i = 0; i < ENERGIES; i++) {
+    const Energy *e = &energies[i];
+    char expression[192];
+    if (!zp_plot_has(series(plot), e->column) || (e->electric && is_ribbon(plot))) continue;
+    if (e->second && zp_plot_has(series(plot), e->second))
+      snprintf(expression, sizeof expression, "(column('%s')+column('%s'))*%g", e->column, e->second, energy.factor);
+    else
+      snprintf(expression, sizeof expression, "column('%s')*%g", e->column, energy.factor);
+    zp_plot_curve(file, first, time, expression, e->title, i);
+    first = false;
+  }
+  fputc('\n', file);
+}
+
+static bool has_electric(const ZpPlot *plot) {
+  return is_film(plot) && !is_ribbon(plot) && zp_plot_has(series(plot), "charge_C") &&
+         zp_plot_has(series(plot), "force_N");
+}
+
+static void script_electric(const ZpPlot *plot, FILE *file) {
+  const char *const charges[][2] = {{"charge_C", "charge"}}, *const forces[][2] = {{"force_N", "force"}};
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit charge = zp_plot_table_unit(series(plot), (const char *const[]){"charge_C", NULL}, "C");
+  ZpPlotUnit force = zp_plot_table_unit(series(plot), (const char *const[]){"force_N", NULL}, "N");
+  zp_plot_head(plot, file, "electric", "Charge and electric force of the whole actuator over time", RIGHT);
+  begin(file, time);
+  upper_panel(file);
+  plot_columns(plot, file, time, charge, "charge", charges, 1);
+  lower_panel(file, time);
+  plot_columns(plot, file, time, force, "force", forces, 1);
+  fputs("unset multiplot\n", file);
+}
+
+const ZpPicture zp_series_pictures[] = {
+    {"stroke", "svg", has_stroke, script_stroke, NULL},
+    {"zipped_length", "svg", has_zipped_length, script_zipped_length, NULL},
+    {"energies", "svg", has_energies, script_energies, NULL},
+    {"electric", "svg", has_electric, script_electric, NULL},
+    {0},
+};

@@ -1,0 +1,331 @@
+/* Pictures of the shapes of one run: profiles.svg and animation.gif. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "io/number.h"
+#include "io/plot.h"
+
+/* Curves of profiles.svg, as many as can be told apart. */
+#define SNAPSHOTS 8
+
+/* The film: frames at most, hundredths of a second that it takes, and how often the last is repeated. */
+#define FILM_FRAMES 80
+#define FILM_LENGTH 480
+#define FILM_HOLD   12
+
+static const ZpShapes *film(const ZpPlot *plot) {
+  return plot->single->shapes;
+}
+
+static double time_of(const ZpShapes *shapes, size_t frame) {
+  return zp_shapes_get(shapes, frame).time;
+}
+
+/* Frame nearest to a part (0 .. 1) of the time from the first frame to the last. */
+static size_t frame_at(const ZpShapes *shapes, double part) {
+  double start = time_of(shapes, 0), wanted = start + part * (time_of(shapes, shapes->frames - 1) - start);
+  size_t nearest = 0;
+  for (size_t i = 1; i < shapes->frames; i++)
+    if (fabs(time_of(shapes, i) - wanted) < fabs(time_of(shapes, nearest) - wanted)) nearest = i;
+  return nearest;
+}
+
+static void put(FILE *file, double value, char after) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(value, text, sizeof text);
+  fprintf(file, "%s%c", text, after);
+}
+
+/* Box around all frames, m; of a run that diverged, around what is finite. */
+typedef struct Box {
+  double left, right, bottom, top;
+} Box;
+
+static Box box_of(const ZpShapes *shapes) {
+  Box box = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (size_t f = 0; f < shapes->frames; f++) {
+    const ZpShape shape = zp_shapes_get(shapes, f);
+    for (size_t i = 0; i < shapes->nodes * shapes->ribbons; i++) {
+      if (!isfinite(shape.x[i]) || !isfinite(shape.y[i])) continue;
+      box.left = fmin(box.left, shape.x[i]);
+      box.right = fmax(box.right, shape.x[i]);
+      box.bottom = fmin(box.bottom, shape.y[i]);
+      box.top = fmax(box.top, shape.y[i]);
+    }
+  }
+  return box;
+}
+
+static bool has_shapes(const ZpPlot *plot) {
+  if (plot->study != ZP_STUDY_ACTUATE || !plot->single || !plot->single->shapes) return false;
+  return film(plot)->frames >= 2 && isfinite(box_of(film(plot)).left);
+}
+
+/* Blocks of x, y, time: one per snapshot and ribbon. A row of NaN ends a line, not an empty one: for that
+ * gnuplot 5.4 uses a colour that it never set, and its picture is not the same each time. */
+static void data_profiles(const ZpPlot *plot, FILE *file) {
+  const ZpShapes *shapes = film(plot);
+  size_t before = shapes->frames;
+  fputs("# x_m y_m time_s; NaN between the lines of each snapshot and ribbon (upper, lower)\n", file);
+  for (size_t k = 0; k < SNAPSHOTS; k++) {
+    size_t frame = frame_at(shapes, (double)k / (SNAPSHOTS - 1));
+    if (frame == before) continue;
+    before = frame;
+    const ZpShape shape = zp_shapes_get(shapes, frame);
+    for (size_t r = 0; r < shapes->ribbons; r++) {
+      for (size_t i = 0; i < shapes->nodes; i++) {
+        put(file, shape.x[i * shapes->ribbons + r], ' ');
+        put(file, shape.y[i * shapes->ribbons + r], ' ');
+        put(file, shape.time, '\n');
+      }
+      fputs("NaN NaN ", file);
+      put(file, shape.time, '\n');
+    }
+  }
+}
+
+static void script_profiles(const ZpPlot *plot, FILE *file) {
+  const ZpShapes *shapes = film(plot);
+  const Box box = box_of(shapes);
+  const double width = box.right - box.left, height = box.top - box.bottom;
+  const bool pair = shapes->ribbons > 1;
+  ZpPlotUnit length = zp_plot_unit(fmax(fmax(fabs(box.left), fabs(box.right)), height), "m");
+  ZpPlotUnit time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
+  zp_plot_head(plot, file, "profiles", pair ? "Shapes of the ribbons, left half" : "Shapes of the ribbon", 0.82);
+  zp_plot_foot(plot, file, height > 0.15 * width ? NULL : "x and y have different scales");
+  fprintf(file,
+          "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#c8d020')\n"
+          "set cblabel 'time / %s' offset 0.5\nset cbrange [%.17g:%.17g]\n"
+          "set colorbox user origin screen 0.85, screen 0.17 size screen 0.025, screen 0.69\n"
+          "set xlabel 'x / %s'\nset ylabel 'y / %s' offset 0.5\n",
+          time.text, time_of(shapes, 0) * time.factor, time_of(shapes, shapes->frames - 1) * time.factor, length.text,
+          length.text);
+  if (height > 0.15 * width) fputs("set size ratio -1\n", file);
+  fprintf(file,
+          "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04\n"
+          "plot 'profiles.dat' using ($1*%g):($2*%g):($3*%g) with lines lw 2 lc palette z notitle\n",
+          length.factor, length.factor, time.factor);
+}
+
+/* The stage of the film: x counts from the middle of what is drawn, m. */
+typedef struct Stage {
+  Box box;       /* of the shapes */
+  double middle; /* x of the mirror (kind ribbon: of the middle of the box) */
+  double half;   /* half of the width of all that moves */
+  double clamp;  /* x of the left end, from the middle */
+  double unit;   /* a length to size clip, load and margins with */
+  size_t frames; /* different ones */
+  double delay;  /* of a frame, hundredths of a second, whole */
+} Stage;
+
+static Stage stage_of(const ZpPlot *plot) {
+  const ZpShapes *shapes = film(plot);
+  const size_t last = (shapes->nodes - 1) * shapes->ribbons;
+  Stage s = {.box = box_of(shapes)};
+  s.middle = (s.box.left + s.box.right) / 2;
+  if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[last] + plot->def.platform.length / 2;
+  s.half = fmax(s.middle - s.box.left, s.box.right - s.middle);
+  s.clamp = zp_shapes_get(shapes, 0).x[0] - s.middle;
+  s.unit = 0.1 * s.half;
+  s.frames = shapes->frames < FILM_FRAMES ? shapes->frames : FILM_FRAMES;
+  s.delay = fmin(fmax(round(FILM_LENGTH / (double)s.frames), 2), 40);
+  return s;
+}
+
+static size_t film_frame(const ZpShapes *shapes, const Stage *stage, size_t index) {
+  return frame_at(shapes, (double)index / (double)(stage->frames - 1));
+}
+
+static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, const Stage *stage, size_t node,
+                     double side) {
+  for (size_t r = 0; r < shapes->ribbons; r++) {
+    put(file, side * (shape->x[node * shapes->ribbons + r] - stage->middle), ' ');
+    put(file, shape->y[node * shapes->ribbons + r], r + 1 < shapes->ribbons ? ' ' : '\n');
+  }
+}
+
+/* One index per frame: the left half and, for two ribbons, its mirror image. */
+static void data_animation(const ZpPlot *plot, FILE *file) {
+  const ZpShapes *shapes = film(plot);
+  const Stage stage = stage_of(plot);
+  fputs(shapes->ribbons > 1 ? "# x_upper_m y_upper_m x_lower_m y_lower_m, from the middle; one index per frame\n"
+                            : "# x_m y_m, from the middle; one index per frame\n",
+        file);
+  for (size_t k = 0; k < stage.frames; k++) {
+    const ZpShape shape = zp_shapes_get(shapes, film_frame(shapes, &stage, k));
+    for (size_t i = 0; i < shapes->nodes; i++)
+      put_node(file, &shape, shapes, &stage, i, 1);
+    for (size_t i = shapes->nodes; shapes->ribbons > 1 && i-- > 0;)
+      put_node(file, &shape, shapes, &stage, i, -1);
+    fputs("\n\n", file);
+  }
+}
+
+/* Value of a column at the row nearest to a time; NAN if there is none. */
+static double column_at(const ZpTable *table, const char *column, double time) {
+  size_t nearest = 0;
+  double least = INFINITY;
+  for (size_t row = 0; table && row < table->rows; row++) {
+    double distance = fabs(zp_table_get(table, row, "time_s") - time);
+    if (distance < least) {
+      least = distance;
+      nearest = row;
+    }
+  }
+  return table && table->rows > 0 ? zp_table_get(table, nearest, column) : (double)NAN;
+}
+
+/* What the caption of a frame says. */
+typedef enum Caption {
+  CAPTION_TIME,
+  CAPTION_VOLTAGE,
+  CAPTION_CONTRACTION,
+  CAPTION_STROKE,
+  CAPTION_END_X,
+  CAPTION_END_Y
+} Caption;
+
+static double caption_value(const ZpPlot *plot, Caption what, const ZpShape *shape) {
+  const ZpShapes *shapes = film(plot);
+  const size_t end = shapes->nodes * shapes->ribbons - 1;
+  switch (what) {
+  case CAPTION_TIME:
+    return shape->time;
+  case CAPTION_VOLTAGE:
+    return shape->voltage;
+  case CAPTION_CONTRACTION:
+    return column_at(plot->single->series, "contraction", shape->time);
+  case CAPTION_STROKE:
+    return column_at(plot->single->series, "stroke_m", shape->time);
+  case CAPTION_END_X:
+    return shape->x[end];
+  default:
+    return shape->y[end];
+  }
+}
+
+static void put_array(const ZpPlot *plot, FILE *file, const Stage *stage, const char *name, Caption what) {
+  fprintf(file, "array %s[%zu] = [", name, stage->frames);
+  for (size_t k = 0; k < stage->frames; k++) {
+    const ZpShape shape = zp_shapes_get(film(plot), film_frame(film(plot), stage, k));
+    double value = caption_value(plot, what, &shape);
+    char text[ZP_NUMBER_SIZE];
+    zp_number_print(value, text, sizeof text);
+    fprintf(file, "%s%s", k ? ", " : "", isfinite(value) ? text : "NaN");
+  }
+  fputs("]\n", file);
+}
+
+/* "slowed down 60 times": how the time of the film goes. */
+static void print_pace(const ZpPlot *plot, const Stage *stage, char *text, size_t size) {
+  const ZpShapes *shapes = film(plot);
+  double span = time_of(shapes, shapes->frames - 1) - time_of(shapes, 0);
+  double factor = stage->delay / 100 * (double)(stage->frames - 1) / span;
+  if (!isfinite(factor))
+    snprintf(text, size, "still picture");
+  else if (factor >= 1)
+    snprintf(text, size, "slow motion, %.3g times slower than real", factor);
+  else
+    snprintf(text, size, "fast motion, %.3g times faster than real", 1 / factor);
+}
+
+static void animation_head(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
+  char pace[96];
+  print_pace(plot, s, pace, sizeof pace);
+  fprintf(file,
+          "# Draw again with: gnuplot animation.gp\n"
+          "if (!exists('out')) out = 'animation.gif'\n"
+          "set encoding utf8\n"
+          "set terminal gif animate delay %g loop 0 size 640,480 noenhanced background '#ffffff'\n"
+          "set output out\nunset key\nset grid lc rgb '#dddddd' lw 1 lt 1\nset border lc rgb '#333333'\n"
+          "set tics nomirror\nset size ratio -1\nset tmargin 5\nset bmargin 5\n"
+          "set xlabel 'x / %s'\nset ylabel 'y / %s'\n"
+          "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n",
+          s->delay, mm.text, mm.text, -(s->half + 1.8 * s->unit) * mm.factor, (s->half + 1.8 * s->unit) * mm.factor,
+          (s->box.bottom - 3 * s->unit) * mm.factor, (s->box.top + 1.2 * s->unit) * mm.factor);
+  fputs("set label 2 ", file);
+  zp_plot_text(file, plot->subtitle);
+  fprintf(file, " at screen 0.5,0.91 center\nset label 3 '%s' at screen 0.5,0.865 center\n", pace);
+  fputs("set label 4 ", file);
+  zp_plot_text(file, zp_plot_drag_note(plot));
+  fputs(" at screen 0.5,0.025 center font ',10' tc rgb '#555555'\n", file);
+}
+
+/* Clip and holder, which stay where they are, or a wall for the kind ribbon. */
+static void animation_scene(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
+  const double plat = plot->def.platform.length / 2, thick = 0.35 * s->unit;
+  if (film(plot)->ribbons > 1)
+    fprintf(file,
+            "set object 1 rectangle from %.6g,0 to %.6g,%.6g fc rgb '#555555' fs solid noborder\n"
+            "set arrow 1 from 0,%.6g to 0,graph 1 nohead lw 3 lc rgb '#555555'\n",
+            -plat * mm.factor, plat * mm.factor, thick * mm.factor, thick * mm.factor);
+  else
+    fprintf(file, "set object 1 rectangle from %.6g,%.6g to %.6g,%.6g fc rgb '#555555' fs solid noborder\n",
+            (s->clamp - thick) * mm.factor, -s->unit * mm.factor, s->clamp * mm.factor, s->unit * mm.factor);
+}
+
+/* Settings that move with the platform (kind ribbon: the right end): the platform itself, a string and
+ * the load on it. h, v: where the load hangs. */
+static void animation_load(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
+  const double u = s->unit * mm.factor, plat = plot->def.platform.length / 2 * mm.factor;
+  const bool pair = film(plot)->ribbons > 1;
+  char load[64];
+  if (pair) fputs("  h = 0\n", file);
+  if (!pair) fprintf(file, "  h = end_x[i]*%g - %.6g\n", mm.factor, s->middle * mm.factor);
+  fprintf(file, "  v = end_y[i]*%g\n", mm.factor);
+  if (pair)
+    fprintf(file, "  set object 2 rectangle from %.6g,v-%.6g to %.6g,v fc rgb '#555555' fs solid noborder\n", -plat,
+            0.35 * u, plat);
+  if (plot->def.load.mass <= 0) return;
+  zp_value_print(zp_key_find("load.mass"), plot->def.load.mass, load, sizeof load);
+  fprintf(file,
+          "  set arrow 2 from h,v to h,v-%.6g nohead lw 2 lc rgb '#555555'\n"
+          "  set object 3 rectangle from h-%.6g,v-%.6g to h+%.6g,v-%.6g fc rgb '#e69f00' fs solid noborder\n"
+          "  set label 5 '%s' at h,v-%.6g center front\n",
+          u, 1.2 * u, 2.6 * u, 1.2 * u, u, load, 1.8 * u);
+}
+
+static void animation_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit time, ZpPlotUnit mm) {
+  fprintf(file, "  caption = sprintf('t = %%.1f %s', now[i]*%g)\n", time.text, time.factor);
+  if (zp_plot_has(plot->single->series, "contraction"))
+    fputs("  if (contraction[i] == contraction[i]) { caption = caption . sprintf('    contraction %.0f %%', "
+          "contraction[i]*100) }\n",
+          file);
+  else if (zp_plot_has(plot->single->series, "stroke_m"))
+    fprintf(file,
+            "  if (stroke[i] == stroke[i]) { caption = caption . sprintf('    stroke %%.2f %s', stroke[i]*%g) }\n",
+            mm.text, mm.factor);
+  if (film(plot)->ribbons > 1) fputs("  caption = caption . sprintf('    %.4g kV', potential[i]/1000)\n", file);
+  fputs("  set label 1 caption at screen 0.5,0.96 center\n", file);
+}
+
+static void script_animation(const ZpPlot *plot, FILE *file) {
+  const Stage s = stage_of(plot);
+  const ZpShapes *shapes = film(plot);
+  ZpPlotUnit mm = zp_plot_unit(s.half, "m"), time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
+  animation_head(plot, file, &s, mm);
+  animation_scene(plot, file, &s, mm);
+  put_array(plot, file, &s, "now", CAPTION_TIME);
+  put_array(plot, file, &s, "potential", CAPTION_VOLTAGE);
+  put_array(plot, file, &s, "contraction", CAPTION_CONTRACTION);
+  put_array(plot, file, &s, "stroke", CAPTION_STROKE);
+  put_array(plot, file, &s, "end_x", CAPTION_END_X);
+  put_array(plot, file, &s, "end_y", CAPTION_END_Y);
+  fprintf(file, "do for [k=1:%zu] {\n  i = k > %zu ? %zu : k\n", s.frames + FILM_HOLD, s.frames, s.frames);
+  animation_caption(plot, file, time, mm);
+  animation_load(plot, file, &s, mm);
+  fprintf(file, "  plot 'animation.dat' index i-1 using ($1*%g):($2*%g) with lines lw 2 lc rgb '%s'", mm.factor,
+          mm.factor, zp_plot_colour(0));
+  if (shapes->ribbons > 1)
+    fprintf(file,
+            ", \\\n    '' index i-1 using ($3*%g):($4*%g) with lines lw 2 lc rgb '%s'"
+            ", \\\n    '' index i-1 every %zu using ($3*%g):($4*%g) with points pt 5 ps 1.5 lc rgb '#555555'",
+            mm.factor, mm.factor, zp_plot_colour(1), 2 * shapes->nodes - 1, mm.factor, mm.factor);
+  fputs("\n}\n", file);
+}
+
+const ZpPicture zp_shape_pictures[] = {
+    {"profiles", "svg", has_shapes, script_profiles, data_profiles},
+    {"animation", "gif", has_shapes, script_animation, data_animation},
+    {0},
+};

@@ -1,0 +1,147 @@
+/* plots/: each picture with the gnuplot script that drew it and the data it was drawn from, so that
+ * `gnuplot NAME.gp` there makes the same picture again.
+ *
+ * A picture is worth less than the numbers: without gnuplot, or where it fails, the scripts stay, a
+ * notice says so, and the report goes on. Pictures of an earlier report are removed first, so none shows
+ * what is not in the table. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/fail.h"
+#include "io/atomic.h"
+#include "io/gnuplot.h"
+#include "io/plot.h"
+#include "io/report.h"
+
+/* How the drawing goes on: where, and whether gnuplot is there at all. */
+typedef struct Drawing {
+  const ZpPlot *plot;
+  const char *folder;
+  void (*notice)(const char *message);
+  bool missing;
+} Drawing;
+
+/* Longest file name of a picture. */
+#define NAME_SIZE 64
+
+static const ZpPicture *const tables[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures};
+
+#define TABLES (sizeof tables / sizeof tables[0])
+
+static void say(const Drawing *drawing, const char *name, const char *reason) {
+  char message[512];
+  if (!drawing->notice) return;
+  if (drawing->missing)
+    snprintf(message, sizeof message, "gnuplot was not found: no pictures, only their scripts %s/*.gp",
+             drawing->folder);
+  else
+    snprintf(message, sizeof message, "%s/%s was not drawn: %s", drawing->folder, name, reason);
+  drawing->notice(message);
+}
+
+/* gnuplot does not tell of a full disk, so look whether the file has its end: </svg>, or ; of a GIF. */
+static bool is_complete(const char *path, const char *extension) {
+  const char *end = strcmp(extension, "svg") == 0 ? "</svg>" : ";";
+  char tail[32] = {0};
+  FILE *file = fopen(path, "re");
+  if (!file) return false;
+  bool found = fseek(file, -(long)strlen(end) - 3, SEEK_END) == 0;
+  size_t got = found ? fread(tail, 1, sizeof tail - 1, file) : 0;
+  fclose(file);
+  return got > 0 && memmem(tail, got, end, strlen(end)) != NULL;
+}
+
+static ZpStatus write_text(const Drawing *drawing, const ZpPicture *picture, const char *extension,
+                           void (*write)(const ZpPlot *plot, FILE *file), ZpError *err) {
+  ZpAtomic out;
+  char name[NAME_SIZE];
+  snprintf(name, sizeof name, "%s.%s", picture->name, extension);
+  if (!write) return ZP_OK;
+  ZpStatus status = zp_atomic_open(&out, drawing->folder, name, err);
+  if (status != ZP_OK) return status;
+  write(drawing->plot, out.file);
+  return zp_atomic_commit(&out, err);
+}
+
+static ZpStatus draw(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+  ZpAtomic out;
+  char name[NAME_SIZE], script[NAME_SIZE], reason[256];
+  snprintf(name, sizeof name, "%s.%s", picture->name, picture->extension);
+  snprintf(script, sizeof script, "%s.gp", picture->name);
+  ZpStatus status = zp_atomic_reserve(&out, drawing->folder, name, err);
+  if (status != ZP_OK) return status;
+  const char *temporary = strrchr(out.temporary, '/') + 1;
+  ZpGnuplot end = zp_gnuplot_run(drawing->folder, script, temporary, reason, sizeof reason);
+  if (end == ZP_GNUPLOT_DONE && is_complete(out.temporary, picture->extension)) return zp_atomic_commit(&out, err);
+  zp_atomic_abandon(&out);
+  drawing->missing = end == ZP_GNUPLOT_MISSING;
+  say(drawing, name, reason);
+  return ZP_OK;
+}
+
+static ZpStatus remove_picture(const Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+  const char *const extension[] = {"gp", "dat", picture->extension};
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < 3 && status == ZP_OK; i++) {
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%s.%s", picture->name, extension[i]);
+    status = zp_remove_file(drawing->folder, name, err);
+  }
+  return status;
+}
+
+static ZpStatus make_picture(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+  ZpStatus status = remove_picture(drawing, picture, err);
+  if (status != ZP_OK || !picture->has(drawing->plot)) return status;
+  status = write_text(drawing, picture, "gp", picture->script, err);
+  if (status == ZP_OK) status = write_text(drawing, picture, "dat", picture->data, err);
+  return status == ZP_OK && !drawing->missing ? draw(drawing, picture, err) : status;
+}
+
+/* Add "name value" to the subtitle unless the key is swept: then the legend tells. */
+static void add_key(ZpPlot *plot, const char *name, const char *before) {
+  size_t keys, used = strlen(plot->subtitle);
+  const int key = zp_key_find(name), *list = zp_scenario_lists(plot->report->scenario, &keys);
+  char value[64];
+  for (size_t i = 0; i < keys; i++)
+    if (list[i] == key) return;
+  zp_value_print(key, zp_def_get(&plot->def, key), value, sizeof value);
+  snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%s%s%s", used ? ", " : "", before, value);
+}
+
+/* (report) => what there is to draw; of a report without runs, nothing. */
+static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
+  *plot = (ZpPlot){.report = report, .single = zp_report_single(report)};
+  if (report->count == 0) return ZP_OK;
+  ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
+  if (status != ZP_OK) return status;
+  plot->study = report->result[0]->study;
+  add_key(plot, "load.mass", "load ");
+  if (plot->def.actuator.kind != ZP_KIND_RIBBON) add_key(plot, "drive.voltage", "");
+  add_key(plot, "mesh.nodes", "N = ");
+  add_key(plot, "preset", "preset ");
+  return ZP_OK;
+}
+
+static ZpStatus make_all(Drawing *drawing, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t t = 0; t < TABLES; t++)
+    for (const ZpPicture *picture = tables[t]; picture->name && status == ZP_OK; picture++)
+      status = make_picture(drawing, picture, err);
+  return status;
+}
+
+ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
+  ZpPlot plot;
+  char *folder = zp_path_join(report->directory, "plots");
+  if (!folder) return zp_fail_memory(err);
+  Drawing drawing = {.plot = &plot, .folder = folder, .notice = notice};
+  ZpStatus status = look_at(report, &plot, err);
+  if (status == ZP_OK && mkdir(folder, 0777) != 0 && errno != EEXIST)
+    status = zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", folder, strerror(errno));
+  if (status == ZP_OK) status = make_all(&drawing, err);
+  free(folder);
+  return status;
+}

@@ -1,0 +1,172 @@
+/* A report: all files that a study leaves in its folder, written in an order that keeps a promise.
+ *
+ * summary.json goes first when old results are replaced and comes last when new ones are written, so
+ * where it stands the other files belong to it. */
+#include "io/report.h"
+
+#include <errno.h>
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/fail.h"
+#include "io/atomic.h"
+
+bool zp_report_is_sweep(const ZpReport *report) {
+  size_t lists = 0;
+  zp_scenario_lists(report->scenario, &lists);
+  return lists > 0 || report->count > 1;
+}
+
+const ZpResult *zp_report_single(const ZpReport *report) {
+  return report->count > 0 && !zp_report_is_sweep(report) ? report->result[0] : NULL;
+}
+
+const char *zp_report_study(const ZpReport *report) {
+  ZpActuatorDef def;
+  int key = zp_key_find("study");
+  if (report->count > 0) return zp_key_word(key, report->result[0]->study);
+  return zp_scenario_def(report->scenario, 0, &def, NULL) == ZP_OK ? zp_key_word(key, def.study) : "none";
+}
+
+static bool is_listed(const ZpScalarNames *names, const char *name) {
+  for (size_t i = 0; i < names->count; i++)
+    if (strcmp(names->item[i].name, name) == 0) return true;
+  return false;
+}
+
+static bool add_scalars(ZpScalarNames *names, const ZpResult *result, bool timing) {
+  ZpScalar *item = realloc(names->item, (names->count + result->scalars + 1) * sizeof *item);
+  if (!item) return false;
+  names->item = item;
+  for (size_t i = 0; i < result->scalars; i++) {
+    const ZpScalar *scalar = &result->scalar[i];
+    if ((timing || !scalar->timing) && !is_listed(names, scalar->name)) item[names->count++] = *scalar;
+  }
+  return true;
+}
+
+bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names) {
+  *names = (ZpScalarNames){0};
+  for (size_t i = 0; i < report->count; i++)
+    if (!add_scalars(names, report->result[i], timing)) {
+      free(names->item);
+      return false;
+    }
+  return true;
+}
+
+void zp_key_column(int key, char *text, size_t size) {
+  const ZpKey *k = zp_key(key);
+  bool bare = strcmp(k->unit, "1") == 0;
+  size_t used = (size_t)snprintf(text, size, "%s%s", k->name, bare ? "" : "_");
+  for (const char *c = k->unit; !bare && *c && used + 6 < size; c++) {
+    const char part[2] = {*c == ' ' ? '_' : *c, 0};
+    used += (size_t)snprintf(text + used, size - used, "%s", *c == '/' ? "_per_" : part);
+  }
+}
+
+const char *zp_key_word(int key, double value) {
+  const ZpKey *k = zp_key(key);
+  if (k->type == ZP_KEY_BOOL) return value != 0 ? "true" : "false";
+  return k->type == ZP_KEY_ENUM ? k->choices[(int)value].word : NULL;
+}
+
+ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err) {
+  size_t size = 0;
+  *text = NULL;
+  FILE *file = open_memstream(text, &size);
+  if (!file) return zp_fail_memory(err);
+  ZpStatus status = zp_scenario_write(report->scenario, file, err);
+  if (fclose(file) != 0 && status == ZP_OK) status = zp_fail_memory(err);
+  if (status != ZP_OK) {
+    free(*text);
+    *text = NULL;
+  }
+  return status;
+}
+
+ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err) {
+  char *path = zp_path_join(directory, name);
+  if (!path) return zp_fail_memory(err);
+  ZpStatus status = ZP_OK;
+  if (unlink(path) != 0 && errno != ENOENT && errno != ENOTDIR)
+    status = zp_fail(err, ZP_MACHINE, "cannot replace %s: %s", path, strerror(errno));
+  free(path);
+  return status;
+}
+
+static ZpStatus make_one(const char *path, ZpError *err) {
+  struct stat info;
+  if (mkdir(path, 0777) == 0) return ZP_OK;
+  int error = errno;
+  if (stat(path, &info) != 0) return zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", path, strerror(error));
+  if (S_ISDIR(info.st_mode)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "cannot write results to %s: it is a file, not a folder", path);
+}
+
+/* Make every folder of the path, from the first on. `path` is cut and mended on the way. */
+static ZpStatus make_all(char *path, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (char *slash = strchr(path + 1, '/'); slash && status == ZP_OK; slash = strchr(slash + 1, '/')) {
+    *slash = 0;
+    status = make_one(path, err);
+    *slash = '/';
+  }
+  return status == ZP_OK ? make_one(path, err) : status;
+}
+
+/* Only a file that was really made tells of rights, read-only disks and quotas alike. */
+static ZpStatus try_writing(const char *directory, ZpError *err) {
+  ZpAtomic probe;
+  ZpStatus status = zp_atomic_open(&probe, directory, "summary.json", err);
+  if (status == ZP_OK) zp_atomic_abandon(&probe);
+  return status;
+}
+
+ZpStatus zp_report_prepare(const char *directory, ZpError *err) {
+  if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the folder for results is empty");
+  char *path = strdup(directory);
+  if (!path) return zp_fail_memory(err);
+  ZpStatus status = make_all(path, err);
+  free(path);
+  return status == ZP_OK ? try_writing(directory, err) : status;
+}
+
+static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
+  ZpAtomic out;
+  ZpStatus status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
+  return status == ZP_OK ? zp_atomic_finish(&out, zp_scenario_write(report->scenario, out.file, err), err) : status;
+}
+
+static ZpStatus write_summary(const ZpReport *report, ZpError *err) {
+  ZpAtomic out;
+  ZpStatus status = zp_atomic_open(&out, report->directory, "summary.json", err);
+  return status == ZP_OK ? zp_atomic_finish(&out, zp_summary_write(report, out.file, err), err) : status;
+}
+
+static ZpStatus write_all(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
+  ZpStatus status = zp_remove_file(report->directory, "summary.json", err);
+  if (status == ZP_OK) status = write_scenario(report, err);
+  if (status == ZP_OK) status = zp_csv_write(report, err);
+  if (status == ZP_OK) status = zp_hdf5_write(report, err);
+  if (status == ZP_OK) status = zp_vtk_write(report, err);
+  if (status == ZP_OK) status = zp_plots_write(report, notice, err);
+  if (status == ZP_OK) status = write_summary(report, err);
+  return status;
+}
+
+/* The caller's locale may write 0.5 as 0,5: files must not. */
+ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
+  ZpStatus status = zp_report_prepare(report->directory, err);
+  if (status != ZP_OK) return status;
+  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+  if (!plain) return zp_fail_memory(err);
+  locale_t before = uselocale(plain);
+  status = write_all(report, notice, err);
+  uselocale(before);
+  freelocale(plain);
+  return status;
+}

@@ -1,0 +1,51 @@
+/* What the writers of result files share: how a report is read, and the one function of each writer. */
+#ifndef ZP_IO_REPORT_H
+#define ZP_IO_REPORT_H
+
+#include <stdbool.h>
+
+#include <zipact/io.h>
+
+/* Room for the column name of a key: "drive.voltage_V". */
+#define ZP_KEY_COLUMN_SIZE 96
+
+/* The columns that a sweep has besides its list keys: every scalar that some run has, in the order of
+ * the summary. Values in it mean nothing. */
+typedef struct ZpScalarNames {
+  ZpScalar *item;
+  size_t count;
+} ZpScalarNames;
+
+/* True if the scenario stands for a table of runs, not for one run. */
+bool zp_report_is_sweep(const ZpReport *report);
+
+/* The word of the study: "actuate". */
+const char *zp_report_study(const ZpReport *report);
+
+/* The only run of a report that is no sweep; NULL if it was interrupted before it began. */
+const ZpResult *zp_report_single(const ZpReport *report);
+
+/* The scalars of all runs; with `timing`, those that follow from wall time, too. item is the caller's to
+ * free. False if there is no memory. */
+bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names);
+
+/* (key index) => its column name, with the unit as interface names have it: "insulator.density_kg_per_m3". */
+void zp_key_column(int key, char *text, size_t size);
+
+/* The word of a choice, or of true and false, that key `key` takes at `value`; NULL if it is a number. */
+const char *zp_key_word(int key, double value);
+
+/* scenario.yaml as text, to be freed by the caller. */
+ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err);
+
+/* Remove the file `name` of an earlier report; it need not exist. */
+ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err);
+
+/* The writers. Each replaces its own files in report->directory and removes those that an earlier report
+ * left and this one does not have. */
+ZpStatus zp_csv_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
+
+#endif

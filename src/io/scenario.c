@@ -1,0 +1,409 @@
+/* Scenarios: values for keys, some of them lists, from a file and from --set.
+ *
+ * Two layers of slots, one slot per key, keep what the file gave and what --set gave; the second wins
+ * whatever the order of calls. Nothing is resolved before a Def is asked for, so it does not matter where
+ * `preset` is written. A text is first read into a layer of its own and then exchanged slot by slot with
+ * the one that it changes; exchanging again undoes it, so a failure leaves the scenario as it was.
+ *
+ * Limits: ROWS_MOST Defs, a bound on what a run may ask for by mistake; VALUES_MOST values in all
+ * lists, with which the written scenario stays below the size that is read. */
+#include <zipact/io.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "io/source.h"
+#include "io/value.h"
+#include "io/yaml.h"
+
+enum { ROWS_MOST = 1000000, VALUES_MOST = 20000 };
+
+/* What is given for a key. */
+typedef struct Slot {
+  double *value; /* [count], SI; NULL if the key is not given */
+  size_t count;
+  bool is_list; /* a list of one is a list: it makes a row in the table */
+} Slot;
+
+struct ZpScenario {
+  Slot *file; /* [keys] from files */
+  Slot *set;  /* [keys] from --set; these win */
+  int *list;  /* [lists] keys that have lists, in key order */
+  size_t lists;
+  size_t count; /* product of the lengths of the lists */
+  char *name;   /* of the file read last, NULL before */
+};
+
+/* A text being read into slots. */
+typedef struct Reader {
+  const ZpSource *source;
+  int key;         /* of --set; -1 when keys come from the text */
+  Slot *slot;      /* [keys] filled */
+  int *line;       /* [keys] where the key was given; 0: not yet */
+  int *group_line; /* [keys] where the group was opened whose first key this is; 0: not yet */
+} Reader;
+
+static size_t key_count(void) {
+  return (size_t)zp_key_count();
+}
+
+static void free_slots(Slot *slot) {
+  for (size_t i = 0; slot && i < key_count(); i++)
+    free(slot[i].value);
+  free(slot);
+}
+
+ZpScenario *zp_scenario_create(void) {
+  ZpScenario *s = calloc(1, sizeof *s);
+  if (!s) return NULL;
+  s->file = calloc(key_count(), sizeof *s->file);
+  s->set = calloc(key_count(), sizeof *s->set);
+  s->list = calloc(key_count(), sizeof *s->list);
+  s->count = 1;
+  if (s->file && s->set && s->list) return s;
+  zp_scenario_destroy(s);
+  return NULL;
+}
+
+void zp_scenario_destroy(ZpScenario *s) {
+  if (!s) return;
+  free_slots(s->file);
+  free_slots(s->set);
+  free(s->list);
+  free(s->name);
+  free(s);
+}
+
+/* What holds for a key: its slot of --set, else that of the file. */
+static const Slot *slot_of(const ZpScenario *s, size_t key) {
+  return s->set[key].count ? &s->set[key] : &s->file[key];
+}
+
+/* Find the lists anew; false, and nothing changed, if they are too long together. */
+static bool find_lists(ZpScenario *s, const ZpSource *source, ZpError *err) {
+  size_t rows = 1, values = 0;
+  for (size_t i = 0; i < key_count(); i++) {
+    const Slot *slot = slot_of(s, i);
+    if (!slot->is_list) continue;
+    values += slot->count;
+    if (values > VALUES_MOST)
+      return zp_source_fail(source, 0, err, "more than %d values in lists", VALUES_MOST) == ZP_OK;
+    if (rows > ROWS_MOST / slot->count)
+      return zp_source_fail(source, 0, err, "more than %d combinations of the lists' values", ROWS_MOST) == ZP_OK;
+    rows *= slot->count;
+  }
+  s->count = rows;
+  s->lists = 0;
+  for (size_t i = 0; i < key_count(); i++)
+    if (slot_of(s, i)->is_list) s->list[s->lists++] = (int)i;
+  return true;
+}
+
+/* Exchange the slots that were read with those of a layer. */
+static void exchange(const Reader *reader, Slot *layer) {
+  for (size_t i = 0; i < key_count(); i++) {
+    if (!reader->line[i]) continue;
+    Slot kept = layer[i];
+    layer[i] = reader->slot[i];
+    reader->slot[i] = kept;
+  }
+}
+
+/* Let what was read replace what `layer` had for the same keys. */
+static ZpStatus merge(ZpScenario *s, const Reader *reader, Slot *layer, ZpError *err) {
+  exchange(reader, layer);
+  if (find_lists(s, reader->source, err)) return ZP_OK;
+  exchange(reader, layer);
+  return ZP_BAD_INPUT;
+}
+
+static ZpStatus open_reader(Reader *reader, const ZpSource *source, int key, ZpError *err) {
+  *reader = (Reader){.source = source, .key = key};
+  reader->slot = calloc(key_count(), sizeof *reader->slot);
+  reader->line = calloc(key_count(), sizeof *reader->line);
+  reader->group_line = calloc(key_count(), sizeof *reader->group_line);
+  return reader->slot && reader->line && reader->group_line ? ZP_OK : zp_fail_memory(err);
+}
+
+static void close_reader(Reader *reader) {
+  free_slots(reader->slot);
+  free(reader->line);
+  free(reader->group_line);
+}
+
+/* First key of the group `path`, -1 if it is no group. */
+static int first_of_group(const char *path) {
+  size_t length = strlen(path);
+  for (int i = 0; i < zp_key_count(); i++)
+    if (strncmp(zp_key(i)->name, path, length) == 0 && zp_key(i)->name[length] == '.') return i;
+  return -1;
+}
+
+static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpError *err) {
+  return zp_source_fail(reader->source, item->line, err, "%.80s: unknown key; did you mean %s?", item->path,
+                        zp_key_nearest(item->path));
+}
+
+static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err) {
+  if (*item->path == 0) return ZP_OK;
+  int first = first_of_group(item->path);
+  if (first < 0) return fail_unknown(reader, item, err);
+  int *line = &reader->group_line[first];
+  if (*line)
+    return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path, *line);
+  *line = item->line;
+  return ZP_OK;
+}
+
+/* "ribbon:" with nothing behind it is a group without keys; with a value it is a mistake. */
+static ZpStatus take_value_of_group(Reader *reader, const ZpYamlItem *item, int first, ZpError *err) {
+  if (item->kind == ZP_YAML_VALUE && *item->word == 0) return take_group(reader, item, err);
+  return zp_source_fail(reader->source, item->line, err,
+                        "%s: a group of keys, takes no value; give one of its keys, such as %s", item->path,
+                        zp_key(first)->name);
+}
+
+/* Say what is wrong with a value, and where. */
+static ZpStatus fail_value(const Reader *reader, int key, int line, const char *word, const ZpError *reason, bool alone,
+                           ZpError *err) {
+  if (reason->status == ZP_MACHINE) return zp_fail(err, ZP_MACHINE, "%s", reason->message);
+  if (!reader->source->argument)
+    return zp_source_fail(reader->source, line, err, "%s = \"%.80s\": %s", zp_key(key)->name, word, reason->message);
+  if (alone) return zp_source_fail(reader->source, 0, err, "%s", reason->message);
+  return zp_source_fail(reader->source, 0, err, "\"%.80s\": %s", word, reason->message);
+}
+
+static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  const char *name = zp_key(key)->name;
+  ZpKeyType type = zp_key(key)->type;
+  if (item->kind != ZP_YAML_LIST) return ZP_OK;
+  if (type == ZP_KEY_BOOL || type == ZP_KEY_ENUM)
+    return zp_source_fail(reader->source, item->line, err, "%s: takes one word, not a list", name);
+  if (item->count == 0)
+    return zp_source_fail(reader->source, item->line, err, "%s: empty list; give at least one value", name);
+  return ZP_OK;
+}
+
+static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  ZpStatus status = check_shape(reader, key, item, err);
+  if (status != ZP_OK) return status;
+  Slot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST};
+  if (!slot.value) return zp_fail_memory(err);
+  const char *word = item->word;
+  for (size_t i = 0; i < item->count && status == ZP_OK; i++, word += strlen(word) + 1) {
+    ZpError reason;
+    if (zp_value_read(key, word, &slot.value[i], &reason) == ZP_OK) continue;
+    status = fail_value(reader, key, item->line, word, &reason, !slot.is_list, err);
+  }
+  if (status != ZP_OK) {
+    free(slot.value);
+    return status;
+  }
+  reader->slot[key] = slot;
+  reader->line[key] = item->line;
+  return ZP_OK;
+}
+
+/* A ZpYamlVisit. */
+static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
+  Reader *reader = user;
+  if (reader->key >= 0) return take_values(reader, reader->key, item, err);
+  if (item->kind == ZP_YAML_GROUP) return take_group(reader, item, err);
+  int key = zp_key_find(item->path);
+  int first = key < 0 ? first_of_group(item->path) : -1;
+  if (first >= 0) return take_value_of_group(reader, item, first, err);
+  if (key < 0) return fail_unknown(reader, item, err);
+  if (reader->line[key])
+    return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path,
+                          reader->line[key]);
+  return take_values(reader, key, item, err);
+}
+
+ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+  ZpSource source = {.name = name};
+  Reader reader;
+  char *kept_name = strdup(name);
+  ZpStatus status = kept_name ? open_reader(&reader, &source, -1, err) : zp_fail_memory(err);
+  if (!kept_name) return status;
+  if (status == ZP_OK) status = zp_yaml_read(&source, text, size, take_item, &reader, err);
+  if (status == ZP_OK) status = merge(s, &reader, s->file, err);
+  close_reader(&reader);
+  if (status != ZP_OK) {
+    free(kept_name);
+    return status;
+  }
+  free(s->name);
+  s->name = kept_name;
+  return ZP_OK;
+}
+
+/* (open file) => at most one byte more than may be read, to be freed. */
+static ZpStatus read_file(FILE *file, const char *path, char **text, size_t *size, ZpError *err) {
+  *text = malloc(ZP_YAML_LARGEST + 1);
+  if (!*text) return zp_fail_memory(err);
+  errno = 0;
+  *size = fread(*text, 1, ZP_YAML_LARGEST + 1, file);
+  if (!ferror(file)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "%.300s: cannot be read: %s", path, strerror(errno));
+}
+
+ZpStatus zp_scenario_read(ZpScenario *s, const char *path, ZpError *err) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = fopen(path, "rb");
+  if (!file) /* a name that leads nowhere is wrong input; a file that may not be read is not */
+    return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE, "%.300s: cannot be opened: %s",
+                   path, strerror(errno));
+  ZpStatus status = read_file(file, path, &text, &size, err);
+  fclose(file); /* nothing was written */
+  if (status == ZP_OK) status = zp_scenario_parse(s, text, size, path, err);
+  free(text);
+  return status;
+}
+
+/* (argument, its `length` bytes before "=") => key, or -1 with an error. */
+static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) {
+  char name[ZP_VALUE_SIZE];
+  while (length && source->name[length - 1] == ' ')
+    length--;
+  snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1, source->name);
+  int key = zp_key_find(name);
+  if (key >= 0) return key;
+  int first = first_of_group(name);
+  if (first >= 0)
+    zp_source_fail(source, 0, err, "a group of keys, takes no value; give one of its keys, such as %s",
+                   zp_key(first)->name);
+  else
+    zp_source_fail(source, 0, err, "unknown key; did you mean %s?", zp_key_nearest(name));
+  return -1;
+}
+
+ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
+  ZpSource source = {.name = assignment, .argument = true};
+  const char *equals = strchr(assignment, '=');
+  if (!equals) return zp_source_fail(&source, 0, err, "give KEY=VALUE");
+  int key = key_of_argument(&source, (size_t)(equals - assignment), err);
+  if (key < 0) return ZP_BAD_INPUT;
+  Reader reader;
+  ZpStatus status = open_reader(&reader, &source, key, err);
+  if (status == ZP_OK) status = zp_yaml_read_value(&source, equals + 1, strlen(equals + 1), take_item, &reader, err);
+  if (status == ZP_OK && !reader.line[key]) status = zp_source_fail(&source, 0, err, "empty; give a value");
+  if (status == ZP_OK) status = merge(s, &reader, s->set, err);
+  close_reader(&reader);
+  return status;
+}
+
+size_t zp_scenario_count(const ZpScenario *s) {
+  return s->count;
+}
+
+const int *zp_scenario_lists(const ZpScenario *s, size_t *count) {
+  *count = s->lists;
+  return s->list;
+}
+
+/* All that is given for Def number `index`, one assignment per key. Returns how many. */
+static size_t assignments(const ZpScenario *s, size_t index, ZpAssignment *list) {
+  size_t count = key_count();
+  size_t used = 0;
+  for (size_t i = count; i-- > 0;) { /* backwards: the last list varies fastest */
+    const Slot *slot = slot_of(s, i);
+    if (slot->count == 0) continue;
+    list[used++] = (ZpAssignment){(int)i, slot->value[index % slot->count]};
+    index /= slot->count;
+  }
+  return used;
+}
+
+static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+  ZpAssignment *list = calloc(key_count(), sizeof *list);
+  if (!list) return zp_fail_memory(err);
+  ZpStatus status = zp_def_resolve(def, list, assignments(s, index, list), err);
+  free(list);
+  return status;
+}
+
+/* Put the file and the row before the message of a Def that is wrong as a whole. */
+static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reason, ZpError *err) {
+  char row[64] = "";
+  if (s->count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->count);
+  if (reason->status != ZP_BAD_INPUT || !s->name) return zp_fail(err, reason->status, "%s%s", row, reason->message);
+  ZpSource source = {.name = s->name};
+  return zp_source_fail(&source, 0, err, "%s%s", row, reason->message);
+}
+
+ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+  if (index >= s->count)
+    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->count);
+  ZpError reason;
+  ZpStatus status = resolve(s, index, def, &reason);
+  if (status == ZP_OK) status = zp_def_check(def, &reason);
+  return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
+}
+
+static bool same_value(double a, double b) {
+  return a == b || (isnan(a) && isnan(b));
+}
+
+/* differs[key] set for every key that has not the same value in all Defs. */
+static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
+  for (size_t row = 1; row < s->count; row++) {
+    ZpActuatorDef def;
+    ZpError reason;
+    if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
+    for (int i = 0; i < zp_key_count(); i++)
+      differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(&def, i));
+  }
+  return ZP_OK;
+}
+
+static void write_slot(FILE *file, int key, const Slot *slot) {
+  char text[ZP_VALUE_SIZE];
+  for (size_t i = 0; i < slot->count; i++) {
+    zp_value_print(key, slot->value[i], text, sizeof text);
+    fprintf(file, "%s%s", i ? ", " : "[", text);
+  }
+  fprintf(file, "]\n");
+}
+
+/* One line per key. What a preset gives differently to different rows stays with the preset: reading back
+ * finds it there again. */
+static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bool *differs, FILE *file) {
+  const char *before = NULL;
+  char text[ZP_VALUE_SIZE];
+  for (int i = 0; i < zp_key_count(); i++) {
+    const Slot *slot = slot_of(s, (size_t)i);
+    const char *name = zp_key(i)->name;
+    if (differs[i] && !slot->is_list) {
+      fprintf(file, "# %s: not the same in all rows, left to the preset\n", name);
+      continue;
+    }
+    zp_yaml_write_key(file, name, before);
+    before = name;
+    if (slot->is_list) {
+      write_slot(file, i, slot);
+      continue;
+    }
+    zp_value_print(i, zp_def_get(first, i), text, sizeof text);
+    fprintf(file, "%s\n", text);
+  }
+}
+
+ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
+  ZpActuatorDef first;
+  ZpError reason;
+  if (resolve(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
+  bool *differs = calloc(key_count(), sizeof *differs);
+  if (!differs) return zp_fail_memory(err);
+  ZpStatus status = compare_defs(s, &first, differs, err);
+  if (status == ZP_OK) write_keys(s, &first, differs, file);
+  free(differs);
+  if (status != ZP_OK) return status;
+  if (fflush(file) || ferror(file))
+    return zp_fail(err, ZP_MACHINE, "the scenario cannot be written: %s", strerror(errno));
+  return ZP_OK;
+}

@@ -1,0 +1,172 @@
+/* summary.json: what a study found, as one JSON object.
+ *
+ * jansson makes the tree and writes the strings. The tree is printed here, because jansson writes all 17
+ * digits of 0.075 and this file is for people, too: numbers are the shortest that read back the same. */
+#include <jansson.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/version.h>
+
+#include "base/fail.h"
+#include "io/number.h"
+#include "io/report.h"
+
+/* Largest count that a double holds exactly. */
+#define LARGEST_COUNT 9007199254740992.0
+
+/* Steals `value`; true if both it and the place for it could be made. */
+static bool set(json_t *object, const char *name, json_t *value) {
+  return json_object_set_new(object, name, value) == 0;
+}
+
+/* null for what does not exist. JSON knows no infinity either. */
+static json_t *number(double value, const char *unit) {
+  if (!isfinite(value)) return json_null();
+  if (strcmp(unit, "count") == 0 && fabs(value) <= LARGEST_COUNT) return json_integer((json_int_t)value);
+  return json_real(value);
+}
+
+static bool set_scalars(json_t *object, const ZpResult *result) {
+  bool done = true;
+  for (size_t i = 0; i < result->scalars; i++) {
+    const ZpScalar *scalar = &result->scalar[i];
+    done = set(object, scalar->name, number(scalar->value, scalar->unit)) && done;
+  }
+  return done;
+}
+
+/* Add the warnings of a run that are not in the array yet. */
+static bool add_warnings(json_t *array, const ZpResult *result) {
+  bool done = true;
+  for (size_t i = 0; i < result->warnings; i++) {
+    bool known = false;
+    for (size_t k = 0; k < json_array_size(array) && !known; k++)
+      known = strcmp(json_string_value(json_array_get(array, k)), result->warning[i]) == 0;
+    if (!known) done = json_array_append_new(array, json_string(result->warning[i])) == 0 && done;
+  }
+  return done;
+}
+
+static json_t *key_value(int key, double value) {
+  const ZpKey *k = zp_key(key);
+  if (k->type == ZP_KEY_BOOL) return json_boolean(value != 0);
+  if (k->type == ZP_KEY_ENUM) return json_string(zp_key_word(key, value));
+  if (k->type == ZP_KEY_REAL_AUTO && isnan(value)) return json_string("auto");
+  return number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
+}
+
+/* One run of a sweep. */
+static json_t *row_of(const ZpReport *report, size_t run) {
+  size_t keys;
+  const int *key = zp_scenario_lists(report->scenario, &keys);
+  const ZpResult *result = report->result[run];
+  ZpActuatorDef def;
+  json_t *row = json_object(), *warnings = json_array();
+  bool done = zp_scenario_def(report->scenario, run, &def, NULL) == ZP_OK;
+  for (size_t i = 0; i < keys && done; i++)
+    done = set(row, zp_key(key[i])->name, key_value(key[i], zp_def_get(&def, key[i])));
+  done = done && set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
+  done = done && set(row, "message", json_string(result->message));
+  done = done && set_scalars(row, result);
+  done = add_warnings(warnings, result) && done;
+  done = set(row, "warnings", warnings) && done;
+  if (done) return row;
+  json_decref(row);
+  return NULL;
+}
+
+static bool set_rows(json_t *object, const ZpReport *report) {
+  json_t *rows = json_array();
+  bool done = true;
+  for (size_t i = 0; i < report->count; i++)
+    done = json_array_append_new(rows, row_of(report, i)) == 0 && done;
+  return set(object, "rows", rows) && done;
+}
+
+/* The run that speaks for all: the first that ended badly, else the first. NULL if there is none. */
+static const ZpResult *spokesman(const ZpReport *report) {
+  for (size_t i = 0; i < report->count; i++)
+    if (!zp_outcome_good(report->result[i]->outcome)) return report->result[i];
+  return report->count > 0 ? report->result[0] : NULL;
+}
+
+static bool set_outcome(json_t *object, const ZpReport *report) {
+  const ZpResult *result = spokesman(report);
+  bool done = set(object, "outcome", json_string(zp_outcome_name(result ? result->outcome : ZP_INTERRUPTED)));
+  done = set(object, "message", json_string(result ? result->message : "interrupted before the first run")) && done;
+  return set(object, "wall_time_s", number(report->wall_time, "s")) && done;
+}
+
+static json_t *summary_of(const ZpReport *report) {
+  const ZpResult *single = zp_report_single(report);
+  json_t *object = json_object(), *warnings = json_array();
+  bool done = set(object, "version", json_string(ZP_VERSION));
+  done = set(object, "study", json_string(zp_report_study(report))) && done;
+  done = set_outcome(object, report) && done;
+  if (single) done = set_scalars(object, single) && done;
+  for (size_t i = 0; i < report->count; i++)
+    done = add_warnings(warnings, report->result[i]) && done;
+  done = set(object, "warnings", warnings) && done;
+  if (zp_report_is_sweep(report)) done = set_rows(object, report) && done;
+  if (done) return object;
+  json_decref(object);
+  return NULL;
+}
+
+/* A real keeps a point or an exponent, so that readers do not take 75.0 for a whole number. */
+static void print_real(FILE *file, double value) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(value, text, sizeof text);
+  fprintf(file, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
+}
+
+static bool print_tree(FILE *file, const json_t *tree, int depth);
+
+static bool print_object(FILE *file, const json_t *object, int depth) {
+  const char *name, *mark = "{";
+  json_t *value;
+  bool done = true;
+  json_object_foreach((json_t *)object, name, value) {
+    fprintf(file, "%s\n%*s\"%s\": ", mark, 2 * depth + 2, "", name);
+    done = print_tree(file, value, depth + 1) && done;
+    mark = ",";
+  }
+  fprintf(file, "\n%*s}", 2 * depth, "");
+  return done;
+}
+
+static bool print_array(FILE *file, const json_t *array, int depth) {
+  bool done = true;
+  for (size_t i = 0; i < json_array_size(array); i++) {
+    fprintf(file, "%s\n%*s", i ? "," : "[", 2 * depth + 2, "");
+    done = print_tree(file, json_array_get(array, i), depth + 1) && done;
+  }
+  fprintf(file, "\n%*s]", 2 * depth, "");
+  return done;
+}
+
+/* Names of members are ours and need no escapes; jansson writes all else but reals. */
+static bool print_tree(FILE *file, const json_t *tree, int depth) {
+  if (json_is_object(tree) && json_object_size(tree) > 0) return print_object(file, tree, depth);
+  if (json_is_array(tree) && json_array_size(tree) > 0) return print_array(file, tree, depth);
+  if (json_is_real(tree))
+    print_real(file, json_real_value(tree));
+  else
+    return json_dumpf(tree, file, JSON_ENCODE_ANY) == 0;
+  return true;
+}
+
+ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
+  json_t *summary = summary_of(report);
+  if (!summary) return zp_fail_memory(err);
+  errno = 0;
+  bool done = print_tree(file, summary, 0);
+  json_decref(summary);
+  done = fputc('\n', file) != EOF && done;
+  if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
+}

@@ -1,0 +1,154 @@
+/* Units of measurement, by UDUNITS-2.
+ *
+ * UDUNITS parses with static variables of its own, so it is used under one lock. The database is read
+ * when the first unit is met, so that scenarios in bare SI need none; it then stays for the life of the
+ * process, because reading it takes some 5 ms and looking a unit up some 10 us. The lock and the database
+ * are mutable globals, the only ones of io; nothing that is computed depends on who came first.
+ *
+ * UDUNITS reads more than a person means by a unit: "5 10 mm" (50 mm), "s since 1970", "mm @ 3", "Hz" as
+ * the inverse of s. What is not a plain product of powers of named units is refused here. */
+#include "io/units.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <locale.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <udunits2.h>
+
+#include "base/fail.h"
+#include "io/source.h"
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static ut_system *database; /* guarded by `lock`; NULL until the first unit is met */
+
+/* What a value in a unit is called, to say what another value is not. */
+static const struct {
+  const char *unit, *noun;
+} nouns[] = {
+    {"m", "a length"},
+    {"Pa", "a pressure"},
+    {"kg/m3", "a density"},
+    {"V/m", "an electric field"},
+    {"kg", "a mass"},
+    {"m/s2", "an acceleration"},
+    {"N/m", "a force per length"},
+    {"V", "a voltage"},
+    {"s", "a time"},
+    {"N", "a force"},
+    {"N s2/m2", "a drag coefficient"},
+};
+
+static ZpStatus fail_dimension(const char *to, ZpError *err) {
+  for (size_t i = 0; i < sizeof nouns / sizeof nouns[0]; i++)
+    if (strcmp(nouns[i].unit, to) == 0) return zp_fail(err, ZP_BAD_INPUT, "not %s", nouns[i].noun);
+  return zp_fail(err, ZP_BAD_INPUT, "not in a unit like %s", to);
+}
+
+/* A digit belongs to an exponent (m2, m^2, m-2, m^-2), or is the 1 of "1/m". Any other would be a factor
+ * that hides in the unit. */
+static bool digit_allowed(const char *text, size_t i) {
+  if (i == 0) return text[0] == '1' && text[1] == '/';
+  char before = text[i - 1];
+  if (before == '-' && i > 1) before = text[i - 2];
+  return isalnum((unsigned char)before) || before == '^';
+}
+
+static bool is_plain_unit(const char *text) {
+  size_t size = strlen(text), length;
+  for (size_t i = 0; i < size; i += length) {
+    length = zp_text_character(text + i, size - i);
+    if (length == 0) return false;
+    unsigned char c = (unsigned char)text[i];
+    bool letter = isalpha(c) || c == '_' || length > 1; /* longer: the micro sign */
+    bool digit = isdigit(c) && digit_allowed(text, i);
+    if (!letter && !digit && !strchr(" .*/^()-", c)) return false;
+  }
+  return true;
+}
+
+/* Read the database unless it is there. In the C locale, since it contains decimal points. */
+static ZpStatus need_database(ZpError *err) {
+  if (database) return ZP_OK;
+  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  if (!plain) return zp_fail_memory(err);
+  locale_t users = uselocale(plain);
+  errno = 0;
+  database = ut_read_xml(NULL);
+  int reason = errno;
+  uselocale(users);
+  freelocale(plain);
+  if (database) return ZP_OK;
+  ut_status ignored;
+  return zp_fail(err, ZP_MACHINE, "cannot read the UDUNITS-2 database %.200s: %s", ut_get_path_xml(NULL, &ignored),
+                 reason ? strerror(reason) : "not a unit database");
+}
+
+/* A factor that UDUNITS found by multiplying carries rounding errors (g/cm3: 999.99999999999989); those
+ * of people's units are short decimals. */
+static ZpUnitScale scale_of_factor(double factor) {
+  char text[40], one[40];
+  snprintf(text, sizeof text, "%.13e", factor);
+  const char *exponent = strchr(text, 'e');
+  size_t digits = (size_t)(exponent - text);
+  snprintf(one, sizeof one, "%.13e", 1.0);
+  ZpUnitScale scale = {.factor = strtod(text, NULL)};
+  scale.decimal = strncmp(text, one, digits) == 0;
+  if (scale.decimal) scale.exponent = (int)strtol(exponent + 1, NULL, 10);
+  return scale;
+}
+
+/* True for y = factor x with a factor that makes sense; UDUNITS also knows offsets, logarithms, inverses. */
+static bool is_proportional(const cv_converter *converter, double *factor) {
+  *factor = cv_convert_double(converter, 1);
+  double twice = cv_convert_double(converter, 2);
+  return cv_convert_double(converter, 0) == 0 && isnormal(*factor) && *factor > 0 &&
+         fabs(twice - 2 * *factor) <= 1e-12 * twice;
+}
+
+static ZpStatus scale_between(const ut_unit *from, const ut_unit *to, const char *to_text, ZpUnitScale *scale,
+                              ZpError *err) {
+  cv_converter *converter = ut_get_converter((ut_unit *)from, (ut_unit *)to);
+  if (!converter) return fail_dimension(to_text, err);
+  double factor;
+  bool proportional = is_proportional(converter, &factor);
+  cv_free(converter);
+  if (!proportional) return fail_dimension(to_text, err);
+  *scale = scale_of_factor(factor);
+  return ZP_OK;
+}
+
+static ZpStatus scale_locked(const char *from, const char *to, ZpUnitScale *scale, ZpError *err) {
+  ZpStatus status = need_database(err);
+  if (status != ZP_OK) return status;
+  ut_unit *to_unit = ut_parse(database, to, UT_UTF8);
+  ut_unit *from_unit = to_unit ? ut_parse(database, from, UT_UTF8) : NULL;
+  if (!to_unit)
+    status = zp_fail(err, ZP_MACHINE, "the UDUNITS-2 database does not know %s", to);
+  else if (!from_unit)
+    status = zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
+  else
+    status = scale_between(from_unit, to_unit, to, scale, err);
+  ut_free(from_unit);
+  ut_free(to_unit);
+  return status;
+}
+
+ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err) {
+  if (strcmp(from, to) == 0) {
+    *scale = (ZpUnitScale){.decimal = true, .factor = 1};
+    return ZP_OK;
+  }
+  if (!is_plain_unit(from)) return zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
+  if (pthread_mutex_lock(&lock)) return zp_fail(err, ZP_MACHINE, "cannot lock the UDUNITS-2 database");
+  /* Its error messages would go to stderr; ours say the same with key and file. */
+  ut_error_message_handler before = ut_set_error_message_handler(ut_ignore);
+  ZpStatus status = scale_locked(from, to, scale, err);
+  ut_set_error_message_handler(before);
+  pthread_mutex_unlock(&lock);
+  return status;
+}

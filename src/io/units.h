@@ -1,0 +1,23 @@
+/* Units of measurement, by UDUNITS-2. */
+#ifndef ZP_IO_UNITS_H
+#define ZP_IO_UNITS_H
+
+#include <stdbool.h>
+
+#include <zipact/error.h>
+
+/* How a number in one unit becomes one in another: times 10^exponent if `decimal`, else times `factor`.
+ * Powers of ten are kept apart because they can be applied to the text of a number without rounding:
+ * "50 um" is then the same double as 50e-6, and 50 * 1e-6 is not. */
+typedef struct ZpUnitScale {
+  bool decimal;
+  int exponent;
+  double factor;
+} ZpUnitScale;
+
+/* (unit as a person writes it, SI unit) => scale. ZP_BAD_INPUT with a message that is a part of a
+ * sentence, "unknown unit xyz" or "not a length"; ZP_MACHINE if the UDUNITS database cannot be read.
+ * May be called from several threads. */
+ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err);
+
+#endif

@@ -1,0 +1,268 @@
+/* Values as people write them, "130 um", and back.
+ *
+ * A number is a decimal, [+-]digits[.digits][e[+-]digits], never hexadecimal, "nan" or "inf"; it is
+ * read with a point in any locale of the process. A unit that is a power of ten of the SI unit is applied
+ * to the exponent of the decimal before it becomes a double, so that nothing is rounded twice:
+ * "50 um" and "5e-5" are the same double. */
+#include "io/value.h"
+
+#include <ctype.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include <zipact/io.h>
+
+#include "base/fail.h"
+#include "io/number.h"
+#include "io/source.h"
+#include "io/units.h"
+
+/* A decimal in a text. */
+typedef struct Decimal {
+  int mantissa;    /* characters of sign, digits and point, from the start of the text */
+  long exponent;   /* of ten; far beyond any double's is cut to EXPONENT_LIMIT */
+  const char *end; /* what follows the number */
+} Decimal;
+
+enum { EXPONENT_LIMIT = 100000 };
+
+static const char *skip_digits(const char *c) {
+  while (isdigit((unsigned char)*c))
+    c++;
+  return c;
+}
+
+/* Exponent at `c`, if one is complete there: the e of "5 eV" or "5e" is none. */
+static const char *scan_exponent(const char *c, long *exponent) {
+  if (*c != 'e' && *c != 'E') return c;
+  const char *digits = c + 1 + (c[1] == '+' || c[1] == '-');
+  const char *end = skip_digits(digits);
+  if (end == digits) return c;
+  long size = 0;
+  for (; digits < end && size < EXPONENT_LIMIT; digits++)
+    size = size * 10 + (*digits - '0');
+  if (size > EXPONENT_LIMIT) size = EXPONENT_LIMIT;
+  *exponent = c[1] == '-' ? -size : size;
+  return end;
+}
+
+/* (text) => the decimal that it starts with; false if it starts with none. */
+static bool scan_decimal(const char *text, Decimal *decimal) {
+  const char *whole = text + (*text == '+' || *text == '-');
+  const char *whole_end = skip_digits(whole);
+  const char *fraction = whole_end + (*whole_end == '.');
+  const char *end = skip_digits(fraction);
+  if (whole_end == whole && end == fraction) return false;
+  decimal->mantissa = (int)(end - text);
+  decimal->exponent = 0;
+  decimal->end = scan_exponent(end, &decimal->exponent);
+  return true;
+}
+
+/* Value of a decimal times 10^shift: correctly rounded, decimal point in any locale. Infinite if it is
+ * beyond a double, NAN if there is no memory for the locale. */
+static double decimal_value(const char *text, const Decimal *decimal, int shift) {
+  char plain[ZP_VALUE_SIZE + 32];
+  snprintf(plain, sizeof plain, "%.*se%ld", decimal->mantissa, text, decimal->exponent + shift);
+  locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  if (!c_locale) return NAN;
+  double value = strtod_l(plain, NULL, c_locale);
+  freelocale(c_locale);
+  return value + 0.0; /* -0 becomes 0: one value, one text */
+}
+
+static bool is_pure(const ZpKey *key) {
+  return strcmp(key->unit, "1") == 0;
+}
+
+void zp_value_range(int index, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  char least[ZP_VALUE_SIZE], most[ZP_VALUE_SIZE];
+  zp_value_print(index, key->min, least, sizeof least);
+  zp_value_print(index, key->max, most, sizeof most);
+  snprintf(text, size, "%s to %s%s", least, most, key->type == ZP_KEY_REAL_AUTO ? " or auto" : "");
+}
+
+/* "REASON; give a value in um from 1 um to 5000 um" */
+static ZpStatus fail_number(int index, const char *reason, ZpError *err) {
+  const ZpKey *key = zp_key(index);
+  char range[ZP_RANGE_SIZE];
+  zp_value_range(index, range, sizeof range);
+  if (key->type == ZP_KEY_INT) return zp_fail(err, ZP_BAD_INPUT, "%s; give a whole number from %s", reason, range);
+  if (is_pure(key)) return zp_fail(err, ZP_BAD_INPUT, "%s; give a number from %s", reason, range);
+  return zp_fail(err, ZP_BAD_INPUT, "%s; give a value in %s from %s", reason, key->shown, range);
+}
+
+/* Scale of the unit that follows a number. Of a pure number only per cent: radians and the like are
+ * "convertible" to UDUNITS, too. */
+static ZpStatus read_unit(int index, const char *unit, ZpUnitScale *scale, ZpError *err) {
+  const ZpKey *key = zp_key(index);
+  *scale = (ZpUnitScale){.decimal = true, .factor = 1};
+  if (*unit == 0) return ZP_OK;
+  if (key->type == ZP_KEY_REAL && is_pure(key) && (strcmp(unit, "%") == 0 || strcmp(unit, "percent") == 0)) {
+    scale->exponent = -2;
+    return ZP_OK;
+  }
+  if (is_pure(key)) return fail_number(index, "a pure number takes no unit", err);
+  ZpError reason;
+  ZpStatus status = zp_unit_scale(unit, key->unit, scale, &reason);
+  if (status == ZP_BAD_INPUT) return fail_number(index, reason.message, err);
+  if (status != ZP_OK) return zp_fail(err, status, "%s", reason.message);
+  return ZP_OK;
+}
+
+static ZpStatus check_number(int index, double value, ZpError *err) {
+  const ZpKey *key = zp_key(index);
+  char range[ZP_RANGE_SIZE];
+  if (isnan(value)) return zp_fail_memory(err);
+  if (isinf(value)) return fail_number(index, "too large for a number", err);
+  if (key->type == ZP_KEY_INT && value != floor(value)) return fail_number(index, "not a whole number", err);
+  if (value >= key->min && value <= key->max) return ZP_OK;
+  zp_value_range(index, range, sizeof range);
+  return zp_fail(err, ZP_BAD_INPUT, "out of range; %s", range);
+}
+
+/* True if some digit of the decimal is not 0: then a value of 0 has lost it. */
+static bool has_digits(const char *text, const Decimal *decimal) {
+  return strcspn(text, "123456789") < (size_t)decimal->mantissa;
+}
+
+static ZpStatus read_number(int index, const char *text, double *value, ZpError *err) {
+  Decimal decimal;
+  ZpUnitScale scale;
+  if (!scan_decimal(text, &decimal)) return fail_number(index, "not a number", err);
+  const char *unit = decimal.end;
+  if (*unit && strchr("_,.xX+-0123456789", *unit) && !isspace((unsigned char)*unit))
+    return fail_number(index, "not a decimal number", err);
+  while (isspace((unsigned char)*unit))
+    unit++;
+  ZpStatus status = read_unit(index, unit, &scale, err);
+  if (status != ZP_OK) return status;
+  double number = decimal_value(text, &decimal, scale.decimal ? scale.exponent : 0);
+  if (!scale.decimal) number *= scale.factor;
+  if (number == 0 && has_digits(text, &decimal)) return fail_number(index, "too small for a number", err);
+  status = check_number(index, number, err);
+  if (status == ZP_OK) *value = number;
+  return status;
+}
+
+static ZpStatus read_bool(const char *text, double *value, ZpError *err) {
+  static const char *const words[] = {"false", "true", "no", "yes", "off", "on"};
+  for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+    if (strcasecmp(text, words[i]) == 0) {
+      *value = i % 2 ? 1 : 0;
+      return ZP_OK;
+    }
+  return zp_fail(err, ZP_BAD_INPUT, "%s; give true or false", *text ? "not a yes or no" : "empty");
+}
+
+/* Edit distance (insert, delete, replace) of `a` and a word of the program, at most 63 characters. */
+static int word_distance(const char *a, const char *word) {
+  enum { LONGEST = 64 };
+  int row[LONGEST];
+  int length = (int)strnlen(word, LONGEST - 1);
+  for (int j = 0; j <= length; j++)
+    row[j] = j;
+  for (int i = 1; a[i - 1]; i++) {
+    int diagonal = row[0];
+    row[0] = i;
+    for (int j = 1; j <= length; j++) {
+      int replaced = diagonal + (tolower((unsigned char)a[i - 1]) != word[j - 1]);
+      int shifted = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
+      diagonal = row[j];
+      row[j] = replaced < shifted ? replaced : shifted;
+    }
+  }
+  return row[length];
+}
+
+/* How far a word is from what was meant; a beginning of it is near, however long the rest. */
+static int distance_to_choice(const char *text, const char *word) {
+  size_t length = strlen(text);
+  return length && strncasecmp(text, word, length) == 0 ? 1 : word_distance(text, word);
+}
+
+static ZpStatus fail_word(const ZpKey *key, const char *text, ZpError *err) {
+  char words[256] = "";
+  int nearest = 0;
+  for (int i = 0; i <= (int)key->max; i++) {
+    size_t used = strlen(words);
+    snprintf(words + used, sizeof words - used, "%s%s", i ? ", " : "", key->choices[i].word);
+    if (distance_to_choice(text, key->choices[i].word) < distance_to_choice(text, key->choices[nearest].word))
+      nearest = i;
+  }
+  return zp_fail(err, ZP_BAD_INPUT, "%snot one of %s; did you mean %s?", *text ? "" : "empty, ", words,
+                 key->choices[nearest].word);
+}
+
+static ZpStatus read_word(int index, const char *text, double *value, ZpError *err) {
+  int place = zp_key_choice(index, text);
+  if (place < 0) return fail_word(zp_key(index), text, err);
+  *value = place;
+  return ZP_OK;
+}
+
+static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError *err) {
+  const ZpKey *key = zp_key(index);
+  if (key->type == ZP_KEY_BOOL) return read_bool(text, value, err);
+  if (key->type == ZP_KEY_ENUM) return read_word(index, text, value, err);
+  if (*text == 0) return fail_number(index, "empty", err);
+  if (strcmp(text, "auto") != 0) return read_number(index, text, value, err);
+  if (key->type != ZP_KEY_REAL_AUTO) return fail_number(index, "this key cannot be auto", err);
+  *value = NAN;
+  return ZP_OK;
+}
+
+ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err) {
+  char copy[ZP_VALUE_SIZE];
+  while (isspace((unsigned char)*text))
+    text++;
+  size_t length = strlen(text);
+  while (length && isspace((unsigned char)text[length - 1]))
+    length--;
+  if (length >= sizeof copy) return zp_fail(err, ZP_BAD_INPUT, "longer than %d bytes", ZP_VALUE_SIZE - 1);
+  memcpy(copy, text, length);
+  copy[length] = 0;
+  return read_trimmed(index, copy, value, err);
+}
+
+ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err) {
+  ZpError reason;
+  ZpStatus status = zp_value_read(index, text, value, &reason);
+  if (status == ZP_OK) return ZP_OK;
+  zp_fail(err, status, "%s = \"%.80s\": %s", zp_key(index)->name, text, reason.message);
+  if (err) zp_text_clean(err->message);
+  return status;
+}
+
+/* "100 mm" for 0.1 m, if this reads back to the same bits. */
+static bool print_shown(int index, double value, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  char number[ZP_NUMBER_SIZE];
+  Decimal decimal;
+  ZpUnitScale scale;
+  if (*key->shown == 0 || !isfinite(value)) return false;
+  if (zp_unit_scale(key->shown, key->unit, &scale, NULL) != ZP_OK || !scale.decimal) return false;
+  zp_number_print(value, number, sizeof number);
+  if (!scan_decimal(number, &decimal)) return false;
+  zp_number_print(decimal_value(number, &decimal, -scale.exponent), number, sizeof number);
+  if (!scan_decimal(number, &decimal) || decimal_value(number, &decimal, scale.exponent) != value) return false;
+  snprintf(text, size, "%s %s", number, key->shown);
+  return true;
+}
+
+void zp_value_print(int index, double value, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  if (key->type == ZP_KEY_BOOL)
+    snprintf(text, size, "%s", value != 0 ? "true" : "false");
+  else if (key->type == ZP_KEY_ENUM)
+    snprintf(text, size, "%s", value >= 0 && value <= key->max ? key->choices[(int)value].word : "?");
+  else if (key->type == ZP_KEY_REAL_AUTO && isnan(value))
+    snprintf(text, size, "auto");
+  else if (!print_shown(index, value, text, size))
+    zp_number_print(value, text, size);
+}

@@ -1,0 +1,21 @@
+/* Values as people write them: what io shares beyond zp_value_parse and zp_value_print of io.h. */
+#ifndef ZP_IO_VALUE_H
+#define ZP_IO_VALUE_H
+
+#include <stddef.h>
+
+#include <zipact/def.h>
+
+enum {
+  ZP_VALUE_SIZE = 256, /* bytes of the longest value that is read, with the final 0 */
+  ZP_RANGE_SIZE = 160  /* enough for zp_value_range */
+};
+
+/* As zp_value_parse, but the message is only the reason, "not a length; give a value in um from ...",
+ * for callers who know better how to say where the value stands. */
+ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err);
+
+/* (key) => "1 um to 5000 um", with " or auto" where that is allowed; the range of a number key. */
+void zp_value_range(int index, char *text, size_t size);
+
+#endif

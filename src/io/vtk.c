@@ -1,0 +1,173 @@
+/* shapes.pvd and shapes/shape_NNNN.vtp: the film of one run for ParaView.
+ *
+ * Each .vtp is the PolyData of one frame: a polyline per ribbon, the gap and the attraction at its nodes.
+ * Numbers follow the XML as raw bytes, each array after its length, so nothing is rounded. */
+#include <dirent.h>
+#include <errno.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/fail.h"
+#include "io/atomic.h"
+#include "io/number.h"
+#include "io/report.h"
+
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#define BYTE_ORDER_NAME "LittleEndian"
+#else
+#define BYTE_ORDER_NAME "BigEndian"
+#endif
+
+/* Arrays of a frame in the order in which their bytes follow; the offset grows from one to the next. */
+typedef struct Layout {
+  size_t ribbons, nodes, points;
+  uint64_t offset;
+} Layout;
+
+static void declare(FILE *file, Layout *layout, const char *type, const char *name, int components, size_t bytes) {
+  fprintf(
+      file,
+      "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n",
+      type, name, components, (unsigned long long)layout->offset);
+  layout->offset += sizeof(uint64_t) + bytes;
+}
+
+static void write_head(FILE *file, const ZpShape *shape, Layout *l) {
+  fprintf(file,
+          "<?xml version=\"1.0\"?>\n"
+          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
+          "  <PolyData>\n"
+          "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"0\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
+          "NumberOfPolys=\"0\">\n"
+          "      <PointData>\n",
+          l->points, l->ribbons);
+  declare(file, l, "Int64", "ribbon", 1, l->points * sizeof(int64_t));
+  if (shape->gap) declare(file, l, "Float64", "gap", 1, l->points * sizeof(double));
+  if (shape->line_force) declare(file, l, "Float64", "line_force", 1, l->points * sizeof(double));
+  fputs("      </PointData>\n      <Points>\n", file);
+  declare(file, l, "Float64", "Points", 3, 3 * l->points * sizeof(double));
+  fputs("      </Points>\n      <Lines>\n", file);
+  declare(file, l, "Int64", "connectivity", 1, l->points * sizeof(int64_t));
+  declare(file, l, "Int64", "offsets", 1, l->ribbons * sizeof(int64_t));
+  fputs("      </Lines>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);
+}
+
+static void put_length(FILE *file, size_t bytes) {
+  uint64_t length = bytes;
+  fwrite(&length, sizeof length, 1, file);
+}
+
+static void put_int(FILE *file, size_t value) {
+  int64_t number = (int64_t)value;
+  fwrite(&number, sizeof number, 1, file);
+}
+
+/* A value that belongs to a pair of nodes, once for each ribbon. */
+static void put_pairs(FILE *file, const Layout *l, const double *value) {
+  if (!value) return;
+  put_length(file, l->points * sizeof(double));
+  for (size_t r = 0; r < l->ribbons; r++)
+    fwrite(value, sizeof *value, l->nodes, file);
+}
+
+/* Points go ribbon after ribbon, so that each polyline is a run of numbers. */
+static void put_points(FILE *file, const Layout *l, const ZpShape *shape) {
+  put_length(file, 3 * l->points * sizeof(double));
+  for (size_t r = 0; r < l->ribbons; r++)
+    for (size_t i = 0; i < l->nodes; i++) {
+      const double point[3] = {shape->x[i * l->ribbons + r], shape->y[i * l->ribbons + r], 0};
+      fwrite(point, sizeof *point, 3, file);
+    }
+}
+
+static void write_frame(FILE *file, const ZpShape *shape, size_t ribbons, size_t nodes) {
+  Layout l = {.ribbons = ribbons, .nodes = nodes, .points = ribbons * nodes};
+  write_head(file, shape, &l);
+  put_length(file, l.points * sizeof(int64_t));
+  for (size_t i = 0; i < l.points; i++)
+    put_int(file, i / nodes);
+  put_pairs(file, &l, shape->gap);
+  put_pairs(file, &l, shape->line_force);
+  put_points(file, &l, shape);
+  put_length(file, l.points * sizeof(int64_t));
+  for (size_t i = 0; i < l.points; i++)
+    put_int(file, i);
+  put_length(file, ribbons * sizeof(int64_t));
+  for (size_t r = 0; r < ribbons; r++)
+    put_int(file, (r + 1) * nodes);
+  fputs("\n  </AppendedData>\n</VTKFile>\n", file);
+}
+
+static ZpStatus write_frames(const char *folder, const ZpShapes *shapes, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < shapes->frames && status == ZP_OK; i++) {
+    ZpAtomic out;
+    char name[64];
+    snprintf(name, sizeof name, "shape_%04zu.vtp", i);
+    status = zp_atomic_open(&out, folder, name, err);
+    if (status != ZP_OK) break;
+    const ZpShape shape = zp_shapes_get(shapes, i);
+    write_frame(out.file, &shape, shapes->ribbons, shapes->nodes);
+    status = zp_atomic_commit(&out, err);
+  }
+  return status;
+}
+
+static ZpStatus write_collection(const ZpReport *report, const ZpShapes *shapes, ZpError *err) {
+  ZpAtomic out;
+  ZpStatus status = zp_atomic_open(&out, report->directory, "shapes.pvd", err);
+  if (status != ZP_OK) return status;
+  fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\">\n"
+        "  <Collection>\n",
+        out.file);
+  for (size_t i = 0; i < shapes->frames; i++) {
+    char time[ZP_NUMBER_SIZE];
+    zp_number_print(zp_shapes_get(shapes, i).time, time, sizeof time);
+    fprintf(out.file, "    <DataSet timestep=\"%s\" part=\"0\" file=\"shapes/shape_%04zu.vtp\"/>\n", time, i);
+  }
+  fputs("  </Collection>\n</VTKFile>\n", out.file);
+  return zp_atomic_commit(&out, err);
+}
+
+/* The number of a frame that an earlier report wrote, or -1 for a file that is not ours. */
+static long long frame_of(const char *name) {
+  char again[64];
+  unsigned long long number;
+  if (sscanf(name, "shape_%12llu.vtp", &number) != 1) return -1;
+  snprintf(again, sizeof again, "shape_%04llu.vtp", number);
+  return strcmp(name, again) == 0 ? (long long)number : -1;
+}
+
+/* Remove frames from `kept` on. A folder that is not there has none. */
+static ZpStatus remove_frames(const char *folder, size_t kept, ZpError *err) {
+  DIR *list = opendir(folder);
+  if (!list && (errno == ENOENT || errno == ENOTDIR)) return ZP_OK;
+  if (!list) return zp_fail(err, ZP_MACHINE, "cannot read the folder %s: %s", folder, strerror(errno));
+  ZpStatus status = ZP_OK;
+  for (struct dirent *entry = readdir(list); entry && status == ZP_OK; entry = readdir(list))
+    if (frame_of(entry->d_name) >= (long long)kept) status = zp_remove_file(folder, entry->d_name, err);
+  closedir(list);
+  return status;
+}
+
+static ZpStatus write_shapes(const ZpReport *report, const ZpShapes *shapes, const char *folder, ZpError *err) {
+  ZpStatus status = zp_remove_file(report->directory, "shapes.pvd", err);
+  if (status == ZP_OK) status = remove_frames(folder, shapes ? shapes->frames : 0, err);
+  if (status != ZP_OK || !shapes) return status;
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+    return zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", folder, strerror(errno));
+  status = write_frames(folder, shapes, err);
+  return status == ZP_OK ? write_collection(report, shapes, err) : status;
+}
+
+ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
+  const ZpResult *single = zp_report_single(report);
+  const ZpShapes *shapes = single && single->shapes && single->shapes->frames > 0 ? single->shapes : NULL;
+  char *folder = zp_path_join(report->directory, "shapes");
+  if (!folder) return zp_fail_memory(err);
+  ZpStatus status = write_shapes(report, shapes, folder, err);
+  free(folder);
+  return status;
+}

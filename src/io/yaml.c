@@ -1,0 +1,330 @@
+/* The part of YAML that scenarios are made of, by libfyaml's events.
+ *
+ * Events and not its documents: so the depth is bounded here before anything is built, and each item has
+ * its line. Anchors, aliases, tags, several documents and keys that are not words are refused, as none of
+ * them means anything in a scenario. libfyaml collects its complaints instead of printing them, and the
+ * first becomes our message. What it need not see is refused before: sizes over 1 MB, control characters,
+ * text that is not UTF-8, tabs as indentation. */
+#include "io/yaml.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <libfyaml.h>
+
+#include "base/fail.h"
+#include "io/value.h"
+
+enum {
+  DEEPEST = 8,       /* mappings inside one another; keys have one point */
+  LONGEST_PATH = 256 /* bytes */
+};
+
+/* A reading in progress. */
+typedef struct Walk {
+  const ZpSource *source;
+  struct fy_parser *parser;
+  struct fy_diag *diag; /* collects what the parser complains of */
+  ZpYamlVisit visit;
+  void *user;
+  ZpError *err;
+  char path[LONGEST_PATH]; /* of the mapping or value that is being read */
+  int line;                /* of the last token that said where it stands */
+  char *words;             /* of the value or list that is being read, each with its 0 */
+  size_t used, capacity;   /* bytes */
+} Walk;
+
+/* What libfyaml found wrong first. */
+static ZpStatus fail_syntax(Walk *walk) {
+  void *position = NULL;
+  const struct fy_diag_error *error = fy_diag_errors_iterate(walk->diag, &position);
+  if (!error || !error->msg) return zp_source_fail(walk->source, walk->line, walk->err, "not YAML");
+  const char *place = walk->source->argument ? " of the value" : "";
+  return zp_source_fail(walk->source, error->line, walk->err, "column %d%s: %s", error->column, place, error->msg);
+}
+
+__attribute__((format(printf, 2, 3))) static ZpStatus fail_here(Walk *walk, const char *format, ...) {
+  char reason[256];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(reason, sizeof reason, format, args);
+  va_end(args);
+  const char *colon = *walk->path ? ": " : "";
+  return zp_source_fail(walk->source, walk->line, walk->err, "%.80s%s%s", walk->path, colon, reason);
+}
+
+static struct fy_token *token_of(const struct fy_event *event) {
+  switch (event->type) {
+  case FYET_SCALAR:
+    return event->scalar.value;
+  case FYET_SEQUENCE_START:
+    return event->sequence_start.sequence_start;
+  case FYET_MAPPING_START:
+    return event->mapping_start.mapping_start;
+  case FYET_ALIAS:
+    return event->alias.anchor;
+  default:
+    return NULL;
+  }
+}
+
+static bool is_decorated(const struct fy_event *event) {
+  switch (event->type) {
+  case FYET_SCALAR:
+    return event->scalar.anchor || event->scalar.tag;
+  case FYET_SEQUENCE_START:
+    return event->sequence_start.anchor || event->sequence_start.tag;
+  case FYET_MAPPING_START:
+    return event->mapping_start.anchor || event->mapping_start.tag;
+  default:
+    return event->type == FYET_ALIAS;
+  }
+}
+
+/* Next event, to be freed by fy_parser_event_free; NULL with an error filled. */
+static struct fy_event *next_event(Walk *walk, ZpStatus *status) {
+  struct fy_event *event = fy_parser_parse(walk->parser);
+  if (!event) {
+    *status = fail_syntax(walk);
+    return NULL;
+  }
+  struct fy_token *token = token_of(event);
+  const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
+  if (mark) walk->line = mark->line + 1;
+  if (!is_decorated(event)) return event;
+  fy_parser_event_free(walk->parser, event);
+  *status = fail_here(walk, "anchors (&), aliases (*) and tags (!) have no meaning in a scenario");
+  return NULL;
+}
+
+/* Add the word of a scalar event to walk->words. */
+static ZpStatus add_word(Walk *walk, struct fy_event *event) {
+  size_t length = 0;
+  const char *text = event->scalar.value ? fy_token_get_text(event->scalar.value, &length) : "";
+  if (!text) return zp_fail_memory(walk->err);
+  if (length >= ZP_VALUE_SIZE) return fail_here(walk, "value longer than %d bytes", ZP_VALUE_SIZE - 1);
+  if (memchr(text, 0, length)) return fail_here(walk, "value with a zero byte");
+  if (walk->used + length + 1 > walk->capacity) {
+    size_t capacity = 2 * walk->capacity + ZP_VALUE_SIZE;
+    char *words = realloc(walk->words, capacity);
+    if (!words) return zp_fail_memory(walk->err);
+    walk->words = words;
+    walk->capacity = capacity;
+  }
+  memcpy(walk->words + walk->used, text, length);
+  walk->words[walk->used + length] = 0;
+  walk->used += length + 1;
+  return ZP_OK;
+}
+
+static ZpStatus visit(Walk *walk, ZpYamlKind kind, int line, size_t count) {
+  ZpYamlItem item = {kind, walk->path, line, walk->words, count};
+  walk->used = 0;
+  return walk->visit(walk->user, &item, walk->err);
+}
+
+/* The words of a list up to its end. */
+static ZpStatus read_list(Walk *walk, int line) {
+  size_t count = 0;
+  ZpStatus status = ZP_OK;
+  while (status == ZP_OK) {
+    struct fy_event *event = next_event(walk, &status);
+    if (!event) return status;
+    enum fy_event_type type = event->type;
+    if (type == FYET_SCALAR)
+      status = add_word(walk, event);
+    else if (type != FYET_SEQUENCE_END)
+      status = fail_here(walk, "a list holds values only, not lists or groups");
+    fy_parser_event_free(walk->parser, event);
+    if (type == FYET_SEQUENCE_END) return visit(walk, ZP_YAML_LIST, line, count);
+    count++;
+  }
+  return status;
+}
+
+static ZpStatus read_mapping(Walk *walk, int depth, int line);
+
+/* What stands after a key, or at the root. */
+static ZpStatus read_node(Walk *walk, struct fy_event *event, int depth, int line) {
+  switch (event->type) {
+  case FYET_SCALAR: {
+    ZpStatus status = add_word(walk, event);
+    return status == ZP_OK ? visit(walk, ZP_YAML_VALUE, line, 1) : status;
+  }
+  case FYET_SEQUENCE_START:
+    return read_list(walk, line);
+  case FYET_MAPPING_START:
+    if (depth > DEEPEST) return fail_here(walk, "nested deeper than %d", DEEPEST);
+    return read_mapping(walk, depth, line);
+  default:
+    return fail_here(walk, "a value, a list or a group of keys must stand here");
+  }
+}
+
+/* (path of length `base` in walk, event of a key) => path with the key appended. */
+static ZpStatus enter_key(Walk *walk, struct fy_event *event, size_t base) {
+  if (event->type != FYET_SCALAR) return fail_here(walk, "a key must be a word");
+  ZpStatus status = add_word(walk, event);
+  if (status != ZP_OK) return status;
+  walk->used = 0;
+  if (*walk->words == 0) return fail_here(walk, "empty key");
+  size_t room = sizeof walk->path - base;
+  int length = snprintf(walk->path + base, room, "%s%s", base ? "." : "", walk->words);
+  if (length < 0 || (size_t)length >= room) return fail_here(walk, "key too long");
+  return ZP_OK;
+}
+
+static ZpStatus read_pair(Walk *walk, struct fy_event *key, int depth, size_t base) {
+  ZpStatus status = enter_key(walk, key, base);
+  if (status != ZP_OK) return status;
+  int line = walk->line;
+  struct fy_event *value = next_event(walk, &status);
+  if (!value) return status;
+  status = read_node(walk, value, depth + 1, line);
+  fy_parser_event_free(walk->parser, value);
+  walk->path[base] = 0;
+  return status;
+}
+
+/* The pairs of a mapping up to its end; walk->path is its path. */
+static ZpStatus read_mapping(Walk *walk, int depth, int line) {
+  size_t base = strlen(walk->path);
+  ZpStatus status = ZP_OK;
+  while (status == ZP_OK) {
+    struct fy_event *key = next_event(walk, &status);
+    if (!key) return status;
+    bool end = key->type == FYET_MAPPING_END;
+    if (!end) status = read_pair(walk, key, depth, base);
+    fy_parser_event_free(walk->parser, key);
+    if (end) return visit(walk, ZP_YAML_GROUP, line, 0);
+  }
+  return status;
+}
+
+/* Take an event that is there for form's sake; ZP_BAD_INPUT if it is another. */
+static ZpStatus expect(Walk *walk, enum fy_event_type type, const char *otherwise) {
+  ZpStatus status = ZP_OK;
+  struct fy_event *event = next_event(walk, &status);
+  if (!event) return status;
+  if (event->type != type) status = fail_here(walk, "%s", otherwise);
+  fy_parser_event_free(walk->parser, event);
+  return status;
+}
+
+static bool is_empty_scalar(const struct fy_event *event) {
+  size_t length = 0;
+  if (event->type != FYET_SCALAR) return false;
+  if (!event->scalar.value) return true;
+  return fy_token_get_text(event->scalar.value, &length) && length == 0;
+}
+
+/* The root of a scenario: keys, or nothing. */
+static ZpStatus read_root(Walk *walk, struct fy_event *event) {
+  if (is_empty_scalar(event)) return ZP_OK;
+  if (event->type != FYET_MAPPING_START) return fail_here(walk, "a scenario is made of lines \"key: value\"");
+  return read_mapping(walk, 0, walk->line);
+}
+
+/* The root of a value: anything but keys. */
+static ZpStatus read_value_root(Walk *walk, struct fy_event *event) {
+  if (event->type == FYET_MAPPING_START) return fail_here(walk, "give one value or a list in [ ]");
+  return read_node(walk, event, 0, walk->line);
+}
+
+typedef ZpStatus (*ReadRoot)(Walk *walk, struct fy_event *event);
+
+/* One document, or none, and nothing after it. */
+static ZpStatus read_stream(Walk *walk, ReadRoot root) {
+  ZpStatus status = expect(walk, FYET_STREAM_START, "not YAML");
+  if (status != ZP_OK) return status;
+  struct fy_event *event = next_event(walk, &status);
+  if (!event) return status;
+  bool empty = event->type == FYET_STREAM_END;
+  fy_parser_event_free(walk->parser, event);
+  if (empty) return ZP_OK;
+  event = next_event(walk, &status);
+  if (!event) return status;
+  status = root(walk, event);
+  fy_parser_event_free(walk->parser, event);
+  if (status == ZP_OK) status = expect(walk, FYET_DOCUMENT_END, "not YAML");
+  if (status == ZP_OK) status = expect(walk, FYET_STREAM_END, "more than one document");
+  return status;
+}
+
+/* True if the blank start of a line holds a tab, and more than blanks follow. */
+static bool has_tab_indent(const char *text, size_t size) {
+  bool tab = false;
+  size_t i = 0;
+  for (; i < size && (text[i] == ' ' || text[i] == '\t'); i++)
+    tab |= text[i] == '\t';
+  return tab && i < size && !strchr("#\r\n", text[i]);
+}
+
+/* Refuse what libfyaml need not see. */
+static ZpStatus check_text(const ZpSource *source, const char *text, size_t size, ZpError *err) {
+  if (size > ZP_YAML_LARGEST) return zp_source_fail(source, 0, err, "larger than 1 MB, too large for a scenario");
+  int line = 1;
+  for (size_t i = 0; i < size;) {
+    size_t length = zp_text_character(text + i, size - i);
+    if (length == 0) return zp_source_fail(source, line, err, "not UTF-8 text, or a control character");
+    bool line_start = i == 0 || text[i - 1] == '\n';
+    if (line_start && has_tab_indent(text + i, size - i))
+      return zp_source_fail(source, line, err, "a tab as indentation; use spaces");
+    if (text[i] == '\n') line++;
+    i += length;
+  }
+  return ZP_OK;
+}
+
+static ZpStatus open_parser(Walk *walk, const char *text, size_t size) {
+  struct fy_diag_cfg diag_config;
+  fy_diag_cfg_default(&diag_config);
+  diag_config.fp = NULL; /* not to stderr */
+  diag_config.level = FYET_ERROR;
+  walk->diag = fy_diag_create(&diag_config);
+  if (!walk->diag) return zp_fail_memory(walk->err);
+  fy_diag_set_collect_errors(walk->diag, true);
+  struct fy_parse_cfg config = {.search_path = "", .flags = FYPCF_QUIET | FYPCF_JSON_NONE, .diag = walk->diag};
+  walk->parser = fy_parser_create(&config);
+  if (!walk->parser || fy_parser_set_string(walk->parser, text, size))
+    return zp_fail(walk->err, ZP_MACHINE, "libfyaml cannot start");
+  return ZP_OK;
+}
+
+static ZpStatus read_text(const ZpSource *source, const char *text, size_t size, ReadRoot root, ZpYamlVisit visitor,
+                          void *user, ZpError *err) {
+  ZpStatus status = check_text(source, text, size, err);
+  if (status != ZP_OK) return status;
+  Walk walk = {.source = source, .visit = visitor, .user = user, .err = err, .line = 1};
+  status = open_parser(&walk, text, size);
+  if (status == ZP_OK) status = read_stream(&walk, root);
+  if (walk.parser) fy_parser_destroy(walk.parser);
+  fy_diag_destroy(walk.diag);
+  free(walk.words);
+  return status;
+}
+
+ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visitor, void *user,
+                      ZpError *err) {
+  return read_text(source, text, size, read_root, visitor, user, err);
+}
+
+ZpStatus zp_yaml_read_value(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visitor, void *user,
+                            ZpError *err) {
+  return read_text(source, text, size, read_value_root, visitor, user, err);
+}
+
+size_t zp_yaml_group(const char *name) {
+  const char *point = strrchr(name, '.');
+  return point ? (size_t)(point - name) : 0;
+}
+
+int zp_yaml_write_key(FILE *file, const char *name, const char *before) {
+  size_t group = zp_yaml_group(name);
+  if (group == 0) return fprintf(file, "%s: ", name);
+  bool same = before && zp_yaml_group(before) == group && strncmp(name, before, group) == 0;
+  if (!same) fprintf(file, "%.*s:\n", (int)group, name);
+  return fprintf(file, "  %s: ", name + group + 1);
+}

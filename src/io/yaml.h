@@ -1,0 +1,49 @@
+/* The part of YAML that scenarios are made of: mappings in mappings, words, lists of words. */
+#ifndef ZP_IO_YAML_H
+#define ZP_IO_YAML_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include <zipact/error.h>
+
+#include "io/source.h"
+
+/* Largest text that is read, bytes. A scenario that we write is always smaller. */
+enum { ZP_YAML_LARGEST = 1 << 20 };
+
+typedef enum ZpYamlKind {
+  ZP_YAML_VALUE, /* one word */
+  ZP_YAML_LIST,  /* a sequence of words */
+  ZP_YAML_GROUP  /* a mapping, met at its end: what is in it was met before */
+} ZpYamlKind;
+
+/* Something found in a text. */
+typedef struct ZpYamlItem {
+  ZpYamlKind kind;
+  const char *path; /* keys from the root, joined by points: "ribbon.length"; "" at the root */
+  int line;         /* where its key stands, from 1 */
+  const char *word; /* `count` words, each followed by a 0 */
+  size_t count;
+} ZpYamlItem;
+
+/* Takes an item; a status other than ZP_OK ends the reading. */
+typedef ZpStatus (*ZpYamlVisit)(void *user, const ZpYamlItem *item, ZpError *err);
+
+/* Visit all there is in a text whose root is a mapping, or that is empty. ZP_BAD_INPUT says where it is
+ * not YAML, or uses more of YAML than a scenario needs. */
+ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visit, void *user,
+                      ZpError *err);
+
+/* The same for a text that is one word or one list. */
+ZpStatus zp_yaml_read_value(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visit, void *user,
+                            ZpError *err);
+
+/* Write the start of a line for the key `name`, "  length: ", and before it "ribbon:" where `before`, the
+ * key written last or NULL, is of another group. Returns the width of what is on the line. */
+int zp_yaml_write_key(FILE *file, const char *name, const char *before);
+
+/* Bytes of the group in a key name: 6 in "ribbon.length", 0 in "gravity". */
+size_t zp_yaml_group(const char *name);
+
+#endif

@@ -1,0 +1,100 @@
+/* Mass-spring ribbon. Letters of docs/theory.md, section 3 (equations of the paper in brackets):
+ *   dp     node i+1 - node i, m [1]                 u   unit vector along dp
+ *   T      tension of the axial spring, N [3]       n   u turned left by 90 degrees
+ *   dy_b   shear displacement of node i+1 in the frame of the edge before, m [4]
+ *   dy_a   the same of node i, sign turned, in the frame of the edge after, m [4]
+ *   R      force of the edge on its right node, N; its left node gets -R
+ */
+#include "ribbon/massspring.h"
+
+#include <math.h>
+
+#include "base/kernel.h"
+
+static size_t edge_count(const ZpMassSpringParams *p) {
+  return p->ribbons * (p->nodes - 1);
+}
+
+void zp_massspring_carve(const ZpMassSpringParams *p, ZpMassSpringEval *e, ZpCarver *carver) {
+  size_t edges = edge_count(p), s = p->ribbons, margin = ZP_ALIGNMENT / sizeof(double);
+  e->dpx = zp_carve(carver, edges);
+  e->dpy = zp_carve(carver, edges);
+  e->T = zp_carve(carver, edges);
+  double **with_margin[] = {&e->ux, &e->uy, &e->Rx, &e->Ry};
+  for (int k = 0; k < 4; k++) {
+    double *array = zp_carve(carver, margin + edges + s);
+    *with_margin[k] = array ? array + margin : NULL;
+  }
+  if (!carver->base) return;
+  for (size_t r = 0; r < s; r++) {
+    e->ux[(ptrdiff_t)r - (ptrdiff_t)s] = p->left_slope ? 1 : 0;
+    e->ux[edges + r] = p->right_slope ? 1 : 0;
+  }
+}
+
+ZP_KERNEL static void edge_directions(const ZpMassSpringParams *p, const double *restrict x, const double *restrict y,
+                                      ZpMassSpringEval *e) {
+  size_t edges = edge_count(p), s = p->ribbons;
+  double l = p->l, K_D = p->K_D;
+  double *restrict dpx = e->dpx, *restrict dpy = e->dpy, *restrict ux = e->ux, *restrict uy = e->uy, *restrict T = e->T;
+  ZP_SIMD
+  for (size_t j = 0; j < edges; j++) {
+    double dx = x[j + s] - x[j], dy = y[j + s] - y[j];
+    double length = sqrt(dx * dx + dy * dy), inverse = 1 / length;
+    dpx[j] = dx;
+    dpy[j] = dy;
+    ux[j] = dx * inverse;
+    uy[j] = dy * inverse;
+    T[j] = K_D * (length - l);
+  }
+}
+
+ZP_KERNEL static void edge_forces(const ZpMassSpringParams *p, ZpMassSpringEval *e) {
+  size_t edges = edge_count(p), s = p->ribbons;
+  double K_S = p->K_S;
+  const double *restrict dpx = e->dpx, *restrict dpy = e->dpy, *restrict ux = e->ux, *restrict uy = e->uy,
+                         *restrict T = e->T;
+  const double *restrict bx = ux - s, *restrict by = uy - s, *restrict ax = ux + s, *restrict ay = uy + s;
+  double *restrict Rx = e->Rx, *restrict Ry = e->Ry;
+  ZP_SIMD
+  for (size_t j = 0; j < edges; j++) {
+    double dy_b = bx[j] * dpy[j] - by[j] * dpx[j];
+    double dy_a = ax[j] * dpy[j] - ay[j] * dpx[j];
+    Rx[j] = K_S * (dy_b * by[j] + dy_a * ay[j]) - T[j] * ux[j];
+    Ry[j] = -K_S * (dy_b * bx[j] + dy_a * ax[j]) - T[j] * uy[j];
+  }
+}
+
+void zp_massspring_eval(const ZpMassSpringParams *p, const double *x, const double *y, ZpMassSpringEval *e) {
+  edge_directions(p, x, y, e);
+  edge_forces(p, e);
+}
+
+double zp_massspring_axial_energy(const ZpMassSpringParams *p, const ZpMassSpringEval *e) {
+  double sum = 0;
+  for (size_t j = 0; j < edge_count(p); j++)
+    sum += e->T[j] * e->T[j];
+  return sum / (2 * p->K_D);
+}
+
+double zp_massspring_shear_energy(const ZpMassSpringParams *p, const ZpMassSpringEval *e) {
+  size_t edges = edge_count(p), s = p->ribbons;
+  const double *bx = e->ux - s, *by = e->uy - s, *ax = e->ux + s, *ay = e->uy + s;
+  double sum = 0;
+  for (size_t j = 0; j < edges; j++) {
+    double dy_b = bx[j] * e->dpy[j] - by[j] * e->dpx[j];
+    double dy_a = ax[j] * e->dpy[j] - ay[j] * e->dpx[j];
+    /* an inner joint is seen from both of its edges, an end joint from one */
+    sum += (j < s ? 1 : 0.5) * dy_b * dy_b + (j + s >= edges ? 1 : 0.5) * dy_a * dy_a;
+  }
+  return p->K_S * sum / 2;
+}
+
+double zp_massspring_shear_coefficient(double EI, double l, int nodes) {
+  double N = nodes;
+  return EI / (l * l * l) * N * (N + 1) / ((N - 1) * (N - 1));
+}
+
+double zp_massspring_frequency_bound(const ZpMassSpringParams *p, double mass) {
+  return sqrt((4 * p->K_D + 16 * p->K_S) / mass);
+}

@@ -1,0 +1,48 @@
+/* The paper's mechanics: particles, axial springs, and shear springs in two frames.
+ *
+ * All ribbons at once: node i of ribbon r is at [i * ribbons + r], edge i (node i to i+1) likewise.
+ */
+#ifndef ZP_RIBBON_MASSSPRING_H
+#define ZP_RIBBON_MASSSPRING_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/memory.h"
+
+typedef struct ZpMassSpringParams {
+  size_t ribbons;    /* s */
+  size_t nodes;      /* N per ribbon */
+  double l;          /* rest length of an edge, m */
+  double K_D;        /* axial spring, N/m, eq. (3.2) */
+  double K_S;        /* shear spring, N/m, eq. (3.4) */
+  bool left_slope;   /* the edge direction before the first node is held horizontal */
+  bool right_slope;  /* the edge direction after the last node is held horizontal */
+} ZpMassSpringParams;
+
+/* Written by zp_massspring_eval, read by those who add up forces and energies. */
+typedef struct ZpMassSpringEval {
+  double *dpx, *dpy; /* [edges] node i+1 - node i, m */
+  double *ux, *uy;   /* [-s .. edges + s) unit directions of the edges; outside: held slope or 0 */
+  double *T;         /* [edges] tension, N */
+  double *Rx, *Ry;   /* [-s .. edges + s) force of edge on its right node, N; outside: 0 */
+} ZpMassSpringEval;
+
+/* Cut the arrays of `eval` from `carver`; write what lies outside the edges once the block exists. */
+void zp_massspring_carve(const ZpMassSpringParams *params, ZpMassSpringEval *eval, ZpCarver *carver);
+
+/* (positions) => edge directions, tensions and edge forces. Force on node j: R[j - s] - R[j]. */
+void zp_massspring_eval(const ZpMassSpringParams *params, const double *x, const double *y, ZpMassSpringEval *eval);
+
+/* Energies from the last eval, J. The shear law has no potential; its energy is that of the springs at
+ * their present length, right for small bending angles (theory, section 3.4). */
+double zp_massspring_axial_energy(const ZpMassSpringParams *params, const ZpMassSpringEval *eval);
+double zp_massspring_shear_energy(const ZpMassSpringParams *params, const ZpMassSpringEval *eval);
+
+/* K_S that makes the chain as stiff as a beam with both ends horizontal, N/m, eq. (3.6). */
+double zp_massspring_shear_coefficient(double EI, double l, int nodes);
+
+/* Upper bound of the highest frequency for particles of `mass` kg, rad/s, eq. (5.3). */
+double zp_massspring_frequency_bound(const ZpMassSpringParams *params, double mass);
+
+#endif

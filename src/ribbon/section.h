@@ -1,0 +1,23 @@
+/* The cross-section of a ribbon: metal strip and insulating tape on one face => EA, EI, mass per length. */
+#ifndef ZP_RIBBON_SECTION_H
+#define ZP_RIBBON_SECTION_H
+
+/* One layer; layers lie on each other in the order of the list. */
+typedef struct ZpLayer {
+  double thickness;     /* m */
+  double young_modulus; /* Pa */
+  double poisson_ratio; /* counts in plane strain */
+  double density;       /* kg/m3 */
+} ZpLayer;
+
+typedef struct ZpSection {
+  double EA; /* axial stiffness, N */
+  double EI; /* bending stiffness about the neutral axis, N m^2 */
+  double mu; /* mass per length, kg/m */
+} ZpSection;
+
+/* (layers, width m, plane strain?) => section; theory eqs. (2.1)-(2.3). EA takes Young's modulus as it
+ * is, as eq. (2) of the paper does; plane strain stiffens bending only. */
+ZpSection zp_section(const ZpLayer *layer, int count, double width, int plane_strain);
+
+#endif

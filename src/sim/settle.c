@@ -1,0 +1,75 @@
+/* The hanging equilibrium, loaded and without voltage, by damped stepping from the straight shape. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "sim/sim_internal.h"
+#include "solve/relax.h"
+
+typedef struct Settling {
+  ZpSim *sim;
+  const ZpHooks *hooks;
+  double *a; /* that of the last call */
+  double tolerance, first_residual;
+} Settling;
+
+static void accelerate(void *self, const double *q, double *a) {
+  Settling *settling = self;
+  ZpSim *sim = settling->sim;
+  static const ZpZipState hanging = {0, false};
+  zp_eval_forces(sim->model, sim->state, q, NULL, ZP_ELASTIC_AND_WEIGHT, &sim->eval);
+  zp_eval_accelerations(sim->model, &sim->model->pseudo, &hanging, &sim->eval, a);
+  settling->a = a;
+}
+
+static double residual(void *self) {
+  Settling *settling = self;
+  return zp_eval_imbalance(settling->sim->model, settling->a);
+}
+
+static bool stop(void *self, int64_t steps, double left) {
+  enum { BETWEEN = 4096 }; /* steps between looks at the caller: about a millisecond */
+  Settling *settling = self;
+  const ZpHooks *hooks = settling->hooks;
+  if (!hooks || !hooks->progress || steps % BETWEEN) return false;
+  if (steps == 0) settling->first_residual = left;
+  double decades = log10(settling->first_residual / settling->tolerance);
+  double fraction = decades > 0 ? log10(settling->first_residual / left) / decades : 0;
+  return hooks->progress(hooks->user, "settling", fmin(fmax(fraction, 0), 1));
+}
+
+static ZpOutcome outcome_of(ZpRelaxEnd end) {
+  switch (end) {
+  case ZP_RELAX_AT_REST:
+    return ZP_REACHED_END;
+  case ZP_RELAX_STOPPED:
+    return ZP_INTERRUPTED;
+  case ZP_RELAX_DIVERGED:
+  case ZP_RELAX_STEP_LIMIT:
+    break;
+  }
+  return ZP_NOT_SETTLED;
+}
+
+/* The imbalance that rounding of positions in stiff axial springs leaves, measured at N = 130. */
+static double rounding_floor(const ZpModel *model) {
+  return model->total_weight > 0 ? 3 * DBL_EPSILON * model->L * model->spring.K_D / model->total_weight : 0;
+}
+
+void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
+  const ZpModel *model = sim->model;
+  size_t n = 2 * model->count;
+  /* the stroke's error is of the order of the imbalance times the number of nodes */
+  double tolerance = fmax(1e-3 * model->def.solver.tolerance, rounding_floor(model));
+  Settling settling = {.sim = sim, .hooks = hooks, .tolerance = tolerance};
+  ZpRelaxSystem system = {n, &settling, accelerate, residual, stop};
+  double *q = sim->relax_work;
+  memcpy(q, zp_state_q(model, sim->state), n * sizeof *q);
+  ZpRelaxInfo info = zp_relax(&system, tolerance, model->def.solver.max_steps, q, q + n);
+  sim->settled = outcome_of(info.end);
+  sim->settle_steps = info.steps;
+  sim->settle_residual = info.residual;
+  if (sim->settled != ZP_REACHED_END) return;
+  if (model->s == 2) sim->state->opening0 = q[n - 2] - q[n - 1];
+  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) memcpy(zp_state_q(model, sim->state), q, n * sizeof *q);
+}

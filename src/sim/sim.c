@@ -1,0 +1,304 @@
+/* A run: steps, events, records, and the reasons why it ends. */
+#include <zipact/sim.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "sim/sim_internal.h"
+
+const char *zp_outcome_name(ZpOutcome outcome) {
+  static const char *const names[] = {"end_time", "zipped", "interrupted", "not_settled", "diverged", "step_limit"};
+  return names[outcome];
+}
+
+bool zp_outcome_good(ZpOutcome outcome) {
+  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED;
+}
+
+const char *zp_step_limit_name(ZpStepLimit limit) {
+  static const char *const names[] = {"time_step", "stability", "drag", "event", "end"};
+  return names[limit];
+}
+
+/* -- creation ------------------------------------------------------------------------------------- */
+
+static bool allocate(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  size_t signals;
+  zp_signal_columns(&signals);
+  sim->state = zp_calloc(1, zp_state_size(model));
+  sim->a = zp_calloc(2 * model->count, sizeof(double));
+  sim->relax_work = zp_calloc(12 * model->count, sizeof(double));
+  sim->row = zp_calloc(signals, sizeof(double));
+  sim->line_force = zp_calloc(model->nodes, sizeof(double));
+  return zp_eval_create(model, &sim->eval) && sim->state && sim->a && sim->relax_work && sim->row && sim->line_force;
+}
+
+static void lay_straight(const ZpModel *model, double *q) {
+  for (size_t j = 0; j < model->count; j++)
+    q[j] = (double)(j / model->s) * model->l;
+}
+
+/* Energies count from here on. */
+static void start_energy_account(ZpSim *sim) {
+  ZpState *state = sim->state;
+  ZpEnergies e = zp_eval_energies(sim->model, state, &sim->eval);
+  state->base_energy = zp_energy_without_field(&e);
+  state->base_charge = sim->row_charge = e.charge;
+  state->base_field = e.field;
+}
+
+ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
+  *out = NULL;
+  ZpSim *sim = zp_calloc(1, sizeof *sim);
+  if (!sim) return zp_fail_memory(err);
+  sim->model = model;
+  if (!allocate(sim)) {
+    zp_sim_destroy(sim);
+    return zp_fail_memory(err);
+  }
+  ZpState *state = sim->state;
+  state->zip_time = state->refreshed = NAN;
+  lay_straight(model, zp_state_q(model, state));
+  zp_sim_settle(sim, hooks);
+  state->U = model->def.drive.voltage;
+  start_energy_account(sim);
+  *out = sim;
+  return ZP_OK;
+}
+
+void zp_sim_destroy(ZpSim *sim) {
+  if (!sim) return;
+  zp_eval_destroy(&sim->eval);
+  zp_free(sim->state);
+  zp_free(sim->a);
+  zp_free(sim->relax_work);
+  zp_free(sim->row);
+  zp_free(sim->line_force);
+  zp_free(sim);
+}
+
+void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
+  sim->series = series;
+  sim->shapes = shapes;
+}
+
+/* -- one step ------------------------------------------------------------------------------------- */
+
+static double accelerate(void *self, const double *q, const double *v, double *a) {
+  ZpSim *sim = self;
+  const ZpModel *model = sim->model;
+  zp_eval_forces(model, sim->state, q, v, ZP_ALL_FORCES, &sim->eval);
+  zp_eval_accelerations(model, &model->masses, &sim->state->zip, &sim->eval, a);
+
+  double dt = model->stable_step, asked = model->def.solver.time_step;
+  /* Half of the first bound of eq. (9): at the bound itself drag would turn a speed round, undiminished.
+   * Infinite without drag. */
+  double drag = 1 / (model->def.damping.drag * sim->eval.drag_rate);
+  sim->bound = ZP_LIMIT_STABILITY;
+  if (asked < dt) {
+    dt = asked;
+    sim->bound = ZP_LIMIT_TIME_STEP;
+  }
+  if (drag < dt) {
+    dt = drag;
+    sim->bound = ZP_LIMIT_DRAG;
+  }
+  return dt;
+}
+
+static double next_event(void *self, const double *q, const double *v, const double *a, double dt) {
+  ZpSim *sim = self;
+  size_t count = sim->model->count;
+  return zp_zip_next(&sim->state->zip, sim->model->nodes, q + count, v + count, a + count, dt, &sim->met);
+}
+
+/* Pair sim->met has met: it moves as one from now on, and a held electric force is out of date. */
+static void meet(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  double *v = zp_state_v(model, state);
+  state->contact_loss += zp_zip_merge(sim->met, &model->masses.x, v);
+  state->contact_loss += zp_zip_merge(sim->met, &model->masses.y, v + model->count);
+  state->zip = zp_zip_after(state->zip, model->nodes, sim->met);
+  state->refreshed = NAN;
+}
+
+static double opening(const ZpModel *model, const ZpState *state) {
+  const double *y = state->data + model->count;
+  return y[model->count - 2] - y[model->count - 1];
+}
+
+static bool reached_zip(const ZpModel *model, const ZpState *state) {
+  size_t margin = (size_t)model->def.contact.complete_margin;
+  if (margin) return state->zip.front + 1 + margin >= model->nodes;
+  return state->opening0 > 0 && opening(model, state) <= 0.01 * state->opening0;
+}
+
+/* Closed for good: with a margin as soon as it is zipped, else when the platform has arrived or turns back. */
+static bool closed(const ZpModel *model, const ZpState *state) {
+  if (isnan(state->zip_time)) return false;
+  if (model->def.contact.complete_margin) return true;
+  double platform_velocity = state->data[4 * model->count - 1];
+  return state->zip.platform || platform_velocity <= 0;
+}
+
+static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit) {
+  if (limit == ZP_EXPLICIT_EVENT) return ZP_LIMIT_EVENT;
+  return limit == ZP_EXPLICIT_END ? ZP_LIMIT_END : sim->bound;
+}
+
+static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  ZpExplicitSystem system = {2 * model->count, sim, accelerate, model->field ? next_event : NULL};
+  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
+  ZpExplicitStep taken =
+      zp_explicit_step(&system, end_time - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
+  state->t = taken.limit == ZP_EXPLICIT_END ? end_time : state->t + taken.dt;
+  state->drag_loss += sim->eval.drag_power * taken.dt;
+  info->steps++;
+  info->limited[limit_of(sim, taken.limit)]++;
+  if (!model->field) return;
+  if (taken.limit == ZP_EXPLICIT_EVENT) meet(sim);
+  else if (state->U == 0)
+    state->zip = zp_zip_open(state->zip, model->nodes, &model->masses.y, sim->eval.force + model->count);
+  if (isnan(state->zip_time) && reached_zip(model, state)) state->zip_time = state->t;
+}
+
+/* -- a run ---------------------------------------------------------------------------------------- */
+
+/* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
+static bool diverged(const ZpModel *model, const ZpState *state) {
+  static const double speed_of_sound = 1e4; /* m/s, rounded up */
+  const double *v = state->data + 2 * model->count;
+  for (size_t j = 0; j < 2 * model->count; j++)
+    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(state->data[j])) return true;
+  return false;
+}
+
+/* Fine enough for a fast zip; the records thin themselves where a run is long. */
+static double sampling_interval(const ZpModel *model) {
+  static const double finest = 1e-4; /* s */
+  return fmin(finest, model->def.solver.end_time / model->def.output.samples);
+}
+
+static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
+  ZpStepBounds bounds = zp_eval_step_bounds(sim->model, sim->state->data + 2 * sim->model->count, &sim->eval);
+  info->smallest_bound[0] = fmin(info->smallest_bound[0], bounds.drag);
+  info->smallest_bound[1] = fmin(info->smallest_bound[1], bounds.axial);
+  info->smallest_bound[2] = fmin(info->smallest_bound[2], bounds.shear);
+}
+
+static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
+  return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
+}
+
+static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
+  enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at the caller and at divergence: below a millisecond */
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  double start = state->t, interval = sampling_interval(model), next_sample = start + interval;
+  bool recording = sim->series || sim->shapes;
+  if (recording && start == 0) zp_sim_offer_record(sim);
+  while (state->t < end_time) {
+    if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
+    step(sim, end_time, info);
+    bool sample = recording && state->t >= next_sample;
+    if (sample || info->steps % BETWEEN_LOOKS == 0) {
+      if (diverged(model, state)) return ZP_DIVERGED;
+      if (asked_to_stop(hooks, (state->t - start) / (end_time - start))) return ZP_INTERRUPTED;
+    }
+    if (sample) {
+      zp_sim_offer_record(sim);
+      note_bounds(sim, info);
+      next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
+    }
+    if (stop_when_zipped && model->field && closed(model, state)) return ZP_ZIPPED;
+  }
+  return diverged(model, state) ? ZP_DIVERGED : ZP_REACHED_END;
+}
+
+static void describe(const ZpSim *sim, ZpRunInfo *info) {
+  char *text = info->message;
+  size_t size = sizeof info->message;
+  double t = sim->state->t;
+  switch (info->outcome) {
+  case ZP_REACHED_END:
+    snprintf(text, size, "ran to %g s", t);
+    break;
+  case ZP_ZIPPED:
+    snprintf(text, size, "closed after %.4g ms", 1e3 * sim->state->zip_time);
+    break;
+  case ZP_INTERRUPTED:
+    snprintf(text, size, "interrupted at %g s; what was done is kept", t);
+    break;
+  case ZP_NOT_SETTLED:
+    snprintf(text, size, "no hanging equilibrium found: %g of the weight still unbalanced after %lld steps",
+             sim->settle_residual, (long long)sim->settle_steps);
+    break;
+  case ZP_DIVERGED:
+    snprintf(text, size, "diverged before %g s; what was recorded until then is kept; try a smaller solver.time_step",
+             t);
+    break;
+  case ZP_STEP_LIMIT:
+    snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps", t, sim->model->def.solver.max_steps);
+    break;
+  }
+}
+
+ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *out) {
+  ZpRunInfo info = {.settle_steps = sim->settle_steps,
+                    .settle_residual = sim->settle_residual,
+                    .smallest_bound = {INFINITY, INFINITY, INFINITY}};
+  bool clock = hooks && hooks->clock;
+  double start_time = sim->state->t, start_clock = clock ? hooks->clock(hooks->user) : NAN;
+  info.outcome = sim->settled;
+  if (info.outcome == ZP_REACHED_END) {
+    info.outcome = advance(sim, end_time, stop_when_zipped, hooks, &info);
+    if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
+  }
+  info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
+  info.simulated_time = sim->state->t - start_time;
+  describe(sim, &info);
+  if (out) *out = info;
+  return info.outcome;
+}
+
+/* -- inputs, state -------------------------------------------------------------------------------- */
+
+ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
+  ZpActuatorDef scratch = sim->model->def;
+  ZpStatus status = zp_def_set(&scratch, zp_key_find("drive.voltage"), voltage, err);
+  if (status != ZP_OK) return status;
+  ZpState *state = sim->state;
+  ZpEnergies before = zp_eval_energies(sim->model, state, &sim->eval);
+  state->work += state->U * (before.charge - state->base_charge);
+  state->U = voltage;
+  ZpEnergies after = zp_eval_energies(sim->model, state, &sim->eval);
+  state->base_charge = sim->row_charge = after.charge;
+  state->base_field += after.field - before.field; /* charging at once is outside the balance */
+  state->refreshed = NAN;
+  return ZP_OK;
+}
+
+double zp_sim_zip_time(const ZpSim *sim) {
+  return sim->state->zip_time;
+}
+
+size_t zp_sim_state_size(const ZpSim *sim) {
+  return zp_state_size(sim->model);
+}
+
+void zp_sim_save(const ZpSim *sim, void *state) {
+  memcpy(state, sim->state, zp_state_size(sim->model));
+}
+
+ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err) {
+  if (size != zp_state_size(sim->model))
+    return zp_fail(err, ZP_BAD_INPUT, "state of %zu bytes: this model's has %zu", size, zp_state_size(sim->model));
+  memcpy(sim->state, state, size);
+  return ZP_OK;
+}

@@ -1,0 +1,40 @@
+/* The inside of a simulation, shared by the files of sim/. */
+#ifndef ZP_SIM_SIM_INTERNAL_H
+#define ZP_SIM_SIM_INTERNAL_H
+
+#include "actuator/eval.h"
+#include "solve/explicit.h"
+
+struct ZpSim {
+  const ZpModel *model;
+  ZpState *state;
+  ZpEval eval;
+  double *a;          /* [2 count] accelerations, work space of a step */
+  double *relax_work; /* [12 count] work space of settling */
+  ZpTable *series;    /* the caller's; NULL: no record */
+  ZpShapes *shapes;   /* the caller's; NULL: no record */
+  double *row;        /* one value per signal */
+  double *line_force; /* [nodes] of the shape handed out */
+  double row_time, row_charge; /* of the last row, for the mean current */
+  ZpOutcome settled;  /* ZP_REACHED_END once the hanging equilibrium is known */
+  int64_t settle_steps;
+  double settle_residual;
+  /* of the step under way */
+  ZpStepLimit bound; /* what set the largest step allowed */
+  size_t met;        /* pair that meets inside it */
+};
+
+/* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. */
+void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
+
+/* Sum of kinetic and stored energy without the field, of one part, J. */
+double zp_energy_without_field(const ZpEnergies *energies);
+
+/* Fill sim->row (record.c). */
+void zp_sim_fill_row(ZpSim *sim);
+
+/* Offer the present row and shape to the records; at the end make them the last. */
+void zp_sim_offer_record(ZpSim *sim);
+void zp_sim_close_record(ZpSim *sim);
+
+#endif

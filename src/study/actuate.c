@@ -1,0 +1,102 @@
+/* Study `actuate`: the voltage goes on at t = 0; how the actuator moves, and when it has zipped. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "study/studies.h"
+
+/* |imbalance| over the work of the source: the measure of how well energy balances. */
+static double energy_error(const ZpSim *sim) {
+  double work = zp_sim_get(sim, "electric_work");
+  return work > 0 ? fabs(zp_sim_get(sim, "energy_imbalance")) / work : NAN;
+}
+
+static void summarize_actuator(const ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "contraction", "1", zp_sim_get(sim, "contraction"));
+  zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
+  zp_result_add(result, "zipped_length_m", "m", zp_sim_get(sim, "zipped_length"));
+  zp_result_add(result, "opening_m", "m", zp_sim_get(sim, "opening"));
+}
+
+static void summarize_start(const ZpTable *series, ZpResult *result) {
+  zp_result_add(result, "start_stroke_m", "m", zp_table_get(series, 0, "stroke_m"));
+  zp_result_add(result, "start_opening_m", "m", zp_table_get(series, 0, "opening_m"));
+}
+
+/* The widest opening passed on the way: a sudden voltage makes the platform sag before it rises. */
+static double widest_opening(const ZpTable *series) {
+  double widest = NAN;
+  for (size_t i = 0; i < series->rows; i++)
+    widest = fmax(widest, zp_table_get(series, i, "opening_m"));
+  return widest;
+}
+
+static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
+  static const char *const limited[ZP_LIMIT_COUNT] = {"steps_limited_by_time_step", "steps_limited_by_stability",
+                                                      "steps_limited_by_drag", "steps_limited_by_event",
+                                                      "steps_limited_by_end"};
+  static const char *const bound[3] = {"smallest_drag_bound_s", "smallest_axial_bound_s", "smallest_shear_bound_s"};
+  zp_result_add(result, "steps", "count", (double)info->steps);
+  zp_result_add(result, "mean_time_step_s", "s", info->steps ? info->simulated_time / (double)info->steps : NAN);
+  zp_result_add(result, "simulated_time_s", "s", info->simulated_time);
+  for (int k = 0; k < ZP_LIMIT_COUNT; k++)
+    zp_result_add(result, limited[k], "count", (double)info->limited[k]);
+  for (int k = 0; k < 3; k++)
+    zp_result_add(result, bound[k], "s", isfinite(info->smallest_bound[k]) ? info->smallest_bound[k] : NAN);
+  zp_result_add(result, "settle_steps", "count", (double)info->settle_steps);
+  zp_result_add(result, "settle_residual", "1", info->settle_residual);
+  zp_result_add_timing(result, "real_time_factor", "1", info->simulated_time / info->wall_time);
+}
+
+static void warn(const ZpModel *model, const ZpActuatorDef *def, ZpResult *result) {
+  ZpModelInfo info = zp_model_info(model);
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON) return;
+  if (info.closed_insulator_field > def->insulator.breakdown_field)
+    zp_result_warn(result, "the insulator's field reaches %.3g MV/m where the faces touch, above its breakdown field of %.3g MV/m",
+                   info.closed_insulator_field / 1e6, def->insulator.breakdown_field / 1e6);
+  if (isfinite(zp_result_get(result, "zip_time_s")))
+    zp_result_warn(result, "zip times hold no drag of the liquid, which is not modelled: they are no prediction");
+}
+
+static void summarize(const ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
+  bool two = zp_model_def(model)->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  result->outcome = info->outcome;
+  memcpy(result->message, info->message, sizeof result->message);
+  if (info->outcome == ZP_DIVERGED || info->outcome == ZP_NOT_SETTLED) return;
+  if (two) summarize_actuator(sim, result);
+  zp_result_add(result, "stroke_m", "m", zp_sim_get(sim, "stroke"));
+  if (result->series->rows > 0) summarize_start(result->series, result);
+  if (two) zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
+  if (two) zp_result_add(result, "energy_error", "1", energy_error(sim));
+}
+
+static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  const ZpActuatorDef *def = zp_model_def(model);
+  ZpModelInfo size = zp_model_info(model);
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  result->series = zp_table_create(column, columns, (size_t)def->output.samples);
+  result->shapes = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, (size_t)def->output.shapes);
+  if (!result->series || !result->shapes) return zp_fail_memory(err);
+  ZpSim *sim;
+  ZpStatus status = zp_sim_create(model, hooks, &sim, err);
+  if (status != ZP_OK) return status;
+  zp_sim_record(sim, result->series, result->shapes);
+  ZpRunInfo info;
+  zp_sim_run(sim, def->solver.end_time, true, hooks, &info);
+  summarize(sim, model, &info, result);
+  summarize_steps(&info, result);
+  warn(model, def, result);
+  zp_sim_destroy(sim);
+  return ZP_OK;
+}
+
+ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  ZpModel *model;
+  ZpStatus status = zp_model_create(def, &model, err);
+  if (status != ZP_OK) return status;
+  status = run(model, hooks, result, err);
+  zp_model_destroy(model);
+  return status;
+}

@@ -1,0 +1,17 @@
+/* The studies: each fills a result from a Def that has been checked. */
+#ifndef ZP_STUDY_STUDIES_H
+#define ZP_STUDY_STUDIES_H
+
+#include <zipact/study.h>
+
+#include "base/memory.h"
+
+/* Voltage on at t = 0, motion until closed or end_time. */
+ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+
+/* Append a number to the summary; one that follows from wall time; a sentence of warning. */
+void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
+void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
+__attribute__((format(printf, 2, 3))) void zp_result_warn(ZpResult *result, const char *format, ...);
+
+#endif

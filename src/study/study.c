@@ -1,0 +1,55 @@
+/* Which study is run, and the parts of a result that all studies share. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "study/studies.h"
+
+ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
+  *out = NULL;
+  ZpStatus status = zp_def_check(def, err);
+  if (status != ZP_OK) return status;
+  ZpResult *result = zp_calloc(1, sizeof *result);
+  if (!result) return zp_fail_memory(err);
+  result->study = def->study;
+  switch (def->study) {
+  case ZP_STUDY_ACTUATE:
+  case ZpStudy_COUNT:
+    status = zp_study_actuate(def, hooks, result, err);
+    break;
+  }
+  if (status == ZP_OK) *out = result;
+  else zp_result_destroy(result);
+  return status;
+}
+
+void zp_result_destroy(ZpResult *result) {
+  if (!result) return;
+  zp_table_destroy(result->series);
+  zp_shapes_destroy(result->shapes);
+  zp_free(result);
+}
+
+double zp_result_get(const ZpResult *result, const char *name) {
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strcmp(result->scalar[i].name, name) == 0) return result->scalar[i].value;
+  return NAN;
+}
+
+void zp_result_add(ZpResult *result, const char *name, const char *unit, double value) {
+  result->scalar[result->scalars++] = (ZpScalar){name, unit, value, false};
+}
+
+void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value) {
+  result->scalar[result->scalars++] = (ZpScalar){name, unit, value, true};
+}
+
+void zp_result_warn(ZpResult *result, const char *format, ...) {
+  if (result->warnings == ZP_MAX_WARNINGS) return;
+  va_list args;
+  va_start(args, format);
+  vsnprintf(result->warning[result->warnings++], sizeof result->warning[0], format, args);
+  va_end(args);
+}

@@ -1,0 +1,690 @@
+/* Writing of results: what is in the files, that the same result gives the same bytes, and that a
+ * failure leaves neither halves nor temporaries behind. The results are made up: two smooth ribbons of
+ * 45 mm that zip from the clip in 75 ms. */
+#include <check.h>
+#include <dirent.h>
+#include <errno.h>
+#include <ftw.h>
+#include <hdf5.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <zipact/io.h>
+
+#include "io/number.h"
+
+#define NODES    61
+#define HALF     45e-3
+#define OPENING  20e-3
+#define ZIP_TIME 75e-3
+
+static char base[64]; /* folder of the test that runs */
+static char notices[2048];
+
+static void note(const char *message) {
+  size_t used = strlen(notices);
+  snprintf(notices + used, sizeof notices - used, "%s\n", message);
+}
+
+static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)info, (void)kind, (void)place;
+  return remove(path);
+}
+
+static void set_up(void) {
+  strcpy(base, "/tmp/zipact-report-XXXXXX");
+  ck_assert_ptr_nonnull(mkdtemp(base));
+  notices[0] = 0;
+}
+
+static void tear_down(void) {
+  nftw(base, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+/* "base/name"; a few of them live at a time. */
+static const char *in_base(const char *name) {
+  static char path[4][512];
+  static int next;
+  next = (next + 1) % 4;
+  snprintf(path[next], sizeof path[next], "%s/%s", base, name);
+  return path[next];
+}
+
+static bool exists(const char *name) {
+  return access(in_base(name), F_OK) == 0;
+}
+
+static char *read_whole(const char *path, size_t *size) {
+  FILE *file = fopen(path, "r");
+  ck_assert_msg(file != NULL, "%s: %s", path, strerror(errno));
+  fseek(file, 0, SEEK_END);
+  *size = (size_t)ftell(file);
+  rewind(file);
+  char *text = calloc(*size + 1, 1);
+  ck_assert_ptr_nonnull(text);
+  ck_assert_uint_eq(fread(text, 1, *size, file), *size);
+  fclose(file);
+  return text;
+}
+
+static void put_file(const char *name, const char *text) {
+  FILE *file = fopen(in_base(name), "w");
+  ck_assert_ptr_nonnull(file);
+  fputs(text, file);
+  fclose(file);
+}
+
+/* Fill one frame of made up ribbons at `time`. */
+static void offer_shape(ZpShapes *shapes, double time, double voltage) {
+  double x[2 * NODES], y[2 * NODES], gap[NODES], force[NODES];
+  double done = pow(time / ZIP_TIME, 2), opening = OPENING * (1 - done), front = done;
+  size_t ribbons = shapes->ribbons;
+  for (size_t i = 0; i < NODES; i++) {
+    double s = (double)i / (NODES - 1), xi = s > front ? (s - front) / (1 - front + 1e-12) : 0;
+    double bow = opening * (3 * xi * xi - 2 * xi * xi * xi);
+    gap[i] = bow;
+    force[i] = 1 / (1e-3 + bow);
+    for (size_t r = 0; r < ribbons; r++) {
+      x[i * ribbons + r] = HALF - (1 - s) * HALF * (1 - 0.3 * opening * opening / (HALF * HALF));
+      y[i * ribbons + r] = -opening / 2 + (r == 0 ? bow / 2 : -bow / 2);
+    }
+  }
+  zp_shapes_offer(shapes, &(ZpShape){.time = time,
+                                     .voltage = voltage,
+                                     .zipped = (size_t)(front * (NODES - 1)),
+                                     .x = x,
+                                     .y = y,
+                                     .gap = ribbons > 1 ? gap : NULL,
+                                     .line_force = ribbons > 1 ? force : NULL});
+}
+
+/* Value of a made up signal. What a kind ribbon does not have is NAN. */
+static double signal_value(const char *name, double time, double voltage, bool ribbon) {
+  double done = pow(time / ZIP_TIME, 2), opening = OPENING * (1 - done);
+  if (strcmp(name, "time_s") == 0) return time;
+  if (strcmp(name, "stroke_m") == 0) return opening / 2;
+  if (strstr(name, "velocity")) return 2 * OPENING * time / (ZIP_TIME * ZIP_TIME);
+  if (strcmp(name, "kinetic_energy_J") == 0) return 4e-4 * done;
+  if (strcmp(name, "bending_energy_J") == 0) return 8e-4 * (1 - done);
+  if (strcmp(name, "axial_energy_J") == 0) return 1e-5 * done;
+  if (strcmp(name, "gravity_energy_J") == 0) return -8e-3 * 9.81 * opening;
+  if (strcmp(name, "drag_loss_J") == 0) return 5e-4 * done * done;
+  if (strcmp(name, "energy_imbalance_J") == 0) return 1e-6 * sin(200 * time);
+  if (ribbon) return NAN;
+  if (strcmp(name, "voltage_V") == 0) return voltage;
+  if (strcmp(name, "opening_m") == 0) return opening;
+  if (strcmp(name, "contraction") == 0) return done;
+  if (strcmp(name, "zipped_length_m") == 0) return HALF * done;
+  if (strcmp(name, "charge_C") == 0) return 3e-6 * (0.2 + done);
+  if (strcmp(name, "capacitance_F") == 0) return 3e-10 * (0.2 + done);
+  if (strcmp(name, "current_A") == 0) return time > 0 ? 6e-6 * time / (ZIP_TIME * ZIP_TIME) : NAN;
+  if (strcmp(name, "force_N") == 0) return 0.1 + 3 * done * done;
+  if (strcmp(name, "electric_work_J") == 0) return 3e-3 * done;
+  return strcmp(name, "field_energy_J") == 0 ? 1.5e-3 * (0.2 + done) : 0;
+}
+
+static void offer_row(ZpTable *table, double time, double voltage, bool ribbon) {
+  double row[64];
+  for (size_t i = 0; i < table->columns; i++)
+    row[i] = signal_value(table->column[i].name, time, voltage, ribbon);
+  zp_table_offer(table, row);
+}
+
+static void add_scalar(ZpResult *result, const char *name, const char *unit, double value, bool timing) {
+  result->scalar[result->scalars++] = (ZpScalar){name, unit, value, timing};
+}
+
+/* A made up result. `slowness` stretches the time, as another voltage would. */
+static ZpResult *made_up(size_t rows, size_t frames, bool ribbon, double voltage, double slowness) {
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpResult *result = calloc(1, sizeof *result);
+  ck_assert_ptr_nonnull(result);
+  result->study = ZP_STUDY_ACTUATE;
+  result->outcome = ZP_ZIPPED;
+  strcpy(result->message, "zipped after 75 ms");
+  strcpy(result->warning[result->warnings++], "the field in the insulator was above insulator.breakdown_field");
+  add_scalar(result, "contraction", "1", 0.1 + 0.2, false);
+  add_scalar(result, "zip_time_s", "s", ribbon ? (double)NAN : ZIP_TIME * slowness, false);
+  add_scalar(result, "steps", "count", 123456789, false);
+  add_scalar(result, "real_time_factor", "1", 0.01, true);
+  result->series = zp_table_create(column, columns, rows + 2);
+  for (size_t i = 0; i < rows; i++) {
+    offer_row(result->series, ZIP_TIME * (double)i / (double)(rows > 1 ? rows - 1 : 1), voltage, ribbon);
+    result->series->value[i * columns] *= slowness;
+  }
+  result->shapes = frames ? zp_shapes_create(ribbon ? 1 : 2, NODES, frames + 2) : NULL;
+  for (size_t i = 0; i < frames; i++)
+    offer_shape(result->shapes, ZIP_TIME * (double)i / (double)(frames > 1 ? frames - 1 : 1), voltage);
+  return result;
+}
+
+static ZpScenario *scenario_of(const char *assignment) {
+  ZpScenario *scenario = zp_scenario_create();
+  ck_assert_ptr_nonnull(scenario);
+  ZpError err = {0};
+  if (assignment) ck_assert_msg(zp_scenario_set(scenario, assignment, &err) == ZP_OK, "%s", err.message);
+  return scenario;
+}
+
+/* Write a report of one made up run to base/name. */
+static void write_single(const char *name, const char *assignment, ZpResult *result, double wall_time) {
+  ZpScenario *scenario = scenario_of(assignment);
+  ZpError err = {0};
+  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time};
+  ZpStatus status = zp_report_write(&report, note, &err);
+  ck_assert_msg(status == ZP_OK, "%s", err.message);
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
+}
+
+/* The same of a sweep of `count` runs over the lists that `assignment` gives. */
+static void write_sweep(const char *name, const char *assignment, size_t count) {
+  ZpScenario *scenario = scenario_of(assignment);
+  ZpResult **result = calloc(count + 1, sizeof(ZpResult *));
+  ck_assert_ptr_nonnull(result);
+  ck_assert_uint_eq(zp_scenario_count(scenario), count);
+  for (size_t i = 0; i < count; i++)
+    result[i] = made_up(60, 3, false, 8e3, 1 + 0.5 * (double)i);
+  if (count > 1) result[1]->outcome = ZP_DIVERGED;
+  if (count > 1) result[1]->scalar[1].value = NAN;
+  ZpError err = {0};
+  const ZpReport report = {in_base(name), scenario, result, count, 2.5};
+  ZpStatus status = zp_report_write(&report, note, &err);
+  ck_assert_msg(status == ZP_OK, "%s", err.message);
+  for (size_t i = 0; i < count; i++)
+    zp_result_destroy(result[i]);
+  free(result);
+  zp_scenario_destroy(scenario);
+}
+
+/* Walking a folder: what is met, and what is wrong with it. */
+static size_t files_seen, temporaries_seen;
+
+static int count_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)info;
+  if (kind != FTW_F) return 0;
+  files_seen++;
+  if (path[place->base] == '.' || strstr(path + place->base, "tmp")) temporaries_seen++;
+  return 0;
+}
+
+static size_t count_files(const char *name) {
+  files_seen = temporaries_seen = 0;
+  nftw(in_base(name), count_entry, 16, FTW_PHYS);
+  ck_assert_uint_eq(temporaries_seen, 0);
+  return files_seen;
+}
+
+static const char *first_root, *second_root;
+
+static int compare_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
+  (void)info;
+  char other[512];
+  size_t size, other_size;
+  if (kind != FTW_F || strcmp(path + place->base, "summary.json") == 0) return 0;
+  snprintf(other, sizeof other, "%s%s", second_root, path + strlen(first_root));
+  char *mine = read_whole(path, &size), *theirs = read_whole(other, &other_size);
+  ck_assert_msg(size == other_size && memcmp(mine, theirs, size) == 0, "%s and %s differ", path, other);
+  free(mine);
+  free(theirs);
+  return 0;
+}
+
+static void same_files(const char *a, const char *b) {
+  first_root = in_base(a);
+  second_root = in_base(b);
+  ck_assert_uint_eq(count_files(a), count_files(b));
+  ck_assert_int_eq(nftw(first_root, compare_entry, 16, FTW_PHYS), 0);
+}
+
+static json_t *load_json(const char *name) {
+  json_error_t error;
+  json_t *json = json_load_file(in_base(name), 0, &error);
+  ck_assert_msg(json != NULL, "%s", error.text);
+  return json;
+}
+
+static double json_number_of(const json_t *object, const char *name) {
+  const json_t *value = json_object_get(object, name);
+  ck_assert_msg(json_is_number(value), "%s is not a number", name);
+  return json_number_value(value);
+}
+
+START_TEST(numbers_are_short_and_exact) {
+  const struct {
+    double value;
+    const char *text;
+  } known[] = {{0.1, "0.1"},
+               {0, "0"},
+               {-0.0, "-0"},
+               {75e-3, "0.075"},
+               {130e-6, "0.00013"},
+               {1e-6, "1e-06"},
+               {10e3, "10000"},
+               {1e16, "1e+16"},
+               {200e9, "200000000000"},
+               {-12.5, "-12.5"},
+               {1.5e-9, "1.5e-09"},
+               {5e-324, "5e-324"},
+               {0.1 + 0.2, "0.30000000000000004"},
+               {NAN, "nan"},
+               {-INFINITY, "-inf"},
+               {1e15, "1000000000000000"}};
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    char text[ZP_NUMBER_SIZE];
+    zp_number_print(known[i].value, text, sizeof text);
+    ck_assert_str_eq(text, known[i].text);
+  }
+}
+END_TEST
+
+START_TEST(numbers_read_back) {
+  uint64_t bits = 88172645463325252u;
+  for (int i = 0; i < 200000; i++) {
+    char text[ZP_NUMBER_SIZE];
+    double value, again;
+    bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+    memcpy(&value, &bits, sizeof value);
+    if (!isfinite(value)) continue;
+    if (i % 2) value = (double)(int64_t)bits * 1e-12;
+    zp_number_print(value, text, sizeof text);
+    again = strtod(text, NULL);
+    ck_assert_msg(memcmp(&value, &again, sizeof value) == 0, "%.17g became %s", value, text);
+  }
+}
+END_TEST
+
+START_TEST(single_run_has_all_files) {
+  static const char *const name[] = {"scenario.yaml",
+                                     "summary.json",
+                                     "table.csv",
+                                     "results.h5",
+                                     "shapes.pvd",
+                                     "shapes/shape_0000.vtp",
+                                     "shapes/shape_0009.vtp",
+                                     "plots/stroke.svg",
+                                     "plots/stroke.gp",
+                                     "plots/energies.svg",
+                                     "plots/electric.svg",
+                                     "plots/zipped_length.svg",
+                                     "plots/profiles.svg",
+                                     "plots/profiles.dat",
+                                     "plots/animation.gif"};
+  write_single("out/deep", NULL, made_up(50, 10, false, 8e3, 1), 1.25);
+  for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
+    char path[128];
+    snprintf(path, sizeof path, "out/deep/%s", name[i]);
+    ck_assert_msg(exists(path), "no %s", name[i]);
+  }
+  ck_assert_str_eq(notices, "");
+  count_files("out");
+}
+END_TEST
+
+START_TEST(summary_of_a_run) {
+  write_single("out", NULL, made_up(50, 3, true, 8e3, 1), 1.25);
+  json_t *json = load_json("out/summary.json");
+  ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "zipped");
+  ck_assert_str_eq(json_string_value(json_object_get(json, "study")), "actuate");
+  ck_assert(json_number_of(json, "wall_time_s") == 1.25);
+  ck_assert(json_number_of(json, "contraction") == 0.1 + 0.2);
+  ck_assert(json_number_of(json, "real_time_factor") == 0.01);
+  ck_assert(json_is_integer(json_object_get(json, "steps")));
+  ck_assert(json_is_null(json_object_get(json, "zip_time_s")));
+  ck_assert_uint_eq(json_array_size(json_object_get(json, "warnings")), 1);
+  ck_assert_ptr_null(json_object_get(json, "rows"));
+  json_decref(json);
+}
+END_TEST
+
+START_TEST(table_of_a_run) {
+  size_t size;
+  write_single("out", NULL, made_up(50, 0, false, 8e3, 1), 1);
+  char *text = read_whole(in_base("out/table.csv"), &size), *rest = NULL;
+  const char *head = strtok_r(text, "\n", &rest), *first = strtok_r(NULL, "\n", &rest);
+  ck_assert_ptr_nonnull(strstr(head, "time_s,voltage_V,stroke_m,opening_m,contraction,"));
+  ck_assert_msg(strncmp(first, "0,8000,0.01,0.02,0,", 19) == 0, "%s", first);
+  ck_assert_msg(strstr(first, ",,") != NULL, "a NAN is no empty cell: %s", first);
+  ck_assert_ptr_null(strcasestr(first, "nan"));
+  size_t rows = 1;
+  while (strtok_r(NULL, "\n", &rest))
+    rows++;
+  ck_assert_uint_eq(rows, 50);
+  free(text);
+}
+END_TEST
+
+START_TEST(hdf5_of_a_run) {
+  double stroke[50];
+  char unit[8] = {0};
+  write_single("out", NULL, made_up(50, 4, false, 8e3, 1), 1);
+  hid_t file = H5Fopen(in_base("out/results.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
+  hid_t set = H5Dopen2(file, "/series/stroke_m", H5P_DEFAULT), space = H5Dget_space(set);
+  ck_assert_int_eq(H5Sget_simple_extent_npoints(space), 50);
+  ck_assert_int_ge(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, stroke), 0);
+  ck_assert(stroke[0] == OPENING / 2);
+  hid_t attribute = H5Aopen(set, "unit", H5P_DEFAULT), type = H5Aget_type(attribute);
+  ck_assert_int_ge(H5Aread(attribute, type, unit), 0);
+  ck_assert_str_eq(unit, "m");
+  H5Tclose(type);
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Dclose(set);
+  hsize_t size[3];
+  set = H5Dopen2(file, "/shapes/x", H5P_DEFAULT), space = H5Dget_space(set);
+  ck_assert_int_eq(H5Sget_simple_extent_dims(space, size, NULL), 3);
+  ck_assert(size[0] == 4 && size[1] == 2 && size[2] == NODES);
+  ck_assert_int_gt(H5Lexists(file, "/summary/steps", H5P_DEFAULT), 0);
+  ck_assert_int_eq(H5Lexists(file, "/summary/real_time_factor", H5P_DEFAULT), 0);
+  H5Sclose(space);
+  H5Dclose(set);
+  H5Fclose(file);
+}
+END_TEST
+
+START_TEST(vtk_frame_reads_back) {
+  size_t size;
+  double x;
+  write_single("out", NULL, made_up(5, 3, false, 8e3, 1), 1);
+  char *text = read_whole(in_base("out/shapes/shape_0001.vtp"), &size);
+  const char *points = strstr(text, "Name=\"Points\""), *data = memmem(text, size, "raw\">\n_", 7);
+  ck_assert(points && data);
+  size_t offset = strtoul(strstr(points, "offset=\"") + 8, NULL, 10);
+  memcpy(&x, data + 7 + offset + sizeof(uint64_t), sizeof x);
+  const double opening = OPENING * 0.75;
+  ck_assert_double_eq_tol(x, HALF * 0.3 * opening * opening / (HALF * HALF), 1e-12);
+  ck_assert_ptr_nonnull(memmem(text, size, "\n  </AppendedData>\n</VTKFile>\n", 30));
+  free(text);
+}
+END_TEST
+
+START_TEST(same_result_same_bytes) {
+  write_single("a", NULL, made_up(200, 20, false, 8e3, 1), 1);
+  write_single("b", NULL, made_up(200, 20, false, 8e3, 1), 2);
+  same_files("a", "b");
+  write_sweep("c", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
+  write_sweep("d", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
+  same_files("c", "d");
+  write_single("c", NULL, made_up(200, 20, false, 8e3, 1), 3);
+  write_sweep("a", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
+  same_files("b", "c");
+  same_files("a", "d");
+}
+END_TEST
+
+START_TEST(table_of_a_sweep) {
+  size_t size;
+  write_sweep("out", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
+  char *text = read_whole(in_base("out/table.csv"), &size);
+  ck_assert_str_eq(text, "drive.voltage_V,outcome,contraction,zip_time_s,steps\n"
+                         "6000,zipped,0.30000000000000004,0.075,123456789\n"
+                         "8000,diverged,0.30000000000000004,,123456789\n"
+                         "10000,zipped,0.30000000000000004,0.15,123456789\n");
+  free(text);
+  ck_assert(exists("out/plots/contraction.svg") && exists("out/plots/zip_time.svg"));
+  ck_assert(!exists("out/shapes.pvd") && !exists("out/plots/stroke.svg"));
+  ck_assert_str_eq(notices, "");
+}
+END_TEST
+
+START_TEST(summary_of_a_sweep) {
+  write_sweep("out", "mesh.nodes=[21, 61]", 2);
+  json_t *json = load_json("out/summary.json");
+  const json_t *rows = json_object_get(json, "rows"), *row = json_array_get(rows, 1);
+  ck_assert_uint_eq(json_array_size(rows), 2);
+  ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "diverged");
+  ck_assert_int_eq(json_integer_value(json_object_get(row, "mesh.nodes")), 61);
+  ck_assert(json_number_of(row, "contraction") == 0.1 + 0.2);
+  ck_assert_uint_eq(json_array_size(json_object_get(json, "warnings")), 1);
+  json_decref(json);
+}
+END_TEST
+
+START_TEST(hdf5_of_a_sweep) {
+  write_sweep("out", "drive.voltage=[6 kV, 8 kV]", 2);
+  hid_t file = H5Fopen(in_base("out/results.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
+  hid_t set = H5Dopen2(file, "/table/drive.voltage_V", H5P_DEFAULT);
+  double voltage[2];
+  ck_assert_int_ge(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, voltage), 0);
+  ck_assert(voltage[0] == 6e3 && voltage[1] == 8e3);
+  H5Dclose(set);
+  set = H5Dopen2(file, "/runs/0001/series/time_s", H5P_DEFAULT);
+  ck_assert_int_ge(set, 0);
+  H5Dclose(set);
+  H5Fclose(file);
+}
+END_TEST
+
+START_TEST(old_results_go_and_others_stay) {
+  write_single("out", NULL, made_up(50, 12, false, 8e3, 1), 1);
+  put_file("out/notes.txt", "mine");
+  put_file("out/shapes/shape_best.vtp", "mine");
+  put_file("out/shapes/shape_00011.vtp", "mine");
+  put_file("out/plots/mine.gp", "mine");
+  write_single("out", NULL, made_up(50, 4, false, 8e3, 1), 1);
+  ck_assert(exists("out/shapes/shape_0003.vtp") && !exists("out/shapes/shape_0004.vtp"));
+  ck_assert(!exists("out/shapes/shape_0011.vtp"));
+  write_sweep("out", "drive.voltage=[6 kV, 8 kV]", 2);
+  ck_assert(!exists("out/shapes.pvd") && !exists("out/shapes/shape_0000.vtp"));
+  ck_assert(!exists("out/plots/animation.gif") && !exists("out/plots/animation.dat"));
+  ck_assert(exists("out/notes.txt") && exists("out/plots/mine.gp"));
+  ck_assert(exists("out/shapes/shape_best.vtp") && exists("out/shapes/shape_00011.vtp"));
+}
+END_TEST
+
+START_TEST(little_to_write) {
+  write_single("one", NULL, made_up(1, 1, false, 8e3, 1), 1);
+  write_single("none", NULL, made_up(0, 0, false, 8e3, 1), 1);
+  ck_assert(exists("one/shapes.pvd") && !exists("none/shapes.pvd"));
+  ZpResult *bare = made_up(0, 0, false, 8e3, 1);
+  zp_table_destroy(bare->series);
+  bare->series = NULL;
+  write_single("bare", NULL, bare, 1);
+  ck_assert(exists("bare/summary.json") && !exists("bare/table.csv"));
+  ck_assert_str_eq(notices, "");
+}
+END_TEST
+
+START_TEST(interrupted_before_the_first_run) {
+  ZpScenario *scenario = scenario_of("drive.voltage=[6 kV, 8 kV]");
+  ZpError err = {0};
+  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5};
+  ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
+  json_t *json = load_json("out/summary.json");
+  ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "interrupted");
+  ck_assert_uint_eq(json_array_size(json_object_get(json, "rows")), 0);
+  json_decref(json);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+START_TEST(kind_ribbon) {
+  write_single("out", "actuator.kind=ribbon", made_up(50, 10, true, 0, 1), 1);
+  ck_assert(exists("out/plots/stroke.svg") && exists("out/plots/animation.gif"));
+  ck_assert(!exists("out/plots/electric.svg"));
+  ck_assert_str_eq(notices, "");
+}
+END_TEST
+
+/* Numbers without bounds must not stop the report: what can be drawn is drawn. */
+START_TEST(diverged) {
+  ZpResult *result = made_up(50, 10, false, 8e3, 1);
+  const size_t columns = result->series->columns;
+  for (size_t i = 1; i < columns; i++)
+    result->series->value[49 * columns + i] = i % 2 ? INFINITY : 1e300;
+  for (size_t i = 3; i < result->shapes->frame_size; i++) /* after time, voltage, zipped */
+    result->shapes->value[9 * result->shapes->frame_size + i] = i % 2 ? INFINITY : -1e300;
+  result->scalar[0].value = -INFINITY;
+  result->outcome = ZP_DIVERGED;
+  write_single("out", NULL, result, 1);
+  json_t *json = load_json("out/summary.json");
+  ck_assert(json_is_null(json_object_get(json, "contraction")));
+  json_decref(json);
+  ck_assert(exists("out/plots/stroke.gp"));
+  count_files("out");
+}
+END_TEST
+
+START_TEST(folder_that_cannot_be) {
+  ZpError err = {0};
+  put_file("file", "mine");
+  ck_assert_int_eq(zp_report_prepare(in_base("file"), &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "/file"));
+  ck_assert_int_eq(zp_report_prepare(in_base("file/deep/er"), &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "/file"));
+  ck_assert_int_eq(zp_report_prepare("/proc/zipact", &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_report_prepare("", &err), ZP_MACHINE);
+  ck_assert_msg(zp_report_prepare(in_base("a/b/c/"), &err) == ZP_OK, "%s", err.message);
+  ck_assert_uint_eq(count_files("a"), 0);
+}
+END_TEST
+
+START_TEST(name_taken_by_a_folder) {
+  ZpScenario *scenario = scenario_of(NULL);
+  ZpResult *result = made_up(5, 2, false, 8e3, 1);
+  ZpError err = {0};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1};
+  ck_assert_int_eq(zp_report_prepare(report.directory, &err), ZP_OK);
+  ck_assert_int_eq(mkdir(in_base("out/results.h5"), 0777), 0);
+  ck_assert_int_eq(zp_report_write(&report, note, &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "results.h5"));
+  ck_assert(!exists("out/summary.json"));
+  count_files("out");
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+START_TEST(summary_to_a_full_device) {
+  ZpScenario *scenario = scenario_of(NULL);
+  ZpResult *result = made_up(5, 2, false, 8e3, 1);
+  ZpError err = {0};
+  const ZpReport report = {"unused", scenario, &result, 1, 1};
+  FILE *full = fopen("/dev/full", "w");
+  if (full) {
+    ck_assert_int_eq(zp_summary_write(&report, full, &err), ZP_MACHINE);
+    ck_assert_ptr_nonnull(strstr(err.message, strerror(ENOSPC)));
+    fclose(full);
+  }
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* What a reader of a complete file finds at its end. */
+static void check_complete(const char *name, const char *end) {
+  size_t size;
+  if (!exists(name)) return;
+  char *text = read_whole(in_base(name), &size);
+  size_t length = strlen(end);
+  ck_assert_msg(size >= length && memcmp(text + size - length, end, length) == 0, "%s is not complete", name);
+  free(text);
+}
+
+/* Write to a disk of `kilobytes`; true if it was large enough. */
+static bool write_on_small_disk(int kilobytes) {
+  char option[32];
+  ZpScenario *scenario = scenario_of(NULL);
+  ZpResult *result = made_up(400, 20, false, 8e3, 1);
+  ZpError err = {0};
+  snprintf(option, sizeof option, "size=%dk", kilobytes);
+  ck_assert_int_eq(mount("none", in_base("disk"), "tmpfs", 0, option), 0);
+  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1};
+  ZpStatus status = zp_report_write(&report, note, &err);
+  ck_assert_msg(status == ZP_OK || strstr(err.message, strerror(ENOSPC)), "%s", err.message);
+  ck_assert_msg(status == ZP_OK || strstr(err.message, "disk/out"), "no file name: %s", err.message);
+  ck_assert((status == ZP_OK) == exists("disk/out/summary.json"));
+  count_files("disk");
+  check_complete("disk/out/table.csv", "\n");
+  check_complete("disk/out/shapes.pvd", "</VTKFile>\n");
+  check_complete("disk/out/shapes/shape_0000.vtp", "</VTKFile>\n");
+  check_complete("disk/out/plots/stroke.svg", "</svg>\n\n");
+  check_complete("disk/out/plots/animation.gif", ";");
+  ck_assert_int_eq(umount(in_base("disk")), 0);
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
+  return status == ZP_OK;
+}
+
+START_TEST(full_disk) {
+  ck_assert_int_eq(mkdir(in_base("disk"), 0777), 0);
+  if (mount("none", in_base("disk"), "tmpfs", 0, "size=64k") != 0) return; /* only root may try this */
+  ck_assert_int_eq(umount(in_base("disk")), 0);
+  bool enough = false;
+  for (int kilobytes = 4; !enough; kilobytes += kilobytes / 3 + 4) {
+    ck_assert_int_lt(kilobytes, 10000);
+    enough = write_on_small_disk(kilobytes);
+  }
+}
+END_TEST
+
+START_TEST(no_gnuplot) {
+  ck_assert_int_eq(setenv("PATH", in_base("nowhere"), 1), 0);
+  write_single("out", NULL, made_up(50, 10, false, 8e3, 1), 1);
+  ck_assert(exists("out/plots/stroke.gp") && exists("out/plots/profiles.dat") && exists("out/summary.json"));
+  ck_assert(!exists("out/plots/stroke.svg"));
+  ck_assert_ptr_nonnull(strstr(notices, "gnuplot was not found"));
+  ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
+  count_files("out");
+}
+END_TEST
+
+START_TEST(broken_gnuplot) {
+  ck_assert_int_eq(mkdir(in_base("bin"), 0777), 0);
+  put_file("bin/gnuplot", "#!/bin/sh\necho junk\necho '\"stroke.gp\" line 3: it is broken' >&2\nexit 1\n");
+  ck_assert_int_eq(chmod(in_base("bin/gnuplot"), 0755), 0);
+  ck_assert_int_eq(setenv("PATH", in_base("bin"), 1), 0);
+  write_single("out", NULL, made_up(50, 10, false, 8e3, 1), 1);
+  ck_assert(exists("out/plots/stroke.gp") && !exists("out/plots/stroke.svg"));
+  ck_assert_ptr_nonnull(strstr(notices, "stroke.svg was not drawn: \"stroke.gp\" line 3: it is broken"));
+  count_files("out");
+}
+END_TEST
+
+static Suite *suite_of_report(void) {
+  const TTest *const test[] = {numbers_are_short_and_exact,
+                               numbers_read_back,
+                               single_run_has_all_files,
+                               summary_of_a_run,
+                               table_of_a_run,
+                               hdf5_of_a_run,
+                               vtk_frame_reads_back,
+                               same_result_same_bytes,
+                               table_of_a_sweep,
+                               summary_of_a_sweep,
+                               hdf5_of_a_sweep,
+                               old_results_go_and_others_stay,
+                               little_to_write,
+                               interrupted_before_the_first_run,
+                               kind_ribbon,
+                               diverged,
+                               folder_that_cannot_be,
+                               name_taken_by_a_folder,
+                               summary_to_a_full_device,
+                               full_disk,
+                               no_gnuplot,
+                               broken_gnuplot};
+  Suite *suite = suite_create("report");
+  TCase *part = tcase_create("files");
+  tcase_add_checked_fixture(part, set_up, tear_down);
+  tcase_set_timeout(part, 120);
+  for (size_t i = 0; i < sizeof test / sizeof test[0]; i++)
+    tcase_add_test(part, test[i]);
+  suite_add_tcase(suite, part);
+  return suite;
+}
+
+int main(void) {
+  SRunner *runner = srunner_create(suite_of_report());
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}

@@ -1,0 +1,737 @@
+/* Scenarios, values and keys: what is read, what is refused and with which words, and that all that is
+ * written reads back to the same bits. */
+#include <locale.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <check.h>
+#include <jansson.h>
+
+#include <zipact/io.h>
+
+#define LENGTH_OF(array) (sizeof(array) / sizeof(array)[0])
+
+static ZpStatus parse(ZpScenario *s, const char *text, ZpError *err) {
+  return zp_scenario_parse(s, text, strlen(text), "test.yaml", err);
+}
+
+/* A scenario of a text that must be right. */
+static ZpScenario *scenario_of(const char *text) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  ck_assert_ptr_nonnull(s);
+  ck_assert_msg(parse(s, text, &err) == ZP_OK, "%s: %s", text, err.message);
+  return s;
+}
+
+static ZpActuatorDef def_of(const ZpScenario *s, size_t index) {
+  ZpActuatorDef def;
+  ZpError err = {0};
+  ck_assert_msg(zp_scenario_def(s, index, &def, &err) == ZP_OK, "%s", err.message);
+  return def;
+}
+
+/* Value of `key` in the only Def of a text. */
+static double value_in(const char *text, const char *key) {
+  ZpScenario *s = scenario_of(text);
+  ck_assert_uint_eq(zp_scenario_count(s), 1);
+  ZpActuatorDef def = def_of(s, 0);
+  zp_scenario_destroy(s);
+  return zp_def_get(&def, zp_key_find(key));
+}
+
+static bool same_bits(double a, double b) {
+  return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+}
+
+static void assert_same_def(const ZpActuatorDef *a, const ZpActuatorDef *b) {
+  for (int i = 0; i < zp_key_count(); i++)
+    ck_assert_msg(same_bits(zp_def_get(a, i), zp_def_get(b, i)), "%s: %.17g became %.17g", zp_key(i)->name,
+                  zp_def_get(a, i), zp_def_get(b, i));
+}
+
+/* What zp_scenario_write gives, to be freed. */
+static char *written(const ZpScenario *s) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = open_memstream(&text, &size);
+  ZpError err = {0};
+  ck_assert_ptr_nonnull(file);
+  ck_assert_msg(zp_scenario_write(s, file, &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(fclose(file), 0);
+  return text;
+}
+
+static void assert_round_trip(const ZpScenario *s) {
+  char *text = written(s);
+  ZpScenario *back = scenario_of(text);
+  ck_assert_uint_eq(zp_scenario_count(s), zp_scenario_count(back));
+  for (size_t i = 0; i < zp_scenario_count(s); i++) {
+    ZpActuatorDef a = def_of(s, i), b = def_of(back, i);
+    assert_same_def(&a, &b);
+  }
+  char *again = written(back);
+  ck_assert_str_eq(text, again);
+  free(again);
+  free(text);
+  zp_scenario_destroy(back);
+}
+
+/* Values that are read, and what they are in SI: compared bit by bit. */
+static const struct {
+  const char *key, *text;
+  double value;
+} good_values[] = {
+    {"ribbon.thickness", "50 um", 50e-6},
+    {"ribbon.thickness", "50um", 50e-6},
+    {"ribbon.thickness", "  50   um ", 50e-6},
+    {"ribbon.thickness", "50 \xC2\xB5m", 50e-6},
+    {"ribbon.thickness", "5e-5", 50e-6},
+    {"ribbon.thickness", "0.05 mm", 50e-6},
+    {"ribbon.thickness", "+.5e-1 mm", 50e-6},
+    {"ribbon.thickness", "5000 um", 5e-3},
+    {"ribbon.length", "1 in", 0.0254},
+    {"ribbon.length", "1e-1 m", 0.1},
+    {"ribbon.length", "5.", 5},
+    {"drive.voltage", "10 kV", 10e3},
+    {"drive.voltage", "0.01 MV", 10e3},
+    {"drive.voltage", "-0 V", 0},
+    {"load.mass", "8 g", 8e-3},
+    {"load.mass", "1e-3", 1e-3},
+    {"ribbon.young_modulus", "200 GPa", 200e9},
+    {"ribbon.young_modulus", "200 kN/mm2", 200e9},
+    {"ribbon.density", "7.85 g/cm3", 7850},
+    {"ribbon.density", "7850 kg m-3", 7850},
+    {"ribbon.density", "7850 kg/m^3", 7850},
+    {"insulator.breakdown_field", "40 V/um", 40e6},
+    {"damping.drag", "1 N s2/m2", 1},
+    {"gravity", "9.81 m/s2", 9.81},
+    {"solver.end_time", "2 min", 120},
+    {"load.share", "25 %", 0.25},
+    {"load.share", "25 percent", 0.25},
+    {"load.share", "0.25", 0.25},
+    {"mesh.nodes", "61", 61},
+    {"mesh.nodes", "6.1e1", 61},
+    {"solver.time_step", "auto", NAN},
+    {"solver.time_step", "5 us", 5e-6},
+    {"platform.electrode", "true", 1},
+    {"platform.electrode", "No", 0},
+    {"platform.electrode", "on", 1},
+    {"platform.electrode", "off", 0},
+    {"platform.electrode", "yes", 1},
+    {"platform.electrode", "FALSE", 0},
+    {"electro.surface", "bezier", ZP_SURFACE_BEZIER},
+};
+
+START_TEST(test_good_value) {
+  double value = -1;
+  ZpError err = {0};
+  int key = zp_key_find(good_values[_i].key);
+  ck_assert_int_ge(key, 0);
+  ck_assert_msg(zp_value_parse(key, good_values[_i].text, &value, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(same_bits(value, good_values[_i].value), "%s: %.17g", good_values[_i].text, value);
+}
+END_TEST
+
+/* Values that are refused, and a part of the reason. All messages must name key and value, too. */
+static const struct {
+  const char *key, *text, *reason;
+} bad_values[] = {
+    {"ribbon.thickness", "130 kV", "not a length; give a value in um from 1 um to 5000 um"},
+    {"ribbon.thickness", "0", "out of range; 1 um to 5000 um"},
+    {"ribbon.thickness", "6 mm", "out of range; 1 um to 5000 um"},
+    {"ribbon.thickness", "-5 um", "out of range"},
+    {"ribbon.thickness", "", "empty"},
+    {"ribbon.thickness", " ", "empty"},
+    {"ribbon.thickness", "um", "not a number"},
+    {"ribbon.thickness", "auto", "cannot be auto"},
+    {"ribbon.length", "5 m m", "not a length"},
+    {"ribbon.length", "5 10 mm", "unknown unit"},
+    {"ribbon.length", "5 mm @ 3", "unknown unit"},
+    {"ribbon.length", "5 lg(re mm)", "not a length"},
+    {"ribbon.length", "0x10", "not a decimal number"},
+    {"ribbon.length", "1_000", "not a decimal number"},
+    {"ribbon.length", "1,5 m", "not a decimal number"},
+    {"ribbon.length", "1.2.3", "not a decimal number"},
+    {"ribbon.length", "1e", "not a length"},
+    {"ribbon.length", "--1", "not a number"},
+    {"ribbon.length", ".", "not a number"},
+    {"ribbon.length", "5 mm^999999", "unknown unit"},
+    {"ribbon.length", "5 ((((((((mm", "unknown unit"},
+    {"ribbon.length", "5 \xFF", "unknown unit ?"},
+    {"drive.voltage", "5 kV extra", "unknown unit kV extra"},
+    {"drive.voltage", "nan", "not a number"},
+    {"drive.voltage", ".nan", "not a number"},
+    {"drive.voltage", "inf", "not a number"},
+    {"drive.voltage", "-inf", "not a number"},
+    {"drive.voltage", "1e999", "too large"},
+    {"drive.voltage", "1e99999999999999999999", "too large"},
+    {"drive.voltage", "1e300 GV", "too large"},
+    {"drive.voltage", "1e-999", "too small"},
+    {"solver.end_time", "5 Hz", "not a time; give a value in s"},
+    {"solver.end_time", "5 s since 1970", "unknown unit"},
+    {"solver.time_step", "maybe", "or auto"},
+    {"load.share", "0.5 m", "takes no unit; give a number from 0 to 1"},
+    {"load.share", "0.5 rad", "takes no unit"},
+    {"load.share", "150 %", "out of range; 0 to 1"},
+    {"mesh.nodes", "61.5", "not a whole number; give a whole number from 4 to 2001"},
+    {"mesh.nodes", "61 m", "takes no unit"},
+    {"mesh.nodes", "6100 %", "takes no unit"},
+    {"mesh.nodes", "3", "out of range; 4 to 2001"},
+    {"platform.electrode", "1", "give true or false"},
+    {"platform.electrode", "", "empty"},
+    {"electro.surface", "bezir", "did you mean bezier?"},
+    {"electro.surface", "", "polyline, bezier"},
+    {"electro.surface", "auto", "not one of polyline, bezier"},
+};
+
+START_TEST(test_bad_value) {
+  double value = -1;
+  ZpError err = {0};
+  int key = zp_key_find(bad_values[_i].key);
+  ck_assert_int_ge(key, 0);
+  ck_assert_int_eq(zp_value_parse(key, bad_values[_i].text, &value, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(err.status, ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, bad_values[_i].reason) != NULL, "%s", err.message);
+  ck_assert_msg(strstr(err.message, bad_values[_i].key) != NULL, "%s", err.message);
+  ck_assert_double_eq(value, -1);
+  ck_assert_int_eq(zp_value_parse(key, bad_values[_i].text, &value, NULL), ZP_BAD_INPUT);
+}
+END_TEST
+
+START_TEST(test_long_value) {
+  char text[5000];
+  double value;
+  ZpError err = {0};
+  memset(text, '1', sizeof text);
+  text[sizeof text - 1] = 0;
+  ck_assert_int_eq(zp_value_parse(zp_key_find("load.mass"), text, &value, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "longer than"));
+}
+END_TEST
+
+/* Scenarios that are read: one key and its value. */
+static const struct {
+  const char *text, *key;
+  double value;
+} good_texts[] = {
+    {"", "ribbon.length", 0.1},
+    {"# nothing\n", "ribbon.length", 0.1},
+    {"---\n", "ribbon.length", 0.1},
+    {"{}", "ribbon.length", 0.1},
+    {"ribbon:\n", "ribbon.length", 0.1},
+    {"ribbon: {}\n", "ribbon.length", 0.1},
+    {"\xEF\xBB\xBFload.mass: 5 g", "load.mass", 5e-3},
+    {"ribbon:\n  length: 90 mm\n", "ribbon.length", 0.09},
+    {"ribbon.length: 90 mm\n", "ribbon.length", 0.09},
+    {"ribbon.length: 90 mm\nribbon:\n  width: 1 cm\n", "ribbon.width", 0.01},
+    {"ribbon: {length: 90 mm, width: 1 cm}", "ribbon.width", 0.01},
+    {"{\"ribbon\": {\"length\": 0.09}}", "ribbon.length", 0.09},
+    {"ribbon.length: '90 mm' # comment", "ribbon.length", 0.09},
+    {"ribbon.length: \"90 mm\"\r\nload.mass: 5 g\r\n", "load.mass", 5e-3},
+    {"load.mass: |\n  5 g\n", "load.mass", 5e-3},
+    {"load.mass: 5 g\n...\n", "load.mass", 5e-3},
+    {"gravity: 0", "gravity", 0},
+    {"platform.electrode: no", "platform.electrode", 0},
+    {"preset: paper-code", "mesh.nodes", 61},
+    {"ribbon.thickness: 70 um\npreset: paper-code\n", "ribbon.thickness", 70e-6},
+    {"preset: paper-code", "ribbon.thickness", 100e-6},
+    {"actuator.kind: ribbon", "load.share", 1},
+};
+
+START_TEST(test_good_text) {
+  double value = value_in(good_texts[_i].text, good_texts[_i].key);
+  ck_assert_msg(same_bits(value, good_texts[_i].value), "%s: %.17g", good_texts[_i].text, value);
+}
+END_TEST
+
+/* Scenarios that are refused, and two parts of the message. */
+static const struct {
+  const char *text, *place, *reason;
+} bad_texts[] = {
+    {"ribbon:\n  thikness: 5 um", "test.yaml:2: ribbon.thikness: ", "unknown key; did you mean ribbon.thickness?"},
+    {"ribbn:\n  thickness: 5 um", "test.yaml:2: ribbn.thickness", "did you mean ribbon.thickness?"},
+    {"ribbn: {}", "test.yaml:1: ribbn", "unknown key"},
+    {"\nribbon.thickness: 130 kV",
+     "test.yaml:2: ribbon.thickness = \"130 kV\": ", "not a length; give a value in um from 1 um to 5000 um"},
+    {"ribbon.thickness: 0", "test.yaml:1: ribbon.thickness = \"0\": ", "out of range; 1 um to 5000 um"},
+    {"ribbon: 5 mm", "test.yaml:1: ribbon", "a group of keys"},
+    {"ribbon: [1]", "test.yaml:1: ribbon", "a group of keys"},
+    {"ribbon.length: {a: 1}", "test.yaml:1: ribbon.length.a", "unknown key"},
+    {"ribbon.length: {}", "test.yaml:1: ribbon.length", "unknown key"},
+    {"ribbon.length:", "test.yaml:1: ribbon.length", "empty"},
+    {"ribbon.length: ''", "test.yaml:1: ribbon.length", "empty"},
+    {"ribbon.length: ~", "test.yaml:1: ribbon.length", "not a number"},
+    {"ribbon.length: []", "test.yaml:1: ribbon.length", "empty list"},
+    {"ribbon.length: [[1]]", "test.yaml:1: ribbon.length", "not lists"},
+    {"ribbon.length:\n- 1\n- a: b", "test.yaml:3: ribbon.length", "not lists or groups"},
+    {"ribbon.length: [1, '']", "ribbon.length", "empty"},
+    {"ribbon.length: [1, 2 kV]", "ribbon.length = \"2 kV\"", "not a length"},
+    {"platform.electrode: [true, false]", "platform.electrode", "not a list"},
+    {"study: [actuate]", "study", "not a list"},
+    {"preset: paper", "preset = \"paper\"", "did you mean paper-"},
+    {"load.mass: 1\nload.mass: 2", "test.yaml:2: load.mass", "given twice, first in line 1"},
+    {"load: {mass: 1}\nload.mass: 2", "test.yaml:2: load.mass", "given twice, first in line 1"},
+    {"load.mass: 2\nload:\n  mass: 1", "test.yaml:3: load.mass", "given twice, first in line 1"},
+    {"load: {mass: 1}\nload: {share: 1}", "test.yaml:2: load", "given twice, first in line 1"},
+    {"a: &x 1", "test.yaml:1", "anchors"},
+    {"load: &x {mass: 1}", "test.yaml:1", "anchors"},
+    {"load.mass: *x", "test.yaml:1", "anchors"},
+    {"<<: *x", "test.yaml:1", "anchors"},
+    {"<<: {load.mass: 1}", "test.yaml:1", "unknown key"},
+    {"load.mass: !!float 1", "test.yaml:1", "tags"},
+    {"- a\n- b", "test.yaml:1", "key: value"},
+    {"hello", "test.yaml:1", "key: value"},
+    {"? [a, b]\n: c", "test.yaml:1", "a key must be a word"},
+    {"? {a: b}\n: c", "test.yaml:1", "a key must be a word"},
+    {": 1", "test.yaml:1", "empty key"},
+    {"load.mass: 1\n---\nload.share: 1", "test.yaml", "more than one document"},
+    {"load:\n\tmass: 1", "test.yaml:2: ", "tab"},
+    {"load.mass: \"1", "test.yaml:1: column", "closing quote"},
+    {"load.mass: [1, 2", "test.yaml:2: column", "closing bracket"},
+    {"load:\n  mass: 1\n share: 1", "test.yaml:3: column", "indentation"},
+    {"load.mass: \xFF", "test.yaml:1: ", "UTF-8"},
+    {"\nload.mass: \xC3", "test.yaml:2: ", "UTF-8"},
+    {"load.mass: \xED\xA0\x80", "test.yaml:1: ", "UTF-8"},
+    {"load.mass: \x1B[31m", "test.yaml:1: ", "control character"},
+    {"load.mass: \"1\\0 g\"", "test.yaml:1: load.mass", "zero byte"},
+    {"load.mass: \"\\e[31m\"", "load.mass = \"?[31m\"", "not a number"},
+    {"a:\n b:\n  c:\n   d:\n    e:\n     f:\n      g:\n       h:\n        i:\n         j: 1", "test.yaml:10",
+     "nested deeper"},
+    {"load.mass: .inf", "load.mass", "not a number"},
+    {"load.mass: 1e999", "load.mass", "too large"},
+};
+
+START_TEST(test_bad_text) {
+  ZpScenario *s = scenario_of("load.mass: 7 g\nribbon.length: [90 mm, 95 mm]");
+  ZpError err = {0};
+  ck_assert_int_eq(parse(s, bad_texts[_i].text, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, bad_texts[_i].place) != NULL, "%s", err.message);
+  ck_assert_msg(strstr(err.message, bad_texts[_i].reason) != NULL, "%s", err.message);
+  ck_assert_int_eq(parse(s, bad_texts[_i].text, NULL), ZP_BAD_INPUT);
+  ck_assert_uint_eq(zp_scenario_count(s), 2); /* as before */
+  ck_assert_double_eq(def_of(s, 1).load.mass, 7e-3);
+  ck_assert_double_eq(def_of(s, 1).ribbon.length, 0.095);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* Arguments of --set that are refused. */
+static const struct {
+  const char *text, *message;
+} bad_arguments[] = {
+    {"ribbon.thickness=0", "--set ribbon.thickness=0: out of range; 1 um to 5000 um"},
+    {"ribbon.thickness=130 kV", "--set ribbon.thickness=130 kV: not a length; give a value in um from"},
+    {"ribbon.thikness=1", "--set ribbon.thikness=1: unknown key; did you mean ribbon.thickness?"},
+    {"ribbon=1", "--set ribbon=1: a group of keys"},
+    {"drive.voltage", "give KEY=VALUE"},
+    {"", "give KEY=VALUE"},
+    {"=1", "unknown key"},
+    {"drive.voltage=", "empty"},
+    {"drive.voltage=# 5", "empty"},
+    {"drive.voltage=[]", "empty list"},
+    {"drive.voltage=[1, [2]]", "not lists"},
+    {"drive.voltage=[1, 2 mm]", "\"2 mm\": not a voltage"},
+    {"drive.voltage=[1", "column"},
+    {"drive.voltage={a: 1}", "one value or a list"},
+    {"drive.voltage=\xFF", "UTF-8"},
+    {"drive.voltage\xFF=1", "unknown key"},
+    {"study=[actuate]", "not a list"},
+};
+
+START_TEST(test_bad_argument) {
+  ZpScenario *s = scenario_of("drive.voltage: 3 kV");
+  ZpError err = {0};
+  ck_assert_int_eq(zp_scenario_set(s, bad_arguments[_i].text, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, bad_arguments[_i].message) != NULL, "%s", err.message);
+  ck_assert_double_eq(def_of(s, 0).drive.voltage, 3e3);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+START_TEST(test_layers) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  ck_assert_int_eq(zp_scenario_set(s, "drive.voltage=5 kV", &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_set(s, "drive.voltage = 6 kV", &err), ZP_OK);
+  ck_assert_int_eq(parse(s, "drive.voltage: 7 kV\nload.mass: 1 g\ngravity: 1\nribbon.thickness: [1 mm, 2 mm]", &err),
+                   ZP_OK);
+  ck_assert_int_eq(parse(s, "load.mass: 2 g\nribbon.thickness: 40 um\n", &err), ZP_OK);
+  ck_assert_uint_eq(zp_scenario_count(s), 1);
+  ck_assert_int_eq(zp_scenario_set(s, "preset=paper-code", &err), ZP_OK);
+  ZpActuatorDef def = def_of(s, 0);
+  ck_assert_double_eq(def.drive.voltage, 6e3);
+  ck_assert_double_eq(def.load.mass, 2e-3);
+  ck_assert_double_eq(def.gravity, 1);
+  ck_assert_double_eq(def.ribbon.thickness, 40e-6);
+  ck_assert_double_eq(def.electro.force_scale, 6.6);
+  assert_round_trip(s);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+START_TEST(test_lists) {
+  ZpScenario *s = scenario_of("mesh:\n  nodes: [21, 61, 130]\nload.mass:\n- 8 g\n- 0.012\nsolver.time_step: [auto]");
+  size_t count = 0;
+  ZpError err = {0};
+  const int *list = zp_scenario_lists(s, &count);
+  ck_assert_uint_eq(zp_scenario_count(s), 6);
+  ck_assert_uint_eq(count, 3);
+  ck_assert_int_eq(list[0], zp_key_find("load.mass"));
+  ck_assert_int_eq(list[1], zp_key_find("mesh.nodes"));
+  ck_assert_int_eq(list[2], zp_key_find("solver.time_step"));
+  ck_assert_double_eq(def_of(s, 0).load.mass, 8e-3);
+  ck_assert_int_eq(def_of(s, 2).mesh.nodes, 130);
+  ck_assert_double_eq(def_of(s, 3).load.mass, 12e-3);
+  ck_assert_int_eq(def_of(s, 4).mesh.nodes, 61);
+  assert_round_trip(s);
+  ZpActuatorDef def;
+  ck_assert_int_eq(zp_scenario_def(s, 6, &def, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_set(s, "mesh.nodes=[21,41]", &err), ZP_OK);
+  ck_assert_uint_eq(zp_scenario_count(s), 4);
+  ck_assert_int_eq(zp_scenario_set(s, "mesh.nodes=41", &err), ZP_OK);
+  ck_assert_uint_eq(zp_scenario_count(s), 2);
+  assert_round_trip(s);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* The preset gives other values at each N: they cannot be written as one. */
+START_TEST(test_preset_with_list) {
+  ZpScenario *s = scenario_of("preset: paper-code\nmesh.nodes: [21, 61, 130]\nload.mass: [8 g, 10 g]");
+  ck_assert_double_eq(def_of(s, 0).damping.drag, 10);
+  ck_assert_double_eq(def_of(s, 1).damping.drag, 100);
+  ck_assert_double_eq(def_of(s, 5).damping.drag, 0.1);
+  char *text = written(s);
+  ck_assert_ptr_nonnull(strstr(text, "# damping.drag: "));
+  free(text);
+  assert_round_trip(s);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+START_TEST(test_def_errors) {
+  ZpScenario *s = scenario_of("preset: paper-text\nmesh.nodes: [61, 41]");
+  ZpActuatorDef def;
+  ZpError err = {0};
+  ck_assert_int_eq(zp_scenario_def(s, 0, &def, &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_def(s, 1, &def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "test.yaml: row 2 of 2: damping.drag"));
+  FILE *file = tmpfile();
+  ck_assert_int_eq(zp_scenario_write(s, file, &err), ZP_BAD_INPUT);
+  fclose(file);
+  zp_scenario_destroy(s);
+  s = scenario_of("platform.length: 1 m");
+  ck_assert_int_eq(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "test.yaml: platform.length"));
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* "KEY: [1, 1, ...]" with `count` values, to be freed. */
+static char *list_text(const char *key, size_t count) {
+  char *text = malloc(strlen(key) + 4 * count + 16);
+  ck_assert_ptr_nonnull(text);
+  char *end = text + sprintf(text, "%s: [1", key);
+  for (size_t i = 1; i < count; i++)
+    end += sprintf(end, ", 1");
+  strcpy(end, "]\n");
+  return text;
+}
+
+START_TEST(test_limits) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  char *text = list_text("load.mass", 20001);
+  ck_assert_int_eq(parse(s, text, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "20000 values"));
+  free(text);
+  static const char *const keys[] = {"load.mass", "ribbon.length", "gravity"};
+  for (size_t i = 0; i < 3; i++) {
+    text = list_text(keys[i], 101);
+    ck_assert_int_eq(parse(s, text, &err), i < 2 ? ZP_OK : ZP_BAD_INPUT);
+    free(text);
+  }
+  ck_assert_ptr_nonnull(strstr(err.message, "1000000 combinations"));
+  ck_assert_uint_eq(zp_scenario_count(s), 101 * 101);
+  size_t size = (1 << 20) + 1;
+  text = malloc(size);
+  memset(text, '\n', size);
+  ck_assert_int_eq(zp_scenario_parse(s, text, size, "big.yaml", &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "1 MB"));
+  ck_assert_int_eq(zp_scenario_parse(s, text, size - 1, "big.yaml", &err), ZP_OK);
+  memset(text, '[', size);
+  ck_assert_int_eq(zp_scenario_parse(s, text, size - 1, "deep.yaml", &err), ZP_BAD_INPUT);
+  free(text);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+START_TEST(test_long_names) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  char name[3000];
+  memset(name, 'n', sizeof name);
+  strcpy(name + sizeof name - 11, "/last.yaml");
+  ck_assert_int_eq(zp_scenario_parse(s, "load.mass: 1 kV", 15, name, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "/last.yaml:1: load.mass = \"1 kV\": not a mass; give a value in g"));
+  memset(name, 'n', sizeof name);
+  name[sizeof name - 1] = 0;
+  ck_assert_int_eq(zp_scenario_set(s, name, &err), ZP_BAD_INPUT);
+  name[2000] = '=';
+  ck_assert_int_eq(zp_scenario_set(s, name, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "unknown key"));
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* Every key at its default, its limits and at values that have no short decimal. */
+static void assert_value_round_trip(int key, double value) {
+  char text[256];
+  double back = -1;
+  ZpError err = {0};
+  zp_value_print(key, value, text, sizeof text);
+  ck_assert_msg(zp_value_parse(key, text, &back, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(same_bits(value, back), "%s: %s: %.17g became %.17g", zp_key(key)->name, text, value, back);
+}
+
+START_TEST(test_value_round_trip) {
+  const ZpKey *key = zp_key(_i);
+  assert_value_round_trip(_i, key->def);
+  assert_value_round_trip(_i, key->min);
+  assert_value_round_trip(_i, key->max);
+  unsigned long long random = 88172645463325252ull;
+  for (int i = 0; i < 500 && key->type <= ZP_KEY_REAL_AUTO; i++) {
+    random ^= random << 13, random ^= random >> 7, random ^= random << 17;
+    double share = (double)(random >> 11) * 0x1p-53;
+    assert_value_round_trip(_i, key->min + share * (key->max - key->min));
+    assert_value_round_trip(_i, fmax(key->min, key->max * pow(10, -12 * share)));
+  }
+}
+END_TEST
+
+/* A scenario that sets one key: it need not pass the check of the whole Def to be written. */
+START_TEST(test_scenario_round_trip) {
+  const ZpKey *key = zp_key(_i);
+  double values[] = {key->min, key->max, key->min + (key->max - key->min) / 3};
+  for (size_t i = 0; i < LENGTH_OF(values); i++) {
+    char value[256], line[512];
+    zp_value_print(_i, key->type > ZP_KEY_REAL_AUTO ? floor(values[i]) : values[i], value, sizeof value);
+    snprintf(line, sizeof line, "%s: %s\n", key->name, value);
+    ZpScenario *s = scenario_of(line);
+    char *text = written(s);
+    const char *leaf = strchr(key->name, '.') ? strchr(line, '.') + 1 : line;
+    ck_assert_msg(strstr(text, leaf) != NULL, "%s", line);
+    ZpScenario *back = scenario_of(text);
+    char *again = written(back);
+    ck_assert_str_eq(text, again);
+    free(again);
+    free(text);
+    zp_scenario_destroy(back);
+    zp_scenario_destroy(s);
+  }
+}
+END_TEST
+
+START_TEST(test_print) {
+  char text[64];
+  zp_value_print(zp_key_find("ribbon.length"), 0.1, text, sizeof text);
+  ck_assert_str_eq(text, "100 mm");
+  zp_value_print(zp_key_find("ribbon.thickness"), 50e-6, text, sizeof text);
+  ck_assert_str_eq(text, "50 um");
+  zp_value_print(zp_key_find("solver.time_step"), NAN, text, sizeof text);
+  ck_assert_str_eq(text, "auto");
+  zp_value_print(zp_key_find("platform.electrode"), 1, text, sizeof text);
+  ck_assert_str_eq(text, "true");
+  zp_value_print(zp_key_find("electro.model"), ZP_ELECTRO_PLATES, text, sizeof text);
+  ck_assert_str_eq(text, "plates");
+  zp_value_print(zp_key_find("mesh.nodes"), 61, text, sizeof text);
+  ck_assert_str_eq(text, "61");
+  zp_value_print(zp_key_find("mesh.nodes"), 61, text, 2);
+  ck_assert_str_eq(text, "6");
+}
+END_TEST
+
+/* What zp_keys_write gives, to be freed. */
+static char *keys_text(ZpKeysFormat format) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = open_memstream(&text, &size);
+  ZpError err = {0};
+  ck_assert_ptr_nonnull(file);
+  ck_assert_msg(zp_keys_write(format, file, &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(fclose(file), 0);
+  return text;
+}
+
+START_TEST(test_keys_yaml) {
+  char *text = keys_text(ZP_KEYS_YAML);
+  ZpScenario *s = scenario_of(text);
+  ZpActuatorDef def = def_of(s, 0), expected = zp_actuator_def_default();
+  assert_same_def(&def, &expected);
+  zp_scenario_destroy(s);
+  free(text);
+}
+END_TEST
+
+START_TEST(test_keys_json) {
+  char *text = keys_text(ZP_KEYS_JSON);
+  json_t *list = json_loads(text, 0, NULL);
+  ck_assert_int_eq((int)json_array_size(list), zp_key_count());
+  for (int i = 0; i < zp_key_count(); i++) {
+    const ZpKey *key = zp_key(i);
+    json_t *row = json_array_get(list, (size_t)i);
+    json_t *def = json_object_get(row, "default");
+    ck_assert_str_eq(json_string_value(json_object_get(row, "key")), key->name);
+    ck_assert_str_eq(json_string_value(json_object_get(row, "unit")), key->unit);
+    ck_assert_str_eq(json_string_value(json_object_get(row, "help")), key->help);
+    if (key->type == ZP_KEY_REAL_AUTO) ck_assert_str_eq(json_string_value(def), "auto");
+    if (key->type == ZP_KEY_REAL || key->type == ZP_KEY_INT) ck_assert(json_number_value(def) == key->def);
+    if (key->type == ZP_KEY_BOOL) ck_assert_int_eq(json_is_true(def), key->def != 0);
+    if (key->type == ZP_KEY_ENUM) {
+      ck_assert_str_eq(json_string_value(def), key->choices[(int)key->def].word);
+      ck_assert_int_eq((int)json_array_size(json_object_get(row, "choices")), (int)key->max + 1);
+    } else if (key->type != ZP_KEY_BOOL) {
+      ck_assert(json_number_value(json_object_get(row, "min")) == key->min);
+      ck_assert(json_number_value(json_object_get(row, "max")) == key->max);
+    }
+  }
+  json_decref(list);
+  free(text);
+}
+END_TEST
+
+START_TEST(test_keys_text) {
+  char *text = keys_text(ZP_KEYS_TEXT);
+  for (int i = 0; i < zp_key_count(); i++) {
+    ck_assert_ptr_nonnull(strstr(text, zp_key(i)->name));
+    ck_assert_ptr_nonnull(strstr(text, zp_key(i)->help));
+  }
+  ck_assert_ptr_nonnull(strstr(text, "1 um to 5000 um"));
+  ck_assert_ptr_nonnull(strstr(text, "bezier: "));
+  free(text);
+}
+END_TEST
+
+START_TEST(test_full_disk) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  FILE *full = fopen("/dev/full", "w");
+  ck_assert_ptr_nonnull(full);
+  ck_assert_int_eq(zp_scenario_write(s, full, &err), ZP_MACHINE);
+  fclose(full);
+  for (ZpKeysFormat format = ZP_KEYS_TEXT; format <= ZP_KEYS_YAML; format++) {
+    full = fopen("/dev/full", "w");
+    ck_assert_int_eq(zp_keys_write(format, full, &err), ZP_MACHINE);
+    fclose(full);
+  }
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+START_TEST(test_files) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  ck_assert_int_eq(zp_scenario_read(s, "/nowhere/x.yaml", &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/x.yaml"));
+  ck_assert_int_eq(zp_scenario_read(s, "/", &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_scenario_read(s, "/dev/null", &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_read(s, "/dev/zero", &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "1 MB"));
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* Runs in a process of its own (Check forks), so the database was not read yet. */
+START_TEST(test_no_database) {
+  double value;
+  ZpError err = {0};
+  int key = zp_key_find("load.mass");
+  setenv("UDUNITS2_XML_PATH", "/nowhere/units.xml", 1);
+  ck_assert_int_eq(zp_value_parse(key, "1", &value, &err), ZP_OK);
+  ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/units.xml"));
+  unsetenv("UDUNITS2_XML_PATH");
+  ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_OK);
+}
+END_TEST
+
+static void *parse_often(void *bad) {
+  int key = zp_key_find("ribbon.thickness");
+  for (int i = 0; i < 500; i++) {
+    double value = 0;
+    char text[64];
+    snprintf(text, sizeof text, "%d um", i + 1);
+    zp_value_parse(key, "5 kV", &value, NULL);
+    if (zp_value_parse(key, text, &value, NULL) != ZP_OK || fabs(value - (i + 1) * 1e-6) > 1e-12) *(bool *)bad = true;
+  }
+  return NULL;
+}
+
+START_TEST(test_threads) {
+  pthread_t thread[4];
+  bool bad[4] = {false};
+  for (int i = 0; i < 4; i++)
+    ck_assert_int_eq(pthread_create(&thread[i], NULL, parse_often, &bad[i]), 0);
+  for (int i = 0; i < 4; i++) {
+    ck_assert_int_eq(pthread_join(thread[i], NULL), 0);
+    ck_assert(!bad[i]);
+  }
+}
+END_TEST
+
+/* With a decimal comma, where the machine has such a locale. */
+START_TEST(test_locale) {
+  static const char *const names[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    if (setlocale(LC_ALL, names[i])) break;
+  char *text = keys_text(ZP_KEYS_YAML);
+  ck_assert_ptr_nonnull(strstr(text, "12.7 mm"));
+  free(text);
+  ck_assert_double_eq(value_in("load.mass: 1.5 g", "load.mass"), 1.5e-3);
+  ck_assert_double_eq(value_in("ribbon.length: 2.5 in", "ribbon.length"), 2.5 * 0.0254);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("scenario");
+  TCase *values = tcase_create("values");
+  tcase_set_timeout(values, 60);
+  tcase_add_loop_test(values, test_good_value, 0, LENGTH_OF(good_values));
+  tcase_add_loop_test(values, test_bad_value, 0, LENGTH_OF(bad_values));
+  tcase_add_test(values, test_long_value);
+  tcase_add_loop_test(values, test_value_round_trip, 0, zp_key_count());
+  tcase_add_test(values, test_print);
+  tcase_add_test(values, test_no_database);
+  tcase_add_test(values, test_threads);
+  tcase_add_test(values, test_locale);
+  suite_add_tcase(suite, values);
+  TCase *scenarios = tcase_create("scenarios");
+  tcase_set_timeout(scenarios, 60);
+  tcase_add_loop_test(scenarios, test_good_text, 0, LENGTH_OF(good_texts));
+  tcase_add_loop_test(scenarios, test_bad_text, 0, LENGTH_OF(bad_texts));
+  tcase_add_loop_test(scenarios, test_bad_argument, 0, LENGTH_OF(bad_arguments));
+  tcase_add_test(scenarios, test_layers);
+  tcase_add_test(scenarios, test_lists);
+  tcase_add_test(scenarios, test_preset_with_list);
+  tcase_add_test(scenarios, test_def_errors);
+  tcase_add_test(scenarios, test_limits);
+  tcase_add_test(scenarios, test_long_names);
+  tcase_add_loop_test(scenarios, test_scenario_round_trip, 0, zp_key_count());
+  tcase_add_test(scenarios, test_files);
+  suite_add_tcase(suite, scenarios);
+  TCase *keys = tcase_create("keys");
+  tcase_add_test(keys, test_keys_yaml);
+  tcase_add_test(keys, test_keys_json);
+  tcase_add_test(keys, test_keys_text);
+  tcase_add_test(keys, test_full_disk);
+  suite_add_tcase(suite, keys);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}
