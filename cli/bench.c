@@ -140,8 +140,10 @@ static void print_table(const Row *row, int rows) {
   for (int i = 0; i < rows; i++) {
     printf("%-26s %5d %12.2f %14.0f %16.4f", row[i].name, row[i].nodes, row[i].ns_per_node_step,
            row[i].steps_per_second, cost_per_second(&row[i]));
-    if (isnan(row[i].paper_ratio)) printf(" %12s\n", "-");
-    else printf(" %12.0f\n", row[i].paper_ratio);
+    if (isnan(row[i].paper_ratio))
+      printf(" %12s\n", "-");
+    else
+      printf(" %12.0f\n", row[i].paper_ratio);
   }
 }
 

@@ -13,8 +13,8 @@ enum { EXIT_DONE = 0, EXIT_NUMERICS = 1, EXIT_INPUT = 2, EXIT_MACHINE = 3, EXIT_
 
 /* What the words of the command line say. */
 typedef struct Options {
-  const char *scenario;  /* NULL: the defaults */
-  const char **set;      /* [sets] values of --set, in order */
+  const char *scenario; /* NULL: the defaults */
+  const char **set;     /* [sets] values of --set, in order */
   int sets;
   const char *directory; /* NULL: out/STUDY */
   bool json, yaml, quiet, help;

@@ -57,20 +57,29 @@ static int print_study_help(const char *study) {
 
 /* Read what follows the first word; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
 static int read_options(int argc, char **argv, const char **set, Options *options) {
-  static const struct option known[] = {
-      {"set", required_argument, NULL, 's'}, {"output", required_argument, NULL, 'o'},
-      {"json", no_argument, NULL, 'j'},      {"yaml", no_argument, NULL, 'y'},
-      {"quiet", no_argument, NULL, 'q'},     {"help", no_argument, NULL, 'h'},
-      {NULL, 0, NULL, 0}};
+  static const struct option known[] = {{"set", required_argument, NULL, 's'},
+                                        {"output", required_argument, NULL, 'o'},
+                                        {"json", no_argument, NULL, 'j'},
+                                        {"yaml", no_argument, NULL, 'y'},
+                                        {"quiet", no_argument, NULL, 'q'},
+                                        {"help", no_argument, NULL, 'h'},
+                                        {NULL, 0, NULL, 0}};
   *options = (Options){.set = set};
   for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
-    if (c == 's') set[options->sets++] = optarg;
-    else if (c == 'o') options->directory = optarg;
-    else if (c == 'j') options->json = true;
-    else if (c == 'y') options->yaml = true;
-    else if (c == 'q') options->quiet = true;
-    else if (c == 'h') options->help = true;
-    else return EXIT_INPUT; /* getopt has said why */
+    if (c == 's')
+      set[options->sets++] = optarg;
+    else if (c == 'o')
+      options->directory = optarg;
+    else if (c == 'j')
+      options->json = true;
+    else if (c == 'y')
+      options->yaml = true;
+    else if (c == 'q')
+      options->quiet = true;
+    else if (c == 'h')
+      options->help = true;
+    else
+      return EXIT_INPUT; /* getopt has said why */
   }
   if (optind < argc) options->scenario = argv[optind++];
   return optind < argc ? fail_usage("one scenario at a time, not also ", argv[optind]) : EXIT_DONE;

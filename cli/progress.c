@@ -39,8 +39,10 @@ static void draw(const Progress *progress, const char *stage, double fraction) {
   for (int i = 0; i < WIDTH; i++)
     bar[i] = i < filled ? '#' : '.';
   bar[WIDTH] = 0;
-  if (progress->of > 1) fprintf(stderr, "\r%zu of %zu ", progress->index + 1, progress->of);
-  else fputc('\r', stderr);
+  if (progress->of > 1)
+    fprintf(stderr, "\r%zu of %zu ", progress->index + 1, progress->of);
+  else
+    fputc('\r', stderr);
   fprintf(stderr, "[%s] %3.0f %% %-12s", bar, 100 * fraction, stage);
   fflush(stderr);
 }

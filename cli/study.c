@@ -68,8 +68,10 @@ static void notice(const char *message) {
 
 static void print_scalar(const ZpScalar *scalar) {
   bool bare = strcmp(scalar->unit, "1") == 0 || strcmp(scalar->unit, "count") == 0;
-  if (isnan(scalar->value)) printf("  %-28s %14s\n", scalar->name, "-");
-  else printf("  %-28s %14.6g %s\n", scalar->name, scalar->value, bare ? "" : scalar->unit);
+  if (isnan(scalar->value))
+    printf("  %-28s %14s\n", scalar->name, "-");
+  else
+    printf("  %-28s %14.6g %s\n", scalar->name, scalar->value, bare ? "" : scalar->unit);
 }
 
 /* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
@@ -151,8 +153,10 @@ int cli_study(const char *study, const Options *o) {
   Batch batch = {.scenario = zp_scenario_create()};
   if (!batch.scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   int status = EXIT_INPUT;
-  if (read_scenario(study, o, batch.scenario, &err) == ZP_OK) status = run_and_report(&batch, o);
-  else status = cli_fail(&err);
+  if (read_scenario(study, o, batch.scenario, &err) == ZP_OK)
+    status = run_and_report(&batch, o);
+  else
+    status = cli_fail(&err);
   for (size_t i = 0; i < batch.done; i++)
     zp_result_destroy(batch.result[i]);
   free(batch.result);

@@ -18,11 +18,11 @@ extern "C" {
 #endif
 
 /* The enumerations: one type per list of choices.def, values from 0 in the order written there. */
-#define ZP_CHOICES(type) typedef enum type {
+#define ZP_CHOICES(type)                  typedef enum type {
 #define ZP_CHOICE(enumerator, word, help) enumerator,
-#define ZP_CHOICES_END(type) \
-  type##_COUNT               \
-  }                          \
+#define ZP_CHOICES_END(type)                                                                                           \
+  type##_COUNT                                                                                                         \
+  }                                                                                                                    \
   type;
 #include <zipact/choices.def>
 #undef ZP_CHOICES
@@ -32,14 +32,14 @@ extern "C" {
 /* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; meaning, unit,
  * default and range of each are in keys.def (or: `zipact keys`). */
 #define ZP_GROUP(group) struct {
-#define ZP_GROUP_END(group) \
-  }                         \
+#define ZP_GROUP_END(group)                                                                                            \
+  }                                                                                                                    \
   group;
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) double name;
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) double name;
-#define ZP_INT(path, name, def, min, max, help) int name;
-#define ZP_BOOL(path, name, def, help) bool name;
-#define ZP_ENUM(path, name, type, def, help) type name;
+#define ZP_INT(path, name, def, min, max, help)               int name;
+#define ZP_BOOL(path, name, def, help)                        bool name;
+#define ZP_ENUM(path, name, type, def, help)                  type name;
 typedef struct ZpActuatorDef {
 #include <zipact/keys.def>
 } ZpActuatorDef;
@@ -118,7 +118,6 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
 
 /* Check the range of every key and what keys ask of one another. */
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
-
 
 #ifdef __cplusplus
 }

@@ -19,7 +19,8 @@ ZpScenario *zp_scenario_create(void);
 void zp_scenario_destroy(ZpScenario *scenario);
 
 /* Read a YAML file into `scenario`. ZP_BAD_INPUT names file, line, key, value, unit, range and the
- * nearest known key, also a file that does not exist; ZP_MACHINE if it cannot be read. On failure `scenario` is as before. */
+ * nearest known key, also a file that does not exist; ZP_MACHINE if it cannot be read. On failure `scenario` is as
+ * before. */
 ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError *err);
 
 /* The same from `size` bytes in memory; `name` stands for the file in messages. */

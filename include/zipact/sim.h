@@ -55,14 +55,14 @@ const char *zp_step_limit_name(ZpStepLimit limit);
 /* How a run went. */
 typedef struct ZpRunInfo {
   ZpOutcome outcome;
-  char message[256];              /* one sentence for people */
-  int64_t steps;                  /* taken */
+  char message[256];               /* one sentence for people */
+  int64_t steps;                   /* taken */
   int64_t limited[ZP_LIMIT_COUNT]; /* how many of them each bound set */
-  double smallest_bound[3];       /* of eq. (9): drag, axial, shear; s; over the recorded rows */
-  double simulated_time;          /* s */
-  double wall_time;               /* of the stepping, s; NAN without a clock */
-  int64_t settle_steps;           /* pseudo-time steps to the hanging equilibrium */
-  double settle_residual;         /* largest force left there over all weight */
+  double smallest_bound[3];        /* of eq. (9): drag, axial, shear; s; over the recorded rows */
+  double simulated_time;           /* s */
+  double wall_time;                /* of the stepping, s; NAN without a clock */
+  int64_t settle_steps;            /* pseudo-time steps to the hanging equilibrium */
+  double settle_residual;          /* largest force left there over all weight */
 } ZpRunInfo;
 
 /* A new simulation at its initial state, at t = 0, the voltage on. `model` must outlive it. Finds the

@@ -16,14 +16,14 @@ typedef struct ZpScalar {
   bool timing;      /* follows from wall time: differs from run to run */
 } ZpScalar;
 
-#define ZP_MAX_SCALARS 64
+#define ZP_MAX_SCALARS  64
 #define ZP_MAX_WARNINGS 8
 
 /* What a study found. */
 typedef struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
-  char message[256];  /* one sentence on how it ended */
+  char message[256];                  /* one sentence on how it ended */
   char warning[ZP_MAX_WARNINGS][256]; /* sentences on limits of validity that were met */
   size_t warnings;
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */

@@ -49,12 +49,12 @@ double zp_table_get(const ZpTable *table, size_t row, const char *name);
  * the upper one (kind ribbon: the only one). Insulator faces, m; x to the right from the clip's place in
  * the straight actuator, y upwards from the upper platform (kind ribbon: from the clamp). */
 typedef struct ZpShape {
-  double time;        /* s */
-  double voltage;     /* V */
-  size_t zipped;      /* pairs 0 .. zipped are closed (the clip is pair 0) */
-  const double *x;    /* [nodes * ribbons] m */
-  const double *y;    /* [nodes * ribbons] m */
-  const double *gap;  /* [nodes] m, distance of the faces; NULL for the kind ribbon */
+  double time;              /* s */
+  double voltage;           /* V */
+  size_t zipped;            /* pairs 0 .. zipped are closed (the clip is pair 0) */
+  const double *x;          /* [nodes * ribbons] m */
+  const double *y;          /* [nodes * ribbons] m */
+  const double *gap;        /* [nodes] m, distance of the faces; NULL for the kind ribbon */
   const double *line_force; /* [nodes] N/m, attraction per length; NULL for the kind ribbon */
 } ZpShape;
 

@@ -4,6 +4,7 @@
 
 #include "actuator/model.h"
 #include "base/fail.h"
+#include "base/kernel.h"
 
 static ZpSection section_of(const ZpActuatorDef *def) {
   ZpLayer layers[2] = {
@@ -21,6 +22,7 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
   return (ZpMassSpringParams){
       .ribbons = model->s,
       .nodes = model->nodes,
+      .stride = model->stride,
       .l = model->l,
       .K_D = def->mass_spring.axial == ZP_AXIAL_TEXT ? text : code,
       .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(model->section.EI, model->l, (int)model->nodes) : K_S,
@@ -34,15 +36,16 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double share = def->electro.voltage_share, offset = def->electro.insulator_offset;
   double eps_m = def->medium.permittivity;
-  return (ZpPlatesParams){
-      .nodes = model->nodes,
-      .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
-      .d = isnan(offset) ? 2 * def->insulator.thickness * eps_m / def->insulator.permittivity : offset,
-      .h_per_volt = def->electro.breakdown_cap ? share / def->medium.breakdown_field : 0,
-      .h_least = least_gap,
-      .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
-      .switch_offset = def->electro.switch_offset,
-      .flat_length = def->platform.electrode ? def->platform.length / 2 : 0};
+  return (ZpPlatesParams){.nodes = model->nodes,
+                          .stride = model->stride,
+                          .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
+                          .d = isnan(offset) ? 2 * def->insulator.thickness * eps_m / def->insulator.permittivity
+                                             : offset,
+                          .h_per_volt = def->electro.breakdown_cap ? share / def->medium.breakdown_field : 0,
+                          .h_least = least_gap,
+                          .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
+                          .switch_offset = def->electro.switch_offset,
+                          .flat_length = def->platform.electrode ? def->platform.length / 2 : 0};
 }
 
 /* Which coordinates of node j are held, and what it weighs. */
@@ -68,16 +71,18 @@ static Node node_of(const ZpModel *model, size_t j) {
   return node;
 }
 
+/* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
+ * joined pairs (2), true and pseudo (p). */
 typedef struct Arrays {
-  double *weight, *mass, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
+  double *weight, *mass, *pseudo, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
 } Arrays;
 
 static size_t carve(const ZpModel *model, void *block, Arrays *a) {
   ZpCarver carver = {block, 0};
-  double **of_nodes[] = {&a->weight, &a->mass, &a->x1, &a->y1, &a->px1, &a->py1};
+  double **of_nodes[] = {&a->weight, &a->mass, &a->pseudo, &a->x1, &a->y1, &a->px1, &a->py1};
   double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_carve(&carver, model->count);
+    *of_nodes[k] = zp_carve(&carver, model->stride);
   for (size_t k = 0; k < sizeof of_pairs / sizeof of_pairs[0]; k++)
     *of_pairs[k] = zp_carve(&carver, model->nodes);
   return carver.used;
@@ -95,6 +100,7 @@ static void fill_masses(ZpModel *model, Arrays *a) {
   for (size_t j = 0; j < model->count; j++) {
     Node node = node_of(model, j);
     a->mass[j] = node.mass;
+    a->pseudo[j] = pseudo;
     a->weight[j] = node.mass * model->def.gravity;
     a->x1[j] = node.held_x ? 0 : 1 / node.mass;
     a->y1[j] = node.held_y ? 0 : 1 / node.mass;
@@ -110,8 +116,8 @@ static void fill_masses(ZpModel *model, Arrays *a) {
   }
   model->mass = a->mass;
   model->weight = a->weight;
-  model->masses = (ZpMasses){{a->x1, a->x2}, {a->y1, a->y2}};
-  model->pseudo = (ZpMasses){{a->px1, a->px2}, {a->py1, a->py2}};
+  model->masses = (ZpMasses){{a->mass, a->x1, a->x2}, {a->mass, a->y1, a->y2}};
+  model->pseudo = (ZpMasses){{a->pseudo, a->px1, a->px2}, {a->pseudo, a->py1, a->py2}};
 }
 
 static void derive(ZpModel *model) {
@@ -120,6 +126,7 @@ static void derive(ZpModel *model) {
   model->s = two ? 2 : 1;
   model->nodes = (size_t)def->mesh.nodes;
   model->count = model->s * model->nodes;
+  model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = two;
   model->parts = two ? 2 : 1;
   model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
@@ -181,5 +188,5 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + (4 * model->count + model->nodes) * sizeof(double);
+  return sizeof(ZpState) + 5 * model->stride * sizeof(double);
 }

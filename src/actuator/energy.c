@@ -2,17 +2,16 @@
 #include "actuator/eval.h"
 
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
-  size_t count = model->count;
-  const double *q = state->data, *y = q + count, *v = q + 2 * count;
-  zp_massspring_eval(&model->spring, q, y, &e->spring);
+  ZpMotion m = zp_state_motion(model, state);
+  zp_massspring_eval(&model->spring, m.x, m.y, &e->spring);
   ZpEnergies energies = {.axial = zp_massspring_axial_energy(&model->spring, &e->spring),
                          .bending = zp_massspring_shear_energy(&model->spring, &e->spring)};
-  for (size_t j = 0; j < count; j++) {
-    energies.kinetic += 0.5 * model->mass[j] * (v[j] * v[j] + v[count + j] * v[count + j]);
-    energies.gravity += model->weight[j] * y[j];
+  for (size_t j = 0; j < model->count; j++) {
+    energies.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
+    energies.gravity += model->weight[j] * m.y[j];
   }
   if (!model->field) return energies;
-  zp_plates_gaps(&model->plates, q, y, &e->plates);
+  zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
   ZpPlatesTotals totals = zp_plates_totals(&model->plates, &e->plates, state->U);
   const ZpActuatorDef *def = &model->def;
   energies.force = totals.force;

@@ -5,17 +5,13 @@
 #include <string.h>
 
 #include "base/kernel.h"
-#include "ribbon/drag.h"
 
 static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   ZpCarver carver = {block, 0};
   zp_massspring_carve(&model->spring, &e->spring, &carver);
   zp_plates_carve(&model->plates, &e->plates, &carver);
-  e->drag_x = zp_carve(&carver, model->count);
-  e->drag_y = zp_carve(&carver, model->count);
-  e->force = zp_carve(&carver, 2 * model->count);
-  e->basis.B1 = zp_carve(&carver, 2 * model->nodes);
-  e->basis.B2 = zp_carve(&carver, 2 * model->nodes);
+  zp_surface_carve(model->nodes, &e->surface, &carver);
+  e->none = zp_carve(&carver, model->stride);
   return carver.used;
 }
 
@@ -46,87 +42,106 @@ static void closed_direction(const ZpModel *model, size_t front, const ZpMassSpr
 }
 
 static void bezier_forces(const ZpModel *model, const ZpState *state, const double *q, ZpEval *e) {
-  size_t front = state->zip.front, free_stations = model->nodes - front;
-  if (free_stations >= 2 && e->basis.count != free_stations) zp_bezier_basis(&e->basis, free_stations);
+  size_t front = state->zip.front;
+  if (front + 1 < model->nodes) zp_surface_prepare(&e->surface, model->nodes - front);
   double direction[2];
   closed_direction(model, front, &e->spring, direction);
-  zp_surface_bezier(&model->plates, &e->basis, q, q + model->count, front, direction, state->U, &e->plates);
+  zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, &e->plates);
 }
 
+/* Attraction of the ribbons into e->plates; 0 where there is none. */
 static void electric_forces(const ZpModel *model, const ZpState *state, const double *q, ZpEval *e) {
   const ZpActuatorDef *def = &model->def;
   if (def->electro.surface == ZP_SURFACE_POLYLINE)
-    zp_plates_polyline(&model->plates, q, q + model->count, state->U, &e->plates);
+    zp_plates_polyline(&model->plates, q, q + model->stride, state->U, &e->plates);
   else if (def->electro.refresh_period > 0)
-    memcpy(e->plates.Fy, state->data + 4 * model->count, model->nodes * sizeof(double));
+    memcpy(e->plates.Fy, state->data + 4 * model->stride, model->stride * sizeof(double));
   else
     bezier_forces(model, state, q, e);
 }
 
-/* Elastic forces and weight on each node. */
-ZP_KERNEL static void add_elastic_and_weight(size_t count, size_t s, const double *restrict Rx,
-                                             const double *restrict Ry, const double *restrict weight,
-                                             double *restrict fx, double *restrict fy) {
-  const double *restrict Lx = Rx - s, *restrict Ly = Ry - s;
+/* What adds up on the nodes, all [stride]. L and R are the same array, s places apart. */
+typedef struct Addends {
+  const double *Lx, *Ly, *Rx, *Ry; /* forces of the edges left and right of a node */
+  const double *weight;
+  const double *Fx, *Fy; /* attraction */
+  const double *mx, *my; /* 1 / mass */
+  const double *vx, *vy; /* of the drag */
+  double c;
+} Addends;
+
+static Addends addends(const ZpModel *model, const ZpMasses *masses, const ZpEval *e) {
+  size_t s = model->s;
+  return (Addends){.Lx = e->spring.Rx - s,
+                   .Ly = e->spring.Ry - s,
+                   .Rx = e->spring.Rx,
+                   .Ry = e->spring.Ry,
+                   .weight = model->weight,
+                   .Fx = e->plates.Fx,
+                   .Fy = e->plates.Fy,
+                   .mx = masses->x.inverse,
+                   .my = masses->y.inverse,
+                   .c = model->def.damping.drag};
+}
+
+/* The sum of all forces over the mass, eq. (3.8), in two forms: without drag, and with it. */
+ZP_KERNEL static void add_forces(size_t stride, const Addends *f, double *restrict ax, double *restrict ay) {
+  const double *Lx = f->Lx, *Ly = f->Ly, *Rx = f->Rx, *Ry = f->Ry, *weight = f->weight, *Fx = f->Fx, *Fy = f->Fy,
+               *mx = f->mx, *my = f->my;
   ZP_SIMD
-  for (size_t j = 0; j < count; j++) {
-    fx[j] = Lx[j] - Rx[j];
-    fy[j] = Ly[j] - Ry[j] - weight[j];
+  for (size_t j = 0; j < stride; j++) {
+    ax[j] = (Lx[j] - Rx[j] + Fx[j]) * mx[j];
+    ay[j] = (Ly[j] - Ry[j] + Fy[j] - weight[j]) * my[j];
   }
 }
 
-ZP_KERNEL static void add_drag(size_t count, const double *restrict drag_x, const double *restrict drag_y,
-                               double *restrict fx, double *restrict fy) {
-  ZP_SIMD
-  for (size_t j = 0; j < count; j++) {
-    fx[j] += drag_x[j];
-    fy[j] += drag_y[j];
+ZP_KERNEL static void add_forces_and_drag(size_t stride, const Addends *f, double *restrict ax, double *restrict ay,
+                                          double *power, double *rate) {
+  const double *Lx = f->Lx, *Ly = f->Ly, *Rx = f->Rx, *Ry = f->Ry, *weight = f->weight, *Fx = f->Fx, *Fy = f->Fy,
+               *mx = f->mx, *my = f->my, *vx = f->vx, *vy = f->vy;
+  double c = f->c, lost[ZP_LANES] = {0}, fastest[ZP_LANES] = {0};
+  for (size_t block = 0; block < stride; block += ZP_LANES) {
+    ZP_SIMD
+    for (size_t k = 0; k < ZP_LANES; k++) {
+      size_t j = block + k;
+      double v2 = vx[j] * vx[j] + vy[j] * vy[j], v = sqrt(v2), per_mass = v * my[j];
+      ax[j] = (Lx[j] - Rx[j] + Fx[j] - c * v * vx[j]) * mx[j];
+      ay[j] = (Ly[j] - Ry[j] + Fy[j] - weight[j] - c * v * vy[j]) * my[j];
+      lost[k] += c * v * v2;
+      fastest[k] = per_mass > fastest[k] ? per_mass : fastest[k];
+    }
   }
+  *power = zp_sum_lanes(lost);
+  *rate = zp_max_lanes(fastest);
 }
 
-/* Attraction: downwards on the upper, upwards on the lower ribbon. */
-ZP_KERNEL static void add_attraction(size_t nodes, const double *restrict Fx, const double *restrict Fy,
-                                     double *restrict fx, double *restrict fy) {
-  ZP_SIMD
-  for (size_t i = 0; i < nodes; i++) {
-    fx[2 * i] += Fx[i];
-    fx[2 * i + 1] += Fx[i];
-    fy[2 * i] -= Fy[i];
-    fy[2 * i + 1] += Fy[i];
-  }
-}
-
-void zp_eval_forces(const ZpModel *model, const ZpState *state, const double *q, const double *v, ZpActing acting,
-                    ZpEval *e) {
-  size_t count = model->count;
-  double *fx = e->force, *fy = e->force + count;
-  zp_massspring_eval(&model->spring, q, q + count, &e->spring);
-  add_elastic_and_weight(count, model->s, e->spring.Rx, e->spring.Ry, model->weight, fx, fy);
-  e->drag_power = e->drag_rate = 0;
-  if (acting == ZP_ELASTIC_AND_WEIGHT) return;
-  if (model->def.damping.drag > 0) {
-    e->drag_rate = zp_drag(model->def.damping.drag, count, v, v + count, model->masses.x.single, e->drag_x, e->drag_y,
-                           &e->drag_power);
-    add_drag(count, e->drag_x, e->drag_y, fx, fy);
-  }
-  if (model->field && state->U > 0) {
-    electric_forces(model, state, q, e);
-    add_attraction(model->nodes, e->plates.Fx, e->plates.Fy, fx, fy);
-  }
-}
-
-void zp_eval_accelerations(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, const ZpEval *e,
+void zp_eval_accelerations(const ZpModel *model, const ZpState *state, const double *q, const double *v, ZpEval *e,
                            double *a) {
-  size_t count = model->count;
-  if (model->s == 2) {
-    zp_zip_accelerate(zip, model->nodes, &masses->x, e->force, a);
-    zp_zip_accelerate(zip, model->nodes, &masses->y, e->force + count, a + count);
-    return;
-  }
-  for (size_t j = 0; j < count; j++) {
-    a[j] = e->force[j] * masses->x.single[j];
-    a[count + j] = e->force[count + j] * masses->y.single[j];
-  }
+  size_t stride = model->stride;
+  zp_massspring_eval(&model->spring, q, q + stride, &e->spring);
+  if (model->field) electric_forces(model, state, q, e);
+  Addends forces = addends(model, &model->masses, e);
+  forces.vx = v;
+  forces.vy = v + stride;
+  e->drag_power = e->drag_rate = 0;
+  if (forces.c > 0)
+    add_forces_and_drag(stride, &forces, a, a + stride, &e->drag_power, &e->drag_rate);
+  else
+    add_forces(stride, &forces, a, a + stride);
+}
+
+void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *e, double *a) {
+  size_t stride = model->stride;
+  zp_massspring_eval(&model->spring, q, q + stride, &e->spring);
+  Addends forces = addends(model, &model->pseudo, e);
+  forces.Fx = forces.Fy = e->none;
+  add_forces(stride, &forces, a, a + stride);
+}
+
+void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {
+  if (model->s < 2) return;
+  zp_zip_share(zip, model->nodes, &masses->x, a);
+  zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
 }
 
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
@@ -136,9 +151,9 @@ bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
 
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   double *q = zp_state_q(model, state);
-  zp_massspring_eval(&model->spring, q, q + model->count, &e->spring);
+  zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
   bezier_forces(model, state, q, e);
-  memcpy(zp_state_held(model, state), e->plates.Fy, model->nodes * sizeof(double));
+  memcpy(zp_state_held(model, state), e->plates.Fy, model->stride * sizeof(double));
   state->refreshed = state->t;
 }
 
@@ -146,14 +161,15 @@ static double ratio_bound(double length, double speed) {
   return speed > 0 ? 2 * length / speed : INFINITY;
 }
 
-ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const double *v, const ZpEval *e) {
+ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, const ZpEval *e) {
+  ZpMotion motion = zp_state_motion(model, state);
   ZpStepBounds bounds = {INFINITY, INFINITY, INFINITY};
   size_t s = model->s, count = model->count;
   const ZpMassSpringEval *spring = &e->spring;
   double c = model->def.damping.drag;
   const double *bx = spring->ux - s, *by = spring->uy - s;
   for (size_t j = 0; j < count; j++) {
-    double speed = hypot(v[j], v[count + j]);
+    double speed = hypot(motion.vx[j], motion.vy[j]);
     bounds.drag = fmin(bounds.drag, ratio_bound(model->mass[j], c * speed));
     if (j + s >= count) continue;
     double shear = fabs(bx[j] * spring->dpy[j] - by[j] * spring->dpx[j]);
@@ -166,7 +182,7 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const double *v, const Zp
 double zp_eval_imbalance(const ZpModel *model, const double *a) {
   static const double least_weight = 1e-3; /* N: a lone weightless ribbon still has a scale */
   double largest = 0;
-  for (size_t k = 0; k < 2 * model->count; k++)
+  for (size_t k = 0; k < 2 * model->stride; k++)
     if (!(fabs(a[k]) <= largest)) largest = fabs(a[k]);
   return largest * model->pseudo_mass / fmax(model->total_weight, least_weight);
 }

@@ -7,11 +7,10 @@
 typedef struct ZpEval {
   ZpMassSpringEval spring;
   ZpPlatesEval plates;
-  double *drag_x, *drag_y; /* [count] N */
-  double *force;           /* [2 count] sum of all, x then y, N */
-  double drag_power;       /* W */
-  double drag_rate;        /* largest |v| / m, from which the drag bound follows */
-  ZpBezierBasis basis;     /* for the free stations of basis.count; rebuilt when the front moves */
+  double drag_power;       /* lost now, W */
+  double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
+  ZpBezierSurface surface; /* for the free stations; made anew when the front moves */
+  const double *none;      /* [stride] zeros: the attraction that there is without voltage */
   void *memory;
 } ZpEval;
 
@@ -19,26 +18,26 @@ typedef struct ZpEval {
 bool zp_eval_create(const ZpModel *model, ZpEval *eval);
 void zp_eval_destroy(ZpEval *eval);
 
-/* What acts on the actuator besides its own elasticity. */
-typedef enum ZpActing { ZP_ELASTIC_AND_WEIGHT, ZP_ALL_FORCES } ZpActing;
-
-/* (state) => eval->force and what it is made of. Pure: nothing in the state changes. */
-void zp_eval_forces(const ZpModel *model, const ZpState *state, const double *q, const double *v, ZpActing acting,
-                    ZpEval *eval);
-
-/* (eval->force) => accelerations [2 count], shared where pairs are joined. */
-void zp_eval_accelerations(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, const ZpEval *eval,
+/* (q, v, and the voltage, held forces and front of the state) => free accelerations a [2 stride]: those of
+ * nodes that no other is joined to. Nothing in the state changes. */
+void zp_eval_accelerations(const ZpModel *model, const ZpState *state, const double *q, const double *v, ZpEval *eval,
                            double *a);
+
+/* The same of ribbons and load alone, no voltage, no drag, with pseudo-masses: for settling. */
+void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *eval, double *a);
+
+/* Joined pairs move as one. */
+void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
 /* Should a held electric force be found anew at this state? And do so, into the state. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
 
-/* The three bounds of eq. (9) of the paper at the last forces, s; INFINITY where nothing moves. */
+/* The three bounds of eq. (9) of the paper at the last accelerations, s; INFINITY where nothing moves. */
 typedef struct ZpStepBounds {
   double drag, axial, shear;
 } ZpStepBounds;
-ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const double *v, const ZpEval *eval);
+ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, const ZpEval *eval);
 
 /* (accelerations under model->pseudo) => largest force left over the weight of what moves (over 1 mN if
  * that is more); NAN if any is. */

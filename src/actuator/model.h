@@ -1,7 +1,9 @@
 /* The inside of a model, a state and an eval: what actuator/, sim/ and study/ share.
  *
- * Node i of ribbon r is at [i * s + r] (s ribbons; of two, the upper is 0). Coordinates q hold all x, then
- * all y; velocities v likewise.
+ * Node i of ribbon r is at [i * s + r] (s ribbons; of two, the upper is 0). Arrays over nodes have `stride`
+ * places, a multiple of ZP_LANES, so that kernels need no remainder, over edges either; places beyond `count` hold
+ * nodes that lie on the prolonged ribbon, weigh nothing and never move. Coordinates q hold all x, then all y, `stride`
+ * apart; velocities v and accelerations a likewise.
  */
 #ifndef ZP_ACTUATOR_MODEL_H
 #define ZP_ACTUATOR_MODEL_H
@@ -22,26 +24,27 @@ typedef struct ZpMasses {
 struct ZpModel {
   ZpActuatorDef def;
   size_t s, nodes, count; /* ribbons, N, s N */
+  size_t stride;          /* count, rounded up */
   bool field;             /* two ribbons that attract each other */
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
   double L, l;            /* flexible length, element, m */
   ZpSection section;
   ZpMassSpringParams spring;
   ZpPlatesParams plates;
-  ZpMasses masses;        /* true masses */
-  ZpMasses pseudo;        /* for settling: all free nodes move at the same pace */
-  double pseudo_mass;     /* kg, in units of the pseudo-time step */
-  const double *weight;   /* [count] of each node with its load, N */
-  const double *mass;     /* [count] kg */
-  double total_weight;    /* of what moves, N */
-  double stable_step;     /* s */
-  void *memory;           /* the block that holds the arrays */
+  ZpMasses masses;      /* true masses */
+  ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */
+  double pseudo_mass;   /* kg, in units of the pseudo-time step */
+  const double *weight; /* [stride] of each node with its load, N */
+  const double *mass;   /* [stride] kg */
+  double total_weight;  /* of what moves, N */
+  double stable_step;   /* s */
+  void *memory;         /* the block that holds the arrays */
 };
 
 /* All that evolves. One block of zp_state_size bytes: copying it is snapshot, rollback and restart. */
 typedef struct ZpState {
-  double t;            /* s */
-  double U;            /* held input: potential difference, V */
+  double t; /* s */
+  double U; /* held input: potential difference, V */
   ZpZipState zip;
   double zip_time;     /* s; NAN until zipped */
   double opening0;     /* of the hanging equilibrium, m */
@@ -52,20 +55,32 @@ typedef struct ZpState {
   double drag_loss;    /* per part, J */
   double contact_loss; /* per part, J */
   double refreshed;    /* time of the last refresh of a held electric force, s; NAN: due now */
-  double data[];       /* q [2 count], v [2 count], held Fy [N] */
+  double data[];       /* q [2 stride], v [2 stride], held attraction [stride], N */
 } ZpState;
 
+/* Where the coordinates and velocities of a state stand. */
 static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
   (void)model;
   return state->data;
 }
 
 static inline double *zp_state_v(const ZpModel *model, ZpState *state) {
-  return state->data + 2 * model->count;
+  return state->data + 2 * model->stride;
 }
 
+/* The same by axis, for reading. */
+typedef struct ZpMotion {
+  const double *x, *y, *vx, *vy; /* [stride] */
+} ZpMotion;
+
+static inline ZpMotion zp_state_motion(const ZpModel *model, const ZpState *state) {
+  const double *q = state->data, *v = q + 2 * model->stride;
+  return (ZpMotion){q, q + model->stride, v, v + model->stride};
+}
+
+/* The attraction that is held between refreshes, as in ZpPlatesEval.Fy. */
 static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
-  return state->data + 4 * model->count;
+  return state->data + 4 * model->stride;
 }
 
 size_t zp_state_size(const ZpModel *model);

@@ -3,7 +3,9 @@
 #ifndef ZP_BASE_KERNEL_H
 #define ZP_BASE_KERNEL_H
 
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) && \
+#include <stddef.h>
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) &&                        \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define ZP_KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
@@ -12,15 +14,25 @@
 
 /* Iterations of the loop that follows are independent. */
 #define ZP_SIMD _Pragma("omp simd")
-#define ZP_SIMD_MAX(variable) _Pragma(ZP_QUOTE(omp simd reduction(max : variable)))
-#define ZP_QUOTE(text) #text
 
 /* Partial sums of a reduction: kept apart and added in a fixed order, so that no compiler and no vector
  * width changes the result. */
 enum { ZP_LANES = 8 };
 
+/* Places of an array that kernels work through lane by lane without a remainder. */
+static inline size_t zp_round_up(size_t count) {
+  return (count + ZP_LANES - 1) / ZP_LANES * ZP_LANES;
+}
+
 static inline double zp_sum_lanes(const double *lane) {
   return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+}
+
+static inline double zp_max_lanes(const double *lane) {
+  double largest = lane[0];
+  for (int k = 1; k < ZP_LANES; k++)
+    largest = lane[k] > largest ? lane[k] : largest;
+  return largest;
 }
 
 #endif

@@ -21,6 +21,6 @@ double *zp_carve(ZpCarver *carver, size_t count) {
   size_t per_line = ZP_ALIGNMENT / sizeof(double);
   size_t bytes = (count + per_line - 1) / per_line * ZP_ALIGNMENT;
   double *array = carver->base ? (double *)(void *)(carver->base + carver->used) : NULL;
-  carver->used += bytes;
+  carver->used += bytes + ZP_ALIGNMENT;
   return array;
 }

@@ -90,8 +90,7 @@ ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity) {
   ZpShapes *shapes = zp_calloc(1, sizeof *shapes);
   if (!shapes) return NULL;
   size_t frame_size = FRAME_HEAD + 2 * ribbons * nodes + (ribbons == 2 ? 2 * nodes : 0);
-  *shapes = (ZpShapes){
-      .ribbons = ribbons, .nodes = nodes, .capacity = capacity, .stride = 1, .frame_size = frame_size};
+  *shapes = (ZpShapes){.ribbons = ribbons, .nodes = nodes, .capacity = capacity, .stride = 1, .frame_size = frame_size};
   shapes->value = zp_calloc(capacity, frame_size * sizeof(double));
   if (shapes->value) return shapes;
   zp_free(shapes);

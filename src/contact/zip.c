@@ -2,30 +2,21 @@
 
 #include <math.h>
 
-#include "base/kernel.h"
-
-static void share(size_t i, const ZpZipMasses *masses, const double *force, double *acceleration) {
-  acceleration[2 * i] = acceleration[2 * i + 1] = (force[2 * i] + force[2 * i + 1]) * masses->pair[i];
+static void share(size_t i, const ZpZipMasses *masses, double *a) {
+  double force = a[2 * i] * masses->mass[2 * i] + a[2 * i + 1] * masses->mass[2 * i + 1];
+  a[2 * i] = a[2 * i + 1] = force * masses->pair[i];
 }
 
-ZP_KERNEL static void divide_by_mass(size_t count, const double *restrict force, const double *restrict inverse_mass,
-                                     double *restrict acceleration) {
-  ZP_SIMD
-  for (size_t j = 0; j < count; j++)
-    acceleration[j] = force[j] * inverse_mass[j];
-}
-
-void zp_zip_accelerate(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, const double *force,
-                       double *acceleration) {
-  divide_by_mass(2 * nodes, force, masses->single, acceleration);
+void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, double *a) {
   for (size_t i = 0; i <= state->front; i++)
-    share(i, masses, force, acceleration);
-  if (state->platform) share(nodes - 1, masses, force, acceleration);
+    share(i, masses, a);
+  if (state->platform) share(nodes - 1, masses, a);
 }
 
 /* First s in [0, dt] with g + w s + c s^2 <= 0 and falling, or dt. */
 static double first_meeting(double g, double w, double c, double dt) {
   if (g <= 0) return w < 0 || (w == 0 && c < 0) ? 0 : dt;
+  if (g + dt * (fmin(w, 0) + dt * fmin(c, 0)) > 0) return dt; /* too far for this step: nearly always */
   double discriminant = w * w - 4 * c * g;
   if (discriminant < 0) return dt;
   double q = -0.5 * (w + copysign(sqrt(discriminant), w));
@@ -61,7 +52,7 @@ double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const
 }
 
 double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity) {
-  double upper = masses->single[2 * i], lower = masses->single[2 * i + 1], sum = upper + lower;
+  double upper = masses->inverse[2 * i], lower = masses->inverse[2 * i + 1], sum = upper + lower;
   if (sum == 0) return 0;
   double difference = velocity[2 * i] - velocity[2 * i + 1];
   velocity[2 * i] = velocity[2 * i + 1] = (lower * velocity[2 * i] + upper * velocity[2 * i + 1]) / sum;
@@ -76,16 +67,16 @@ ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i) {
   return state;
 }
 
-static bool pulled_apart(size_t i, const ZpZipMasses *masses, const double *force_y) {
-  return force_y[2 * i] * masses->single[2 * i] > force_y[2 * i + 1] * masses->single[2 * i + 1];
+static bool pulled_apart(size_t i, const double *ay) {
+  return ay[2 * i] > ay[2 * i + 1];
 }
 
-ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const ZpZipMasses *masses, const double *force_y) {
+ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const double *ay) {
   size_t end = nodes - 1;
-  if (state.platform && pulled_apart(end, masses, force_y)) {
+  if (state.platform && pulled_apart(end, ay)) {
     state.platform = false;
     if (state.front == end) state.front = end - 1;
   }
-  if (!state.platform && state.front > 0 && pulled_apart(state.front, masses, force_y)) state.front--;
+  if (!state.platform && state.front > 0 && pulled_apart(state.front, ay)) state.front--;
   return state;
 }

@@ -27,10 +27,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* 1 / mass along one axis; 0 where a node is held. */
+/* Masses along one axis. */
 typedef struct ZpZipMasses {
-  const double *single; /* [2 N] of each node, 1/kg */
-  const double *pair;   /* [N] of two joined nodes, 1/kg; 0 where one is held */
+  const double *mass;    /* [2 N] of each node, kg */
+  const double *inverse; /* [2 N] 1 / mass; 0 where the node is held */
+  const double *pair;    /* [N] 1 / mass of two joined nodes; 0 where one is held */
 } ZpZipMasses;
 
 typedef struct ZpZipState {
@@ -38,9 +39,8 @@ typedef struct ZpZipState {
   bool platform; /* the platforms' faces have met */
 } ZpZipState;
 
-/* (forces along one axis) => accelerations of `nodes` pairs: f / m, shared in joined pairs. */
-void zp_zip_accelerate(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, const double *force,
-                       double *acceleration);
+/* (accelerations of free nodes along one axis) => those of joined pairs shared: the pair moves as one. */
+void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, double *acceleration);
 
 /* Time until the next meeting if velocity grows by acceleration * step and position by the new velocity *
  * step (eq. (1) of the paper), at most `dt`; *pair gets the pair that meets, or stays as it is. */
@@ -53,7 +53,8 @@ double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity);
 /* The state after pair i has met. */
 ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i);
 
-/* The state without voltage: the front (and the platform) opens where forces along y pull it apart. */
-ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const ZpZipMasses *masses, const double *force_y);
+/* The state without voltage: the front (and the platform) opens where forces pull it apart; `ay` as free
+ * nodes would have it. */
+ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const double *ay);
 
 #endif

@@ -8,10 +8,10 @@
 #include "base/fail.h"
 
 /* The words of each choice type. */
-#define ZP_CHOICES(type) static const ZpChoice words_of_##type[] = {
+#define ZP_CHOICES(type)                  static const ZpChoice words_of_##type[] = {
 #define ZP_CHOICE(enumerator, word, help) {word, help},
-#define ZP_CHOICES_END(type) \
-  }                          \
+#define ZP_CHOICES_END(type)                                                                                           \
+  }                                                                                                                    \
   ;
 #include <zipact/choices.def>
 #undef ZP_CHOICES
@@ -21,14 +21,14 @@
 #define OFFSET(path, name) offsetof(ZpActuatorDef, path name)
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
-#define ZP_REAL(path, name, unit, shown, def, min, max, help) \
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name)},
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) \
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name)},
-#define ZP_INT(path, name, def, min, max, help) \
+#define ZP_INT(path, name, def, min, max, help)                                                                        \
   {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, OFFSET(path, name)},
 #define ZP_BOOL(path, name, def, help) {#path #name, ZP_KEY_BOOL, "1", "", def, 0, 1, help, NULL, OFFSET(path, name)},
-#define ZP_ENUM(path, name, type, def, help) \
+#define ZP_ENUM(path, name, type, def, help)                                                                           \
   {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, OFFSET(path, name)},
 static const ZpKey keys[] = {
 #include <zipact/keys.def>
@@ -61,7 +61,7 @@ static const PresetValue kind_values[] = {
 #undef ZP_PRESET_VALUE
 #undef ZP_PRESET_AT
 #define ZP_KIND_VALUE(kind, key, value)
-#define ZP_PRESET_VALUE(preset, key, value) {preset, key, 0, value},
+#define ZP_PRESET_VALUE(preset, key, value)     {preset, key, 0, value},
 #define ZP_PRESET_AT(preset, key, nodes, value) {preset, key, nodes, value},
 static const PresetValue preset_values[] = {
 #include <zipact/presets.def>

@@ -24,12 +24,13 @@ double zp_plates_least_h(const ZpPlatesParams *p, double U) {
 ZpPlatesLaw zp_plates_law(const ZpPlatesParams *p, double U, double gap) {
   double h = gap + p->d, h_c = zp_plates_least_h(p, U), K = p->k * U * U;
   double inverse = 1 / (h > h_c ? h : h_c);
-  return (ZpPlatesLaw){
-      .W = K * inverse * inverse, .P = -K * inverse * (2 - h * inverse), .q = 2 * p->k * U * inverse};
+  return (ZpPlatesLaw){.W = K * inverse * inverse, .P = -K * inverse * (2 - h * inverse), .q = 2 * p->k * U * inverse};
 }
 
 void zp_plates_carve(const ZpPlatesParams *p, ZpPlatesEval *e, ZpCarver *carver) {
-  double **arrays[] = {&e->gap, &e->Fy, &e->Fx, &e->A, &e->B, &e->P, &e->dx};
+  e->Fx = zp_carve(carver, p->stride);
+  e->Fy = zp_carve(carver, p->stride);
+  double **arrays[] = {&e->gap, &e->A, &e->B, &e->P, &e->dx};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_carve(carver, p->nodes);
 }
@@ -57,14 +58,19 @@ ZP_KERNEL static void elements(const ZpPlatesParams *p, double K, double h_c, Zp
   double *restrict A = e->A, *restrict B = e->B, *restrict P = e->P;
   ZP_SIMD
   for (size_t i = 0; i < elements; i++) {
-    double g0 = gap[i], rise = gap[i + 1] - gap[i], left = 0, right = 0, potential = 0;
+    double h[GAUSS], bounded[GAUSS], left = 0, right = 0, potential = 0;
     for (int q = 0; q < GAUSS; q++) {
-      double h = g0 + d + rise * gauss_at[q];
-      double inverse = 1 / (h > h_c ? h : h_c);
-      double W = gauss_weight[q] * K * inverse * inverse;
+      h[q] = gap[i] + d + (gap[i + 1] - gap[i]) * gauss_at[q];
+      bounded[q] = h[q] > h_c ? h[q] : h_c;
+    }
+    /* the three reciprocals from one division, which is what costs here */
+    double h01 = bounded[0] * bounded[1], all = 1 / (h01 * bounded[2]);
+    double inverse[GAUSS] = {all * (bounded[1] * bounded[2]), all * (bounded[0] * bounded[2]), all * h01};
+    for (int q = 0; q < GAUSS; q++) {
+      double W = gauss_weight[q] * K * inverse[q] * inverse[q];
       left += W * (1 - gauss_at[q]);
       right += W * gauss_at[q];
-      potential -= gauss_weight[q] * K * inverse * (2 - h * inverse);
+      potential -= gauss_weight[q] * K * inverse[q] * (2 - h[q] * inverse[q]);
     }
     A[i] = left * dx[i];
     B[i] = right * dx[i];
@@ -72,27 +78,34 @@ ZP_KERNEL static void elements(const ZpPlatesParams *p, double K, double h_c, Zp
   }
 }
 
-/* Element parts gathered at the stations: Fy = dE/dg, Fx = -dE/dx of each ribbon, eq. (4.7). */
-ZP_KERNEL static void stations(size_t nodes, ZpPlatesEval *e) {
-  const double *restrict A = e->A, *restrict B = e->B, *restrict P = e->P;
-  double *restrict Fx = e->Fx, *restrict Fy = e->Fy;
-  Fy[0] = A[0];
-  Fx[0] = 0.5 * P[0];
+/* Attraction `closing` and pull along x on both nodes of station i. */
+static inline void act(ZpPlatesEval *e, size_t i, double along, double closing) {
+  e->Fx[2 * i] = e->Fx[2 * i + 1] = along;
+  e->Fy[2 * i] = -closing;
+  e->Fy[2 * i + 1] = closing;
+}
+
+/* Element parts gathered at the stations, eq. (4.7): dE/dg, and -dE/dx of each ribbon. */
+ZP_KERNEL static void stations(size_t nodes, const double *restrict A, const double *restrict B,
+                               const double *restrict P, double *restrict Fx, double *restrict Fy) {
   size_t last = nodes - 1;
   ZP_SIMD
   for (size_t i = 1; i < last; i++) {
-    Fy[i] = A[i] + B[i - 1];
-    Fx[i] = 0.5 * (P[i] - P[i - 1]);
+    double closing = A[i] + B[i - 1], along = 0.5 * (P[i] - P[i - 1]);
+    Fx[2 * i] = along;
+    Fx[2 * i + 1] = along;
+    Fy[2 * i] = -closing;
+    Fy[2 * i + 1] = closing;
   }
-  Fy[last] = B[last - 1];
-  Fx[last] = -0.5 * P[last - 1];
 }
 
 void zp_plates_polyline(const ZpPlatesParams *p, const double *x, const double *y, double U, ZpPlatesEval *e) {
+  size_t last = p->nodes - 1;
   zp_plates_gaps(p, x, y, e);
   elements(p, p->k * U * U, zp_plates_least_h(p, U), e);
-  stations(p->nodes, e);
-  e->Fy[p->nodes - 1] += p->flat_length * zp_plates_law(p, U, e->gap[p->nodes - 1]).W;
+  stations(p->nodes, e->A, e->B, e->P, e->Fx, e->Fy);
+  act(e, 0, 0.5 * e->P[0], e->A[0]);
+  act(e, last, -0.5 * e->P[last - 1], e->B[last - 1] + p->flat_length * zp_plates_law(p, U, e->gap[last]).W);
 }
 
 static void add_piece(const ZpPlatesParams *p, double U, double gap, double length, ZpPlatesTotals *totals) {

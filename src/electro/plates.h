@@ -14,24 +14,24 @@
 #define ZP_EPS0 8.8541878128e-12 /* electric constant, F/m, CODATA 2018 */
 
 typedef struct ZpPlatesParams {
-  size_t nodes;         /* N stations */
-  double k;             /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
-  double d;             /* liquid thickness that stands for both insulators, m */
-  double h_per_volt;    /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
-  double h_least;       /* g + d below which the law is not followed further, m: touching bare faces */
+  size_t nodes;             /* N stations */
+  size_t stride;            /* places of arrays over the nodes of both ribbons, at least 2 N */
+  double k;                 /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
+  double d;                 /* liquid thickness that stands for both insulators, m */
+  double h_per_volt;        /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
+  double h_least;           /* g + d below which the law is not followed further, m: touching bare faces */
   double h_switch_per_volt; /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
   double switch_offset;     /* what it takes for g + d - g, m */
-  double flat_length;   /* of the platform's electrode, at the gap of the last station, m; 0 without */
+  double flat_length;       /* of the platform's electrode, at the gap of the last station, m; 0 without */
 } ZpPlatesParams;
 
 /* Written by zp_plates_polyline. */
 typedef struct ZpPlatesEval {
-  double *gap;    /* [N] face distance, m */
-  double *Fy;     /* [N] attraction: upwards on the lower, downwards on the upper ribbon, N */
-  double *Fx;     /* [N] along x, the same on both ribbons, N */
-  double *A, *B;  /* [N-1] parts of Fy from the element right (A) and left (B) of a station, N */
-  double *P;      /* [N-1] mean potential per length of an element, J/m */
-  double *dx;     /* [N-1] mean of both ribbons' x-lengths of an element, m */
+  double *gap;     /* [N] face distance, m */
+  double *Fx, *Fy; /* [stride] force on upper [2 i] and lower node [2 i + 1] of station i, N; 0 beyond */
+  double *A, *B;   /* [N-1] parts of attraction from the element right (A) and left (B) of a station, N */
+  double *P;       /* [N-1] mean potential per length of an element, J/m */
+  double *dx;      /* [N-1] mean of both ribbons' x-lengths of an element, m */
 } ZpPlatesEval;
 
 /* The law at one gap. */

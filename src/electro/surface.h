@@ -10,10 +10,23 @@
 #include "electro/plates.h"
 #include "math/bezier.h"
 
-/* (plates law, basis for the free stations, x and y of interleaved nodes, first free station `front`,
- * direction of the closed part there, voltage) => eval->Fy of all stations, eval->Fx = 0. The curves
+typedef struct ZpBezierSurface {
+  size_t stations; /* free ones that the rest is for; 0: none yet */
+  ZpBezierBasis fit;
+  double *t0, *t1; /* [N] curve parameters of the two Gauss points of each interval */
+  double *closing; /* [N] attraction of each interval, N */
+} ZpBezierSurface;
+
+void zp_surface_carve(size_t nodes, ZpBezierSurface *surface, ZpCarver *carver);
+
+/* Make ready for this many free stations, 2 or more; nothing if it is. */
+void zp_surface_prepare(ZpBezierSurface *surface, size_t stations);
+
+/* (plates law, surface prepared for the free stations, x and y of interleaved nodes, first free station `front`,
+ * direction of the closed part there, voltage) => eval->Fy of all stations; eval->Fx is not
+ * touched and must be 0. The curves
  * arrive horizontally at the platform. Not the gradient of an energy. */
-void zp_surface_bezier(const ZpPlatesParams *params, const ZpBezierBasis *basis, const double *x, const double *y,
+void zp_surface_bezier(const ZpPlatesParams *params, const ZpBezierSurface *surface, const double *x, const double *y,
                        size_t front, const double direction[2], double voltage, ZpPlatesEval *eval);
 
 #endif

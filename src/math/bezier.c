@@ -28,18 +28,20 @@ void zp_bezier_basis(ZpBezierBasis *basis, size_t count) {
 
 void zp_bezier_fit(const ZpBezierBasis *basis, const double moment[4], const double first[2], const double last[2],
                    const double d0[2], const double d3[2], ZpCubic *x, ZpCubic *y) {
-  double dx = last[0] - first[0], dy = last[1] - first[1];
-  double a = sqrt(dx * dx + dy * dy) / 3, b = a;
-  if (basis->count >= 4) {
+  double a, b;
+  if (basis->count < 4) {
+    double dx = last[0] - first[0], dy = last[1] - first[1];
+    a = b = sqrt(dx * dx + dy * dy) / 3;
+  } else {
     /* residual of point i without handles: r = p_i - p0 (B0 + B1) - p3 (B2 + B3) */
     double r1 = 0, r2 = 0, cosine = d0[0] * d3[0] + d0[1] * d3[1];
     for (int k = 0; k < 2; k++) {
       r1 += d0[k] * (moment[k] - first[k] * basis->B10 - last[k] * basis->B13);
       r2 -= d3[k] * (moment[2 + k] - first[k] * basis->B20 - last[k] * basis->B23);
     }
-    double m12 = -basis->B12 * cosine, determinant = basis->B11 * basis->B22 - m12 * m12;
-    a = (r1 * basis->B22 - r2 * m12) / determinant;
-    b = (r2 * basis->B11 - r1 * m12) / determinant;
+    double m12 = -basis->B12 * cosine, inverse = 1 / (basis->B11 * basis->B22 - m12 * m12);
+    a = (r1 * basis->B22 - r2 * m12) * inverse;
+    b = (r2 * basis->B11 - r1 * m12) * inverse;
   }
   *x = zp_bezier_cubic(first[0], first[0] + a * d0[0], last[0] - b * d3[0], last[0]);
   *y = zp_bezier_cubic(first[1], first[1] + a * d0[1], last[1] - b * d3[1], last[1]);

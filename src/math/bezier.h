@@ -17,9 +17,9 @@ ZpCubic zp_bezier_cubic(double p0, double p1, double p2, double p3);
  * stands twice, so that two curves with interleaved points are summed in one stride. */
 typedef struct ZpBezierBasis {
   size_t count;
-  double *B1, *B2;              /* [2 * count] */
-  double B11, B12, B22;         /* sums of B1 B1, B1 B2, B2 B2 */
-  double B10, B13, B20, B23;    /* sums of B1 (B0 + B1), B1 (B2 + B3), B2 (B0 + B1), B2 (B2 + B3) */
+  double *B1, *B2;           /* [2 * count] */
+  double B11, B12, B22;      /* sums of B1 B1, B1 B2, B2 B2 */
+  double B10, B13, B20, B23; /* sums of B1 (B0 + B1), B1 (B2 + B3), B2 (B0 + B1), B2 (B2 + B3) */
 } ZpBezierBasis;
 
 /* Fill the basis for `count` >= 2 points; B1 and B2 have room for twice as many. */

@@ -16,48 +16,62 @@ static size_t edge_count(const ZpMassSpringParams *p) {
 }
 
 void zp_massspring_carve(const ZpMassSpringParams *p, ZpMassSpringEval *e, ZpCarver *carver) {
-  size_t edges = edge_count(p), s = p->ribbons, margin = ZP_ALIGNMENT / sizeof(double);
-  e->dpx = zp_carve(carver, edges);
-  e->dpy = zp_carve(carver, edges);
-  e->T = zp_carve(carver, edges);
+  size_t margin = ZP_ALIGNMENT / sizeof(double);
+  e->dpx = zp_carve(carver, p->stride);
+  e->dpy = zp_carve(carver, p->stride);
+  e->T = zp_carve(carver, p->stride);
   double **with_margin[] = {&e->ux, &e->uy, &e->Rx, &e->Ry};
   for (int k = 0; k < 4; k++) {
-    double *array = zp_carve(carver, margin + edges + s);
+    double *array = zp_carve(carver, margin + p->stride);
     *with_margin[k] = array ? array + margin : NULL;
   }
   if (!carver->base) return;
-  for (size_t r = 0; r < s; r++) {
-    e->ux[(ptrdiff_t)r - (ptrdiff_t)s] = p->left_slope ? 1 : 0;
-    e->ux[edges + r] = p->right_slope ? 1 : 0;
-  }
+  for (size_t r = 0; r < p->ribbons; r++) /* the directions before the first edges; nothing writes there again */
+    (e->ux - p->ribbons)[r] = p->left_slope ? 1 : 0;
 }
 
-ZP_KERNEL static void edge_directions(const ZpMassSpringParams *p, const double *restrict x, const double *restrict y,
-                                      ZpMassSpringEval *e) {
-  size_t edges = edge_count(p), s = p->ribbons;
+/* Kernels go a whole number of lanes, beyond the last edge, where nodes lie on the prolonged ribbon. Two
+ * lengths are inverted with one division, which is what costs here. */
+ZP_KERNEL static void edge_directions(const ZpMassSpringParams *p, size_t padded, const double *restrict x,
+                                      const double *restrict y, const ZpMassSpringEval *e) {
+  enum { HALF = ZP_LANES / 2 };
+  size_t s = p->ribbons;
   double l = p->l, K_D = p->K_D;
   double *restrict dpx = e->dpx, *restrict dpy = e->dpy, *restrict ux = e->ux, *restrict uy = e->uy, *restrict T = e->T;
-  ZP_SIMD
-  for (size_t j = 0; j < edges; j++) {
-    double dx = x[j + s] - x[j], dy = y[j + s] - y[j];
-    double length = sqrt(dx * dx + dy * dy), inverse = 1 / length;
-    dpx[j] = dx;
-    dpy[j] = dy;
-    ux[j] = dx * inverse;
-    uy[j] = dy * inverse;
-    T[j] = K_D * (length - l);
+  for (size_t block = 0; block < padded; block += ZP_LANES) {
+    double dx[ZP_LANES], dy[ZP_LANES], length[ZP_LANES], inverse[ZP_LANES];
+    ZP_SIMD
+    for (size_t k = 0; k < ZP_LANES; k++) {
+      dx[k] = x[block + k + s] - x[block + k];
+      dy[k] = y[block + k + s] - y[block + k];
+      length[k] = sqrt(dx[k] * dx[k] + dy[k] * dy[k]);
+    }
+    ZP_SIMD
+    for (size_t k = 0; k < HALF; k++) {
+      double both = 1 / (length[k] * length[k + HALF]);
+      inverse[k] = both * length[k + HALF];
+      inverse[k + HALF] = both * length[k];
+    }
+    ZP_SIMD
+    for (size_t k = 0; k < ZP_LANES; k++) {
+      dpx[block + k] = dx[k];
+      dpy[block + k] = dy[k];
+      ux[block + k] = dx[k] * inverse[k];
+      uy[block + k] = dy[k] * inverse[k];
+      T[block + k] = K_D * (length[k] - l);
+    }
   }
 }
 
-ZP_KERNEL static void edge_forces(const ZpMassSpringParams *p, ZpMassSpringEval *e) {
-  size_t edges = edge_count(p), s = p->ribbons;
+ZP_KERNEL static void edge_forces(const ZpMassSpringParams *p, size_t padded, const ZpMassSpringEval *e) {
+  size_t s = p->ribbons;
   double K_S = p->K_S;
   const double *restrict dpx = e->dpx, *restrict dpy = e->dpy, *restrict ux = e->ux, *restrict uy = e->uy,
                          *restrict T = e->T;
   const double *restrict bx = ux - s, *restrict by = uy - s, *restrict ax = ux + s, *restrict ay = uy + s;
   double *restrict Rx = e->Rx, *restrict Ry = e->Ry;
   ZP_SIMD
-  for (size_t j = 0; j < edges; j++) {
+  for (size_t j = 0; j < padded; j++) {
     double dy_b = bx[j] * dpy[j] - by[j] * dpx[j];
     double dy_a = ax[j] * dpy[j] - ay[j] * dpx[j];
     Rx[j] = K_S * (dy_b * by[j] + dy_a * ay[j]) - T[j] * ux[j];
@@ -65,9 +79,22 @@ ZP_KERNEL static void edge_forces(const ZpMassSpringParams *p, ZpMassSpringEval 
   }
 }
 
+/* The directions after the last edges, where the kernel has written beyond them. */
+static void hold_right_ends(const ZpMassSpringParams *p, const ZpMassSpringEval *e) {
+  size_t edges = edge_count(p);
+  for (size_t r = 0; r < p->ribbons; r++) {
+    e->ux[edges + r] = p->right_slope ? 1 : 0;
+    e->uy[edges + r] = 0;
+  }
+}
+
 void zp_massspring_eval(const ZpMassSpringParams *p, const double *x, const double *y, ZpMassSpringEval *e) {
-  edge_directions(p, x, y, e);
-  edge_forces(p, e);
+  size_t edges = edge_count(p), padded = zp_round_up(edges);
+  edge_directions(p, padded, x, y, e);
+  hold_right_ends(p, e);
+  edge_forces(p, padded, e);
+  for (size_t j = edges; j < padded; j++)
+    e->Rx[j] = e->Ry[j] = 0;
 }
 
 double zp_massspring_axial_energy(const ZpMassSpringParams *p, const ZpMassSpringEval *e) {

@@ -11,13 +11,14 @@
 #include "base/memory.h"
 
 typedef struct ZpMassSpringParams {
-  size_t ribbons;    /* s */
-  size_t nodes;      /* N per ribbon */
-  double l;          /* rest length of an edge, m */
-  double K_D;        /* axial spring, N/m, eq. (3.2) */
-  double K_S;        /* shear spring, N/m, eq. (3.4) */
-  bool left_slope;   /* the edge direction before the first node is held horizontal */
-  bool right_slope;  /* the edge direction after the last node is held horizontal */
+  size_t ribbons;   /* s */
+  size_t nodes;     /* N per ribbon */
+  size_t stride;    /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  double l;         /* rest length of an edge, m */
+  double K_D;       /* axial spring, N/m, eq. (3.2) */
+  double K_S;       /* shear spring, N/m, eq. (3.4) */
+  bool left_slope;  /* the edge direction before the first node is held horizontal */
+  bool right_slope; /* the edge direction after the last node is held horizontal */
 } ZpMassSpringParams;
 
 /* Written by zp_massspring_eval, read by those who add up forces and energies. */
@@ -25,13 +26,13 @@ typedef struct ZpMassSpringEval {
   double *dpx, *dpy; /* [edges] node i+1 - node i, m */
   double *ux, *uy;   /* [-s .. edges + s) unit directions of the edges; outside: held slope or 0 */
   double *T;         /* [edges] tension, N */
-  double *Rx, *Ry;   /* [-s .. edges + s) force of edge on its right node, N; outside: 0 */
+  double *Rx, *Ry;   /* [-s .. stride) force of edge on its right node, N; outside the edges: 0 */
 } ZpMassSpringEval;
 
-/* Cut the arrays of `eval` from `carver`; write what lies outside the edges once the block exists. */
+/* Cut the arrays of `eval` from `carver`, whose block must be zeroed. */
 void zp_massspring_carve(const ZpMassSpringParams *params, ZpMassSpringEval *eval, ZpCarver *carver);
 
-/* (positions) => edge directions, tensions and edge forces. Force on node j: R[j - s] - R[j]. */
+/* (positions [stride]) => edge directions, tensions and edge forces. Force on node j: R[j - s] - R[j]. */
 void zp_massspring_eval(const ZpMassSpringParams *params, const double *x, const double *y, ZpMassSpringEval *eval);
 
 /* Energies from the last eval, J. The shear law has no potential; its energy is that of the springs at

@@ -37,10 +37,11 @@ double zp_energy_without_field(const ZpEnergies *e) {
 static void fill_geometry(const ZpSim *sim, double *row) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
-  const double *y = state->data + model->count, *vy = y + 2 * model->count;
+  ZpMotion motion = zp_state_motion(model, state);
+  const double *y = motion.y;
   size_t s = model->s, end = model->count - 1;
   row[SIGNAL_stroke] = fabs(y[end] - y[s - 1]);
-  row[SIGNAL_end_velocity] = vy[end];
+  row[SIGNAL_end_velocity] = motion.vy[end];
   row[SIGNAL_zipped_length] = (double)state->zip.front * model->l;
   row[SIGNAL_opening] = s == 2 ? y[end - 1] - y[end] : NAN;
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
@@ -88,11 +89,8 @@ double zp_sim_get(const ZpSim *sim, const char *name) {
 ZpShape zp_sim_shape(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
-  ZpShape shape = {.time = state->t,
-                   .voltage = state->U,
-                   .zipped = state->zip.front,
-                   .x = state->data,
-                   .y = state->data + model->count};
+  ZpMotion motion = zp_state_motion(model, state);
+  ZpShape shape = {.time = state->t, .voltage = state->U, .zipped = state->zip.front, .x = motion.x, .y = motion.y};
   if (!model->field) return shape;
   ZpPlatesEval plates = sim->eval.plates;
   zp_plates_gaps(&model->plates, shape.x, shape.y, &plates);

@@ -17,8 +17,8 @@ static void accelerate(void *self, const double *q, double *a) {
   Settling *settling = self;
   ZpSim *sim = settling->sim;
   static const ZpZipState hanging = {0, false};
-  zp_eval_forces(sim->model, sim->state, q, NULL, ZP_ELASTIC_AND_WEIGHT, &sim->eval);
-  zp_eval_accelerations(sim->model, &sim->model->pseudo, &hanging, &sim->eval, a);
+  zp_eval_unpowered(sim->model, q, &sim->eval, a);
+  zp_eval_share(sim->model, &sim->model->pseudo, &hanging, a);
   settling->a = a;
 }
 
@@ -58,7 +58,7 @@ static double rounding_floor(const ZpModel *model) {
 
 void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
-  size_t n = 2 * model->count;
+  size_t n = 2 * model->stride;
   /* the stroke's error is of the order of the imbalance times the number of nodes */
   double tolerance = fmax(1e-3 * model->def.solver.tolerance, rounding_floor(model));
   Settling settling = {.sim = sim, .hooks = hooks, .tolerance = tolerance};
@@ -70,6 +70,7 @@ void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   sim->settle_steps = info.steps;
   sim->settle_residual = info.residual;
   if (sim->settled != ZP_REACHED_END) return;
-  if (model->s == 2) sim->state->opening0 = q[n - 2] - q[n - 1];
+  const double *y = q + model->stride;
+  if (model->s == 2) sim->state->opening0 = y[model->count - 2] - y[model->count - 1];
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) memcpy(zp_state_q(model, sim->state), q, n * sizeof *q);
 }

@@ -29,15 +29,15 @@ static bool allocate(ZpSim *sim) {
   size_t signals;
   zp_signal_columns(&signals);
   sim->state = zp_calloc(1, zp_state_size(model));
-  sim->a = zp_calloc(2 * model->count, sizeof(double));
-  sim->relax_work = zp_calloc(12 * model->count, sizeof(double));
+  sim->a = zp_calloc(2 * model->stride, sizeof(double));
+  sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
   return zp_eval_create(model, &sim->eval) && sim->state && sim->a && sim->relax_work && sim->row && sim->line_force;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
-  for (size_t j = 0; j < model->count; j++)
+  for (size_t j = 0; j < model->stride; j++)
     q[j] = (double)(j / model->s) * model->l;
 }
 
@@ -90,8 +90,10 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 static double accelerate(void *self, const double *q, const double *v, double *a) {
   ZpSim *sim = self;
   const ZpModel *model = sim->model;
-  zp_eval_forces(model, sim->state, q, v, ZP_ALL_FORCES, &sim->eval);
-  zp_eval_accelerations(model, &model->masses, &sim->state->zip, &sim->eval, a);
+  zp_eval_accelerations(model, sim->state, q, v, &sim->eval, a);
+  sim->opened = sim->state->zip;
+  if (model->field && sim->state->U == 0) sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
+  zp_eval_share(model, &model->masses, &sim->state->zip, a);
 
   double dt = model->stable_step, asked = model->def.solver.time_step;
   /* Half of the first bound of eq. (9): at the bound itself drag would turn a speed round, undiminished.
@@ -111,8 +113,8 @@ static double accelerate(void *self, const double *q, const double *v, double *a
 
 static double next_event(void *self, const double *q, const double *v, const double *a, double dt) {
   ZpSim *sim = self;
-  size_t count = sim->model->count;
-  return zp_zip_next(&sim->state->zip, sim->model->nodes, q + count, v + count, a + count, dt, &sim->met);
+  size_t stride = sim->model->stride;
+  return zp_zip_next(&sim->state->zip, sim->model->nodes, q + stride, v + stride, a + stride, dt, &sim->met);
 }
 
 /* Pair sim->met has met: it moves as one from now on, and a held electric force is out of date. */
@@ -121,13 +123,13 @@ static void meet(ZpSim *sim) {
   ZpState *state = sim->state;
   double *v = zp_state_v(model, state);
   state->contact_loss += zp_zip_merge(sim->met, &model->masses.x, v);
-  state->contact_loss += zp_zip_merge(sim->met, &model->masses.y, v + model->count);
+  state->contact_loss += zp_zip_merge(sim->met, &model->masses.y, v + model->stride);
   state->zip = zp_zip_after(state->zip, model->nodes, sim->met);
   state->refreshed = NAN;
 }
 
 static double opening(const ZpModel *model, const ZpState *state) {
-  const double *y = state->data + model->count;
+  const double *y = zp_state_motion(model, state).y;
   return y[model->count - 2] - y[model->count - 1];
 }
 
@@ -141,8 +143,7 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
 static bool closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin) return true;
-  double platform_velocity = state->data[4 * model->count - 1];
-  return state->zip.platform || platform_velocity <= 0;
+  return state->zip.platform || zp_state_motion(model, state).vy[model->count - 1] <= 0;
 }
 
 static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit) {
@@ -153,7 +154,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit) {
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  ZpExplicitSystem system = {2 * model->count, sim, accelerate, model->field ? next_event : NULL};
+  ZpExplicitSystem system = {2 * model->stride, sim, accelerate, model->field ? next_event : NULL};
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   ZpExplicitStep taken =
       zp_explicit_step(&system, end_time - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
@@ -162,9 +163,10 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->steps++;
   info->limited[limit_of(sim, taken.limit)]++;
   if (!model->field) return;
-  if (taken.limit == ZP_EXPLICIT_EVENT) meet(sim);
-  else if (state->U == 0)
-    state->zip = zp_zip_open(state->zip, model->nodes, &model->masses.y, sim->eval.force + model->count);
+  if (taken.limit == ZP_EXPLICIT_EVENT)
+    meet(sim);
+  else
+    state->zip = sim->opened;
   if (isnan(state->zip_time) && reached_zip(model, state)) state->zip_time = state->t;
 }
 
@@ -173,9 +175,9 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
 /* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
 static bool diverged(const ZpModel *model, const ZpState *state) {
   static const double speed_of_sound = 1e4; /* m/s, rounded up */
-  const double *v = state->data + 2 * model->count;
-  for (size_t j = 0; j < 2 * model->count; j++)
-    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(state->data[j])) return true;
+  const double *q = state->data, *v = q + 2 * model->stride;
+  for (size_t j = 0; j < 2 * model->stride; j++)
+    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(q[j])) return true;
   return false;
 }
 
@@ -186,7 +188,7 @@ static double sampling_interval(const ZpModel *model) {
 }
 
 static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
-  ZpStepBounds bounds = zp_eval_step_bounds(sim->model, sim->state->data + 2 * sim->model->count, &sim->eval);
+  ZpStepBounds bounds = zp_eval_step_bounds(sim->model, sim->state, &sim->eval);
   info->smallest_bound[0] = fmin(info->smallest_bound[0], bounds.drag);
   info->smallest_bound[1] = fmin(info->smallest_bound[1], bounds.axial);
   info->smallest_bound[2] = fmin(info->smallest_bound[2], bounds.shear);

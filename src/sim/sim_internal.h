@@ -9,19 +9,20 @@ struct ZpSim {
   const ZpModel *model;
   ZpState *state;
   ZpEval eval;
-  double *a;          /* [2 count] accelerations, work space of a step */
-  double *relax_work; /* [12 count] work space of settling */
-  ZpTable *series;    /* the caller's; NULL: no record */
-  ZpShapes *shapes;   /* the caller's; NULL: no record */
-  double *row;        /* one value per signal */
-  double *line_force; /* [nodes] of the shape handed out */
+  double *a;                   /* [2 stride] accelerations, work space of a step */
+  double *relax_work;          /* [12 stride] work space of settling */
+  ZpTable *series;             /* the caller's; NULL: no record */
+  ZpShapes *shapes;            /* the caller's; NULL: no record */
+  double *row;                 /* one value per signal */
+  double *line_force;          /* [nodes] of the shape handed out */
   double row_time, row_charge; /* of the last row, for the mean current */
-  ZpOutcome settled;  /* ZP_REACHED_END once the hanging equilibrium is known */
+  ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
   /* of the step under way */
   ZpStepLimit bound; /* what set the largest step allowed */
   size_t met;        /* pair that meets inside it */
+  ZpZipState opened; /* what is joined after it if nothing meets */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. */

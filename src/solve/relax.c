@@ -1,8 +1,8 @@
 /* Central differences with unit step, v' = ((2 - c) v + 2 a*) / (2 + c), q += v', where c = 2 omega damps
  * the slowest motion critically and a* = a + beta (a - a of the step before) damps the fastest, which
- * rounding would keep alive. With beta = 1/4 the fastest stable frequency is 1.6. omega^2 is the Rayleigh quotient - dq . da / dq . dq of what moved over
- * the last stretch of steps: fast motion averages out of it, so it finds the slowest mode. Near rest
- * rounding takes over and the quotient rises; c follows it down at once but up only slowly. */
+ * rounding would keep alive. With beta = 1/4 the fastest stable frequency is 1.6. omega^2 is the Rayleigh quotient - dq
+ * . da / dq . dq of what moved over the last stretch of steps: fast motion averages out of it, so it finds the slowest
+ * mode. Near rest rounding takes over and the quotient rises; c follows it down at once but up only slowly. */
 #include "solve/relax.h"
 
 #include <math.h>

@@ -20,8 +20,10 @@ ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *
     status = zp_study_actuate(def, hooks, result, err);
     break;
   }
-  if (status == ZP_OK) *out = result;
-  else zp_result_destroy(result);
+  if (status == ZP_OK)
+    *out = result;
+  else
+    zp_result_destroy(result);
   return status;
 }
 
