@@ -84,7 +84,7 @@ static Addends addends(const ZpModel *model, const ZpMasses *masses, const ZpEva
                    .c = model->def.damping.drag};
 }
 
-/* The sum of all forces over the mass, eq. (3.8), in two forms: without drag, and with it. */
+/* The sum of all forces over the mass, eq. (3.9), in two forms: without drag, and with it. */
 ZP_KERNEL static void add_forces(size_t stride, const Addends *f, double *restrict ax, double *restrict ay) {
   const double *Lx = f->Lx, *Ly = f->Ly, *Rx = f->Rx, *Ry = f->Ry, *weight = f->weight, *Fx = f->Fx, *Fy = f->Fy,
                *mx = f->mx, *my = f->my;

@@ -43,7 +43,7 @@ double zp_massspring_shear_energy(const ZpMassSpringParams *params, const ZpMass
 /* K_S that makes the chain as stiff as a beam with both ends horizontal, N/m, eq. (3.6). */
 double zp_massspring_shear_coefficient(double EI, double l, int nodes);
 
-/* Upper bound of the highest frequency for particles of `mass` kg, rad/s, eq. (5.3). */
+/* Upper bound of the highest frequency for particles of `mass` kg, rad/s, eq. (6.2). */
 double zp_massspring_frequency_bound(const ZpMassSpringParams *params, double mass);
 
 #endif

@@ -62,6 +62,10 @@ void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   /* the stroke's error is of the order of the imbalance times the number of nodes */
   double tolerance = fmax(1e-3 * model->def.solver.tolerance, rounding_floor(model));
   Settling settling = {.sim = sim, .hooks = hooks, .tolerance = tolerance};
+  if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) {
+    sim->settled = ZP_REACHED_END; /* neither a start nor a reference is needed */
+    return;
+  }
   ZpRelaxSystem system = {n, &settling, accelerate, residual, stop};
   double *q = sim->relax_work;
   memcpy(q, zp_state_q(model, sim->state), n * sizeof *q);

@@ -6,22 +6,16 @@
 #include "base/fail.h"
 #include "study/studies.h"
 
+/* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
+static double at_end(const ZpSim *sim, const ZpResult *result, const char *signal) {
+  bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
+  return sound ? zp_sim_get(sim, signal) : NAN;
+}
+
 /* |imbalance| over the work of the source: the measure of how well energy balances. */
-static double energy_error(const ZpSim *sim) {
-  double work = zp_sim_get(sim, "electric_work");
-  return work > 0 ? fabs(zp_sim_get(sim, "energy_imbalance")) / work : NAN;
-}
-
-static void summarize_actuator(const ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "contraction", "1", zp_sim_get(sim, "contraction"));
-  zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
-  zp_result_add(result, "zipped_length_m", "m", zp_sim_get(sim, "zipped_length"));
-  zp_result_add(result, "opening_m", "m", zp_sim_get(sim, "opening"));
-}
-
-static void summarize_start(const ZpTable *series, ZpResult *result) {
-  zp_result_add(result, "start_stroke_m", "m", zp_table_get(series, 0, "stroke_m"));
-  zp_result_add(result, "start_opening_m", "m", zp_table_get(series, 0, "opening_m"));
+static double energy_error(const ZpSim *sim, const ZpResult *result) {
+  double work = at_end(sim, result, "electric_work");
+  return work > 0 ? fabs(at_end(sim, result, "energy_imbalance")) / work : NAN;
 }
 
 /* The widest opening passed on the way: a sudden voltage makes the platform sag before it rises. */
@@ -30,6 +24,17 @@ static double widest_opening(const ZpTable *series) {
   for (size_t i = 0; i < series->rows; i++)
     widest = fmax(widest, zp_table_get(series, i, "opening_m"));
   return widest;
+}
+
+static void summarize_actuator(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
+  zp_result_add(result, "contraction", "1", at_end(sim, result, "contraction"));
+  zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
+  zp_result_add(result, "zipped_length_m", "m", at_end(sim, result, "zipped_length"));
+  zp_result_add(result, "opening_m", "m", at_end(sim, result, "opening"));
+  zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
+  zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
+  zp_result_add(result, "energy_error", "1", energy_error(sim, result));
+  zp_result_add(result, "closed_insulator_field_V_per_m", "V/m", zp_model_info(model).closed_insulator_field);
 }
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
@@ -61,15 +66,12 @@ static void warn(const ZpModel *model, const ZpActuatorDef *def, ZpResult *resul
 }
 
 static void summarize(const ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
-  bool two = zp_model_def(model)->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
-  if (info->outcome == ZP_DIVERGED || info->outcome == ZP_NOT_SETTLED) return;
-  if (two) summarize_actuator(sim, result);
-  zp_result_add(result, "stroke_m", "m", zp_sim_get(sim, "stroke"));
-  if (result->series->rows > 0) summarize_start(result->series, result);
-  if (two) zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
-  if (two) zp_result_add(result, "energy_error", "1", energy_error(sim));
+  if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, model, result);
+  zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
+  zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
+  summarize_steps(info, result);
 }
 
 static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
@@ -87,7 +89,6 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
   ZpRunInfo info;
   zp_sim_run(sim, def->solver.end_time, true, hooks, &info);
   summarize(sim, model, &info, result);
-  summarize_steps(&info, result);
   warn(model, def, result);
   zp_sim_destroy(sim);
   return ZP_OK;

@@ -1,0 +1,43 @@
+# make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
+# make check   the test suite
+# Each installs what is missing (make deps alone does that), configures, builds and runs.
+
+BUILD ?= build
+JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
+
+.PHONY: all demo check deps bench format docs install clean
+all: $(BUILD)/zipact
+
+deps:
+	@scripts/deps.sh
+
+$(BUILD)/CMakeCache.txt: | deps
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@rm -f $(BUILD).log
+
+.PHONY: $(BUILD)/zipact
+$(BUILD)/zipact: deps $(BUILD)/CMakeCache.txt
+	@cmake --build $(BUILD) -j $(JOBS) --target zipact_command -- --no-print-directory
+
+demo: $(BUILD)/zipact
+	$(BUILD)/zipact run examples/demo.yaml -o out/demo
+	@echo "pictures:"; ls -1 out/demo/plots/*.svg out/demo/plots/*.gif
+
+check: deps $(BUILD)/CMakeCache.txt
+	@cmake --build $(BUILD) -j $(JOBS) -- --no-print-directory
+	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+bench: $(BUILD)/zipact
+	$(BUILD)/zipact bench
+
+docs: $(BUILD)/zipact
+	scripts/make-keys-page.sh $(BUILD)/zipact
+
+format:
+	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] tests/*.[ch]
+
+install: $(BUILD)/zipact
+	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)
+
+clean:
+	rm -rf $(BUILD) out

@@ -1,0 +1,51 @@
+#!/bin/sh
+# Installs what zipact needs to build, test and draw. On Debian and Ubuntu by apt, with sudo if not root;
+# elsewhere it lists what is needed. Says what it installs; does nothing where all is there.
+#   scripts/deps.sh          build, run and check
+#   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
+set -eu
+packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev check gnuplot-nox
+ fonts-dejavu-core python3 ca-certificates"
+[ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
+
+if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>&1; then
+  missing=""
+  for tool in cc cmake make pkg-config gnuplot python3; do
+    command -v $tool >/dev/null 2>&1 || missing="$missing $tool"
+  done
+  for library in hdf5 libfyaml udunits jansson check; do
+    pkg-config --exists $library 2>/dev/null || missing="$missing $library"
+  done
+  [ -z "$missing" ] && exit 0
+  echo "zipact needs, and this system has no apt-get to install:$missing" >&2
+  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, Check, gnuplot, python3)" >&2
+  exit 1
+fi
+
+missing=""
+for package in $packages; do
+  state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing="$missing $package"
+done
+[ -z "$missing" ] && exit 0
+
+as_root=""
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null 2>&1; then
+    echo "zipact needs these packages; install them as root: apt-get install$missing" >&2
+    exit 1
+  fi
+  as_root=sudo
+fi
+echo "installing:$missing"
+export DEBIAN_FRONTEND=noninteractive
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+install() {
+  # shellcheck disable=SC2086
+  $as_root apt-get install -y --no-install-recommends $missing >"$log" 2>&1
+}
+if ! install; then # an old package list is the usual reason
+  $as_root apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  install || { cat "$log" >&2; exit 1; }
+fi

@@ -1,0 +1,40 @@
+#!/bin/sh
+# docs/keys.md from the program's own tables; with --check, says whether the page is up to date.
+#   make-keys-page.sh [--check] ZIPACT
+set -eu
+check=false
+[ "$1" = --check ] && check=true && shift
+page=$(cd "$(dirname "$0")/.." && pwd)/docs/keys.md
+made=$(mktemp)
+trap 'rm -f "$made"' EXIT
+"$1" keys --json | python3 -c '
+import json, re, sys
+
+def cell(text):
+    return str(text).replace("|", "\\|")
+
+print("# Keys\n\nMade by `make docs` from the program (`zipact keys`). Values take units (\"130 um\"); a bare number is SI.\n")
+print("| key | default | range | meaning |\n|---|---|---|---|")
+for key in json.load(sys.stdin):
+    unit = "" if key["unit"] == "1" else " " + key["unit"]
+    value = key["default"]
+    words = [choice["word"] for choice in key.get("choices") or []]
+    if isinstance(value, bool):
+        value = str(value).lower()
+    number = isinstance(value, (int, float))
+    shown = f"{value:g}{unit}" if number else value
+    allowed = ", ".join(words) or ("true, false" if key["type"] == "bool" else "%g to %g%s" % (key["min"], key["max"], unit))
+    print("| `%s` | %s | %s | %s |" % (key["key"], cell(shown), cell(allowed), cell(key["help"])))
+' >"$made"
+python3 - "$(dirname "$0")/../include/zipact/signals.def" >>"$made" <<'PYTHON'
+import re, sys
+print("\n# Columns of table.csv\n\n| column | unit | meaning |\n|---|---|---|")
+for name, unit, suffix, text in re.findall(r'^ZP_SIGNAL\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', open(sys.argv[1]).read(), re.M):
+    print(f"| `{name}{suffix}` | {unit} | {text} |")
+PYTHON
+if $check; then
+  cmp -s "$made" "$page" || { echo "docs/keys.md is out of date: make docs"; exit 1; }
+  echo "1 passed, 0 failed"
+else
+  cp "$made" "$page"
+fi

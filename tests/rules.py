@@ -1,0 +1,401 @@
+#!/usr/bin/env python3
+"""Rules of the source tree that no compiler checks:  python3 tests/rules.py REPO
+
+Each rule is a function that yields (ok, where, what) for everything that it looks at. Violations are
+printed as FILE:LINE: what; the last line is "N passed, N failed"; exit status 1 on a violation.
+Standard library only. C is read by a small scanner, not by a compiler: comments, strings and
+preprocessor lines are blanked first, with lines kept.
+"""
+
+import os
+import re
+import subprocess
+import sys
+
+# Folders of src/ from low to high. A file may include its own folder and every folder listed for it.
+MAY_INCLUDE = {
+    "base": [],
+    "def": ["base"],
+    "math": ["base"],
+    "ribbon": ["math", "def", "base"],
+    "electro": ["math", "def", "base"],
+    "contact": ["math", "def", "base"],
+    "drive": ["math", "def", "base"],
+    "solve": ["math", "base"],  # knows no physics
+    "actuator": ["ribbon", "electro", "contact", "drive", "math", "def", "base"],
+    "sim": ["actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
+    "study": ["sim", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
+    "io": ["base"],
+    "cli": [],
+}
+
+# Which of these the public headers stand for: including one is including its folder's interface.
+# model.h and sim.h describe what actuator/ and sim/ share with their users.
+PUBLIC = {
+    "error.h": "base",
+    "table.h": "base",
+    "version.h": "base",
+    "def.h": "def",
+    "choices.def": "def",
+    "keys.def": "def",
+    "presets.def": "def",
+    "model.h": "actuator",
+    "sim.h": "sim",
+    "signals.def": "sim",
+    "study.h": "study",
+    "zipact.h": "study",
+    "io.h": "io",
+}
+
+LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
+
+# What the core must not call: it prints nothing, opens nothing, ends nothing, looks at nothing outside.
+CORE_CALLS = re.compile(
+    r"(?<![\w.>])(v?f?printf|puts|fputs|putc|fputc|putchar|perror|fopen|fdopen|freopen|tmpfile|open|exit|_exit|_Exit|abort"
+    r"|assert|getenv|setenv|system|signal|setlocale|time|clock|rand|srand)\s*\("
+)
+ALLOCATOR = re.compile(r"(?<![\w.>])(malloc|calloc|realloc|aligned_alloc|posix_memalign|strdup|strndup|free)\s*\(")
+
+
+def ignored_but_tracked(repo):
+    """Files under version control that .gitignore says should not be: products of a build."""
+    names = subprocess.run(["git", "-C", repo, "ls-files", "-ci", "--exclude-standard"], capture_output=True, text=True)
+    return set(names.stdout.splitlines())
+
+
+def tree_files(repo):
+    """All files of the tree: those git knows or would take, else all but builds and results."""
+    if os.path.exists(os.path.join(repo, ".git")):
+        names = subprocess.run(
+            ["git", "-C", repo, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True
+        )
+        if names.returncode == 0:
+            found = sorted(set(names.stdout.splitlines()) - ignored_but_tracked(repo))
+            return [name for name in found if os.path.isfile(os.path.join(repo, name))]
+    found = []
+    for folder, folders, files in os.walk(repo):
+        folders[:] = [f for f in folders if f not in (".git", "build", "out") and not f.startswith("build-")]
+        found += [os.path.relpath(os.path.join(folder, f), repo) for f in files]
+    return sorted(found)
+
+
+def read(repo, name):
+    with open(os.path.join(repo, name), encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
+def blank(match):
+    """Spaces instead of what matched, lines kept."""
+    return re.sub(r"[^\n]", " ", match.group(0))
+
+
+def code_of(text):
+    """C without comments, without the inside of strings, without preprocessor lines; same line numbers."""
+    token = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
+
+    def replace(match):
+        piece = match.group(0)
+        if piece[0] in "\"'":
+            return piece[0] + " " * (len(piece) - 2) + piece[0]
+        return blank(match)
+
+    return re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, token.sub(replace, text), flags=re.M)
+
+
+def line_at(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+# -- rules ----------------------------------------------------------------------------------------
+
+
+def folder_of(name):
+    parts = name.split("/")
+    if parts[0] == "src" and len(parts) > 2:
+        return parts[1]
+    return "cli" if parts[0] == "cli" else None
+
+
+def include_is_right(folder, mark, target):
+    """mark is < or a quote, target what stands behind it."""
+    if target.startswith("zipact/"):
+        header = target[len("zipact/") :]
+        if folder in ("cli", "io"):
+            return header in PUBLIC
+        wanted = PUBLIC.get(header)
+        return wanted is not None and (wanted == folder or wanted in MAY_INCLUDE[folder])
+    if mark == "<":
+        return True  # of the system; what may be used is another rule
+    if folder == "cli":
+        return "/" not in target
+    wanted = target.split("/")[0]
+    return "/" in target and (wanted == folder or wanted in MAY_INCLUDE[folder])
+
+
+def rule_includes(repo, files):
+    """Includes point down only."""
+    for name in files:
+        folder = folder_of(name)
+        if folder is None or not name.endswith((".c", ".h")):
+            continue
+        if folder not in MAY_INCLUDE:
+            yield False, name + ":1", "folder src/%s has no place in the order of includes" % folder
+            continue
+        for number, line in enumerate(read(repo, name).splitlines(), 1):
+            found = re.match(r'\s*#\s*include\s*([<"])([^">]+)[">]', line)
+            if found:
+                ok = include_is_right(folder, *found.groups())
+                yield ok, "%s:%d" % (name, number), "%s may not include %s" % (folder, found.group(2))
+
+
+def rule_core_needs_no_library(repo, files):
+    """The core is plain C: only headers of ISO C."""
+    iso = {"assert", "ctype", "errno", "float", "inttypes", "limits", "math", "stdalign", "stdarg", "stdbool", "stddef"}
+    iso |= {"stdint", "stdio", "stdlib", "string"}
+    for name in files:
+        if folder_of(name) in (None, "io", "cli") or not name.endswith((".c", ".h")):
+            continue
+        for number, line in enumerate(read(repo, name).splitlines(), 1):
+            found = re.match(r"\s*#\s*include\s*<([^>]+)\.h>", line)
+            if found and not found.group(1).startswith("zipact/"):
+                ok = found.group(1) in iso
+                yield ok, "%s:%d" % (name, number), "the core may not need <%s.h>" % found.group(1)
+
+
+def keys_of(repo):
+    """(name, line) of each key of keys.def."""
+    text = read(repo, "include/zipact/keys.def")
+    text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
+    for found in re.finditer(r"^ZP_(?:REAL|REAL_AUTO|INT|BOOL|ENUM)\(\s*([\w.]*)\s*,\s*(\w+)\s*,", text, re.M):
+        yield found.group(1) + found.group(2), line_at(text, found.start())
+
+
+def rule_keys_documented(repo, files):
+    """Every key stands in docs/keys.md."""
+    page = read(repo, "docs/keys.md") if "docs/keys.md" in files else ""
+    keys = list(keys_of(repo))
+    yield len(keys) > 40, "include/zipact/keys.def:1", "only %d keys found: is its form still known here?" % len(keys)
+    for key, line in keys:
+        found = re.search(r"(?<![\w.])%s(?![\w.]*\w)" % re.escape(key), page)
+        yield bool(found), "include/zipact/keys.def:%d" % line, "key %s is not in docs/keys.md" % key
+
+
+def rule_signals_documented(repo, files):
+    """Every signal stands somewhere in docs/, as in a table: with the unit in its name."""
+    pages = "\n".join(read(repo, name) for name in files if name.startswith("docs/") and name.endswith(".md"))
+    text = read(repo, "include/zipact/signals.def")
+    signals = list(re.finditer(r'^ZP_SIGNAL\((\w+),\s*"[^"]*",\s*"([^"]*)"', text, re.M))
+    yield len(signals) > 10, "include/zipact/signals.def:1", "only %d signals found" % len(signals)
+    for found in signals:
+        column = found.group(1) + found.group(2)
+        ok = re.search(r"(?<!\w)%s(?!\w)" % re.escape(column), pages)
+        yield bool(ok), "include/zipact/signals.def:%d" % line_at(text, found.start()), "%s is not in docs/" % column
+
+
+def rule_public_functions_commented(repo, files):
+    """A comment stands directly above every public function, or above the block of lines it is in."""
+    for name in files:
+        if not (name.startswith("include/zipact/") and name.endswith(".h")):
+            continue
+        text = read(repo, name)
+        lines = text.splitlines()
+        code = code_of(text)
+        # outside of braces, what ends in a parenthesis and a semicolon
+        for found in re.finditer(r"^(?!typedef)\w[\w\s*]*\b(zp_\w+)\([^;{}]*\)\s*;", code, re.M):
+            line = line_at(code, found.start())
+            above = line - 1
+            while above > 0 and lines[above - 1].strip() and not lines[above - 1].rstrip().endswith("*/"):
+                above -= 1
+            ok = above > 0 and lines[above - 1].rstrip().endswith("*/")
+            yield ok, "%s:%d" % (name, line), "no comment above %s" % found.group(1)
+
+
+def is_core(name):
+    return folder_of(name) not in (None, "io", "cli") and name.endswith((".c", ".h"))
+
+
+def rule_core_calls(repo, files):
+    """The core prints nothing, opens nothing, ends nothing."""
+    for name in filter(is_core, files):
+        code = code_of(read(repo, name))
+        bad = list(CORE_CALLS.finditer(code))
+        if not name.startswith("src/base/memory."):
+            bad += ALLOCATOR.finditer(code)
+        yield True, name, ""
+        for found in bad:
+            yield False, "%s:%d" % (name, line_at(code, found.start())), "the core may not call " + found.group(1)
+
+
+def is_mutable(declaration):
+    """(declaration without its initial value) => is what it declares neither const nor a type or function?"""
+    head = re.split(r"\[", declaration)[0]
+    return not re.search(r"\bconst\b", head[head.rfind("*") + 1 :] if "*" in head else head)
+
+
+def variables_of_static_life(code):
+    """(position, declaration) of what lives as long as the program: at file level, or static in a function."""
+    depth, start, position = 0, 0, 0
+    while position < len(code):
+        c = code[position]
+        if c == "{":
+            statement = code[start:position]
+            is_type = re.match(r"\s*(typedef|struct|union|enum)\b[^()]*$", statement)
+            if depth == 0 and ("=" in statement or is_type):  # initial value, or members, in braces
+                position = closing(code, position)
+            else:
+                depth += 1
+                start = position + 1
+        elif c == "}":
+            depth -= 1
+            start = position + 1
+        elif c == ";":
+            statement = code[start:position]
+            plain = statement.split("=")[0].strip()
+            kind = plain.split()[0] if plain else ""
+            life = kind == "static" if depth else kind not in ("typedef", "struct", "union", "enum", "extern", "")
+            if life and "(" not in re.sub(r"__attribute__\s*\(\(.*?\)\)", "", plain, flags=re.S):
+                yield start + len(statement) - len(statement.lstrip()), plain
+            start = position + 1
+        position += 1
+
+
+def closing(code, position):
+    """Place of the brace that closes the one at `position`."""
+    depth = 0
+    for i in range(position, len(code)):
+        depth += (code[i] == "{") - (code[i] == "}")
+        if depth == 0:
+            return i
+    return len(code) - 1
+
+
+def rule_no_mutable_globals(repo, files):
+    """The core has no state of its own, so that threads may use it."""
+    for name in filter(is_core, files):
+        code = code_of(read(repo, name))
+        for position, declaration in variables_of_static_life(code):
+            where = "%s:%d" % (name, line_at(code, position))
+            yield not is_mutable(declaration), where, "mutable variable of static life: " + " ".join(declaration.split())
+
+
+def rule_no_paths_of_this_machine(repo, files):
+    """Nothing in the tree knows where it was made. ${TMPDIR:-...} is how a script asks the machine."""
+    pattern = re.compile(r"(?<![\w.:-])/(?:%s)(?:/|\b(?=[\s\"'`);,]|$))" % "|".join(["wo" + "rk", "tm" + "p"]))
+    for name in files:
+        yield True, name, ""
+        for number, line in enumerate(read(repo, name).splitlines(), 1):
+            found = pattern.search(line)
+            if found:
+                yield False, "%s:%d" % (name, number), "path of a machine: %s" % line[found.start() :][:40].strip()
+
+
+def rule_map(repo, files):
+    """Every folder of src/ is in MAP.md."""
+    text = read(repo, "MAP.md") if "MAP.md" in files else ""
+    folders = sorted({name.split("/")[1] for name in files if name.startswith("src/") and name.count("/") > 1})
+    for folder in folders:
+        yield bool(re.search(r"(?<![\w])%s/" % folder, text)), "MAP.md:1", "src/%s/ is not mentioned" % folder
+
+
+def functions_of(code):
+    """(first line, last line, name) of each function body at file level."""
+    position = 0
+    while True:
+        brace = code.find("{", position)
+        if brace < 0:
+            return
+        end = closing(code, brace)
+        head = code[position:brace]
+        start = max(head.rfind(";"), head.rfind("}")) + 1
+        found = re.search(r"(\w+)\s*\((?:[^(){};]|\([^(){};]*\))*\)\s*$", head[start:])
+        if found:
+            lead = len(head[start:]) - len(head[start:].lstrip())
+            yield line_at(code, position + start + lead), line_at(code, end), found.group(1)
+        elif re.search(r'\bextern\s+"\s*"\s*$', head):
+            end = brace  # look inside
+        position = end + 1
+
+
+def rule_short_functions(repo, files):
+    """No function longer than LONGEST_FUNCTION lines."""
+    for name in files:
+        if not name.startswith(("src/", "cli/", "include/", "tests/", "bench/")) or not name.endswith((".c", ".h", ".cpp")):
+            continue
+        for first, last, function in functions_of(code_of(read(repo, name))):
+            length = last - first + 1
+            yield length <= LONGEST_FUNCTION, "%s:%d" % (name, first), "%s has %d lines" % (function, length)
+
+
+def rule_head_comment(repo, files):
+    """Every header of src/ and every public header begins with what it is for."""
+    for name in files:
+        if name.startswith(("src/", "cli/", "include/")) and name.endswith((".h", ".def")):
+            yield read(repo, name).startswith("/*"), name + ":1", "no comment at its head"
+
+
+def rule_no_products(repo, files):
+    """No product of a build or run is under version control."""
+    bad = ignored_but_tracked(repo)
+    folders = sorted({name.split("/")[0] for name in bad})
+    yield not bad, ".gitignore:1", "%d ignored files are tracked, in %s" % (len(bad), " ".join(folders))
+
+
+RULES = [
+    rule_no_products,
+    rule_includes,
+    rule_core_needs_no_library,
+    rule_keys_documented,
+    rule_signals_documented,
+    rule_public_functions_commented,
+    rule_core_calls,
+    rule_no_mutable_globals,
+    rule_no_paths_of_this_machine,
+    rule_map,
+    rule_short_functions,
+    rule_head_comment,
+]
+
+
+# -- the rules are tested on small samples before they judge the tree ------------------------------
+
+
+def self_test():
+    code = code_of('static int a; /* static int b; */\nstatic const int c = 1;\nint f(void) {\n  static double d[2];\n'
+                   '  static const char *const e[] = {"x"};\n  static const char *g;\n  int h = 0;\n  return h;\n}\n'
+                   'typedef struct T {\n  int a;\n} T;\nstruct U { int b; };\nint k = 1;\n')
+    mutable = [" ".join(d.split()) for _, d in variables_of_static_life(code) if is_mutable(d)]
+    assert mutable == ["static int a", "static double d[2]", "static const char *g", "int k"], mutable
+    assert list(functions_of(code)) == [(3, 9, "f")], list(functions_of(code))
+    assert not CORE_CALLS.search("snprintf(text); vsnprintf(t); reopen(x)")
+    assert not CORE_CALLS.search("hooks->clock(user)") and CORE_CALLS.search("fprintf(stderr)") and CORE_CALLS.search("  exit (1)")
+    assert not include_is_right("solve", '"', "ribbon/massspring.h")
+    assert not include_is_right("contact", '"', "electro/plates.h")
+    assert not include_is_right("math", "<", "zipact/sim.h")
+    assert include_is_right("sim", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")
+    assert not include_is_right("cli", '"', "io/report.h") and not include_is_right("io", '"', "sim/sim_internal.h")
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: python3 tests/rules.py REPO")
+    repo = sys.argv[1]
+    self_test()
+    files = tree_files(repo)
+    passed = failed = 0
+    for rule in RULES:
+        looked_at = 0
+        for ok, where, what in rule(repo, files):
+            looked_at += 1
+            passed += ok
+            failed += not ok
+            if not ok:
+                print("%s: %s  [%s]" % (where, what, rule.__name__))
+        if looked_at == 0:
+            failed += 1
+            print("tests/rules.py:1: %s found nothing to look at" % rule.__name__)
+    print("%d passed, %d failed" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
