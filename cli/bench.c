@@ -109,7 +109,7 @@ static ZpStatus default_row(int nodes, Row *row, ZpError *err) {
 
 static ZpStatus plain_row(const PaperCost *cost, Row *row, ZpError *err) {
   static const long node_steps = 20000000; /* about 0.1 s */
-  long steps = node_steps / (2 * cost->nodes);
+  long steps = node_steps / (2L * cost->nodes);
   double l = 0.045 / (cost->nodes - 1), samples[REPEATS], start = cpu_clock();
   PlainKernel kernel = {l, 1e3, 10, 1e-5, 9.81, 0.1, 1e-6};
   for (int k = 0; k < REPEATS; k++) {

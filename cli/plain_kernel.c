@@ -58,10 +58,10 @@ double plain_kernel_run(const PlainKernel *k, int nodes, long steps) {
   for (int i = 0; i < 2 * nodes; i++)
     ribbons[i].p = (Vector){k->l * (i % nodes), 0};
   for (long step = 0; step < steps; step++)
-    for (int r = 0; r < 2; r++) {
-      spring_forces(ribbons + r * nodes, nodes, k);
-      shear_forces(ribbons + r * nodes, nodes, k);
-      advance(ribbons + r * nodes, nodes, k);
+    for (Particle *ribbon = ribbons; ribbon < ribbons + 2 * (size_t)nodes; ribbon += nodes) {
+      spring_forces(ribbon, nodes, k);
+      shear_forces(ribbon, nodes, k);
+      advance(ribbon, nodes, k);
     }
   double height = ribbons[nodes / 2].p.y;
   free(ribbons);

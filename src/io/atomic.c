@@ -48,13 +48,14 @@ static int create(const char *path) {
 ZpStatus zp_atomic_reserve(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
   if (!make_names(atomic, directory, name)) {
     forget(atomic);
-    return zp_fail_memory(err);
+    zp_fail_memory(err);
+    return ZP_MACHINE;
   }
   int fd = create(atomic->temporary);
   if (fd < 0) {
-    ZpStatus status = cannot_write(atomic->path, errno, err);
+    cannot_write(atomic->path, errno, err);
     forget(atomic);
-    return status;
+    return ZP_MACHINE;
   }
   close(fd); /* nothing was written, so nothing can be lost */
   return ZP_OK;
@@ -90,6 +91,7 @@ static FILE *open_stream(const char *path, ZpSink **sink) {
   int error = errno;
   if ((*sink)->fd >= 0) close((*sink)->fd);
   free(*sink);
+  *sink = NULL;
   errno = error;
   return NULL;
 }

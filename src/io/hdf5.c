@@ -105,12 +105,13 @@ static double clean(double value) {
 static void put_series(Store *store, hid_t parent, const ZpTable *table) {
   if (!table) return;
   hid_t group = open_group(store, parent, "series");
+  hsize_t rows = table->rows;
   double *value = numbers(store, table->rows);
   for (size_t i = 0; i < table->columns && !store->bad; i++) {
     const ZpColumn *c = &table->column[i];
     for (size_t row = 0; row < table->rows; row++)
       value[row] = clean(table->value[row * table->columns + i]);
-    put_reals(store, group, &(Meaning){c->name, c->unit, c->help}, 1, &(hsize_t){table->rows}, value);
+    put_reals(store, group, &(Meaning){c->name, c->unit, c->help}, 1, &rows, value);
   }
   free(value);
   H5Gclose(group);
@@ -197,6 +198,7 @@ static void put_run(Store *store, hid_t parent, const ZpResult *result) {
 static void put_keys(Store *store, hid_t group, const ZpReport *report) {
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
+  hsize_t rows = report->count;
   double *value = numbers(store, report->count);
   for (size_t i = 0; i < keys && !store->bad; i++) {
     char name[ZP_KEY_COLUMN_SIZE];
@@ -207,7 +209,7 @@ static void put_keys(Store *store, hid_t group, const ZpReport *report) {
     }
     zp_key_column(key[i], name, sizeof name);
     const ZpKey *k = zp_key(key[i]);
-    put_reals(store, group, &(Meaning){name, k->unit, k->help}, 1, &(hsize_t){report->count}, value);
+    put_reals(store, group, &(Meaning){name, k->unit, k->help}, 1, &rows, value);
   }
   free(value);
 }
@@ -216,20 +218,21 @@ static void put_keys(Store *store, hid_t group, const ZpReport *report) {
 #define OUTCOME_SIZE 16
 
 static void put_outcomes(Store *store, hid_t group, const ZpReport *report) {
+  hsize_t rows = report->count;
   char *text = calloc(report->count + 1, OUTCOME_SIZE);
   hid_t type = H5Tcopy(H5T_C_S1);
   if (!text) store->bad = true;
   if (!is_bad(store, type)) is_bad(store, H5Tset_size(type, OUTCOME_SIZE));
   for (size_t run = 0; run < report->count && !store->bad; run++)
     snprintf(text + run * OUTCOME_SIZE, OUTCOME_SIZE, "%s", zp_outcome_name(report->result[run]->outcome));
-  put_array(store, group, &(Meaning){.name = "outcome", .help = "how the numerics ended"}, type, type, 1,
-            &(hsize_t){report->count}, text);
+  put_array(store, group, &(Meaning){.name = "outcome", .help = "how the numerics ended"}, type, type, 1, &rows, text);
   H5Tclose(type);
   free(text);
 }
 
 static void put_table(Store *store, const ZpReport *report) {
   ZpScalarNames names;
+  hsize_t rows = report->count;
   hid_t group = open_group(store, store->file, "table");
   double *value = numbers(store, report->count);
   put_keys(store, group, report);
@@ -239,7 +242,7 @@ static void put_table(Store *store, const ZpReport *report) {
     const ZpScalar *s = &names.item[i];
     for (size_t run = 0; run < report->count; run++)
       value[run] = clean(zp_result_get(report->result[run], s->name));
-    put_reals(store, group, &(Meaning){.name = s->name, .unit = s->unit}, 1, &(hsize_t){report->count}, value);
+    put_reals(store, group, &(Meaning){.name = s->name, .unit = s->unit}, 1, &rows, value);
   }
   free(names.item);
   free(value);

@@ -53,6 +53,7 @@ bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names
   for (size_t i = 0; i < report->count; i++)
     if (!add_scalars(names, report->result[i], timing)) {
       free(names->item);
+      *names = (ZpScalarNames){0};
       return false;
     }
   return true;

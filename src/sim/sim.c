@@ -37,8 +37,10 @@ static bool allocate(ZpSim *sim) {
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
-  for (size_t j = 0; j < model->stride; j++)
-    q[j] = (double)(j / model->s) * model->l;
+  for (size_t j = 0; j < model->stride; j++) {
+    size_t station = j / model->s;
+    q[j] = (double)station * model->l;
+  }
 }
 
 /* Energies count from here on. */
