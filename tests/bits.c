@@ -1,0 +1,164 @@
+/* Prints numbers of the core as the bits that they are, for tests/bits.sh to compare between compilers and
+ * optimisations: runs on both surfaces and of the one ribbon, and single evaluations of the kernels on states
+ * that no run would choose. Small, because -O0 is slow. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/zipact.h>
+
+#include "actuator/eval.h"
+
+/* A NAN has many bit patterns, all of which mean the same. */
+static void put(double value) {
+  uint64_t bits;
+  if (isnan(value)) value = NAN;
+  memcpy(&bits, &value, sizeof bits);
+  if (isnan(value))
+    printf(" nan");
+  else
+    printf(" %016" PRIx64, bits);
+}
+
+static void put_array(const char *name, const double *value, size_t count) {
+  printf("%s", name);
+  for (size_t i = 0; i < count; i++)
+    put(value[i]);
+  printf("\n");
+}
+
+static void fail(const char *name, const ZpError *err) {
+  printf("%s: %s\n", name, err->message);
+  exit(1);
+}
+
+/* Table, last shape and summary of a study. */
+static void print_study(const char *name, const ZpActuatorDef *def) {
+  ZpResult *result;
+  ZpError err;
+  if (zp_study_run(def, NULL, &result, &err) != ZP_OK) fail(name, &err);
+  printf("%s: %s, %s\n", name, zp_outcome_name(result->outcome), result->message);
+  for (size_t i = 0; i < result->scalars; i++)
+    put_array(result->scalar[i].name, &result->scalar[i].value, 1);
+  for (size_t row = 0; row < result->series->rows; row++)
+    put_array("row", result->series->value + row * result->series->columns, result->series->columns);
+  const ZpShapes *shapes = result->shapes;
+  for (size_t frame = 0; frame < shapes->frames; frame++)
+    put_array("frame", shapes->value + frame * shapes->frame_size, shapes->frame_size);
+  zp_result_destroy(result);
+}
+
+/* The default actuator, coarser, until some pairs have met. */
+static ZpActuatorDef default_def(void) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = 7;
+  def.solver.tolerance = 1e-1;
+  def.solver.end_time = 30e-3;
+  def.output.samples = 20;
+  def.output.shapes = 4;
+  return def;
+}
+
+static ZpActuatorDef preset_def(ZpPreset preset) {
+  ZpAssignment list[] = {{zp_key_find("preset"), preset},
+                         {zp_key_find("mesh.nodes"), 21},
+                         {zp_key_find("solver.tolerance"), 1e-1},
+                         {zp_key_find("output.samples"), 20},
+                         {zp_key_find("output.shapes"), 4}};
+  ZpActuatorDef def;
+  ZpError err;
+  if (zp_def_resolve(&def, list, sizeof list / sizeof list[0], &err) != ZP_OK) fail("preset", &err);
+  def.solver.end_time = 4e-3;
+  return def;
+}
+
+static void print_studies(void) {
+  ZpActuatorDef def = default_def();
+  print_study("default", &def);
+  def.initial.state = ZP_INITIAL_STRAIGHT;
+  def.drive.voltage = 0;
+  print_study("straight", &def);
+  def = default_def();
+  def.actuator.kind = ZP_KIND_RIBBON;
+  def.damping.drag = 0.5;
+  print_study("ribbon", &def);
+  def = preset_def(ZP_PRESET_PAPER_CODE);
+  print_study("paper-code", &def);
+  def.electro.refresh_period = 0;
+  print_study("paper-code, field in every step", &def);
+}
+
+/* Doubles between -1 and 1 from a linear congruential generator: the same everywhere. */
+static double next_random(uint64_t *seed) {
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(int64_t)(*seed >> 11) / 4503599627370496.0 - 1;
+}
+
+/* Straight ribbons, parted and shaken: gaps of 0 to 2 mm, links that stretch and turn. */
+static void shake(const ZpModel *model, ZpState *state, uint64_t *seed) {
+  double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
+  memset(state->data, 0, 5 * model->stride * sizeof(double));
+  for (size_t j = model->count; j < model->stride; j++)
+    q[j] = (double)(j / model->s) * model->l; /* places beyond the ribbon lie on it prolonged: actuator/model.h */
+  for (size_t j = 0; j < model->count; j++) {
+    size_t i = j / model->s;
+    double below = model->s == 2 && j % 2 ? 2e-3 * (double)i / (double)model->nodes : 0;
+    q[j] = (double)i * model->l * (1 + 1e-4 * next_random(seed));
+    q[model->stride + j] = -below + 1e-5 * next_random(seed);
+    v[j] = next_random(seed);
+    v[model->stride + j] = next_random(seed);
+  }
+}
+
+static void print_accelerations(const char *name, const ZpActuatorDef *def, int states) {
+  ZpModel *model;
+  ZpError err;
+  if (zp_model_create(def, &model, &err) != ZP_OK) fail(name, &err);
+  ZpState *state = calloc(1, zp_state_size(model));
+  double *a = calloc(2 * model->stride, sizeof *a);
+  ZpEval eval;
+  uint64_t seed = 1;
+  if (!state || !a || !zp_eval_create(model, &eval)) exit(1);
+  for (int k = 0; k < states; k++) {
+    shake(model, state, &seed);
+    state->U = 1e3 * (k % 12);
+    state->zip.front = (size_t)(k % 3);
+    state->refreshed = NAN;
+    zp_eval_accelerations(model, state, zp_state_q(model, state), zp_state_v(model, state), &eval, a);
+    put_array(name, a, model->count);
+    put_array(name, a + model->stride, model->count);
+    ZpEnergies e = zp_eval_energies(model, state, &eval);
+    put_array("energies", (double[]){e.kinetic, e.axial, e.bending, e.gravity, e.field, e.force, e.charge}, 7);
+    ZpStepBounds bounds = zp_eval_step_bounds(model, state, &eval);
+    put_array("bounds", (double[]){bounds.drag, bounds.axial, bounds.shear}, 3);
+  }
+  zp_eval_destroy(&eval);
+  free(a);
+  free(state);
+  zp_model_destroy(model);
+}
+
+static void print_kernels(void) {
+  static const int sizes[] = {4, 5, 8, 9, 21, 61, 130};
+  for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
+    ZpActuatorDef def = zp_actuator_def_default();
+    def.mesh.nodes = sizes[k];
+    def.damping.drag = 0.1;
+    print_accelerations("polyline", &def, 12);
+    def.electro.breakdown_cap = false;
+    print_accelerations("polyline, no cap", &def, 12);
+    def.electro.surface = ZP_SURFACE_BEZIER;
+    print_accelerations("bezier", &def, 12);
+    def.actuator.kind = ZP_KIND_RIBBON;
+    print_accelerations("ribbon", &def, 12);
+  }
+}
+
+int main(void) {
+  print_kernels();
+  print_studies();
+  return 0;
+}

@@ -1,0 +1,49 @@
+#!/bin/sh
+# Same bits from every compiler and at every optimisation:  sh tests/bits.sh [CC...]
+#
+# Builds the core and tests/bits.c with each compiler (gcc and clang, as far as they are there, unless named) at
+# -O0 and -O3 in a temporary folder, runs all, and compares what they print. The last line is
+# "N passed, N failed"; exit status 1 if any differs.
+
+repo=$(cd "$(dirname "$0")/.." && pwd) || exit 2
+if [ $# -eq 0 ]; then
+  for cc in gcc clang; do
+    command -v $cc >/dev/null && set -- "$@" $cc
+  done
+fi
+[ $# -gt 0 ] || { echo "bits.sh: no compiler"; exit 2; }
+folder=$(mktemp -d) || exit 2
+trap 'rm -rf "$folder"' EXIT
+
+flags="-std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off"
+sources=$(find "$repo/src" -name '*.c' ! -path '*/src/io/*' | sort)
+
+passed=0
+failed=0
+for cc in "$@"; do
+  for level in -O0 -O3; do
+    name=$(basename "$cc")$level
+    # shellcheck disable=SC2086
+    if ! $cc $flags $level -I"$repo/include" -I"$repo/src" "$repo/tests/bits.c" $sources -lm -o "$folder/$name"; then
+      echo "$name: does not build"
+      failed=$((failed + 1))
+    elif ! "$folder/$name" >"$folder/$name.txt"; then
+      echo "$name: failed: $(tail -n 1 "$folder/$name.txt" | cut -c 1-200)"
+      failed=$((failed + 1))
+    elif [ -z "$first" ]; then
+      first=$name # what the others are compared with; must say enough to be worth it
+      lines=$(wc -l <"$folder/$name.txt")
+      echo "$name: $lines lines"
+      if [ "$lines" -gt 500 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+    elif cmp -s "$folder/$first.txt" "$folder/$name.txt"; then
+      passed=$((passed + 1))
+    else
+      echo "$name differs from $first first in:"
+      cmp "$folder/$first.txt" "$folder/$name.txt"
+      diff "$folder/$first.txt" "$folder/$name.txt" | head -4 | cut -c 1-200
+      failed=$((failed + 1))
+    fi
+  done
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

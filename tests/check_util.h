@@ -1,0 +1,103 @@
+/* What the tests of the core share: building a model or a simulation from key-value pairs, relative
+ * tolerances that print what was measured, and random numbers that are the same everywhere. */
+#ifndef ZP_TESTS_CHECK_UTIL_H
+#define ZP_TESTS_CHECK_UTIL_H
+
+#include <check.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/zipact.h>
+
+#define LENGTH_OF(array) (sizeof(array) / sizeof((array)[0]))
+
+/* |value - expected| <= tolerance |expected|, with a message that holds the numbers. */
+#define ck_near(value, expected, tolerance)                                                                            \
+  do {                                                                                                                 \
+    double near_value = (value), near_expected = (expected), near_tolerance = (tolerance);                             \
+    ck_assert_msg(fabs(near_value - near_expected) <= near_tolerance * fabs(near_expected),                            \
+                  "%s = %.10g, expected %.10g: off by %.2e, allowed %.2e", #value, near_value, near_expected,          \
+                  fabs(near_value / near_expected - 1), near_tolerance);                                               \
+  } while (0)
+
+/* value < limit, with a message that holds the numbers. */
+#define ck_below(value, limit)                                                                                         \
+  do {                                                                                                                 \
+    double below_value = (value), below_limit = (limit);                                                               \
+    ck_assert_msg(below_value < below_limit, "%s = %.4g, must be below %.4g", #value, below_value, below_limit);       \
+  } while (0)
+
+/* A key and its value, SI; NAN for auto. */
+typedef struct Setting {
+  const char *key;
+  double value;
+} Setting;
+
+/* Defaults, kind, preset and settings, as a scenario would be resolved. */
+static inline ZpStatus resolve(ZpActuatorDef *def, const Setting *list, size_t count, ZpError *err) {
+  ZpAssignment assignment[64];
+  ck_assert_uint_le(count, LENGTH_OF(assignment));
+  for (size_t i = 0; i < count; i++) {
+    int key = zp_key_find(list[i].key);
+    ck_assert_msg(key >= 0, "no key %s", list[i].key);
+    assignment[i] = (ZpAssignment){key, list[i].value};
+  }
+  return zp_def_resolve(def, assignment, count, err);
+}
+
+static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
+  ZpActuatorDef def;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(resolve(&def, list, count, &err) == ZP_OK, "%s", err.message);
+  return def;
+}
+#define DEF(...)                                                                                                       \
+  def_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
+
+static inline ZpModel *model_of(const ZpActuatorDef *def) {
+  ZpModel *model = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_model_create(def, &model, &err) == ZP_OK, "%s", err.message);
+  return model;
+}
+
+static inline ZpSim *sim_of(const ZpModel *model) {
+  ZpSim *sim = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s", err.message);
+  return sim;
+}
+
+/* Value of a signal after running to `end_time` from the start. */
+static inline double settled_value(const ZpActuatorDef *def, const char *signal) {
+  ZpModel *model = model_of(def);
+  ZpSim *sim = sim_of(model);
+  ZpRunInfo info;
+  /* a run of no time: tells whether the equilibrium was found */
+  ck_assert_msg(zp_sim_run(sim, 0, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
+  double value = zp_sim_get(sim, signal);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return value;
+}
+
+/* Uniform in (-1, 1), from a seed, the same everywhere. */
+static inline double noise(uint64_t *seed) {
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return (double)(int64_t)*seed * 0x1p-63;
+}
+
+/* Run the suite; exit status of main. */
+static inline int run_suite(Suite *suite) {
+  setvbuf(stdout, NULL, _IOLBF, 0); /* what was measured stands there even if the test then fails */
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}
+
+#endif

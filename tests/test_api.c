@@ -1,0 +1,267 @@
+/* The library as its user meets it: a small program on the public headers alone; and every
+ * call that takes err, hooks or info with NULL there. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <check.h>
+
+#include <zipact/zipact.h>
+
+#include <zipact/io.h>
+
+/* A coarse actuator that settles in some milliseconds of wall time. */
+static ZpActuatorDef coarse_def(void) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = 11;
+  def.solver.tolerance = 1e-2;
+  return def;
+}
+
+/* What a user of the library writes. 8 g at 10 kV close at any mesh (facts of the paper's actuator); what is
+ * left of the opening is below 1 %. Measured at N = 11: 0. */
+START_TEST(program_of_a_user) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = 11;
+  def.load.mass = 0.008;    /* kg */
+  def.drive.voltage = 10e3; /* V */
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpError err = {0};
+  ZpRunInfo info = {0};
+  if (zp_model_create(&def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK)
+    zp_sim_run(sim, 0.5, true, NULL, &info);
+  ck_assert_msg(sim != NULL, "%s", err.message);
+  ck_assert_msg(info.outcome == ZP_ZIPPED, "%s", info.message);
+  ck_assert_double_ge(zp_sim_get(sim, "contraction"), 0.99);
+  ck_assert_double_eq(zp_sim_get(sim, "time"), info.simulated_time);
+  ck_assert_double_le(zp_sim_zip_time(sim), info.simulated_time);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+START_TEST(null_is_allowed_where_it_says_so) {
+  ZpActuatorDef def = coarse_def(), wrong = def;
+  wrong.load.mass = -1;
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ck_assert_int_eq(zp_def_check(&wrong, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_model_create(&wrong, &model, NULL), ZP_BAD_INPUT);
+  ck_assert_ptr_null(model);
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(sim, 1e-4, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_set_voltage(sim, -1, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 1e3, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_restore(sim, sim, 1, NULL), ZP_BAD_INPUT);
+  zp_sim_record(sim, NULL, NULL);
+  ck_assert_int_eq(zp_sim_run(sim, 2e-4, false, &(ZpHooks){0}, NULL), ZP_REACHED_END);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+START_TEST(destroying_nothing_does_nothing) {
+  zp_model_destroy(NULL);
+  zp_sim_destroy(NULL);
+  zp_result_destroy(NULL);
+  zp_table_destroy(NULL);
+  zp_shapes_destroy(NULL);
+  zp_scenario_destroy(NULL);
+}
+END_TEST
+
+START_TEST(scenario_without_err) {
+  ZpScenario *scenario = zp_scenario_create();
+  ZpActuatorDef def;
+  double value;
+  ck_assert_int_eq(zp_scenario_set(scenario, "load.mass", NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_set(scenario, "load.mass=x", NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_read(scenario, "no such file", NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_parse(scenario, "{", 1, "name", NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_def(scenario, 1, &def, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, NULL), ZP_OK);
+  ck_assert_int_eq(zp_value_parse(zp_key_find("load.mass"), "8 m", &value, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_report_prepare("", NULL), ZP_MACHINE);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* A study without hooks knows no wall time: NAN, not 0. */
+START_TEST(study_without_hooks) {
+  ZpActuatorDef def = coarse_def();
+  def.solver.end_time = 1e-4;
+  ZpResult *result = NULL;
+  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(result->outcome, ZP_REACHED_END);
+  ck_assert(isnan(zp_result_get(result, "real_time_factor")));
+  ck_assert(isnan(zp_result_get(result, "no such scalar")));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- hooks ---------------------------------------------------------------------------------------------- */
+
+typedef struct Asked {
+  int calls, stop_after;
+  double least, most;
+  double clock;
+} Asked;
+
+static bool on_progress(void *user, const char *stage, double fraction) {
+  Asked *asked = user;
+  asked->calls++;
+  asked->least = fmin(asked->least, fraction);
+  asked->most = fmax(asked->most, fraction);
+  return !*stage || asked->calls > asked->stop_after;
+}
+
+static double on_clock(void *user) {
+  return ((Asked *)user)->clock += 1;
+}
+
+START_TEST(hooks_are_asked) {
+  ZpActuatorDef def = coarse_def();
+  def.solver.end_time = 5e-3;
+  Asked asked = {0, 1000000, 1, 0, 0};
+  ZpHooks hooks = {&asked, on_progress, on_clock};
+  ZpResult *result = NULL;
+  ck_assert_int_eq(zp_study_run(&def, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(result->outcome, ZP_REACHED_END);
+  ck_assert_int_gt(asked.calls, 2);
+  ck_assert_double_ge(asked.least, 0);
+  ck_assert_double_le(asked.most, 1);
+  /* this clock goes on by 1 s each time it is asked: 5 ms in 1 s of it, if it is asked at start and end */
+  ck_assert_double_eq_tol(zp_result_get(result, "real_time_factor"), 5e-3, 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Asked to stop at any time, it stops soon and says so; what was reached is kept. */
+START_TEST(stops_when_asked) {
+  ZpActuatorDef def = coarse_def();
+  def.solver.end_time = 5e-3;
+  Asked asked = {0, _i, 1, 0, 0};
+  ZpHooks hooks = {&asked, on_progress, NULL};
+  ZpResult *result = NULL;
+  ck_assert_int_eq(zp_study_run(&def, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(result->outcome, ZP_INTERRUPTED);
+  ck_assert_int_le(asked.calls, _i + 2);
+  ck_assert(!zp_outcome_good(result->outcome));
+  ck_assert_str_eq(zp_outcome_name(result->outcome), "interrupted");
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- state ------------------------------------------------------------------------------------------------ */
+
+/* Going back to a saved state and on again gives the same bits as going on at once. */
+START_TEST(saved_state_continues_to_the_same_bits) {
+  ZpActuatorDef def = coarse_def();
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  size_t size = zp_sim_state_size(sim);
+  void *saved = malloc(size), *first = malloc(size), *second = malloc(size);
+  ck_assert(saved && first && second);
+  zp_sim_run(sim, 1e-3, false, NULL, NULL);
+  zp_sim_save(sim, saved);
+  zp_sim_run(sim, 2e-3, false, NULL, NULL);
+  zp_sim_save(sim, first);
+  ck_assert_int_eq(zp_sim_restore(sim, saved, size, NULL), ZP_OK);
+  ck_assert_double_eq(zp_sim_get(sim, "time"), 1e-3);
+  zp_sim_run(sim, 2e-3, false, NULL, NULL);
+  zp_sim_save(sim, second);
+  ck_assert_mem_eq(first, second, size);
+  free(saved);
+  free(first);
+  free(second);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Two simulations share a model and know nothing of each other. */
+START_TEST(simulations_share_a_model) {
+  ZpActuatorDef def = coarse_def();
+  ZpModel *model = NULL;
+  ZpSim *one = NULL, *other = NULL;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &one, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &other, NULL), ZP_OK);
+  zp_sim_run(one, 1e-3, false, NULL, NULL);
+  ck_assert_double_eq(zp_sim_get(other, "time"), 0);
+  zp_sim_run(other, 1e-3, false, NULL, NULL);
+  ck_assert_double_eq(zp_sim_get(one, "stroke"), zp_sim_get(other, "stroke"));
+  zp_sim_destroy(one);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* -- names ---------------------------------------------------------------------------------------------------- */
+
+START_TEST(every_name_answers) {
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpActuatorDef def = coarse_def();
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ck_assert_uint_gt(columns, 10);
+  for (size_t i = 0; i < columns; i++)
+    ck_assert(*column[i].name && *column[i].unit && *column[i].help);
+  ck_assert_double_eq(zp_sim_get(sim, "voltage"), 10e3);
+  ck_assert(isnan(zp_sim_get(sim, "no such signal")));
+  ck_assert_int_eq(zp_key_find("no.such.key"), -1);
+  ck_assert_str_eq(zp_key_nearest("load.mas"), "load.mass");
+  for (int limit = 0; limit < ZP_LIMIT_COUNT; limit++)
+    ck_assert_uint_gt(strlen(zp_step_limit_name((ZpStepLimit)limit)), 0);
+  for (int outcome = ZP_REACHED_END; outcome <= ZP_STEP_LIMIT; outcome++)
+    ck_assert_uint_gt(strlen(zp_outcome_name((ZpOutcome)outcome)), 0);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A Def filled by field, by key or by assignments is the same Def. */
+START_TEST(three_ways_to_fill_a_def) {
+  ZpActuatorDef by_field = zp_actuator_def_default(), by_key = by_field, resolved;
+  int mass = zp_key_find("load.mass"), electrode = zp_key_find("platform.electrode");
+  by_field.load.mass = 0.02;
+  by_field.platform.electrode = false;
+  ck_assert_int_eq(zp_def_set(&by_key, mass, 0.02, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set(&by_key, electrode, 0, NULL), ZP_OK);
+  ZpAssignment list[] = {{mass, 0.02}, {electrode, 0}};
+  ck_assert_int_eq(zp_def_resolve(&resolved, list, 2, NULL), ZP_OK);
+  ck_assert_mem_eq(&by_field, &by_key, sizeof by_field);
+  ck_assert_mem_eq(&by_field, &resolved, sizeof by_field);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("api");
+  TCase *c = tcase_create("api");
+  tcase_add_test(c, program_of_a_user);
+  tcase_add_test(c, null_is_allowed_where_it_says_so);
+  tcase_add_test(c, destroying_nothing_does_nothing);
+  tcase_add_test(c, scenario_without_err);
+  tcase_add_test(c, study_without_hooks);
+  tcase_add_test(c, hooks_are_asked);
+  tcase_add_loop_test(c, stops_when_asked, 0, 6);
+  tcase_add_test(c, saved_state_continues_to_the_same_bits);
+  tcase_add_test(c, simulations_share_a_model);
+  tcase_add_test(c, every_name_answers);
+  tcase_add_test(c, three_ways_to_fill_a_def);
+  tcase_set_timeout(c, 60);
+  suite_add_tcase(suite, c);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}

@@ -1,0 +1,620 @@
+/* The ground floor: tables and films that thin themselves, memory, errors; the table of keys, the order in
+ * which a Def is resolved, presets and cross-checks; saving and restoring a simulation.
+ *
+ * Against: the documented rule of thinning (the stride is the least power of two with which all offered
+ * rows would fit), keys.def read a second time, the defaults and presets as the user's manual lists them
+ * (typed in here by hand), and a run that goes on against the same run restored, bit for bit. */
+#include "check_util.h"
+
+#include "actuator/model.h"
+#include "base/fail.h"
+#include "base/kernel.h"
+#include "base/memory.h"
+
+/* -- tables and films ------------------------------------------------------------------------------ */
+
+static const ZpColumn two_columns[] = {{"time_s", "s", ""}, {"square", "1", ""}};
+
+/* What thinning must arrive at after `offered` rows. */
+static size_t stride_after(size_t offered, size_t capacity) {
+  size_t stride = 1;
+  while ((offered + stride - 1) / stride > capacity)
+    stride *= 2;
+  return stride;
+}
+
+static void offer_square(ZpTable *table, size_t i) {
+  double t = (double)i, row[2] = {t, t * t};
+  zp_table_offer(table, row);
+}
+
+static void check_thinned(const ZpTable *table, size_t offered) {
+  size_t stride = stride_after(offered, table->capacity);
+  ck_assert_uint_eq(table->stride, stride);
+  ck_assert_uint_eq(table->rows, (offered + stride - 1) / stride);
+  ck_assert_uint_le(table->rows, table->capacity);
+  for (size_t r = 0; r < table->rows; r++) {
+    double t = (double)(r * stride);
+    ck_assert_double_eq(zp_table_get(table, r, "time_s"), t);
+    ck_assert_double_eq(zp_table_get(table, r, "square"), t * t);
+  }
+}
+
+START_TEST(test_table_thins) {
+  static const size_t capacities[] = {2, 3, 7, 10, 64};
+  for (size_t c = 0; c < LENGTH_OF(capacities); c++) {
+    ZpTable *table = zp_table_create(two_columns, 2, capacities[c]);
+    for (size_t i = 0; i < 1000; i++) {
+      offer_square(table, i);
+      check_thinned(table, i + 1);
+    }
+    zp_table_destroy(table);
+  }
+}
+END_TEST
+
+START_TEST(test_table_keeps_last) {
+  ZpTable *table = zp_table_create(two_columns, 2, 10);
+  for (size_t i = 0; i < 15; i++) /* stride 2, rows 0 2 .. 14: 8 of 10 */
+    offer_square(table, i);
+  double last[2] = {14.5, 0};
+  zp_table_keep_last(table, last);
+  ck_assert_uint_eq(table->rows, 9);
+  ck_assert_double_eq(zp_table_get(table, 8, "time_s"), 14.5);
+  last[1] = 7; /* the same time: is there already */
+  zp_table_keep_last(table, last);
+  ck_assert_uint_eq(table->rows, 9);
+  ck_assert_double_eq(zp_table_get(table, 8, "square"), 0);
+  last[0] = 15;
+  zp_table_keep_last(table, last);
+  ck_assert_uint_eq(table->rows, 10);
+  last[0] = 16; /* full: in the place of the last */
+  zp_table_keep_last(table, last);
+  ck_assert_uint_eq(table->rows, 10);
+  ck_assert_double_eq(zp_table_get(table, 9, "time_s"), 16);
+  ck_assert_double_eq(zp_table_get(table, 0, "time_s"), 0);
+  ck_assert_double_nan(zp_table_get(table, 0, "no such column"));
+  ck_assert_double_nan(zp_table_get(table, 10, "time_s"));
+  zp_table_destroy(table);
+  zp_table_destroy(NULL);
+}
+END_TEST
+
+enum { FILM_NODES = 5 };
+
+static void offer_frame(ZpShapes *film, size_t i, bool last) {
+  double x[2 * FILM_NODES], y[2 * FILM_NODES], gap[FILM_NODES], force[FILM_NODES];
+  for (size_t j = 0; j < 2 * FILM_NODES; j++) {
+    x[j] = (double)(100 * i + j);
+    y[j] = -x[j];
+    gap[j / 2] = x[j] / 2;
+    force[j / 2] = x[j] / 4;
+  }
+  ZpShape shape = {.time = (double)i, .voltage = 5, .zipped = i, .x = x, .y = y, .gap = gap, .line_force = force};
+  if (last)
+    zp_shapes_keep_last(film, &shape);
+  else
+    zp_shapes_offer(film, &shape);
+}
+
+static void check_frame(const ZpShapes *film, size_t frame, size_t i) {
+  ZpShape shape = zp_shapes_get(film, frame);
+  ck_assert_double_eq(shape.time, (double)i);
+  ck_assert_double_eq(shape.voltage, 5);
+  ck_assert_uint_eq(shape.zipped, i);
+  double end = (double)(100 * i + film->ribbons * FILM_NODES - 1);
+  ck_assert_double_eq(shape.x[film->ribbons * FILM_NODES - 1], end);
+  ck_assert_double_eq(shape.y[film->ribbons * FILM_NODES - 1], -end);
+  if (film->ribbons == 1) {
+    ck_assert_ptr_null(shape.gap);
+    ck_assert_ptr_null(shape.line_force);
+    return;
+  }
+  ck_assert_double_eq(shape.gap[FILM_NODES - 1], end / 2);
+  ck_assert_double_eq(shape.line_force[FILM_NODES - 1], end / 4);
+}
+
+START_TEST(test_film_thins) {
+  for (size_t ribbons = 1; ribbons <= 2; ribbons++) {
+    ZpShapes *film = zp_shapes_create(ribbons, FILM_NODES, 6);
+    for (size_t i = 0; i < 100; i++)
+      offer_frame(film, i, false);
+    size_t stride = stride_after(100, 6);
+    ck_assert_uint_eq(film->stride, stride);
+    ck_assert_uint_le(film->frames, 6);
+    for (size_t f = 0; f < film->frames; f++)
+      check_frame(film, f, f * stride);
+    offer_frame(film, 99, true);
+    check_frame(film, film->frames - 1, 99);
+    check_frame(film, 0, 0);
+    ck_assert_uint_le(film->frames, 6);
+    zp_shapes_destroy(film);
+  }
+  zp_shapes_destroy(NULL);
+}
+END_TEST
+
+/* -- memory and errors ----------------------------------------------------------------------------- */
+
+START_TEST(test_carver) {
+  static const size_t counts[] = {1, 7, 8, 9, 0, 64, 1001};
+  enum { ARRAYS = LENGTH_OF(counts) };
+  ZpCarver measure = {NULL, 0};
+  for (int k = 0; k < ARRAYS; k++)
+    ck_assert_ptr_null(zp_carve(&measure, counts[k]));
+  char *block = zp_calloc(1, measure.used);
+  ZpCarver carver = {block, 0};
+  double *array[ARRAYS];
+  for (int k = 0; k < ARRAYS; k++) {
+    array[k] = zp_carve(&carver, counts[k]);
+    ck_assert_uint_eq((uintptr_t)array[k] % ZP_ALIGNMENT, 0);
+  }
+  ck_assert_uint_eq(carver.used, measure.used);
+  for (int k = 0; k < ARRAYS; k++) { /* writing one to its end touches no other */
+    const char *end = (const char *)(array[k] + counts[k]);
+    ck_assert_uint_le((size_t)(end - block), measure.used);
+    if (k + 1 < ARRAYS) ck_assert(end <= (const char *)array[k + 1]);
+  }
+  zp_free(block);
+}
+END_TEST
+
+START_TEST(test_calloc) {
+  unsigned char *memory = zp_calloc(3, 7);
+  ck_assert_uint_eq((uintptr_t)memory % ZP_ALIGNMENT, 0);
+  for (int i = 0; i < 21; i++)
+    ck_assert_uint_eq(memory[i], 0);
+  zp_free(memory);
+  memory = zp_calloc(0, 8);
+  ck_assert_ptr_nonnull(memory);
+  zp_free(memory);
+  ck_assert_ptr_null(zp_calloc(SIZE_MAX / 4, 8)); /* overflows */
+  ck_assert_ptr_null(zp_calloc(SIZE_MAX, 1));
+  zp_free(NULL);
+}
+END_TEST
+
+START_TEST(test_lanes) {
+  for (size_t n = 0; n < 100; n++) {
+    size_t rounded = zp_round_up(n);
+    ck_assert_uint_eq(rounded % ZP_LANES, 0);
+    ck_assert(rounded >= n && rounded < n + ZP_LANES);
+  }
+  static const double lanes[ZP_LANES] = {1, -2, 4, -8, 16, -32, 64, -128};
+  ck_assert_double_eq(zp_sum_lanes(lanes), -85);
+  ck_assert_double_eq(zp_max_lanes(lanes), 64);
+}
+END_TEST
+
+START_TEST(test_fail) {
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_fail(&err, ZP_BAD_INPUT, "%s = %g", "x", 2.5), ZP_BAD_INPUT);
+  ck_assert_int_eq(err.status, ZP_BAD_INPUT);
+  ck_assert_str_eq(err.message, "x = 2.5");
+  ck_assert_int_eq(zp_fail(NULL, ZP_MACHINE, "nobody listens"), ZP_MACHINE);
+  char word[2000];
+  memset(word, 'w', sizeof word);
+  word[sizeof word - 1] = 0;
+  zp_fail(&err, ZP_MACHINE, "%s", word); /* cut, not overrun */
+  ck_assert_uint_eq(strlen(err.message), sizeof err.message - 1);
+  ck_assert_int_eq(zp_fail_memory(&err), ZP_MACHINE);
+  ck_assert_str_eq(err.message, "no memory");
+}
+END_TEST
+
+/* -- keys ------------------------------------------------------------------------------------------ */
+
+/* keys.def once more: the fields of a default Def and the rows of the table. */
+static void check_key(int *index, const char *name, double field, double def, double min, double max) {
+  const ZpKey *key = zp_key(*index);
+  ZpActuatorDef defaults = zp_actuator_def_default();
+  ck_assert_str_eq(key->name, name);
+  ck_assert_int_eq(zp_key_find(name), *index);
+  ck_assert_msg(field == def || (isnan(field) && isnan(def)), "%s: default %g, not %g", name, field, def);
+  double got = zp_def_get(&defaults, *index);
+  ck_assert(got == def || (isnan(got) && isnan(def)));
+  ck_assert_double_eq(key->min, min);
+  ck_assert_double_eq(key->max, max);
+  ck_assert_uint_gt(strlen(key->help), 0);
+  ++*index;
+}
+
+START_TEST(test_defaults_are_those_of_keys_def) {
+  ZpActuatorDef d = zp_actuator_def_default();
+  int i = 0;
+#define ZP_GROUP(group)
+#define ZP_GROUP_END(group)
+#define ZP_REAL(path, name, unit, shown, def, min, max, help) check_key(&i, #path #name, d.path name, def, min, max);
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
+#define ZP_INT(path, name, def, min, max, help)               check_key(&i, #path #name, d.path name, def, min, max);
+#define ZP_BOOL(path, name, def, help)                        check_key(&i, #path #name, d.path name, def, 0, 1);
+#define ZP_ENUM(path, name, type, def, help)                                                                           \
+  check_key(&i, #path #name, d.path name, def, 0, (double)type##_COUNT - 1);
+#include <zipact/keys.def>
+#undef ZP_GROUP
+#undef ZP_GROUP_END
+#undef ZP_REAL
+#undef ZP_REAL_AUTO
+#undef ZP_INT
+#undef ZP_BOOL
+#undef ZP_ENUM
+  ck_assert_int_eq(i, zp_key_count());
+  ZpError err;
+  ck_assert_int_eq(zp_def_check(&d, &err), ZP_OK);
+}
+END_TEST
+
+/* Word of a choice key's value. */
+static const char *word_of(const ZpActuatorDef *def, const char *name) {
+  int index = zp_key_find(name);
+  return zp_key(index)->choices[(int)zp_def_get(def, index)].word;
+}
+
+/* A key with a value, or, where `word` is given, with that choice. */
+typedef struct Expected {
+  const char *key;
+  double value;
+  const char *word;
+} Expected;
+
+static void check_expected(const ZpActuatorDef *def, const Expected *list, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    int index = zp_key_find(list[i].key);
+    ck_assert_msg(index >= 0, "no key %s", list[i].key);
+    double value = zp_def_get(def, index);
+    if (list[i].word)
+      ck_assert_str_eq(word_of(def, list[i].key), list[i].word);
+    else if (isnan(list[i].value))
+      ck_assert_msg(isnan(value), "%s = %g, not auto", list[i].key, value);
+    else
+      ck_assert_msg(value == list[i].value, "%s = %.17g, expected %.17g", list[i].key, value, list[i].value);
+  }
+}
+
+/* As promised to users, independent of keys.def. */
+START_TEST(test_defaults_are_those_promised) {
+  static const Expected promised[] = {
+      {"actuator.kind", 0, "electro_ribbon"},
+      {"actuator.right_end", 0, "guided"},
+      {"ribbon.length", 0.1, NULL},
+      {"ribbon.width", 0.0127, NULL},
+      {"ribbon.thickness", 50e-6, NULL},
+      {"ribbon.young_modulus", 200e9, NULL},
+      {"ribbon.poisson_ratio", 0.285, NULL},
+      {"ribbon.density", 7850, NULL},
+      {"ribbon.plane", 0, "strain"},
+      {"ribbon.model", 0, "mass_spring"},
+      {"platform.length", 0.01, NULL},
+      {"platform.electrode", 1, NULL},
+      {"insulator.thickness", 130e-6, NULL},
+      {"insulator.permittivity", 4.62, NULL},
+      {"insulator.density", 0, NULL},
+      {"insulator.young_modulus", 0, NULL},
+      {"insulator.breakdown_field", 40e6, NULL},
+      {"medium.permittivity", 2.75, NULL},
+      {"medium.breakdown_field", 20e6, NULL},
+      {"load.mass", 0.008, NULL},
+      {"load.share", 0.5, NULL},
+      {"gravity", 9.81, NULL},
+      {"mesh.nodes", 61, NULL},
+      {"mass_spring.shear_coefficient", NAN, NULL},
+      {"mass_spring.axial", 0, "text"},
+      {"electro.model", 0, "plates"},
+      {"electro.surface", 0, "polyline"},
+      {"electro.force_scale", 1, NULL},
+      {"electro.voltage_share", 1, NULL},
+      {"electro.insulator_offset", NAN, NULL},
+      {"electro.breakdown_cap", 1, NULL},
+      {"contact.model", 0, "sequential"},
+      {"drive.voltage", 10e3, NULL},
+      {"damping.drag", 0, NULL},
+      {"solver.integrator", 0, "explicit"},
+      {"solver.end_time", 1, NULL},
+      {"solver.tolerance", 1e-4, NULL},
+      {"solver.time_step", NAN, NULL},
+      {"initial.state", 0, "equilibrium"},
+      {"preset", 0, "none"},
+  };
+  ZpActuatorDef def = zp_actuator_def_default();
+  check_expected(&def, promised, LENGTH_OF(promised));
+}
+END_TEST
+
+START_TEST(test_key_words) {
+  int kind = zp_key_find("actuator.kind");
+  ck_assert_int_eq(zp_key_choice(kind, "electro_ribbon"), ZP_KIND_ELECTRO_RIBBON);
+  ck_assert_int_eq(zp_key_choice(kind, "ribbon"), ZP_KIND_RIBBON);
+  ck_assert_int_eq(zp_key_choice(kind, "ribbons"), -1);
+  ck_assert_int_eq(zp_key_choice(zp_key_find("load.mass"), "ribbon"), -1);
+  ck_assert_int_eq(zp_key_find("load.mas"), -1);
+}
+END_TEST
+
+START_TEST(test_key_nearest) {
+  static const char *const pairs[][2] = {
+      {"ribbon.lenght", "ribbon.length"},    {"ribon.width", "ribbon.width"},         {"voltage", "drive.voltage"},
+      {"drive.volts", "drive.voltage"},      {"nodes", "mesh.nodes"},                 {"load.mas", "load.mass"},
+      {"solver.end-time", "solver.end_time"}, {"Gravity", "gravity"},                  {"damping.drag", "damping.drag"},
+      {"load.weight", "load.mass"},          {"electro.breakdowncap", "electro.breakdown_cap"},
+  };
+  for (size_t i = 0; i < LENGTH_OF(pairs); i++)
+    ck_assert_str_eq(zp_key_nearest(pairs[i][0]), pairs[i][1]);
+  ck_assert_ptr_nonnull(zp_key_nearest(""));
+  char word[500];
+  memset(word, 'q', sizeof word);
+  word[sizeof word - 1] = 0;
+  ck_assert_ptr_nonnull(zp_key_nearest(word));
+}
+END_TEST
+
+/* -- resolving ------------------------------------------------------------------------------------- */
+
+START_TEST(test_resolve_order) {
+  ck_assert_double_eq(zp_actuator_def_default().load.share, 0.5);
+  ck_assert_double_eq(DEF({"actuator.kind", ZP_KIND_RIBBON}).load.share, 1); /* kind over default */
+  ck_assert_double_eq(DEF({"actuator.kind", ZP_KIND_RIBBON}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21})
+                          .load.share,
+                      0.25); /* preset over kind */
+  ck_assert_double_eq(DEF({"load.share", 0.7}, {"actuator.kind", ZP_KIND_RIBBON}, {"preset", ZP_PRESET_PAPER_CODE},
+                          {"mesh.nodes", 21})
+                          .load.share,
+                      0.7); /* assignment over all, wherever it stands */
+  ck_assert_double_eq(DEF({"load.mass", 1e-3}, {"load.mass", 2e-3}).load.mass, 2e-3); /* the later wins */
+  ZpActuatorDef plain = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"preset", ZP_PRESET_NONE});
+  ck_assert_double_eq(plain.ribbon.thickness, 50e-6); /* of presets, too */
+}
+END_TEST
+
+START_TEST(test_paper_text) {
+  static const Expected text[] = {
+      {"ribbon.model", 0, "mass_spring"},  {"contact.model", 0, "sequential"},
+      {"solver.integrator", 0, "explicit"}, {"electro.surface", 0, "bezier"},
+      {"ribbon.thickness", 50e-6, NULL},   {"mass_spring.axial", 0, "text"},
+      {"mass_spring.shear_coefficient", NAN, NULL}, {"load.share", 0.5, NULL},
+      {"electro.force_scale", 6.03, NULL}, {"electro.voltage_share", 0.5, NULL},
+      {"electro.insulator_offset", NAN, NULL}, {"electro.breakdown_cap", 1, NULL},
+      {"platform.electrode", 0, NULL},     {"load.mass", 8e-3, NULL},
+      {"ribbon.length", 0.1, NULL},        {"platform.length", 0.01, NULL},
+  };
+  static const double drag[][2] = {{21, 10}, {61, 1}, {130, 0.1}};
+  for (size_t i = 0; i < LENGTH_OF(drag); i++) {
+    ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", drag[i][0]});
+    check_expected(&def, text, LENGTH_OF(text));
+    ck_assert_double_eq(def.damping.drag, drag[i][1]);
+  }
+}
+END_TEST
+
+START_TEST(test_paper_code) {
+  static const Expected code[] = {
+      {"ribbon.model", 0, "mass_spring"},  {"contact.model", 0, "sequential"},
+      {"solver.integrator", 0, "explicit"}, {"electro.surface", 0, "bezier"},
+      {"ribbon.thickness", 100e-6, NULL},  {"mass_spring.axial", 0, "code"},
+      {"load.share", 0.25, NULL},          {"electro.force_scale", 6.6, NULL},
+      {"electro.voltage_share", 1, NULL},  {"electro.insulator_offset", 182.6e-6, NULL},
+      {"electro.breakdown_cap", 0, NULL},  {"platform.electrode", 0, NULL},
+      {"electro.refresh_period", 10e-3, NULL}, {"contact.complete_margin", 4, NULL},
+  };
+  static const double at[][4] = {{21, 6434, 10, 5e-6}, {61, 158603, 100, 1e-6}, {130, 1.537e6, 0.1, 0.5e-6}};
+  for (size_t i = 0; i < LENGTH_OF(at); i++) {
+    ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", at[i][0]});
+    check_expected(&def, code, LENGTH_OF(code));
+    ck_assert_double_eq(def.mass_spring.shear_coefficient, at[i][1]);
+    ck_assert_double_eq(def.damping.drag, at[i][2]);
+    ck_assert_double_eq(def.solver.time_step, at[i][3]);
+  }
+}
+END_TEST
+
+START_TEST(test_preset_must_be_completed) {
+  ZpActuatorDef def;
+  ZpError err;
+  const Setting text[] = {{"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 41}, {"damping.drag", 3}};
+  ck_assert_int_eq(resolve(&def, text, 2, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "damping.drag"));
+  ck_assert_ptr_nonnull(strstr(err.message, "41"));
+  ck_assert_int_eq(resolve(&def, text, 3, &err), ZP_OK);
+  ck_assert_double_eq(def.damping.drag, 3);
+  const Setting code[] = {{"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 41}, {"damping.drag", 3},
+                          {"mass_spring.shear_coefficient", 4e4}, {"solver.time_step", 1e-6}};
+  for (size_t given = 2; given < 5; given++)
+    ck_assert_int_eq(resolve(&def, code, given, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(resolve(&def, code, 5, &err), ZP_OK);
+  ck_assert_double_eq(def.mass_spring.shear_coefficient, 4e4);
+  ck_assert_double_eq(def.ribbon.thickness, 100e-6);
+}
+END_TEST
+
+/* Each key at its bounds and beyond; wrong ones leave the Def alone and say what is allowed. */
+START_TEST(test_set_range) {
+  const ZpKey *key = zp_key(_i);
+  ZpActuatorDef def = zp_actuator_def_default(), before = def;
+  ZpError err;
+  const double wrong[] = {INFINITY, -INFINITY, nextafter(key->min, -INFINITY), nextafter(key->max, INFINITY),
+                          key->type == ZP_KEY_REAL_AUTO ? INFINITY : NAN,
+                          key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO ? -INFINITY : 0.5};
+  for (size_t i = 0; i < LENGTH_OF(wrong); i++) {
+    ck_assert_msg(zp_def_set(&def, _i, wrong[i], &err) == ZP_BAD_INPUT, "%s takes %.17g", key->name, wrong[i]);
+    ck_assert_ptr_nonnull(strstr(err.message, key->name));
+    ck_assert_mem_eq(&def, &before, sizeof def);
+  }
+  ck_assert_int_eq(zp_def_set(&def, _i, key->min, NULL), ZP_OK);
+  ck_assert_double_eq(zp_def_get(&def, _i), key->min);
+  ck_assert_int_eq(zp_def_set(&def, _i, key->max, NULL), ZP_OK);
+  ck_assert_double_eq(zp_def_get(&def, _i), key->max);
+  if (key->type != ZP_KEY_REAL_AUTO) return;
+  ck_assert_int_eq(zp_def_set(&def, _i, NAN, NULL), ZP_OK);
+  ck_assert(isnan(zp_def_get(&def, _i)));
+}
+END_TEST
+
+START_TEST(test_set_message) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpError err;
+  zp_def_set(&def, zp_key_find("ribbon.thickness"), 1, &err);
+  static const char *const parts[] = {"ribbon.thickness", "1 m", "1e-06", "0.005 m"};
+  for (size_t i = 0; i < LENGTH_OF(parts); i++)
+    ck_assert_msg(strstr(err.message, parts[i]) != NULL, "no '%s' in: %s", parts[i], err.message);
+}
+END_TEST
+
+/* A Def whose fields were assigned is checked when it is used. */
+START_TEST(test_check_ranges) {
+  ZpError err;
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.load.mass = -1;
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "load.mass"));
+  ZpModel *model = (ZpModel *)&err;
+  ck_assert_int_eq(zp_model_create(&def, &model, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_null(model);
+  def = zp_actuator_def_default();
+  def.ribbon.width = NAN;
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  def = zp_actuator_def_default();
+  def.contact.model = ZpContactModel_COUNT;
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+}
+END_TEST
+
+/* Settings that are each right and together wrong, and the key that the message must name. */
+typedef struct Cross {
+  Setting setting[4];
+  const char *named;
+  bool right; /* the counterpart that is allowed */
+} Cross;
+
+static const Cross crosses[] = {
+    {{{"platform.length", 0.0901}}, "platform.length", false},
+    {{{"platform.length", 0.09}}, "", true},
+    {{{"platform.length", 0.5}, {"actuator.kind", ZP_KIND_RIBBON}}, "", true},
+    {{{"insulator.thickness", 0}, {"electro.breakdown_cap", 0}}, "insulator.thickness", false},
+    {{{"insulator.thickness", 0}}, "", true},
+    {{{"insulator.thickness", 0}, {"electro.breakdown_cap", 0}, {"electro.insulator_offset", 1e-6}}, "", true},
+    {{{"electro.insulator_offset", 0}, {"electro.breakdown_cap", 0}}, "electro.breakdown_cap", false},
+    {{{"contact.complete_margin", 60}}, "contact.complete_margin", false},
+    {{{"contact.complete_margin", 59}}, "", true},
+    {{{"electro.switch_offset", 1e-4}}, "electro.switch_offset", false},
+    {{{"electro.switch_offset", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}}, "", true},
+    {{{"electro.refresh_period", 1e-4}}, "electro.refresh_period", false},
+    {{{"electro.refresh_period", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}}, "", true},
+};
+
+START_TEST(test_check_crosses) {
+  const Cross *cross = &crosses[_i];
+  size_t count = 0;
+  while (count < LENGTH_OF(cross->setting) && cross->setting[count].key)
+    count++;
+  ZpActuatorDef def = def_with(cross->setting, count);
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_def_check(&def, &err), cross->right ? ZP_OK : ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, cross->named) != NULL, "no '%s' in: %s", cross->named, err.message);
+}
+END_TEST
+
+/* -- save and restore ------------------------------------------------------------------------------ */
+
+/* Zipping with drag, contacts, a held force (paper-code) and with a platform that has met or not. */
+static ZpActuatorDef saved_def(int which) {
+  return which == 0 ? DEF({"mesh.nodes", 21}, {"damping.drag", 0.1})
+                    : DEF({"mesh.nodes", 21}, {"preset", ZP_PRESET_PAPER_CODE});
+}
+
+START_TEST(test_restore_goes_on_bit_for_bit) {
+  static const double before[] = {20e-3, 33e-3}, after[] = {50e-3, 45e-3};
+  ZpActuatorDef def = saved_def(_i);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model), *other = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  char *saved = malloc(size), *once = malloc(size), *again = malloc(size);
+  ck_assert_int_eq(zp_sim_run(sim, before[_i], false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_save(sim, saved);
+  ck_assert_int_eq(zp_sim_run(sim, after[_i], false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_save(sim, once);
+  ck_assert_int_ne(memcmp(saved, once, size), 0);
+  ck_assert_uint_gt(((ZpState *)(void *)once)->zip.front, ((ZpState *)(void *)saved)->zip.front);
+  ck_assert_int_eq(zp_sim_restore(sim, saved, size, NULL), ZP_OK);
+  zp_sim_run(sim, after[_i], false, NULL, NULL);
+  zp_sim_save(sim, again);
+  ck_assert_mem_eq(once, again, size);
+  ck_assert_int_eq(zp_sim_restore(other, saved, size, NULL), ZP_OK); /* and in another simulation */
+  zp_sim_run(other, after[_i], false, NULL, NULL);
+  zp_sim_save(other, again);
+  ck_assert_mem_eq(once, again, size);
+  ZpError err;
+  ck_assert_int_eq(zp_sim_restore(sim, saved, size - 1, &err), ZP_BAD_INPUT);
+  free(saved);
+  free(once);
+  free(again);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Reading signals, shapes and recording change nothing. */
+START_TEST(test_looking_changes_nothing) {
+  ZpActuatorDef def = saved_def(0);
+  ZpModel *model = model_of(&def);
+  ZpSim *plain = sim_of(model), *watched = sim_of(model);
+  size_t columns, size = zp_sim_state_size(plain);
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpTable *series = zp_table_create(column, columns, 16);
+  ZpShapes *film = zp_shapes_create(2, 21, 16);
+  zp_sim_record(watched, series, film);
+  zp_sim_run(plain, 20e-3, false, NULL, NULL);
+  zp_sim_run(watched, 20e-3, false, NULL, NULL);
+  char *one = malloc(size), *two = malloc(size);
+  zp_sim_save(plain, one);
+  zp_sim_save(watched, two);
+  ck_assert_mem_eq(one, two, size);
+  ck_assert_double_eq(zp_sim_get(watched, "stroke"), zp_table_get(series, series->rows - 1, "stroke_m"));
+  ck_assert_double_eq(zp_shapes_get(film, film->frames - 1).time, 20e-3);
+  ck_assert(isnan(zp_sim_get(plain, "no such signal")));
+  zp_sim_shape(watched);
+  zp_sim_save(watched, two);
+  ck_assert_mem_eq(one, two, size);
+  free(one);
+  free(two);
+  zp_table_destroy(series);
+  zp_shapes_destroy(film);
+  zp_sim_destroy(plain);
+  zp_sim_destroy(watched);
+  zp_model_destroy(model);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("base");
+  TCase *records = tcase_create("records");
+  tcase_add_test(records, test_table_thins);
+  tcase_add_test(records, test_table_keeps_last);
+  tcase_add_test(records, test_film_thins);
+  suite_add_tcase(suite, records);
+  TCase *memory = tcase_create("memory");
+  tcase_add_test(memory, test_carver);
+  tcase_add_test(memory, test_calloc);
+  tcase_add_test(memory, test_lanes);
+  tcase_add_test(memory, test_fail);
+  suite_add_tcase(suite, memory);
+  TCase *keys = tcase_create("keys");
+  tcase_add_test(keys, test_defaults_are_those_of_keys_def);
+  tcase_add_test(keys, test_defaults_are_those_promised);
+  tcase_add_test(keys, test_key_words);
+  tcase_add_test(keys, test_key_nearest);
+  tcase_add_test(keys, test_resolve_order);
+  tcase_add_test(keys, test_paper_text);
+  tcase_add_test(keys, test_paper_code);
+  tcase_add_test(keys, test_preset_must_be_completed);
+  tcase_add_loop_test(keys, test_set_range, 0, zp_key_count());
+  tcase_add_test(keys, test_set_message);
+  tcase_add_test(keys, test_check_ranges);
+  tcase_add_loop_test(keys, test_check_crosses, 0, LENGTH_OF(crosses));
+  suite_add_tcase(suite, keys);
+  TCase *state = tcase_create("state");
+  tcase_set_timeout(state, 60);
+  tcase_add_loop_test(state, test_restore_goes_on_bit_for_bit, 0, 2);
+  tcase_add_test(state, test_looking_changes_nothing);
+  suite_add_tcase(suite, state);
+  return run_suite(suite);
+}

@@ -1,0 +1,431 @@
+#!/bin/sh
+# The command from outside:  sh tests/test_cli.sh ZIPACT SCRATCH
+#
+# What users and scripts rely on: words, exit statuses, what goes to which stream, which files are written and
+# when, that the same input gives the same bytes. Each exit status by a real case. Runs are short (few nodes,
+# little time) and, where pictures do not matter, without gnuplot on PATH.
+# Needs python3 to read JSON. Last line: "N passed, N failed"; exit status 1 if any failed.
+
+zipact=$1
+scratch=$2
+if [ ! -x "$zipact" ] || [ -z "$scratch" ]; then
+  echo "usage: sh test_cli.sh ZIPACT SCRATCH"
+  exit 2
+fi
+case $zipact in /*) ;; *) zipact=$PWD/$zipact ;; esac
+mkdir -p "$scratch" && cd "$scratch" || exit 2
+rm -rf cli-test && mkdir cli-test && cd cli-test || exit 2
+
+passed=0
+failed=0
+short="--set mesh.nodes=5 --set solver.tolerance=0.1 --set solver.end_time=1ms --set output.samples=20 --set output.shapes=3"
+
+ok() { # DESCRIPTION COMMAND...: passes if the command succeeds
+  what=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $what"
+    [ -s stderr ] && sed 's/^/    stderr: /' stderr | head -5
+  fi
+}
+
+zp() { # run without gnuplot; its streams to the files stdout and stderr, status to $status
+  PATH=/nowhere "$zipact" "$@" >stdout 2>stderr
+  status=$?
+}
+
+zp_drawing() { # the same with what PATH has
+  "$zipact" "$@" >stdout 2>stderr
+  status=$?
+}
+
+status_is() { [ "$status" -eq "$1" ] || { echo "    status $status, not $1"; false; }; }
+says() { grep -q -e "$1" stderr || { echo "    stderr does not have: $1"; false; }; }
+prints() { grep -q -e "$1" stdout || { echo "    stdout does not have: $1"; false; }; }
+is_empty() { [ ! -s "$1" ]; }
+is_file() { [ -f "$1" ]; }
+is_absent() { [ ! -e "$1" ]; }
+no_temporaries() { [ -z "$(find "$1" -name '*.tmp')" ]; }
+
+python=$(command -v python3)
+cat >is_json.py <<'END'
+"""is_json.py FILE EXPRESSION: FILE holds exactly one JSON object or array, d, for which EXPRESSION is true."""
+import json, sys
+
+def refuse(word):
+    raise ValueError("not JSON: " + word)
+
+def no_twins(pairs):
+    d = dict(pairs)
+    if len(d) != len(pairs):
+        raise ValueError("a name twice")
+    return d
+
+try:
+    with open(sys.argv[1], encoding="utf-8") as file:
+        d = json.loads(file.read(), parse_constant=refuse, object_pairs_hook=no_twins)
+    good = eval(sys.argv[2])
+except (OSError, ValueError, LookupError) as error:
+    sys.exit("    %s: %s: %s" % (sys.argv[1], type(error).__name__, error))
+if not good:
+    sys.exit("    not true of %s: %s" % tuple(sys.argv[1:3]))
+END
+json() { "$python" is_json.py "$1" "$2"; }
+
+complete() { # DIR: every file of a report is there and whole
+  is_file "$1/scenario.yaml" && json "$1/summary.json" '"outcome" in d' && is_file "$1/table.csv" &&
+    [ "$(head -c 4 "$1/results.h5" | tail -c 3)" = HDF ] && no_temporaries "$1" &&
+    [ "$(awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { print bad + 0 }' "$1/table.csv")" = 0 ]
+}
+
+# -- words ---------------------------------------------------------------------------------------------
+
+zp --version
+ok "--version" status_is 0
+ok "--version prints name and number" grep -Eqx 'zipact [0-9]+\.[0-9]+\.[0-9]+' stdout
+for help in --help -h help; do
+  zp $help
+  ok "$help" status_is 0
+  ok "$help names the studies" prints actuate
+  ok "$help goes to stdout only" is_empty stderr
+done
+for study in actuate run; do
+  zp $study --help
+  ok "$study --help" status_is 0
+  ok "$study --help names --set" prints '--set KEY=VALUE'
+done
+
+zp keys
+ok "keys" status_is 0
+ok "keys has load.mass with its default" prints '^load\.mass .*8 g'
+zp keys --json
+ok "keys --json" status_is 0
+ok "keys --json is a list of whole entries" json stdout \
+  'len(d) > 40 and all(set(k) == {"key", "type", "unit", "default", "min", "max", "choices", "help"} for k in d)'
+ok "keys --json is in SI" json stdout '[k["default"] for k in d if k["key"] == "load.mass"] == [0.008]'
+zp keys --yaml
+ok "keys --yaml" status_is 0
+cp stdout starter.yaml
+zp run starter.yaml $short -o starter
+ok "the starter scenario runs" status_is 0
+zp actuate $short -o defaults
+ok "defaults run" status_is 0
+ok "the starter scenario is the defaults" cmp -s starter/scenario.yaml defaults/scenario.yaml
+ok "the starter scenario gives the table of the defaults" cmp -s starter/table.csv defaults/table.csv
+
+# -- the default run, with pictures ------------------------------------------------------------------------
+
+zp_drawing actuate --json
+ok "actuate" status_is 0
+ok "it zips" json stdout 'd["outcome"] == "zipped" and d["contraction"] >= 0.99'
+ok "within 55 to 85 ms (without any drag of the liquid)" json stdout '0.055 < d["zip_time_s"] < 0.085'
+ok "its energy balances" json stdout '0 <= d["energy_error"] < 1e-3'
+ok "results go to out/actuate unless told" complete out/actuate
+ok "--json prints what summary.json holds" cmp -s stdout out/actuate/summary.json
+frames=$(find out/actuate/shapes -name '*.vtp' | wc -l)
+ok "one .vtp per shape in shapes.pvd" [ "$frames" -eq "$(grep -c '<DataSet' out/actuate/shapes.pvd)" ]
+if command -v gnuplot >/dev/null; then
+  ok "a picture of the stroke" grep -q '</svg>' out/actuate/plots/stroke.svg
+fi
+
+# -- status 0 to 3 -----------------------------------------------------------------------------------------
+
+zp actuate $short --set drive.voltage=0 --json -o never
+ok "0: it never zips, which is an answer" status_is 0
+ok "0: outcome end_time, zip time null" json stdout 'd["outcome"] == "end_time" and d["zip_time_s"] is None'
+
+zp actuate --set solver.max_steps=1000 --json -o not-settled
+ok "1: no equilibrium within max_steps" status_is 1
+ok "1: --json prints all the same" json stdout 'd["outcome"] == "not_settled" and "1000" in d["message"]'
+ok "1: what was reached is kept" complete not-settled
+zp actuate $short --set solver.time_step=1e-9 --set solver.end_time=10 --set solver.max_steps=200000 --json -o limited
+ok "1: too many steps" status_is 1
+ok "1: outcome step_limit" json stdout 'd["outcome"] == "step_limit" and d["steps"] == 200000'
+ok "1: the rows until then are kept" [ "$(wc -l <limited/table.csv)" -gt 2 ]
+zp actuate $short --set drive.voltage=1MV --set electro.force_scale=1000 --set electro.breakdown_cap=false \
+  --json -o diverged
+ok "1: diverged" status_is 1
+ok "1: outcome diverged" json stdout 'd["outcome"] == "diverged"'
+ok "1: its files are whole" complete diverged
+zp actuate $short --set "drive.voltage=[0, 1 MV]" --set electro.force_scale=1000 --set electro.breakdown_cap=false \
+  --json -o one-bad
+ok "1: one bad row of a sweep" status_is 1
+ok "1: both rows are there" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time", "diverged"]'
+
+refused() { # DESCRIPTION PATTERN ARGUMENT...: wrong input, said why, nothing written
+  what=$1
+  pattern=$2
+  shift 2
+  rm -rf refused out/actuate
+  zp "$@"
+  ok "2: $what" status_is 2
+  ok "2: $what: message" says "$pattern"
+  ok "2: $what: nothing on stdout" is_empty stdout
+  ok "2: $what: one line" [ "$(wc -l <stderr)" -le 2 ]
+  ok "2: $what: nothing written" is_absent refused
+  ok "2: $what: nothing written to out/" is_absent out/actuate
+}
+
+refused "no command" 'missing'
+refused "unknown study" 'no such study.*fly' fly -o refused
+refused "unknown option" 'frobnicate' actuate --frobnicate -o refused
+refused "--set without a value" 'argument' actuate -o refused --set
+refused "two scenarios" 'defaults' actuate starter.yaml defaults/scenario.yaml -o refused
+refused "run without a scenario" 'scenario' run -o refused
+refused "keys with a scenario" 'keys' keys starter.yaml
+refused "keys with -o" 'keys' keys -o refused
+refused "keys twice" 'not both' keys --json --yaml
+refused "--yaml of a study" 'yaml' actuate --yaml -o refused
+refused "bench with --set" 'bench' bench --set load.mass=1
+refused "missing file" 'absent.yaml.*No such file' run absent.yaml -o refused
+refused "no =" 'KEY=VALUE' actuate --set load.mass -o refused
+refused "empty value" 'load\.mass.*give a value' actuate --set load.mass= -o refused
+refused "unknown key, nearest named" 'load\.mas.*did you mean load\.mass' actuate --set load.mas=8g -o refused
+refused "unknown group" 'lod\.mass.*did you mean load\.mass' actuate --set lod.mass=8g -o refused
+refused "unknown unit" 'load\.mass.*stone.*in g from 0 g to 1000000 g' actuate --set 'load.mass=1 stonez' -o refused
+refused "wrong dimension" 'load\.mass.*mm.*in g from 0 g' actuate --set 'load.mass=1 mm' -o refused
+refused "out of range" 'mesh\.nodes=3.*4 to 2001' actuate --set mesh.nodes=3 -o refused
+refused "out of range, in people'\''s unit" 'ribbon\.thickness.*1 um to 5000 um' actuate --set 'ribbon.thickness=6 mm' -o refused
+refused "no number" 'load\.mass.*not a number' actuate --set load.mass=heavy -o refused
+refused "NaN" 'load\.mass.*not a number' actuate --set load.mass=nan -o refused
+refused "no whole number" 'mesh\.nodes.*whole number' actuate --set mesh.nodes=5.5 -o refused
+refused "wrong word, nearest named" 'contact\.model.*did you mean sequential' actuate --set contact.model=sequentail -o refused
+refused "keys that contradict" 'platform\.length.*ribbon\.length' actuate --set 'platform.length=95 mm' -o refused
+refused "incomplete preset" 'damping\.drag.*paper-text.*33' actuate --set preset=paper-text --set mesh.nodes=33 -o refused
+refused "one bad row of a sweep" 'platform\.length' actuate --set 'platform.length=[1 mm, 95 mm]' -o refused
+
+cat >bad.yaml <<'END'
+load:
+  mass: 8 g
+ribbon:
+  thickness: 50 lightyears
+END
+refused "file, line, key, value, unit, range" \
+  'bad\.yaml:4: ribbon\.thickness = "50 lightyears".*um from 1 um to 5000 um' run bad.yaml -o refused
+printf 'load:\n  mass: 8 g\nrobbon:\n  thickness: 50 um\n' >bad.yaml
+refused "unknown key in line 3 or 4" 'bad\.yaml:[34]: robbon.*did you mean' run bad.yaml -o refused
+printf 'load:\n  mass: 8 g\n  mass: 9 g\n' >bad.yaml
+refused "a key twice" 'bad\.yaml:3: load\.mass.*twice' run bad.yaml -o refused
+printf 'load: {mass: 8 g\nribbon: 5' >bad.yaml
+refused "broken YAML" 'bad\.yaml:[0-9]' run bad.yaml -o refused
+head -c 3000 /dev/urandom >bad.yaml
+refused "no text" 'bad\.yaml' run bad.yaml -o refused
+printf 'study: fly\n' >bad.yaml
+refused "unknown study in a file" 'bad\.yaml:1: study.*actuate' run bad.yaml -o refused
+
+: >a-file
+zp actuate $short -o a-file
+ok "3: -o is a file" status_is 3
+ok "3: says which" says 'a-file.*not a folder'
+ok "3: the file stays" is_empty a-file
+zp actuate $short -o a-file/below
+ok "3: -o below a file" status_is 3
+zp actuate $short -o /proc/zipact-cannot-be
+ok "3: -o where nothing can be made" status_is 3
+ok "3: says where" says '/proc/zipact-cannot-be'
+zp actuate $short -o ''
+ok "3: -o is empty" status_is 3
+if [ -c /dev/full ]; then
+  PATH=/nowhere "$zipact" actuate $short --json -o full >/dev/full 2>stderr
+  status=$?
+  ok "3: --json to a full device" status_is 3
+  for format in '' --json --yaml; do
+    "$zipact" keys $format >/dev/full 2>stderr
+    status=$?
+    ok "3: keys $format to a full device" status_is 3
+  done
+  "$zipact" --version >/dev/full 2>stderr
+  status=$?
+  ok "3: --version to a full device" status_is 3
+fi
+if [ "$(id -u)" -ne 0 ]; then
+  mkdir locked && chmod 555 locked
+  zp actuate $short -o locked/here
+  ok "3: no right to write" status_is 3
+  ok "3: says so" says 'locked/here.*ermission'
+  chmod 755 locked
+fi
+
+# -- disk full -----------------------------------------------------------------------------------------------
+
+mkdir -p small
+full=0
+for size in 4k 16k 32k 48k 64k 96k 128k; do # another file is the one that does not fit
+  [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=$size tmpfs small 2>/dev/null || break
+  trap 'umount "$scratch/cli-test/small" 2>/dev/null' EXIT
+  zp actuate $short --set output.samples=1000 -o small/results
+  if [ "$status" -ne 0 ]; then
+    full=$((full + 1))
+    ok "3: disk full at $size" status_is 3
+    ok "3: disk full at $size: says so" says 'small/results.*No space left'
+    ok "3: disk full at $size: nothing half written" no_temporaries small
+    ok "3: disk full at $size: no summary of what is not whole" is_absent small/results/summary.json
+  fi
+  umount small
+  trap - EXIT
+done
+if [ $full -eq 0 ]; then
+  echo "disk full: not tested, a small tmpfs cannot be mounted here"
+fi
+
+# -- Ctrl-C -----------------------------------------------------------------------------------------------------
+
+interrupt() { # SECONDS ARGUMENT...: Ctrl-C that long after the start
+  wait_for=$1
+  shift
+  PATH=/nowhere "$zipact" "$@" >stdout 2>stderr &
+  pid=$!
+  sleep "$wait_for"
+  kill -INT $pid
+  wait $pid
+  status=$?
+}
+
+long="--set mesh.nodes=5 --set solver.tolerance=0.1 --set drive.voltage=0 --set solver.end_time=10000"
+interrupt 1 actuate $long --json -o interrupted
+ok "130: Ctrl-C while it moves" status_is 130
+ok "130: --json" json stdout 'd["outcome"] == "interrupted" and d["simulated_time_s"] > 0'
+ok "130: what was done is kept" complete interrupted
+ok "130: rows are kept" [ "$(wc -l <interrupted/table.csv)" -gt 2 ]
+interrupt 1 actuate --set mesh.nodes=2001 --json -o interrupted-early
+ok "130: Ctrl-C while it settles" status_is 130
+ok "130: --json, too" json stdout 'd["outcome"] == "interrupted"'
+ok "130: files, too" complete interrupted-early
+interrupt 1 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
+ok "130: Ctrl-C in a sweep" status_is 130
+ok "130: the rows until then" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time", "interrupted"]'
+ok "130: and their files" complete interrupted-sweep
+
+# -- streams ----------------------------------------------------------------------------------------------------
+
+zp actuate $short --quiet -o quiet
+ok "--quiet" status_is 0
+ok "--quiet prints nothing" is_empty stdout
+ok "--quiet says nothing" is_empty stderr
+zp actuate --quiet --set load.mass=x -o quiet
+ok "--quiet says errors" says 'load\.mass'
+zp actuate $short --quiet --json -o quiet
+ok "--quiet --json prints the object" json stdout 'd["outcome"] == "end_time"'
+ok "--quiet --json says nothing" is_empty stderr
+zp actuate $short -o missing-gnuplot
+ok "without gnuplot: a notice" says gnuplot
+ok "without gnuplot: status 0" status_is 0
+ok "without gnuplot: the scripts stay" is_file missing-gnuplot/plots/stroke.gp
+
+cat >terminal.py <<'END'
+"""Run a command with stderr on a terminal => what it wrote there."""
+import os, pty, subprocess, sys
+
+master, slave = pty.openpty()
+child = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=slave, env={"PATH": "/nowhere"})
+os.close(slave)
+text = b""
+try:
+    while piece := os.read(master, 4096):
+        text += piece
+except OSError:
+    pass
+child.wait()
+sys.stdout.write(text.decode())
+END
+"$python" terminal.py "$zipact" actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
+ok "a progress bar on a terminal" prints '\[#*\.*\] *[0-9]* %'
+"$python" terminal.py "$zipact" actuate --quiet --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
+ok "no progress bar with --quiet" is_empty stdout
+zp actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal
+ok "no progress bar into a file" [ "$(grep -c '\[#' stderr)" -eq 0 ]
+
+# -- preset < file < --set ------------------------------------------------------------------------------------------
+
+printf 'mesh: {nodes: 21}\nribbon: {thickness: 80 um}\nsolver: {end_time: 1 ms}\npreset: paper-code\n' >order.yaml
+zp run order.yaml -o order
+ok "a preset runs" status_is 0
+ok "the preset gives what the file does not" grep -q 'force_scale: 6.6' order/scenario.yaml
+ok "the file wins over the preset, wherever it is written" grep -q 'thickness: 80 um' order/scenario.yaml
+zp run order.yaml --set 'ribbon.thickness=70 um' -o order
+ok "--set wins over the file" grep -q 'thickness: 70 um' order/scenario.yaml
+printf 'mesh: {nodes: 21}\nribbon: {thickness: 80 um}\nsolver: {end_time: 1 ms}\n' >order.yaml
+zp run order.yaml --set preset=paper-code -o order
+ok "the file wins over a preset of --set" grep -q 'thickness: 80 um' order/scenario.yaml
+ok "and the preset of --set is taken" grep -q 'force_scale: 6.6' order/scenario.yaml
+zp run order.yaml --set load.mass=1g --set load.mass=2g -o order
+ok "the later --set wins" grep -q 'mass: 2 g' order/scenario.yaml
+
+# -- sweeps ------------------------------------------------------------------------------------------------------------
+
+zp actuate $short --set 'drive.voltage=[0, 1 kV, 2 kV]' --set 'load.mass=[8 g, 20 g]' --json -o sweep
+ok "a sweep" status_is 0
+ok "the product of the lists, the last key fastest" json stdout \
+  '[(r["load.mass"], r["drive.voltage"]) for r in d["rows"]] == [(m, u) for m in (0.008, 0.02) for u in (0, 1000, 2000)]'
+ok "one row of table.csv each" [ "$(wc -l <sweep/table.csv)" -eq 7 ]
+ok "columns for the list keys" grep -q '^load\.mass_kg,drive\.voltage_V,' sweep/table.csv
+ok "its files are whole" complete sweep
+zp actuate $short --set 'load.mass=[8 g]' --json -o sweep-of-one
+ok "a list of one is a sweep" json stdout 'len(d["rows"]) == 1'
+
+# -- same input, same bytes ------------------------------------------------------------------------------------------------
+
+cat >without_times.py <<'END'
+"""Print summary.json without what follows from wall time."""
+import json, sys
+
+def strip(d):
+    if isinstance(d, dict):
+        return {k: strip(v) for k, v in d.items() if k not in ("wall_time_s", "real_time_factor")}
+    return [strip(x) for x in d] if isinstance(d, list) else d
+
+print(json.dumps(strip(json.load(open(sys.argv[1])))))
+END
+same_report() { # DIR DIR
+  "$python" without_times.py "$1/summary.json" >first.txt && "$python" without_times.py "$2/summary.json" >second.txt &&
+    cmp first.txt second.txt && diff -r -q -x summary.json "$1" "$2"
+}
+zp_drawing actuate $short --set drive.voltage=5kV -o twice-a
+zp_drawing actuate $short --set drive.voltage=5kV -o twice-b
+ok "same input, same bytes, pictures and all" same_report twice-a twice-b
+zp run twice-a/scenario.yaml -o rerun
+ok "scenario.yaml runs again" status_is 0
+ok "to the same table" cmp twice-a/table.csv rerun/table.csv
+ok "to the same results.h5" cmp twice-a/results.h5 rerun/results.h5
+ok "and to itself" cmp twice-a/scenario.yaml rerun/scenario.yaml
+zp run sweep/scenario.yaml -o rerun-sweep
+ok "a sweep runs again to the same table" cmp sweep/table.csv rerun-sweep/table.csv
+ok "and to the same results.h5" cmp sweep/results.h5 rerun-sweep/results.h5
+ok "in all its bytes" same_report sweep rerun-sweep
+zp run order/scenario.yaml -o rerun-order
+ok "with a preset, too" same_report order rerun-order
+LC_ALL=de_DE.UTF-8 PATH=/nowhere "$zipact" run twice-a/scenario.yaml -o rerun >stdout 2>stderr
+ok "in any locale" cmp twice-a/table.csv rerun/table.csv
+
+# -- what else is in the folder -----------------------------------------------------------------------------------------------
+
+mkdir -p foreign/plots foreign/shapes foreign/own
+for name in notes.txt table.csv.bak plots/mine.svg shapes/mine.vtp own/table.csv .hidden; do
+  echo "mine: $name" >"foreign/$name"
+done
+find foreign -type f -exec cksum {} + | sort >before.txt
+zp actuate $short --set output.shapes=10 -o foreign
+zp actuate $short --set output.shapes=3 -o foreign
+ok "results beside what is there" complete foreign
+find foreign -type f -exec cksum {} + | sort >after.txt
+ok "foreign files are not touched" [ "$(comm -12 before.txt after.txt | wc -l)" -eq 6 ]
+ok "shapes of the run before are gone" [ "$(find foreign/shapes -name 'shape_*' | wc -l)" -eq "$(grep -c '<DataSet' foreign/shapes.pvd)" ]
+zp actuate $short --set 'load.mass=[8 g, 9 g]' -o foreign
+ok "a sweep has no shapes, and none of before" is_absent foreign/shapes.pvd
+
+# -- no NaN in any file ----------------------------------------------------------------------------------------------------------
+
+zp actuate --set actuator.kind=ribbon $short -o ribbon
+ok "kind ribbon" status_is 0
+zp actuate $short --set load.mass=0 --set gravity=0 --set drive.voltage=0 -o nothing
+ok "no load, no weight, no voltage" status_is 0
+grep -rliE --include='*.csv' --include='*.json' --include='*.yaml' --include='*.pvd' '(^|[^a-z])(nan|inf|infinity)([^a-z]|$)' . \
+  >nan.txt
+ok "no NaN or infinity in any file: $(tr '\n' ' ' <nan.txt)" is_empty nan.txt
+ok "no temporary file is left anywhere" no_temporaries .
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
