@@ -54,8 +54,7 @@ static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
   ck_assert_msg(resolve(&def, list, count, &err) == ZP_OK, "%s", err.message);
   return def;
 }
-#define DEF(...)                                                                                                       \
-  def_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
+#define DEF(...) def_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
 
 static inline ZpModel *model_of(const ZpActuatorDef *def) {
   ZpModel *model = NULL;

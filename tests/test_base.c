@@ -228,8 +228,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
 #define ZP_INT(path, name, def, min, max, help)               check_key(&i, #path #name, d.path name, def, min, max);
 #define ZP_BOOL(path, name, def, help)                        check_key(&i, #path #name, d.path name, def, 0, 1);
-#define ZP_ENUM(path, name, type, def, help)                                                                           \
-  check_key(&i, #path #name, d.path name, def, 0, (double)type##_COUNT - 1);
+#define ZP_ENUM(path, name, type, def, help)                  check_key(&i, #path #name, d.path name, def, 0, (double)type##_COUNT - 1);
 #include <zipact/keys.def>
 #undef ZP_GROUP
 #undef ZP_GROUP_END
@@ -332,10 +331,17 @@ END_TEST
 
 START_TEST(test_key_nearest) {
   static const char *const pairs[][2] = {
-      {"ribbon.lenght", "ribbon.length"},    {"ribon.width", "ribbon.width"},         {"voltage", "drive.voltage"},
-      {"drive.volts", "drive.voltage"},      {"nodes", "mesh.nodes"},                 {"load.mas", "load.mass"},
-      {"solver.end-time", "solver.end_time"}, {"Gravity", "gravity"},                  {"damping.drag", "damping.drag"},
-      {"load.weight", "load.mass"},          {"electro.breakdowncap", "electro.breakdown_cap"},
+      {"ribbon.lenght", "ribbon.length"},
+      {"ribon.width", "ribbon.width"},
+      {"voltage", "drive.voltage"},
+      {"drive.volts", "drive.voltage"},
+      {"nodes", "mesh.nodes"},
+      {"load.mas", "load.mass"},
+      {"solver.end-time", "solver.end_time"},
+      {"Gravity", "gravity"},
+      {"damping.drag", "damping.drag"},
+      {"load.weight", "load.mass"},
+      {"electro.breakdowncap", "electro.breakdown_cap"},
   };
   for (size_t i = 0; i < LENGTH_OF(pairs); i++)
     ck_assert_str_eq(zp_key_nearest(pairs[i][0]), pairs[i][1]);
@@ -352,13 +358,13 @@ END_TEST
 START_TEST(test_resolve_order) {
   ck_assert_double_eq(zp_actuator_def_default().load.share, 0.5);
   ck_assert_double_eq(DEF({"actuator.kind", ZP_KIND_RIBBON}).load.share, 1); /* kind over default */
-  ck_assert_double_eq(DEF({"actuator.kind", ZP_KIND_RIBBON}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21})
-                          .load.share,
-                      0.25); /* preset over kind */
-  ck_assert_double_eq(DEF({"load.share", 0.7}, {"actuator.kind", ZP_KIND_RIBBON}, {"preset", ZP_PRESET_PAPER_CODE},
-                          {"mesh.nodes", 21})
-                          .load.share,
-                      0.7); /* assignment over all, wherever it stands */
+  ck_assert_double_eq(
+      DEF({"actuator.kind", ZP_KIND_RIBBON}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}).load.share,
+      0.25); /* preset over kind */
+  ck_assert_double_eq(
+      DEF({"load.share", 0.7}, {"actuator.kind", ZP_KIND_RIBBON}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21})
+          .load.share,
+      0.7); /* assignment over all, wherever it stands */
   ck_assert_double_eq(DEF({"load.mass", 1e-3}, {"load.mass", 2e-3}).load.mass, 2e-3); /* the later wins */
   ZpActuatorDef plain = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"preset", ZP_PRESET_NONE});
   ck_assert_double_eq(plain.ribbon.thickness, 50e-6); /* of presets, too */
@@ -367,14 +373,22 @@ END_TEST
 
 START_TEST(test_paper_text) {
   static const Expected text[] = {
-      {"ribbon.model", 0, "mass_spring"},  {"contact.model", 0, "sequential"},
-      {"solver.integrator", 0, "explicit"}, {"electro.surface", 0, "bezier"},
-      {"ribbon.thickness", 50e-6, NULL},   {"mass_spring.axial", 0, "text"},
-      {"mass_spring.shear_coefficient", NAN, NULL}, {"load.share", 0.5, NULL},
-      {"electro.force_scale", 6.03, NULL}, {"electro.voltage_share", 0.5, NULL},
-      {"electro.insulator_offset", NAN, NULL}, {"electro.breakdown_cap", 1, NULL},
-      {"platform.electrode", 0, NULL},     {"load.mass", 8e-3, NULL},
-      {"ribbon.length", 0.1, NULL},        {"platform.length", 0.01, NULL},
+      {"ribbon.model", 0, "mass_spring"},
+      {"contact.model", 0, "sequential"},
+      {"solver.integrator", 0, "explicit"},
+      {"electro.surface", 0, "bezier"},
+      {"ribbon.thickness", 50e-6, NULL},
+      {"mass_spring.axial", 0, "text"},
+      {"mass_spring.shear_coefficient", NAN, NULL},
+      {"load.share", 0.5, NULL},
+      {"electro.force_scale", 6.03, NULL},
+      {"electro.voltage_share", 0.5, NULL},
+      {"electro.insulator_offset", NAN, NULL},
+      {"electro.breakdown_cap", 1, NULL},
+      {"platform.electrode", 0, NULL},
+      {"load.mass", 8e-3, NULL},
+      {"ribbon.length", 0.1, NULL},
+      {"platform.length", 0.01, NULL},
   };
   static const double drag[][2] = {{21, 10}, {61, 1}, {130, 0.1}};
   for (size_t i = 0; i < LENGTH_OF(drag); i++) {
@@ -387,13 +401,20 @@ END_TEST
 
 START_TEST(test_paper_code) {
   static const Expected code[] = {
-      {"ribbon.model", 0, "mass_spring"},  {"contact.model", 0, "sequential"},
-      {"solver.integrator", 0, "explicit"}, {"electro.surface", 0, "bezier"},
-      {"ribbon.thickness", 100e-6, NULL},  {"mass_spring.axial", 0, "code"},
-      {"load.share", 0.25, NULL},          {"electro.force_scale", 6.6, NULL},
-      {"electro.voltage_share", 1, NULL},  {"electro.insulator_offset", 182.6e-6, NULL},
-      {"electro.breakdown_cap", 0, NULL},  {"platform.electrode", 0, NULL},
-      {"electro.refresh_period", 10e-3, NULL}, {"contact.complete_margin", 4, NULL},
+      {"ribbon.model", 0, "mass_spring"},
+      {"contact.model", 0, "sequential"},
+      {"solver.integrator", 0, "explicit"},
+      {"electro.surface", 0, "bezier"},
+      {"ribbon.thickness", 100e-6, NULL},
+      {"mass_spring.axial", 0, "code"},
+      {"load.share", 0.25, NULL},
+      {"electro.force_scale", 6.6, NULL},
+      {"electro.voltage_share", 1, NULL},
+      {"electro.insulator_offset", 182.6e-6, NULL},
+      {"electro.breakdown_cap", 0, NULL},
+      {"platform.electrode", 0, NULL},
+      {"electro.refresh_period", 10e-3, NULL},
+      {"contact.complete_margin", 4, NULL},
   };
   static const double at[][4] = {{21, 6434, 10, 5e-6}, {61, 158603, 100, 1e-6}, {130, 1.537e6, 0.1, 0.5e-6}};
   for (size_t i = 0; i < LENGTH_OF(at); i++) {
@@ -415,8 +436,11 @@ START_TEST(test_preset_must_be_completed) {
   ck_assert_ptr_nonnull(strstr(err.message, "41"));
   ck_assert_int_eq(resolve(&def, text, 3, &err), ZP_OK);
   ck_assert_double_eq(def.damping.drag, 3);
-  const Setting code[] = {{"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 41}, {"damping.drag", 3},
-                          {"mass_spring.shear_coefficient", 4e4}, {"solver.time_step", 1e-6}};
+  const Setting code[] = {{"preset", ZP_PRESET_PAPER_CODE},
+                          {"mesh.nodes", 41},
+                          {"damping.drag", 3},
+                          {"mass_spring.shear_coefficient", 4e4},
+                          {"solver.time_step", 1e-6}};
   for (size_t given = 2; given < 5; given++)
     ck_assert_int_eq(resolve(&def, code, given, &err), ZP_BAD_INPUT);
   ck_assert_int_eq(resolve(&def, code, 5, &err), ZP_OK);
@@ -430,7 +454,10 @@ START_TEST(test_set_range) {
   const ZpKey *key = zp_key(_i);
   ZpActuatorDef def = zp_actuator_def_default(), before = def;
   ZpError err;
-  const double wrong[] = {INFINITY, -INFINITY, nextafter(key->min, -INFINITY), nextafter(key->max, INFINITY),
+  const double wrong[] = {INFINITY,
+                          -INFINITY,
+                          nextafter(key->min, -INFINITY),
+                          nextafter(key->max, INFINITY),
                           key->type == ZP_KEY_REAL_AUTO ? INFINITY : NAN,
                           key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO ? -INFINITY : 0.5};
   for (size_t i = 0; i < LENGTH_OF(wrong); i++) {

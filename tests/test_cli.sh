@@ -1,4 +1,5 @@
 #!/bin/sh
+# shellcheck disable=SC2086 # $short and $long are lists of words
 # The command from outside:  sh tests/test_cli.sh ZIPACT SCRATCH
 #
 # What users and scripts rely on: words, exit statuses, what goes to which stream, which files are written and
@@ -254,7 +255,8 @@ fi
 mkdir -p small
 full=0
 for size in 4k 16k 32k 48k 64k 96k 128k; do # another file is the one that does not fit
-  [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=$size tmpfs small 2>/dev/null || break
+  [ "$(id -u)" -eq 0 ] || break
+  mount -t tmpfs -o size=$size tmpfs small 2>/dev/null || break
   trap 'umount "$scratch/cli-test/small" 2>/dev/null' EXIT
   zp actuate $short --set output.samples=1000 -o small/results
   if [ "$status" -ne 0 ]; then

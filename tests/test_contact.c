@@ -18,27 +18,27 @@ typedef struct Motion {
 } Motion;
 
 static const Motion motions[] = {
-    {1, -1, 0, 2, 1},              /* steady */
-    {1, -1, 0, 0.5, NAN},          /* too slow */
-    {1, -2, 0, 0.5 + 1e-12, 0.5},  /* just in time */
-    {1, 0, -1, 2, 1},              /* from rest */
-    {1, 1, -2, 2, 1},              /* turns round first */
+    {1, -1, 0, 2, 1},             /* steady */
+    {1, -1, 0, 0.5, NAN},         /* too slow */
+    {1, -2, 0, 0.5 + 1e-12, 0.5}, /* just in time */
+    {1, 0, -1, 2, 1},             /* from rest */
+    {1, 1, -2, 2, 1},             /* turns round first */
     {1, 1, -2, 0.9, NAN},
-    {1, -3, 2, 2, 0.5},            /* first of two roots, 1/2 and 1 */
-    {1, -1, 1, 5, NAN},            /* braked before it touches */
-    {1, -2, 1, 5, 1},              /* touches tangentially */
-    {1, -2, 1 + 1e-9, 5, NAN},     /* just does not */
-    {1, 1, 1, 5, NAN},             /* parts */
-    {1, 0, 0, 5, NAN},             /* rests */
-    {1e-18, -1e-6, 0, 1, 1e-12},   /* the last bit */
-    {1e-3, -1e-9, -1e3, 1, 1e-3},  /* hardly moving, hard pulled */
-    {1e-3, -1, 1e-9, 1, 1e-3},     /* the other root is far off */
-    {0, -1, 0, 1, 0},              /* touching and closing: at once */
+    {1, -3, 2, 2, 0.5},           /* first of two roots, 1/2 and 1 */
+    {1, -1, 1, 5, NAN},           /* braked before it touches */
+    {1, -2, 1, 5, 1},             /* touches tangentially */
+    {1, -2, 1 + 1e-9, 5, NAN},    /* just does not */
+    {1, 1, 1, 5, NAN},            /* parts */
+    {1, 0, 0, 5, NAN},            /* rests */
+    {1e-18, -1e-6, 0, 1, 1e-12},  /* the last bit */
+    {1e-3, -1e-9, -1e3, 1, 1e-3}, /* hardly moving, hard pulled */
+    {1e-3, -1, 1e-9, 1, 1e-3},    /* the other root is far off */
+    {0, -1, 0, 1, 0},             /* touching and closing: at once */
     {0, 0, -1, 1, 0},
     {0, -1, 5, 1, 0},
-    {-1e-9, -1, 0, 1, 0},          /* overlapping by rounding and closing */
-    {0, 0, 0, 1, NAN},             /* touching at rest */
-    {0, 1, 0, 1, NAN},             /* touching and parting */
+    {-1e-9, -1, 0, 1, 0}, /* overlapping by rounding and closing */
+    {0, 0, 0, 1, NAN},    /* touching at rest */
+    {0, 1, 0, 1, NAN},    /* touching and parting */
     {0, 0, 1, 1, NAN},
     {-1e-9, 1, 0, 1, NAN},
 };
@@ -148,10 +148,10 @@ START_TEST(test_merge) {
   double v[2 * NODES] = {0, 0, 4, -1, 0, 7, 0, 0};
   double before = 0.5 * 2 * 16 + 0.5 * 3 * 1, lost = zp_zip_merge(1, &masses, v);
   ck_assert_double_eq(v[2], v[3]);
-  ck_near(5 * v[2], 2 * 4.0 - 3, 1e-14);                   /* momentum */
-  ck_near(lost, 0.5 * (2 * 3 / 5.0) * 25, 1e-14);          /* reduced mass */
-  ck_near(lost, before - 0.5 * 5 * v[2] * v[2], 1e-14);    /* what is missing */
-  lost = zp_zip_merge(2, &masses, v);                      /* against a held node */
+  ck_near(5 * v[2], 2 * 4.0 - 3, 1e-14);                /* momentum */
+  ck_near(lost, 0.5 * (2 * 3 / 5.0) * 25, 1e-14);       /* reduced mass */
+  ck_near(lost, before - 0.5 * 5 * v[2] * v[2], 1e-14); /* what is missing */
+  lost = zp_zip_merge(2, &masses, v);                   /* against a held node */
   ck_assert(v[4] == 0 && v[5] == 0);
   ck_near(lost, 0.5 * 3 * 49, 1e-14);
   ck_assert_double_eq(zp_zip_merge(3, &masses, v), 0); /* nothing moves */
@@ -235,9 +235,9 @@ typedef struct Run {
   ZpModel *model;
   ZpSim *sim;
   char *saved;
-  size_t front;          /* at the last look */
+  size_t front; /* at the last look */
   bool platform;
-  double offset[21];     /* x of upper - x of lower node when last seen joined */
+  double offset[21]; /* x of upper - x of lower node when last seen joined */
   double contact_loss;
 } Run;
 

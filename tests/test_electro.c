@@ -29,8 +29,8 @@ START_TEST(test_closed_scalars) {
   ZpPlatesParams free_law = law_params(false), capped = law_params(true);
   ck_near(free_law.d, 2 * 130e-6 * 2.75 / 4.62, 1e-14); /* 154.8 um */
   ck_near(free_law.d, 154.8e-6, 3e-4);
-  double C = zp_plates_law(&free_law, 1, 0).q; /* charge per volt and length */
-  ck_near(C, 1.998e-9, 2.5e-4);                /* nF/m, four digits known */
+  double C = zp_plates_law(&free_law, 1, 0).q;             /* charge per volt and length */
+  ck_near(C, 1.998e-9, 2.5e-4);                            /* nF/m, four digits known */
   ck_near(C, 8.8541878128e-12 * 4.62 * w / 260e-6, 1e-13); /* two tapes on each other */
   static const double kV[] = {3, 6, 10}, pressure[] = {4.57e3, 18.3e3, 50.8e3};
   for (int i = 0; i < 3; i++)
@@ -105,8 +105,8 @@ START_TEST(test_law_of_presets) {
   ZpActuatorDef text = DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 21});
   ZpModel *model = model_of(&text);
   double U = 5e3, h = 1e-3 + 2 * 130e-6 * 2.75 / 4.62;
-  ck_near(zp_plates_law(&model->plates, U, 1e-3).W,
-          6.03 * 0.5 * ZP_EPS0 * 2.75 * w * (U / 2) * (U / 2) / (h * h), 1e-13);
+  ck_near(zp_plates_law(&model->plates, U, 1e-3).W, 6.03 * 0.5 * ZP_EPS0 * 2.75 * w * (U / 2) * (U / 2) / (h * h),
+          1e-13);
   ck_near(zp_plates_law(&model->plates, 10e3, 0).W, 6.03 * 0.5 * ZP_EPS0 * 2.75 * w * 20e6 * 20e6, 1e-13);
   zp_model_destroy(model);
   ZpActuatorDef code = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21});
@@ -406,7 +406,8 @@ static void check_wedge(double s, bool cap, double known) {
 }
 
 START_TEST(test_wedge_forces) {
-  static const double opening[] = {1e-3, 2e-3, 4e-3}, free_N[] = {2.104, 1.436, 0.988}, capped_N[] = {1.160, 0.780, 0.530};
+  static const double opening[] = {1e-3, 2e-3, 4e-3}, free_N[] = {2.104, 1.436, 0.988},
+                      capped_N[] = {1.160, 0.780, 0.530};
   for (size_t s = 0; s < LENGTH_OF(opening); s++) {
     check_wedge(opening[s], false, free_N[s]);
     check_wedge(opening[s], true, capped_N[s]);
@@ -463,9 +464,11 @@ START_TEST(test_surface_momentum) {
   static const size_t fronts[] = {0, 1, 7, 17, 18, 19, 20};
   for (size_t k = 0; k < LENGTH_OF(fronts); k++) {
     size_t front = fronts[k];
-    if (front < 20) bezier_force(&pair, front, horizontal, 8e3);
-    else zp_surface_bezier(&pair.model->plates, &pair.eval.surface, pair.x, pair.y, front, horizontal, 8e3,
-                           &pair.eval.plates);
+    if (front < 20)
+      bezier_force(&pair, front, horizontal, 8e3);
+    else
+      zp_surface_bezier(&pair.model->plates, &pair.eval.surface, pair.x, pair.y, front, horizontal, 8e3,
+                        &pair.eval.plates);
     for (size_t i = 0; i < 21; i++) {
       double upper = pair.eval.plates.Fy[2 * i], lower = pair.eval.plates.Fy[2 * i + 1];
       ck_assert_double_eq(upper, -lower);

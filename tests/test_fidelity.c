@@ -14,9 +14,9 @@ typedef struct Stroke {
 } Stroke;
 
 static const Stroke strokes[] = {
-    {21, 6031, 40, 12.198},    {21, 6031, 60, 16.833},    {21, 6031, 80, 20.584},    {21, 6031, 100, 23.580},
-    {21, 6031, 150, 28.738},   {21, 6031, 200, 31.890},   {61, 146115, 40, 12.261},  {61, 146115, 60, 16.827},
-    {61, 146115, 80, 20.466},  {61, 146115, 100, 23.338}, {61, 146115, 150, 28.224}, {61, 146115, 200, 31.189},
+    {21, 6031, 40, 12.198},   {21, 6031, 60, 16.833},    {21, 6031, 80, 20.584},    {21, 6031, 100, 23.580},
+    {21, 6031, 150, 28.738},  {21, 6031, 200, 31.890},   {61, 146115, 40, 12.261},  {61, 146115, 60, 16.827},
+    {61, 146115, 80, 20.466}, {61, 146115, 100, 23.338}, {61, 146115, 150, 28.224}, {61, 146115, 200, 31.189},
 };
 
 START_TEST(test_settled_stroke) {
@@ -37,8 +37,8 @@ typedef struct Zip {
 } Zip;
 
 static Zip zip_8g(double voltage, double drag) {
-  ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}, {"drive.voltage", voltage},
-                          {"damping.drag", drag});
+  ZpActuatorDef def =
+      DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}, {"drive.voltage", voltage}, {"damping.drag", drag});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   size_t columns;
@@ -46,7 +46,8 @@ static Zip zip_8g(double voltage, double drag) {
   ZpTable *series = zp_table_create(column, columns, 10000);
   zp_sim_record(sim, series, NULL);
   ck_assert_int_eq(zp_sim_run(sim, 1, true, NULL, NULL), ZP_ZIPPED);
-  Zip zip = {.start = zp_table_get(series, 0, "opening_m"), .end = zp_sim_get(sim, "opening"), .time = zp_sim_zip_time(sim)};
+  Zip zip = {
+      .start = zp_table_get(series, 0, "opening_m"), .end = zp_sim_get(sim, "opening"), .time = zp_sim_zip_time(sim)};
   for (size_t r = 0; r < series->rows; r++)
     if (zp_table_get(series, r, "opening_m") > zip.widest) {
       zip.widest = zp_table_get(series, r, "opening_m");
@@ -100,7 +101,8 @@ static double calibrated(int nodes, double grams) {
   const double width = 12.7e-3, L = 45e-3, g = 9.81;
   ZpSection section = zp_section(&steel, 1, width, 1);
   double Mg = 1e-3 * grams * g, half_weight = section.mu * g * L / 2;
-  return zp_massspring_shear_coefficient(section.EI, L / (nodes - 1), nodes) * (Mg / 4 + half_weight) / (Mg + half_weight);
+  return zp_massspring_shear_coefficient(section.EI, L / (nodes - 1), nodes) * (Mg / 4 + half_weight) /
+         (Mg + half_weight);
 }
 
 /* Against the saved states (four digits) and, for 0 g, the value that theory and Table I (cut: 5.8e5) share.
@@ -111,8 +113,8 @@ typedef struct Calibrated {
 } Calibrated;
 
 static const Calibrated calibrations[] = {
-    {61, 0, 5.86e5, 2e-3},   {61, 8, 1.586e5, 2e-3},  {61, 61, 1.482e5, 2e-3}, {61, 61, 1.461e5, 0.02},
-    {21, 8, 6434, 0.005},    {130, 8, 1.537e6, 0.003}, {21, 61, 6031, 0.005},   {130, 61, 1.408e6, 0.022},
+    {61, 0, 5.86e5, 2e-3}, {61, 8, 1.586e5, 2e-3},   {61, 61, 1.482e5, 2e-3}, {61, 61, 1.461e5, 0.02},
+    {21, 8, 6434, 0.005},  {130, 8, 1.537e6, 0.003}, {21, 61, 6031, 0.005},   {130, 61, 1.408e6, 0.022},
 };
 
 START_TEST(test_shear_coefficient_needs_no_tuning) {
@@ -126,7 +128,7 @@ END_TEST
 
 /* Table I prints two digits, cut off. */
 START_TEST(test_table_1) {
-  static const double table[][3] = {{21, 0, 2.4e4}, {61, 0, 5.8e5}, {130, 0, 5.6e6}, {21, 8, 6.4e3}, {61, 8, 1.5e5},
+  static const double table[][3] = {{21, 0, 2.4e4},  {61, 0, 5.8e5},  {130, 0, 5.6e6}, {21, 8, 6.4e3},  {61, 8, 1.5e5},
                                     {130, 8, 1.5e6}, {21, 61, 6.0e3}, {61, 61, 1.4e5}, {130, 61, 1.4e6}};
   for (size_t i = 0; i < LENGTH_OF(table); i++) {
     double theory = calibrated((int)table[i][0], table[i][1]), digit = pow(10, floor(log10(table[i][2])) - 1);

@@ -47,8 +47,8 @@ static Balance balance_of(const ZpActuatorDef *def, double end_time) {
 
 /* Without bending the actuator is two chains that hang one below the other; the field draws them apart
  * sideways and together at the clip, axial springs, gravity and field swing into each other. All derive from
- * an energy: the error is that of the step, of first order. Measured with auto steps: 7.1e-4 (soft axial
- * springs), 4e-5 (stiff), over 0.1 s; ratios of halvings 1.99 to 2.01. */
+ * an energy: the error is that of the step, of first order. Measured with auto steps: 8.3e-4 (soft axial
+ * springs), 3.7e-5 (stiff), over 0.1 s; ratios of halvings 2.00. */
 START_TEST(test_energy_of_chain) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"mass_spring.shear_coefficient", 0}, {"drive.voltage", 4e3});
   Balance stiff = balance_of(&def, 0.1);
@@ -100,7 +100,8 @@ START_TEST(test_energy_of_bezier) {
 }
 END_TEST
 
-/* Free swinging after a small step of voltage, below pull-in: no contact, shear law at moderate angles. */
+/* Free swinging after a small step of voltage, below pull-in: no contact, shear law at moderate angles.
+ * Measured 6e-5. */
 START_TEST(test_energy_below_pull_in) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"drive.voltage", 3e3});
   Balance b = balance_of(&def, 0.1);
@@ -110,6 +111,7 @@ START_TEST(test_energy_below_pull_in) {
 }
 END_TEST
 
+/* Measured 6e-6, with 0.41 of the work lost to drag. */
 START_TEST(test_energy_with_drag) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"damping.drag", 0.1});
   Balance b = balance_of(&def, 0.1);
@@ -126,8 +128,8 @@ START_TEST(test_no_voltage_no_field) {
   ZpSim *sim = sim_of(model);
   double opening = zp_sim_get(sim, "opening");
   zp_sim_run(sim, 0.05, false, NULL, NULL);
-  static const char *const zeros[] = {"voltage", "force", "charge", "electric_work", "field_energy", "drag_loss",
-                                      "contact_loss", "zipped_length", "current"};
+  static const char *const zeros[] = {"voltage",   "force",        "charge",        "electric_work", "field_energy",
+                                      "drag_loss", "contact_loss", "zipped_length", "current"};
   for (size_t i = 0; i < LENGTH_OF(zeros); i++)
     ck_assert_msg(zp_sim_get(sim, zeros[i]) == 0, "%s = %g", zeros[i], zp_sim_get(sim, zeros[i]));
   /* residual 1e-7 of the weight, released: moves of that order */
@@ -245,9 +247,9 @@ static double crossing_frequency(const ZpTable *series, double level) {
 
 /* A ribbon let go from straight swings about its rest in its first mode, mostly. */
 static double frequency(int nodes) {
-  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.length", 45e-3}, {"ribbon.plane", ZP_PLANE_STRESS},
-                          {"mesh.nodes", nodes}, {"mass_spring.axial", ZP_AXIAL_CODE}, {"load.mass", 0},
-                          {"gravity", 1});
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.length", 45e-3}, {"ribbon.plane", ZP_PLANE_STRESS},
+          {"mesh.nodes", nodes}, {"mass_spring.axial", ZP_AXIAL_CODE}, {"load.mass", 0}, {"gravity", 1});
   double rest = settled_value(&def, "stroke");
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.output.samples = 10000;
@@ -264,8 +266,8 @@ static double frequency(int nodes) {
 }
 
 /* (beta L)^2 / (2 pi L^2) sqrt(E I / mu) = 32.03 Hz with beta L = 2.365020: clamped, guided. K_S auto is exact
- * for a static load at the end; the masses, 1/N of the ribbon at the end, too, are not: first order in 1/N.
- * Measured errors are printed. */
+ * for a load at the end, and what the masses (1/N each, the moving end a whole one) are off by goes with the
+ * second order of 1/N. Measured: -0.30, -0.07, -0.02 % at N = 11, 21, 41. */
 START_TEST(test_frequency) {
   static const int nodes[] = {11, 21, 41};
   const double EI = 200e9 * 12.7e-3 * pow(50e-6, 3) / 12, beta_L = 2.365020;
@@ -276,8 +278,8 @@ START_TEST(test_frequency) {
     printf("clamped-guided ribbon, N = %d: %+.2f %% off %.2f Hz\n", nodes[i], 100 * error[i], beam);
   }
   for (size_t i = 0; i + 1 < LENGTH_OF(nodes); i++)
-    ck_near(error[i] / error[i + 1], 2, 0.1);
-  ck_below(fabs(error[2]), 0.02);
+    ck_near(error[i] / error[i + 1], 4, 0.25);
+  ck_below(fabs(error[2]), 5e-4);
 }
 END_TEST
 
@@ -346,12 +348,13 @@ START_TEST(test_reasons_of_steps) {
   ZpRunInfo info;
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.time_step", 1e-7});
   run_def(&def, 1e-3, false, NULL, &info);
-  ck_assert_int_eq(info.limited[ZP_LIMIT_TIME_STEP], 9999 + (info.steps - 10000 > 0 ? info.steps - 10000 : 0));
+  ck_assert_int_ge(info.limited[ZP_LIMIT_TIME_STEP], 9999);
+  ck_assert_int_eq(info.limited[ZP_LIMIT_STABILITY], 0);
   def = DEF({"mesh.nodes", 21}, {"solver.time_step", 1}); /* never beyond stability */
   run_def(&def, 1e-3, false, NULL, &info);
   ck_assert_int_ge(info.limited[ZP_LIMIT_STABILITY], info.steps - 1);
-  def = DEF({"mesh.nodes", 21}, {"damping.drag", 1e3});
-  run_def(&def, 10e-3, false, NULL, &info);
+  def = DEF({"mesh.nodes", 21}, {"damping.drag", 1e6});
+  run_def(&def, 1e-3, false, NULL, &info);
   ck_assert_int_gt(info.limited[ZP_LIMIT_DRAG], 0);
   ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_DRAG), "drag");
 }
@@ -467,7 +470,7 @@ START_TEST(test_set_voltage) {
 }
 END_TEST
 
-/* A step of the voltage in mid-flight keeps the balance. */
+/* A step of the voltage in mid-flight keeps the balance. Measured 4e-4. */
 START_TEST(test_balance_over_voltage_step) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
   ZpModel *model = model_of(&def);

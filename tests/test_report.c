@@ -24,7 +24,7 @@
 #define OPENING  20e-3
 #define ZIP_TIME 75e-3
 
-static char base[64]; /* folder of the test that runs */
+static char base[1024]; /* folder of the test that runs */
 static char notices[2048];
 
 static void note(const char *message) {
@@ -38,7 +38,9 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
 }
 
 static void set_up(void) {
-  strcpy(base, "/tmp/zipact-report-XXXXXX");
+  char here[900];
+  ck_assert_ptr_nonnull(getcwd(here, sizeof here));
+  snprintf(base, sizeof base, "%s/zipact-report-XXXXXX", here);
   ck_assert_ptr_nonnull(mkdtemp(base));
   notices[0] = 0;
 }
@@ -49,7 +51,7 @@ static void tear_down(void) {
 
 /* "base/name"; a few of them live at a time. */
 static const char *in_base(const char *name) {
-  static char path[4][512];
+  static char path[4][1280];
   static int next;
   next = (next + 1) % 4;
   snprintf(path[next], sizeof path[next], "%s/%s", base, name);
@@ -226,7 +228,7 @@ static const char *first_root, *second_root;
 
 static int compare_entry(const char *path, const struct stat *info, int kind, struct FTW *place) {
   (void)info;
-  char other[512];
+  char other[2048];
   size_t size, other_size;
   if (kind != FTW_F || strcmp(path + place->base, "summary.json") == 0) return 0;
   snprintf(other, sizeof other, "%s%s", second_root, path + strlen(first_root));

@@ -76,8 +76,14 @@ typedef struct Ribbon {
 
 static void make_ribbon(Ribbon *r, size_t ribbons, size_t nodes, double K_D, double K_S, bool held) {
   memset(r, 0, sizeof *r);
-  r->p = (ZpMassSpringParams){.ribbons = ribbons, .nodes = nodes, .stride = PLACES, .l = 1, .K_D = K_D, .K_S = K_S,
-                              .left_slope = held, .right_slope = held};
+  r->p = (ZpMassSpringParams){.ribbons = ribbons,
+                              .nodes = nodes,
+                              .stride = PLACES,
+                              .l = 1,
+                              .K_D = K_D,
+                              .K_S = K_S,
+                              .left_slope = held,
+                              .right_slope = held};
   ZpCarver measure = {NULL, 0};
   zp_massspring_carve(&r->p, &r->e, &measure);
   r->memory = zp_calloc(1, measure.used);

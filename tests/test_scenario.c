@@ -635,7 +635,7 @@ END_TEST
 START_TEST(test_files) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
-  ck_assert_int_eq(zp_scenario_read(s, "/nowhere/x.yaml", &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_scenario_read(s, "/nowhere/x.yaml", &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/x.yaml"));
   ck_assert_int_eq(zp_scenario_read(s, "/", &err), ZP_MACHINE);
   ck_assert_int_eq(zp_scenario_read(s, "/dev/null", &err), ZP_OK);

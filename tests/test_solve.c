@@ -72,7 +72,7 @@ START_TEST(test_bounds) {
   double q = 1, v = 0, a;
   ZpExplicitStep step = zp_explicit_step(&system, 1, &q, &v, &a);
   ck_assert(step.dt == 0.1 && step.limit == ZP_EXPLICIT_BOUND);
-  ck_assert_double_eq(v, -0.1);       /* v by the acceleration at the start */
+  ck_assert_double_eq(v, -0.1);          /* v by the acceleration at the start */
   ck_assert_double_eq(q, 1 - 0.1 * 0.1); /* q by the new v */
   step = zp_explicit_step(&system, 0.03, &q, &v, &a);
   ck_assert(step.dt == 0.03 && step.limit == ZP_EXPLICIT_END);

@@ -37,6 +37,7 @@ typedef struct ZpModelInfo {
   double stable_time_step;       /* largest explicit step that is surely stable, s */
 } ZpModelInfo;
 
+/* Those of `model`. */
 ZpModelInfo zp_model_info(const ZpModel *model);
 
 #ifdef __cplusplus

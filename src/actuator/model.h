@@ -9,7 +9,6 @@
 #define ZP_ACTUATOR_MODEL_H
 
 #include <zipact/model.h>
-#include <zipact/sim.h>
 
 #include "contact/zip.h"
 #include "electro/surface.h"

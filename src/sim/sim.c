@@ -169,7 +169,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
     meet(sim);
   else
     state->zip = sim->opened;
-  if (isnan(state->zip_time) && reached_zip(model, state)) state->zip_time = state->t;
+  if (isnan(state->zip_time) && state->U > 0 && reached_zip(model, state)) state->zip_time = state->t;
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */

@@ -2,6 +2,8 @@
 #ifndef ZP_SIM_SIM_INTERNAL_H
 #define ZP_SIM_SIM_INTERNAL_H
 
+#include <zipact/sim.h>
+
 #include "actuator/eval.h"
 #include "solve/explicit.h"
 
