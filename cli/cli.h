@@ -23,6 +23,9 @@ typedef struct Options {
 /* Say why and give the exit status. */
 int cli_fail(const ZpError *err);
 
+/* `status`, unless what was printed did not all get out: then EXIT_MACHINE. */
+int cli_flush(int status);
+
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
 int cli_keys(const Options *options);

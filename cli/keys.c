@@ -8,6 +8,5 @@ int cli_keys(const Options *options) {
   ZpKeysFormat format = options->json ? ZP_KEYS_JSON : options->yaml ? ZP_KEYS_YAML : ZP_KEYS_TEXT;
   ZpError err;
   if (zp_keys_write(format, stdout, &err) != ZP_OK) return cli_fail(&err);
-  if (fflush(stdout) != 0 || ferror(stdout)) return cli_fail(&(ZpError){ZP_MACHINE, "cannot write to standard output"});
   return EXIT_DONE;
 }

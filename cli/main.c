@@ -31,6 +31,11 @@ int cli_fail(const ZpError *err) {
   return err->status == ZP_MACHINE ? EXIT_MACHINE : EXIT_INPUT;
 }
 
+int cli_flush(int status) {
+  if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+  return cli_fail(&(ZpError){ZP_MACHINE, "cannot write to standard output"});
+}
+
 static int fail_usage(const char *what, const char *word) {
   fprintf(stderr, "zipact: %s%s; see zipact --help\n", what, word);
   return EXIT_INPUT;
@@ -115,11 +120,11 @@ int main(int argc, char **argv) {
   if (argc < 2) return fail_usage("a study or command is missing", "");
   if (strcmp(argv[1], "--version") == 0) {
     puts("zipact " ZP_VERSION);
-    return EXIT_DONE;
+    return cli_flush(EXIT_DONE);
   }
   if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
     print_help();
-    return EXIT_DONE;
+    return cli_flush(EXIT_DONE);
   }
   const char **set = calloc((size_t)argc, sizeof *set);
   if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
@@ -127,5 +132,5 @@ int main(int argc, char **argv) {
   int status = read_options(argc - 1, argv + 1, set, &options);
   if (status == EXIT_DONE) status = dispatch(argv[1], &options);
   free(set);
-  return status;
+  return cli_flush(status);
 }

@@ -124,7 +124,6 @@ static int report(const Batch *batch, const Options *o, const char *directory, d
   } else if (!o->quiet) {
     print_summary(batch, directory);
   }
-  if (fflush(stdout) != 0 || ferror(stdout)) return cli_fail(&(ZpError){ZP_MACHINE, "cannot write to standard output"});
   return exit_status(batch);
 }
 
