@@ -45,6 +45,7 @@ typedef struct ZpState {
   double t; /* s */
   double U; /* held input: potential difference, V */
   ZpZipState zip;
+  bool was_open;       /* has the opening been above 1 % of the hanging one? */
   double zip_time;     /* s; NAN until zipped */
   double opening0;     /* of the hanging equilibrium, m */
   double base_charge;  /* per part, at the last voltage step, C */

@@ -135,10 +135,15 @@ static double opening(const ZpModel *model, const ZpState *state) {
   return y[model->count - 2] - y[model->count - 1];
 }
 
+static bool is_open(const ZpModel *model, const ZpState *state) {
+  return opening(model, state) > 0.01 * state->opening0;
+}
+
+/* From open to closed, or, where it started closed, held there by the platforms' faces. */
 static bool reached_zip(const ZpModel *model, const ZpState *state) {
   size_t margin = (size_t)model->def.contact.complete_margin;
   if (margin) return state->zip.front + 1 + margin >= model->nodes;
-  return state->opening0 > 0 && opening(model, state) <= 0.01 * state->opening0;
+  return state->opening0 > 0 && (state->zip.platform || (state->was_open && !is_open(model, state)));
 }
 
 /* Closed for good: with a margin as soon as it is zipped, else when the platform has arrived or turns back. */
@@ -169,6 +174,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
     meet(sim);
   else
     state->zip = sim->opened;
+  state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U > 0 && reached_zip(model, state)) state->zip_time = state->t;
 }
 
