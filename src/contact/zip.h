@@ -12,7 +12,8 @@
  *
  * Invariants
  *   1. Pairs 0 .. z, and pair N-1 if `platform`, are joined: both nodes have the same velocity and
- *      acceleration, so their gap, 0, and their offset along x never change.
+ *      acceleration, so their gap and their offset along x never change. The gap is 0 but for rounding; only
+ *      after opening, where pairs behind the front are not watched, may one join with an overlap.
  *   2. Joining keeps the momentum of the pair and every position; it happens at the instant of the meeting,
  *      found inside the step. Kinetic energy is lost; how much is returned.
  *   3. While there is a voltage z never falls. Pair 0, the clip, is always joined.
