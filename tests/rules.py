@@ -9,6 +9,7 @@ preprocessor lines are blanked first, with lines kept.
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -65,7 +66,7 @@ def ignored_but_tracked(repo):
 
 def tree_files(repo):
     """All files of the tree: those git knows or would take, else all but builds and results."""
-    if os.path.exists(os.path.join(repo, ".git")):
+    if shutil.which("git") and os.path.exists(os.path.join(repo, ".git")):
         names = subprocess.run(
             ["git", "-C", repo, "ls-files", "-co", "--exclude-standard"], capture_output=True, text=True
         )

@@ -333,8 +333,10 @@ except OSError:
 child.wait()
 sys.stdout.write(text.decode())
 END
-"$python" terminal.py "$zipact" actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
-ok "a progress bar on a terminal" prints '\[#*\.*\] *[0-9]* %'
+if "$python" -c 'import pty; pty.openpty()' 2>/dev/null; then # a bare chroot has no terminals to lend
+  "$python" terminal.py "$zipact" actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
+  ok "a progress bar on a terminal" prints '\[#*\.*\] *[0-9]* %'
+fi
 "$python" terminal.py "$zipact" actuate --quiet --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
 ok "no progress bar with --quiet" is_empty stdout
 zp actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal
