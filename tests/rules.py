@@ -60,6 +60,8 @@ ALLOCATOR = re.compile(r"(?<![\w.>])(malloc|calloc|realloc|aligned_alloc|posix_m
 
 def ignored_but_tracked(repo):
     """Files under version control that .gitignore says should not be: products of a build."""
+    if not shutil.which("git"):
+        return set()
     names = subprocess.run(["git", "-C", repo, "ls-files", "-ci", "--exclude-standard"], capture_output=True, text=True)
     return set(names.stdout.splitlines())
 
