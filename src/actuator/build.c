@@ -54,11 +54,19 @@ typedef struct Node {
   double mass;
 } Node;
 
-/* Eq. (6) of the paper: each particle has 1/N of the ribbon's mass, the last one the load as well. */
+/* Mass of the ribbon at a node: the paper's particles have 1/N each, eq. (6); the rod's nodes have that of
+ * half an element on each side. */
+static double ribbon_mass(const ZpModel *model, size_t station) {
+  double whole = model->section.mu * model->L;
+  if (!model->is_rod) return whole / (double)model->nodes;
+  bool end = station == 0 || station == model->nodes - 1;
+  return (end ? 0.5 : 1) * whole / (double)(model->nodes - 1);
+}
+
 static Node node_of(const ZpModel *model, size_t j) {
   const ZpActuatorDef *def = &model->def;
   size_t s = model->s, last = s * (model->nodes - 1);
-  Node node = {false, false, model->section.mu * model->L / (double)model->nodes};
+  Node node = {false, false, ribbon_mass(model, j / model->s)};
   if (s == 2) { /* the upper platform is held, the lower one slides; the clip hangs free */
     node.held_x = j >= last;
     node.held_y = j == last;
@@ -74,12 +82,13 @@ static Node node_of(const ZpModel *model, size_t j) {
 /* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
  * joined pairs (2), true and pseudo (p). */
 typedef struct Arrays {
+  double *rod_l, *rod_S, *rod_B, *rod_k0; /* ZpRodParams */
   double *weight, *mass, *pseudo, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
 } Arrays;
 
 static size_t carve(const ZpModel *model, void *block, Arrays *a) {
   ZpCarver carver = {block, 0};
-  double **of_nodes[] = {&a->weight, &a->mass, &a->pseudo, &a->x1, &a->y1, &a->px1, &a->py1};
+  double **of_nodes[] = {&a->rod_l, &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight, &a->mass, &a->pseudo, &a->x1, &a->y1, &a->px1, &a->py1};
   double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, model->stride);
@@ -120,6 +129,28 @@ static void fill_masses(ZpModel *model, Arrays *a) {
   model->pseudo = (ZpMasses){{a->pseudo, a->px1, a->px2}, {a->pseudo, a->py1, a->py2}};
 }
 
+/* A clamp ties the first or last edge to the held slope over half a cell, which makes it second order in l. */
+static void fill_rod(ZpModel *model, Arrays *a) {
+  size_t s = model->s, edges = model->count - s;
+  double EI = model->section.EI, EA = model->section.EA, l = model->l;
+  bool right_slope = s == 2 || model->def.actuator.right_end != ZP_END_FREE;
+  for (size_t j = 0; j < model->count; j++) {
+    bool first = j < s, last = j >= edges;
+    a->rod_B[j] = last && !right_slope ? 0 : (first || last ? 2 : 1) * EI / l;
+    if (last) continue;
+    a->rod_l[j] = l;
+    a->rod_S[j] = EA / l;
+  }
+  model->rod = (ZpRodParams){s, model->nodes, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
+}
+
+/* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.6). */
+static double frequency_bound(const ZpModel *model) {
+  double whole = model->section.mu * model->L, elements = (double)(model->nodes - 1), l = model->l;
+  if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, whole / (double)model->nodes);
+  return sqrt((4 * model->section.EA / l + 16 * model->section.EI / (l * l * l)) / (whole / elements));
+}
+
 static void derive(ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
@@ -132,11 +163,11 @@ static void derive(ZpModel *model) {
   model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)(model->nodes - 1);
   model->section = section_of(def);
+  model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->spring = spring_of(model);
   model->plates = plates_of(model);
-  double lightest = model->section.mu * model->L / (double)model->nodes;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it */
-  model->stable_step = 0.8 * 2 / zp_massspring_frequency_bound(&model->spring, lightest);
+  model->stable_step = 0.8 * 2 / frequency_bound(model);
 }
 
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
@@ -154,6 +185,7 @@ ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) 
     return zp_fail_memory(err);
   }
   carve(model, model->memory, &arrays);
+  fill_rod(model, &arrays);
   fill_masses(model, &arrays);
   *out = model;
   return ZP_OK;

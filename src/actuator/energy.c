@@ -3,9 +3,16 @@
 
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
   ZpMotion m = zp_state_motion(model, state);
-  zp_massspring_eval(&model->spring, m.x, m.y, &e->spring);
-  ZpEnergies energies = {.axial = zp_massspring_axial_energy(&model->spring, &e->spring),
-                         .bending = zp_massspring_shear_energy(&model->spring, &e->spring)};
+  ZpEnergies energies = {0};
+  if (model->is_rod) {
+    zp_rod_eval(&model->rod, m.x, m.y, &e->rod);
+    energies.axial = zp_rod_stretching_energy(&model->rod, &e->rod);
+    energies.bending = zp_rod_bending_energy(&model->rod, &e->rod);
+  } else {
+    zp_massspring_eval(&model->spring, m.x, m.y, &e->spring);
+    energies.axial = zp_massspring_axial_energy(&model->spring, &e->spring);
+    energies.bending = zp_massspring_shear_energy(&model->spring, &e->spring);
+  }
   for (size_t j = 0; j < model->count; j++) {
     energies.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
     energies.gravity += model->weight[j] * m.y[j];

@@ -8,7 +8,13 @@
 
 static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   ZpCarver carver = {block, 0};
-  zp_massspring_carve(&model->spring, &e->spring, &carver);
+  if (model->is_rod) {
+    zp_rod_carve(&model->rod, &e->rod, &carver);
+    e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod.Rx, e->rod.Ry};
+  } else {
+    zp_massspring_carve(&model->spring, &e->spring, &carver);
+    e->edges = (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
+  }
   zp_plates_carve(&model->plates, &e->plates, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   e->none = zp_carve(&carver, model->stride);
@@ -28,13 +34,24 @@ void zp_eval_destroy(ZpEval *e) {
   e->memory = NULL;
 }
 
+static void mechanics(const ZpModel *model, const double *q, ZpEval *e) {
+  if (model->is_rod) zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+  else zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+}
+
+void zp_eval_stiffness(const ZpModel *model, const ZpEval *e, const double *tension, double (*D)[4]) {
+  if (!tension) tension = e->edges.T;
+  if (model->is_rod) zp_rod_stiffness(&model->rod, &e->rod, tension, D);
+  else zp_massspring_stiffness(&model->spring, &e->spring, tension, D);
+}
+
 /* Direction of the closed part where it ends: that of the last closed link, horizontal at the clip. */
-static void closed_direction(const ZpModel *model, size_t front, const ZpMassSpringEval *spring, double direction[2]) {
+static void closed_direction(const ZpModel *model, size_t front, const ZpEdges *edges, double direction[2]) {
   direction[0] = 1;
   direction[1] = 0;
   if (front == 0) return;
   size_t j = model->s * (front - 1);
-  double x = spring->ux[j] + spring->ux[j + 1], y = spring->uy[j] + spring->uy[j + 1];
+  double x = edges->ux[j] + edges->ux[j + 1], y = edges->uy[j] + edges->uy[j + 1];
   double length = sqrt(x * x + y * y);
   if (length == 0) return;
   direction[0] = x / length;
@@ -45,7 +62,7 @@ static void bezier_forces(const ZpModel *model, const ZpState *state, const doub
   size_t front = state->zip.front;
   if (front + 1 < model->nodes) zp_surface_prepare(&e->surface, model->nodes - front);
   double direction[2];
-  closed_direction(model, front, &e->spring, direction);
+  closed_direction(model, front, &e->edges, direction);
   zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, &e->plates);
 }
 
@@ -72,10 +89,10 @@ typedef struct Addends {
 
 static Addends addends(const ZpModel *model, const ZpMasses *masses, const ZpEval *e) {
   size_t s = model->s;
-  return (Addends){.Lx = e->spring.Rx - s,
-                   .Ly = e->spring.Ry - s,
-                   .Rx = e->spring.Rx,
-                   .Ry = e->spring.Ry,
+  return (Addends){.Lx = e->edges.Rx - s,
+                   .Ly = e->edges.Ry - s,
+                   .Rx = e->edges.Rx,
+                   .Ry = e->edges.Ry,
                    .weight = model->weight,
                    .Fx = e->plates.Fx,
                    .Fy = e->plates.Fy,
@@ -118,7 +135,7 @@ ZP_KERNEL static void add_forces_and_drag(size_t stride, const Addends *f, doubl
 void zp_eval_accelerations(const ZpModel *model, const ZpState *state, const double *q, const double *v, ZpEval *e,
                            double *a) {
   size_t stride = model->stride;
-  zp_massspring_eval(&model->spring, q, q + stride, &e->spring);
+  mechanics(model, q, e);
   if (model->field) electric_forces(model, state, q, e);
   Addends forces = addends(model, &model->masses, e);
   forces.vx = v;
@@ -132,10 +149,21 @@ void zp_eval_accelerations(const ZpModel *model, const ZpState *state, const dou
 
 void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *e, double *a) {
   size_t stride = model->stride;
-  zp_massspring_eval(&model->spring, q, q + stride, &e->spring);
+  mechanics(model, q, e);
   Addends forces = addends(model, &model->pseudo, e);
   forces.Fx = forces.Fy = e->none;
   add_forces(stride, &forces, a, a + stride);
+}
+
+void zp_eval_static_forces(const ZpModel *model, const double *q, double U, ZpEval *e, double *force) {
+  size_t s = model->s, stride = model->stride;
+  const double *Rx = e->edges.Rx, *Ry = e->edges.Ry, *Lx = Rx - s, *Ly = Ry - s;
+  mechanics(model, q, e);
+  if (model->field) zp_plates_polyline(&model->plates, q, q + stride, U, &e->plates);
+  for (size_t j = 0; j < model->count; j++) {
+    force[j] = Lx[j] - Rx[j] + e->plates.Fx[j];
+    force[stride + j] = Ly[j] - Ry[j] + e->plates.Fy[j] - model->weight[j];
+  }
 }
 
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {
@@ -151,7 +179,7 @@ bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
 
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   double *q = zp_state_q(model, state);
-  zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+  mechanics(model, q, e);
   bezier_forces(model, state, q, e);
   memcpy(zp_state_held(model, state), e->plates.Fy, model->stride * sizeof(double));
   state->refreshed = state->t;
@@ -165,15 +193,15 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, con
   ZpMotion motion = zp_state_motion(model, state);
   ZpStepBounds bounds = {INFINITY, INFINITY, INFINITY};
   size_t s = model->s, count = model->count;
-  const ZpMassSpringEval *spring = &e->spring;
+  const ZpEdges *edges = &e->edges;
   double c = model->def.damping.drag;
-  const double *bx = spring->ux - s, *by = spring->uy - s;
+  const double *bx = edges->ux - s, *by = edges->uy - s;
   for (size_t j = 0; j < count; j++) {
     double speed = hypot(motion.vx[j], motion.vy[j]);
     bounds.drag = fmin(bounds.drag, ratio_bound(model->mass[j], c * speed));
     if (j + s >= count) continue;
-    double shear = fabs(bx[j] * spring->dpy[j] - by[j] * spring->dpx[j]);
-    bounds.axial = fmin(bounds.axial, ratio_bound(hypot(spring->dpx[j], spring->dpy[j]), speed));
+    double shear = fabs(bx[j] * edges->dpy[j] - by[j] * edges->dpx[j]);
+    bounds.axial = fmin(bounds.axial, ratio_bound(hypot(edges->dpx[j], edges->dpy[j]), speed));
     bounds.shear = fmin(bounds.shear, ratio_bound(shear, speed));
   }
   return bounds;

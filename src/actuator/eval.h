@@ -4,8 +4,15 @@
 
 #include "actuator/model.h"
 
+/* What both mechanics say of their edges; [-s .. edges + s) where the mechanics has it so. */
+typedef struct ZpEdges {
+  const double *dpx, *dpy, *ux, *uy, *T, *Rx, *Ry;
+} ZpEdges;
+
 typedef struct ZpEval {
-  ZpMassSpringEval spring;
+  ZpMassSpringEval spring; /* one of the two is in use */
+  ZpRodEval rod;
+  ZpEdges edges;           /* of the one in use */
   ZpPlatesEval plates;
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
@@ -28,6 +35,12 @@ void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *eval, doub
 
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
+
+/* (positions, voltage) => forces at rest [2 stride], N: mechanics, weight, attraction on the polyline. */
+void zp_eval_static_forces(const ZpModel *model, const double *q, double voltage, ZpEval *eval, double *force);
+
+/* Stiffness of the mechanics at the last positions, as zp_rod_stiffness; `tension` NULL: the present one. */
+void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
 
 /* Should a held electric force be found anew at this state? And do so, into the state. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);

@@ -13,6 +13,7 @@
 #include "contact/zip.h"
 #include "electro/surface.h"
 #include "ribbon/massspring.h"
+#include "ribbon/rod.h"
 #include "ribbon/section.h"
 
 /* 1 / mass of nodes and of joined pairs along x and y, 0 where held. For true and for pseudo-masses. */
@@ -28,7 +29,9 @@ struct ZpModel {
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
   double L, l;            /* flexible length, element, m */
   ZpSection section;
+  bool is_rod;            /* mechanics: rod, else spring */
   ZpMassSpringParams spring;
+  ZpRodParams rod;
   ZpPlatesParams plates;
   ZpMasses masses;      /* true masses */
   ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */

@@ -9,6 +9,7 @@
 #include "electro/plates.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/kernel.h"
 
@@ -108,6 +109,31 @@ void zp_plates_polyline(const ZpPlatesParams *p, const double *x, const double *
   stations(p->nodes, e->A, e->B, e->P, e->Fx, e->Fy);
   act(e, 0, 0.5 * e->P[0], e->A[0]);
   act(e, last, -0.5 * e->P[last - 1], e->B[last - 1] + p->flat_length * zp_plates_law(p, U, e->gap[last]).W);
+}
+
+/* dW/dg: the force of a capped piece does not change with its gap. */
+static double slope(double K, double h_c, double h) {
+  return h > h_c ? -2 * K / (h * h * h) : 0;
+}
+
+void zp_plates_stiffness(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, double *own, double *next,
+                         double *along0, double *along1) {
+  double K = p->k * U * U, h_c = zp_plates_least_h(p, U);
+  size_t last = p->nodes - 1;
+  memset(own, 0, p->nodes * sizeof *own);
+  for (size_t i = 0; i < last; i++) {
+    next[i] = 0;
+    for (int q = 0; q < GAUSS; q++) {
+      double h = e->gap[i] + p->d + (e->gap[i + 1] - e->gap[i]) * gauss_at[q], right = gauss_at[q], left = 1 - right;
+      double c = gauss_weight[q] * e->dx[i] * slope(K, h_c, h);
+      own[i] += c * left * left;
+      own[i + 1] += c * right * right;
+      next[i] += c * left * right;
+    }
+    along0[i] = e->A[i] / e->dx[i];
+    along1[i] = e->B[i] / e->dx[i];
+  }
+  own[last] += p->flat_length * slope(K, h_c, e->gap[last] + p->d);
 }
 
 static void add_piece(const ZpPlatesParams *p, double U, double gap, double length, ZpPlatesTotals *totals) {

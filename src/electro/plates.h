@@ -55,6 +55,11 @@ void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double 
 void zp_plates_polyline(const ZpPlatesParams *params, const double *x, const double *y, double voltage,
                         ZpPlatesEval *eval);
 
+/* Second derivatives of the potential at the last eval: by the gaps, own [N] and with the next station [N-1],
+ * N/m; by an element's x-length and the gap of its left and right station, along0 and along1 [N-1], N/m. */
+void zp_plates_stiffness(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage, double *own,
+                         double *next, double *along0, double *along1);
+
 /* Integrals over the polyline at the gaps of the last eval. */
 typedef struct ZpPlatesTotals {
   double force;       /* sum of W, N */

@@ -8,6 +8,7 @@
 #include "ribbon/massspring.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/kernel.h"
 
@@ -95,6 +96,44 @@ void zp_massspring_eval(const ZpMassSpringParams *p, const double *x, const doub
   edge_forces(p, padded, e);
   for (size_t j = edges; j < padded; j++)
     e->Rx[j] = e->Ry[j] = 0;
+}
+
+/* -dR/d(edge k) through the frame that edge k gives edge j: it turns by n_k . d(edge k) / length. */
+static void frame_stiffness(const ZpMassSpringEval *e, double K_S, size_t j, ptrdiff_t k, double D[4]) {
+  double ux = e->ux[k], uy = e->uy[k], nx = -uy, ny = ux, x = e->dpx[j], y = e->dpy[j];
+  double ahead = ux * x + uy * y, off = nx * x + ny * y;
+  double over = K_S / sqrt(e->dpx[k] * e->dpx[k] + e->dpy[k] * e->dpy[k]);
+  double rx = -over * (ahead * nx + off * ux), ry = -over * (ahead * ny + off * uy);
+  D[0] = rx * nx;
+  D[1] = rx * ny;
+  D[2] = ry * nx;
+  D[3] = ry * ny;
+}
+
+static void own_stiffness(const ZpMassSpringParams *p, const ZpMassSpringEval *e, double T, size_t j, double D[4]) {
+  ptrdiff_t here = (ptrdiff_t)j, s = (ptrdiff_t)p->ribbons;
+  double ux = e->ux[j], uy = e->uy[j], length = e->dpx[j] * ux + e->dpy[j] * uy, turn = T / length;
+  D[0] = p->K_D * ux * ux + turn * uy * uy;
+  D[1] = D[2] = (p->K_D - turn) * ux * uy;
+  D[3] = p->K_D * uy * uy + turn * ux * ux;
+  for (ptrdiff_t k = here - s; k <= here + s; k += 2 * s) {
+    double nx = -e->uy[k], ny = e->ux[k];
+    D[0] += p->K_S * nx * nx;
+    D[1] += p->K_S * nx * ny;
+    D[2] += p->K_S * nx * ny;
+    D[3] += p->K_S * ny * ny;
+  }
+}
+
+void zp_massspring_stiffness(const ZpMassSpringParams *p, const ZpMassSpringEval *e, const double *tension,
+                             double (*D)[4]) {
+  size_t edges = edge_count(p), s = p->ribbons;
+  memset(D, 0, 3 * edges * sizeof *D);
+  for (size_t j = 0; j < edges; j++) {
+    if (j >= s) frame_stiffness(e, p->K_S, j, (ptrdiff_t)(j - s), D[3 * j]);
+    own_stiffness(p, e, tension[j], j, D[3 * j + 1]);
+    if (j + s < edges) frame_stiffness(e, p->K_S, j, (ptrdiff_t)(j + s), D[3 * j + 2]);
+  }
 }
 
 double zp_massspring_axial_energy(const ZpMassSpringParams *p, const ZpMassSpringEval *e) {

@@ -35,6 +35,11 @@ void zp_massspring_carve(const ZpMassSpringParams *params, ZpMassSpringEval *eva
 /* (positions [stride]) => edge directions, tensions and edge forces. Force on node j: R[j - s] - R[j]. */
 void zp_massspring_eval(const ZpMassSpringParams *params, const double *x, const double *y, ZpMassSpringEval *eval);
 
+/* Stiffness at the last eval: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row by row. Not
+ * symmetric, as the shear law has no energy. `tension` as in zp_rod_stiffness. */
+void zp_massspring_stiffness(const ZpMassSpringParams *params, const ZpMassSpringEval *eval, const double *tension,
+                             double (*D)[4]);
+
 /* Energies from the last eval, J. The shear law has no potential; its energy is that of the springs at
  * their present length, right for small bending angles (theory, section 3.4). */
 double zp_massspring_axial_energy(const ZpMassSpringParams *params, const ZpMassSpringEval *eval);

@@ -1,0 +1,275 @@
+#include "actuator/statics.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/kernel.h"
+
+/* Faces overlap by this at most under the attraction of closed faces: far below a micrometre, far above
+ * rounding. */
+static const double overlap = 1e-7; /* m */
+
+static size_t carve(ZpStatics *s, void *block) {
+  const ZpModel *model = s->model;
+  size_t N = model->nodes, stride = model->stride;
+  ZpCarver carver = {block, 0};
+  s->q = zp_carve(&carver, 2 * stride);
+  s->moved = zp_carve(&carver, 2 * stride);
+  s->force = zp_carve(&carver, 2 * stride);
+  s->tension = zp_carve(&carver, stride);
+  s->equation = (int *)(void *)zp_carve(&carver, model->count);
+  s->D = (double (*)[4])(void *)zp_carve(&carver, 12 * stride);
+  double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
+  for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
+    *stations[k] = zp_carve(&carver, N);
+  return carver.used;
+}
+
+/* Number the free coordinates station by station, so that what couples lies in a narrow band; the clip's two
+ * nodes share their equations. */
+static void number(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  int next = 0;
+  for (size_t j = 0; j < model->count; j++) {
+    bool joined = model->s == 2 && j == 1;
+    bool free_x = model->masses.x.inverse[j] > 0, free_y = model->masses.y.inverse[j] > 0;
+    s->equation[2 * j] = joined ? s->equation[0] : free_x ? next++ : -1;
+    s->equation[2 * j + 1] = joined ? s->equation[1] : free_y ? next++ : -1;
+  }
+  s->n = (size_t)next;
+  s->bandwidth = 6 * model->s - 1; /* node i meets nodes i - 2 .. i + 2 */
+}
+
+bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
+  memset(s, 0, sizeof *s);
+  s->model = model;
+  s->memory = zp_calloc(1, carve(s, NULL));
+  if (!s->memory || !zp_eval_create(model, &s->eval)) {
+    zp_statics_destroy(s);
+    return false;
+  }
+  carve(s, s->memory);
+  number(s);
+  double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
+  double weight = model->total_weight / model->L;
+  s->contact = (ZpUnilateralParams){
+      model->nodes, model->l, fmax(closed, weight) / overlap, model->s == 2 ? model->def.platform.length / 2 : 0};
+  s->scale = fmax(model->total_weight, 1e-3);
+  for (size_t j = 0; j < model->stride; j++) {
+    size_t station = j / model->s;
+    s->q[j] = (double)station * model->l;
+  }
+  return true;
+}
+
+void zp_statics_destroy(ZpStatics *s) {
+  zp_eval_destroy(&s->eval);
+  zp_free(s->memory);
+  s->memory = NULL;
+}
+
+double zp_statics_floor(const ZpStatics *s) {
+  const ZpModel *model = s->model;
+  return 4 * DBL_EPSILON * model->section.EA / model->l * model->L / s->scale;
+}
+
+/* -- residual ------------------------------------------------------------------------------------- */
+
+static double residual(void *self, double *r) {
+  ZpStatics *s = self;
+  const ZpModel *model = s->model;
+  size_t stride = model->stride;
+  zp_eval_static_forces(model, s->q, s->U, &s->eval, s->force);
+  if (model->field && s->contact_acts) {
+    zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);
+    for (size_t i = 0; i < model->nodes; i++) {
+      s->force[stride + 2 * i] += s->push[i];
+      s->force[stride + 2 * i + 1] -= s->push[i];
+    }
+  }
+  memset(r, 0, s->n * sizeof *r);
+  for (size_t k = 0; k < 2 * model->count; k++) {
+    int row = s->equation[k];
+    if (row >= 0) r[row] += s->force[k / 2 + (k % 2) * stride];
+  }
+  double largest = 0;
+  for (size_t i = 0; i < s->n; i++)
+    if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
+  return largest / s->scale;
+}
+
+/* -- stiffness ------------------------------------------------------------------------------------ */
+
+static void add(const ZpStatics *s, ZpBand *K, size_t row, size_t column, double value) {
+  int i = s->equation[row], j = s->equation[column];
+  if (i >= 0 && j >= 0) *zp_band_at(K, (size_t)i, (size_t)j) += value;
+}
+
+/* A 2 x 2 block d(force on a)/d(position of b), sign turned. */
+static void add_block(const ZpStatics *s, ZpBand *K, size_t a, size_t b, const double D[4], double sign) {
+  add(s, K, 2 * a, 2 * b, sign * D[0]);
+  add(s, K, 2 * a, 2 * b + 1, sign * D[1]);
+  add(s, K, 2 * a + 1, 2 * b, sign * D[2]);
+  add(s, K, 2 * a + 1, 2 * b + 1, sign * D[3]);
+}
+
+/* Edge j (nodes j, j + s) feels edge k (nodes k, k + s): the force R_j acts on its right node, -R_j on its left. */
+static void add_mechanics(const ZpStatics *s, ZpBand *K) {
+  const ZpModel *model = s->model;
+  ptrdiff_t step = (ptrdiff_t)model->s, edges = (ptrdiff_t)(model->count - model->s);
+  zp_eval_stiffness(model, &s->eval, s->tension, s->D);
+  for (ptrdiff_t j = 0; j < edges; j++)
+    for (ptrdiff_t m = 0; m < 3; m++) {
+      ptrdiff_t k = j + (m - 1) * step;
+      if (k < 0 || k >= edges) continue;
+      size_t left = (size_t)j, right = (size_t)(j + step), from = (size_t)k, to = (size_t)(k + step);
+      const double *D = s->D[3 * j + m];
+      add_block(s, K, right, to, D, 1);
+      add_block(s, K, right, from, D, -1);
+      add_block(s, K, left, to, D, -1);
+      add_block(s, K, left, from, D, 1);
+    }
+}
+
+/* Second derivative by the gaps of stations i and k: gap = y upper - y lower. */
+static void add_gaps(const ZpStatics *s, ZpBand *K, size_t i, size_t k, double value) {
+  for (size_t a = 0; a < 2; a++)
+    for (size_t b = 0; b < 2; b++)
+      add(s, K, 4 * i + 2 * a + 1, 4 * k + 2 * b + 1, a == b ? value : -value);
+}
+
+/* Second derivative by the mean x-length of element i and the gap of station k, both orders. */
+static void add_along(const ZpStatics *s, ZpBand *K, size_t i, size_t k, double value) {
+  for (size_t a = 0; a < 4; a++)
+    for (size_t b = 0; b < 2; b++) {
+      size_t x = 4 * i + 2 * a, y = 4 * k + 2 * b + 1; /* a: upper, lower of i, upper, lower of i + 1 */
+      double sign = 0.5 * (a < 2 ? -1 : 1) * (b == 0 ? 1 : -1);
+      add(s, K, x, y, sign * value);
+      add(s, K, y, x, sign * value);
+    }
+}
+
+static void add_stations(const ZpStatics *s, ZpBand *K) {
+  for (size_t i = 0; i < s->model->nodes; i++) {
+    add_gaps(s, K, i, i, s->own[i]);
+    if (i + 1 == s->model->nodes) break;
+    add_gaps(s, K, i, i + 1, s->next[i]);
+    add_gaps(s, K, i + 1, i, s->next[i]);
+  }
+}
+
+static void stiffness(void *self, ZpBand *K) {
+  ZpStatics *s = self;
+  const ZpModel *model = s->model;
+  zp_band_clear(K);
+  add_mechanics(s, K);
+  if (!model->field) return;
+  if (s->contact_acts) {
+    zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, s->own, s->next);
+    add_stations(s, K);
+  }
+  if (s->U == 0) return;
+  zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, s->own, s->next, s->along0, s->along1);
+  add_stations(s, K);
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    add_along(s, K, i, i, s->along0[i]);
+    add_along(s, K, i, i + 1, s->along1[i]);
+  }
+}
+
+/* -- moving --------------------------------------------------------------------------------------- */
+
+static double part(const ZpStatics *s, const double *step, size_t k) {
+  return s->equation[k] >= 0 ? step[s->equation[k]] : 0;
+}
+
+/* Rotation and stretch of edge j under a step. */
+static void turn(const ZpStatics *s, const double *step, size_t j, double *rotation, double *stretch) {
+  const ZpEdges *e = &s->eval.edges;
+  size_t to = j + s->model->s;
+  double dx = part(s, step, 2 * to) - part(s, step, 2 * j), dy = part(s, step, 2 * to + 1) - part(s, step, 2 * j + 1);
+  double length = e->dpx[j] * e->ux[j] + e->dpy[j] * e->uy[j];
+  *rotation = (e->ux[j] * dy - e->uy[j] * dx) / length;
+  *stretch = e->ux[j] * dx + e->uy[j] * dy;
+}
+
+static double length(void *self, const double *step) {
+  static const double longest = 0.5; /* rad: what linearised rotations stand */
+  const ZpStatics *s = self;
+  double most = 0, rotation, stretch;
+  for (size_t j = 0; j < s->model->count - s->model->s; j++) {
+    turn(s, step, j, &rotation, &stretch);
+    if (!(fabs(rotation) <= most)) most = fabs(rotation);
+  }
+  return most / longest;
+}
+
+/* Turn and stretch each edge instead of moving its ends along straight lines: a rotation then does not
+ * stretch, which in a ribbon that hardly stretches is all the difference. The tensions that the step
+ * foresees go into the next stiffness: those of the edges as they come to lie are off by what they were
+ * turned, times a stiffness a million times that of bending. => edge vectors in s->moved. */
+static void turn_edges(ZpStatics *s, const double *step, double fraction) {
+  const ZpEdges *e = &s->eval.edges;
+  const ZpModel *model = s->model;
+  size_t stride = model->stride;
+  for (size_t j = 0; j < model->count - model->s; j++) {
+    double rotation, stretch;
+    turn(s, step, j, &rotation, &stretch);
+    double axial = model->is_rod ? model->rod.S[j] : model->spring.K_D;
+    s->tension[j] = e->T[j] + fraction * axial * stretch;
+    rotation *= fraction;
+    double tx = e->ux[j] - rotation * e->uy[j], ty = e->uy[j] + rotation * e->ux[j];
+    double l = (e->dpx[j] * e->ux[j] + e->dpy[j] * e->uy[j] + fraction * stretch) / sqrt(tx * tx + ty * ty);
+    s->moved[j] = l * tx;
+    s->moved[stride + j] = l * ty;
+  }
+}
+
+/* Lay one ribbon from its clamp; what misses a clamped right end is spread along it. */
+static void lay_one(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  size_t stride = model->stride, end = model->count - 1;
+  for (size_t c = 0; c < 2; c++) {
+    double *q = s->q + c * stride, last = q[end];
+    const double *d = s->moved + c * stride;
+    for (size_t j = 0; j < end; j++)
+      q[j + 1] = q[j] + d[j];
+    if (s->equation[2 * end + c] >= 0) continue;
+    double missed = q[end] - last;
+    for (size_t j = 1; j <= end; j++)
+      q[j] -= missed * (double)j / (double)end;
+  }
+}
+
+/* Lay two ribbons from the upper platform to the clip and back to the lower one, which keeps its x. */
+static void lay_two(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  size_t stride = model->stride, N = model->nodes;
+  for (size_t c = 0; c < 2; c++) {
+    double *q = s->q + c * stride;
+    const double *d = s->moved + c * stride;
+    for (size_t i = N - 1; i-- > 0;)
+      q[2 * i] = q[2 * i + 2] - d[2 * i];
+    q[1] = q[0];
+    for (size_t i = 0; i + 1 < N; i++)
+      q[2 * i + 3] = q[2 * i + 1] + d[2 * i + 1];
+  }
+  double missed = s->q[2 * N - 1] - s->q[2 * N - 2], path = 2 * (double)(N - 1);
+  for (size_t i = 0; i < N; i++) {
+    double upper = (double)(N - 1 - i) / path, lower = (double)(N - 1 + i) / path;
+    s->q[2 * i] -= missed * upper;
+    s->q[2 * i + 1] -= missed * lower;
+  }
+}
+
+static void move(void *self, const double *step, double fraction) {
+  ZpStatics *s = self;
+  turn_edges(s, step, fraction);
+  if (s->model->s == 2) lay_two(s);
+  else lay_one(s);
+}
+
+ZpStaticSystem zp_statics_system(ZpStatics *s) {
+  return (ZpStaticSystem){s->n, s, residual, stiffness, length, move};
+}

@@ -1,0 +1,115 @@
+#include "math/band.h"
+
+#include <math.h>
+#include <string.h>
+
+void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver) {
+  band->n = n;
+  band->lower = lower;
+  band->upper = upper;
+  band->stride = 2 * lower + upper + 1;
+  band->a = zp_carve(carver, n * band->stride);
+  band->pivot = (size_t *)(void *)zp_carve(carver, n); /* a size_t is no larger than a double */
+}
+
+void zp_band_clear(ZpBand *band) {
+  memset(band->a, 0, band->n * band->stride * sizeof(double));
+}
+
+static size_t least(size_t a, size_t b) {
+  return a < b ? a : b;
+}
+
+/* Row of the largest entry of column k among rows k .. last. */
+static size_t pivot_row(const ZpBand *band, size_t k, size_t last) {
+  size_t best = k;
+  double largest = fabs(*zp_band_at(band, k, k));
+  for (size_t i = k + 1; i <= last; i++) {
+    double size = fabs(*zp_band_at(band, i, k));
+    if (size > largest) {
+      largest = size;
+      best = i;
+    }
+  }
+  return best;
+}
+
+bool zp_band_factor(ZpBand *band, bool *negative) {
+  size_t n = band->n;
+  bool odd = false;
+  for (size_t k = 0; k < n; k++) {
+    size_t last_row = least(k + band->lower, n - 1), last_column = least(k + band->lower + band->upper, n - 1);
+    size_t width = last_column - k + 1, p = pivot_row(band, k, last_row);
+    double *row_k = zp_band_at(band, k, k);
+    band->pivot[k] = p;
+    if (p != k) {
+      double *row_p = zp_band_at(band, p, k);
+      for (size_t j = 0; j < width; j++) {
+        double kept = row_k[j];
+        row_k[j] = row_p[j];
+        row_p[j] = kept;
+      }
+      odd = !odd;
+    }
+    if (row_k[0] == 0 || !isfinite(row_k[0])) return false;
+    if (row_k[0] < 0) odd = !odd;
+    double inverse = 1 / row_k[0];
+    for (size_t i = k + 1; i <= last_row; i++) {
+      double *row_i = zp_band_at(band, i, k), factor = row_i[0] * inverse;
+      row_i[0] = factor;
+      if (factor == 0) continue;
+      for (size_t j = 1; j < width; j++)
+        row_i[j] -= factor * row_k[j];
+    }
+  }
+  if (negative) *negative = odd;
+  return true;
+}
+
+void zp_band_solve(const ZpBand *band, double *b) {
+  size_t n = band->n;
+  for (size_t k = 0; k < n; k++) {
+    size_t p = band->pivot[k], last_row = least(k + band->lower, n - 1);
+    double value = b[p];
+    b[p] = b[k];
+    b[k] = value;
+    for (size_t i = k + 1; i <= last_row; i++)
+      b[i] -= *zp_band_at(band, i, k) * value;
+  }
+  for (size_t k = n; k-- > 0;) {
+    size_t last_column = least(k + band->lower + band->upper, n - 1);
+    const double *row = zp_band_at(band, k, k);
+    double sum = b[k];
+    for (size_t j = 1; j <= last_column - k; j++)
+      sum -= row[j] * b[k + j];
+    b[k] = sum / row[0];
+  }
+}
+
+int zp_band_negative_pivots(const ZpBand *band, double *work) {
+  size_t n = band->n, w = band->lower;
+  int negative = 0;
+  /* row i of work: l_ij for j = i - w .. i - 1, then d_i */
+  for (size_t i = 0; i < n; i++) {
+    size_t first = i > w ? i - w : 0;
+    double *row = work + i * (w + 1) + w - i; /* row[j] is entry (i, j) */
+    double d = *zp_band_at(band, i, i);
+    for (size_t j = first; j < i; j++) {
+      const double *row_j = work + j * (w + 1) + w - j;
+      size_t first_j = j > w ? j - w : 0, k = first > first_j ? first : first_j;
+      double sum = *zp_band_at(band, i, j);
+      for (; k < j; k++)
+        sum -= row[k] * row_j[k];
+      row[j] = sum; /* l_ij d_j until the row is done */
+    }
+    for (size_t j = first; j < i; j++) {
+      double ld = row[j];
+      row[j] = ld / work[j * (w + 1) + w];
+      d -= ld * row[j];
+    }
+    row[i] = d;
+    if (d == 0 || !isfinite(d)) return -1;
+    negative += d < 0;
+  }
+  return negative;
+}

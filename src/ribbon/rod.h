@@ -1,0 +1,49 @@
+/* A planar discrete elastic rod: edges that stretch, joints that bend; exact forces and stiffness.
+ *
+ * All ribbons at once: node i of ribbon r is at [i * ribbons + r], edge i (node i to i+1) and joint i (at
+ * node i) likewise. Joints stand at every node; those of the first and last nodes tie the rod to a held
+ * slope, over half a cell, or are absent (B = 0) at a free end. */
+#ifndef ZP_RIBBON_ROD_H
+#define ZP_RIBBON_ROD_H
+
+#include <stddef.h>
+
+#include "base/memory.h"
+
+typedef struct ZpRodParams {
+  size_t ribbons;     /* s */
+  size_t nodes;       /* N per ribbon */
+  size_t stride;      /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  const double *l;    /* [stride] rest lengths of edges, m */
+  const double *S;    /* [stride] stretching stiffness EA / l of edges, N/m */
+  const double *B;    /* [stride] bending stiffness of joints, EI over their length of rod, N m */
+  const double *k0;   /* [stride] natural 2 tan(phi / 2) of joints */
+} ZpRodParams;
+
+/* Written by zp_rod_eval. Arrays over edges and joints, with one edge more before the first and after the
+ * last of each ribbon: the held slopes. */
+typedef struct ZpRodEval {
+  double *dpx, *dpy;  /* edges, m */
+  double *ux, *uy;    /* their unit vectors; outside: horizontal */
+  double *inverse;    /* 1 / length; outside: 0, a held slope does not turn */
+  double *T;          /* [stride] tension of edges, N */
+  double *k;          /* [stride] 2 tan(phi / 2) of joints */
+  double *M;          /* [stride] moment of joints, dE/dphi, N m */
+  double *Rx, *Ry;    /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
+} ZpRodEval;
+
+void zp_rod_carve(const ZpRodParams *params, ZpRodEval *eval, ZpCarver *carver);
+
+/* (positions [stride]) => all of eval. Force on node j: R[j - s] - R[j], minus the energy's gradient. */
+void zp_rod_eval(const ZpRodParams *params, const double *x, const double *y, ZpRodEval *eval);
+
+/* Energies at the last eval, J. */
+double zp_rod_stretching_energy(const ZpRodParams *params, const ZpRodEval *eval);
+double zp_rod_bending_energy(const ZpRodParams *params, const ZpRodEval *eval);
+
+/* Stiffness at the last eval: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row by row; with
+ * tension = eval->T the second derivatives of the energy by the edges. A solver may give a better estimate of
+ * the tensions to come (solve/newton.h). */
+void zp_rod_stiffness(const ZpRodParams *params, const ZpRodEval *eval, const double *tension, double (*D)[4]);
+
+#endif
