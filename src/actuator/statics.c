@@ -18,6 +18,8 @@ static size_t carve(ZpStatics *s, void *block) {
   s->moved = zp_carve(&carver, 2 * stride);
   s->force = zp_carve(&carver, 2 * stride);
   s->tension = zp_carve(&carver, stride);
+  s->r_up = zp_carve(&carver, 2 * model->count);
+  s->r_down = zp_carve(&carver, 2 * model->count);
   s->equation = (int *)(void *)zp_carve(&carver, model->count);
   s->D = (double (*)[4])(void *)zp_carve(&carver, 12 * stride);
   double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
@@ -272,4 +274,75 @@ static void move(void *self, const double *step, double fraction) {
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
   return (ZpStaticSystem){s->n, s, residual, stiffness, length, move};
+}
+
+/* -- along the voltage ---------------------------------------------------------------------------- */
+
+static double get_voltage(void *self) {
+  return ((ZpStatics *)self)->U;
+}
+
+static void set_voltage(void *self, double U) {
+  ((ZpStatics *)self)->U = U;
+}
+
+/* dr/dU by a central difference: it only steers, the residual is exact. */
+static void sensitivity(void *self, double *r_m) {
+  ZpStatics *s = self;
+  double U = s->U, h = 1e-5 * fmax(fabs(U), 1);
+  s->U = U + h;
+  residual(s, s->r_up);
+  s->U = U - h;
+  residual(s, s->r_down);
+  s->U = U;
+  residual(s, r_m);
+  for (size_t i = 0; i < s->n; i++)
+    r_m[i] = (s->r_up[i] - s->r_down[i]) / (2 * h);
+}
+
+static void position(void *self, double *q) {
+  const ZpStatics *s = self;
+  for (size_t k = 0; k < 2 * s->model->count; k++)
+    if (s->equation[k] >= 0) q[s->equation[k]] = s->q[k / 2 + (k % 2) * s->model->stride];
+}
+
+/* q, tensions, voltage. */
+static void save(void *self, void *to) {
+  const ZpStatics *s = self;
+  size_t stride = s->model->stride;
+  double *place = to;
+  memcpy(place, s->q, 2 * stride * sizeof *place);
+  memcpy(place + 2 * stride, s->tension, stride * sizeof *place);
+  place[3 * stride] = s->U;
+}
+
+static void restore(void *self, const void *from) {
+  ZpStatics *s = self;
+  size_t stride = s->model->stride;
+  const double *place = from;
+  memcpy(s->q, place, 2 * stride * sizeof *place);
+  memcpy(s->tension, place + 2 * stride, stride * sizeof *place);
+  s->U = place[3 * stride];
+}
+
+ZpBranchSystem zp_statics_branch(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  return (ZpBranchSystem){.at_rest = zp_statics_system(s),
+                          .get = get_voltage,
+                          .set = set_voltage,
+                          .sensitivity = sensitivity,
+                          .position = position,
+                          .save = save,
+                          .restore = restore,
+                          .save_size = (3 * model->stride + 1) * sizeof(double),
+                          .q_scale = 0.01 * model->L * sqrt((double)s->n),
+                          .m_scale = fmax(model->def.drive.voltage, 1)};
+}
+
+bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  system.residual(s, work->r);
+  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+  system.stiffness(s, &work->K);
+  return zp_band_negative_pivots(&work->K, work->LDL) == 0;
 }

@@ -5,7 +5,7 @@
 
 #include "actuator/eval.h"
 #include "contact/unilateral.h"
-#include "solve/newton.h"
+#include "solve/continuation.h"
 
 typedef struct ZpStatics {
   const ZpModel *model;
@@ -22,6 +22,7 @@ typedef struct ZpStatics {
   double *tension;        /* [edges] what the last step foresaw, N */
   double *moved;          /* [2 stride] work space of a move */
   double *force;          /* [2 stride] */
+  double *r_up, *r_down;  /* [n] work space of the sensitivity */
   void *memory;
 } ZpStatics;
 
@@ -31,6 +32,12 @@ void zp_statics_destroy(ZpStatics *statics);
 
 /* The vtable for solve/newton.h. */
 ZpStaticSystem zp_statics_system(ZpStatics *statics);
+
+/* The same with the voltage as parameter. */
+ZpBranchSystem zp_statics_branch(ZpStatics *statics);
+
+/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness. `work` [n (bandwidth + 1)]. */
+bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
 /* Residual below which rounding takes over. */
 double zp_statics_floor(const ZpStatics *statics);

@@ -1,0 +1,161 @@
+/* Letters: q coordinates, m parameter, both scaled; s arc length; K = -dr/dq; (t, t_m) direction.
+ *   tangent      K t = r_m t_m
+ *   corrector    K dq - r_m dm = r,   t . dq + t_m dm = s - t . (q - q0) - t_m (m - m0)
+ */
+#include "solve/continuation.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double shortest_step = 1e-9;
+static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
+enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4 };
+
+void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, ZpCarver *carver) {
+  size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
+  b->system = system;
+  zp_newton_carve(&b->newton, n, bandwidth, carver);
+  b->a = zp_carve(carver, n);
+  b->b = zp_carve(carver, n);
+  b->q = zp_carve(carver, n);
+  b->q_start = zp_carve(carver, n);
+  b->direction = zp_carve(carver, n);
+  b->direction_saved = zp_carve(carver, n);
+  b->direction_after = zp_carve(carver, n);
+  b->saved = zp_carve(carver, saved);
+  b->saved_before = zp_carve(carver, saved);
+}
+
+static double dot(size_t n, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/* Direction of the branch at the present point, of length 1, on the side of the last one. => cosine of the
+ * angle by which it has turned; 0 if there is no direction. */
+static double find_direction(ZpBranch *b) {
+  const ZpBranchSystem *sys = b->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  size_t n = rest->n;
+  rest->residual(rest->self, b->newton.r);
+  rest->stiffness(rest->self, &b->newton.K);
+  sys->sensitivity(rest->self, b->a);
+  if (!zp_band_factor(&b->newton.K, NULL)) return 0;
+  zp_band_solve(&b->newton.K, b->a);
+  double to_scaled = sys->m_scale / sys->q_scale;
+  for (size_t i = 0; i < n; i++)
+    b->a[i] *= to_scaled;
+  double length = sqrt(dot(n, b->a, b->a) + 1), m = 1 / length;
+  double cosine = m * (dot(n, b->a, b->direction) + b->direction_m);
+  if (cosine < 0) m = -m;
+  for (size_t i = 0; i < n; i++)
+    b->direction[i] = b->a[i] * m;
+  b->direction_m = m;
+  return isfinite(length) ? fabs(cosine) : 0;
+}
+
+bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, double tolerance) {
+  b->step = first;
+  b->longest_step = longest;
+  b->tolerance = tolerance;
+  memset(b->direction, 0, b->system->at_rest.n * sizeof *b->direction);
+  b->direction_m = growing ? 1 : -1;
+  return find_direction(b) > 0;
+}
+
+/* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, -1: failed. */
+static int correct(ZpBranch *b, double s, double m_start) {
+  const ZpBranchSystem *sys = b->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  size_t n = rest->n;
+  for (int k = 0; k <= MOST_CORRECTIONS; k++) {
+    double left = rest->residual(rest->self, b->newton.r);
+    sys->position(rest->self, b->q);
+    double gone = (sys->get(rest->self) - m_start) / sys->m_scale * b->direction_m;
+    for (size_t i = 0; i < n; i++)
+      gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
+    if (!isfinite(left)) return -1;
+    if (left < b->tolerance && fabs(s - gone) < 1e-3 * s) return k;
+    rest->stiffness(rest->self, &b->newton.K);
+    sys->sensitivity(rest->self, b->b);
+    if (!zp_band_factor(&b->newton.K, NULL)) return -1;
+    memcpy(b->a, b->newton.r, n * sizeof *b->a);
+    zp_band_solve(&b->newton.K, b->a);
+    zp_band_solve(&b->newton.K, b->b);
+    double ta = dot(n, b->direction, b->a) / sys->q_scale, tb = dot(n, b->direction, b->b) / sys->q_scale;
+    double dm = (s - gone - ta) / (tb + b->direction_m / sys->m_scale);
+    for (size_t i = 0; i < n; i++)
+      b->a[i] += b->b[i] * dm;
+    double length = rest->length(rest->self, b->a);
+    if (!(length < 1) || !(fabs(dm) < 0.2 * sys->m_scale)) return -1;
+    rest->move(rest->self, b->a, 1);
+    sys->set(rest->self, sys->get(rest->self) + dm);
+  }
+  return -1;
+}
+
+/* Predict along the direction, then correct. */
+static int try_step(ZpBranch *b, double s) {
+  const ZpBranchSystem *sys = b->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  double m_start = sys->get(rest->self);
+  rest->residual(rest->self, b->newton.r); /* the edges that a move turns are those of the last residual */
+  sys->position(rest->self, b->q_start);
+  for (size_t i = 0; i < rest->n; i++)
+    b->a[i] = b->direction[i] * s * sys->q_scale;
+  if (!(rest->length(rest->self, b->a) < 1)) return -1;
+  rest->move(rest->self, b->a, 1);
+  sys->set(rest->self, m_start + b->direction_m * s * sys->m_scale);
+  return correct(b, s, m_start);
+}
+
+bool zp_branch_advance(ZpBranch *b) {
+  const ZpBranchSystem *sys = b->system;
+  void *self = sys->at_rest.self;
+  size_t bytes = sys->at_rest.n * sizeof *b->direction;
+  double m = b->direction_m;
+  sys->save(self, b->saved_before);
+  memcpy(b->direction_saved, b->direction, bytes);
+  while (b->step > shortest_step) {
+    int corrections = try_step(b, b->step);
+    double s = b->step;
+    if (corrections >= 0 && find_direction(b) > sharpest_turn) {
+      if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
+      if (corrections > 2 * EASY_CORRECTIONS) b->step = 0.5 * s;
+      return true;
+    }
+    sys->restore(self, b->saved_before);
+    memcpy(b->direction, b->direction_saved, bytes);
+    b->direction_m = m;
+    b->step = 0.5 * s;
+  }
+  return false;
+}
+
+double zp_branch_limit(ZpBranch *b) {
+  const ZpBranchSystem *sys = b->system;
+  void *self = sys->at_rest.self;
+  size_t bytes = sys->at_rest.n * sizeof *b->direction;
+  double after_m = b->direction_m, step = b->step, s = step;
+  sys->save(self, b->saved);
+  memcpy(b->direction_after, b->direction, bytes);
+  sys->restore(self, b->saved_before);
+  find_direction(b);
+  /* walk towards the limit point in steps that halve whenever one would pass it; m is flat there, so its
+   * error falls with the square of the last step */
+  for (int k = 0; s > 1e-4 * step && k < 1000; k++) {
+    double sign = b->direction_m;
+    sys->save(self, b->saved_before);
+    if (try_step(b, s) >= 0 && find_direction(b) > 0 && b->direction_m * sign > 0) continue;
+    sys->restore(self, b->saved_before);
+    find_direction(b);
+    s *= 0.5;
+  }
+  double limit = sys->get(self);
+  sys->restore(self, b->saved);
+  memcpy(b->direction, b->direction_after, bytes);
+  b->direction_m = after_m;
+  return limit;
+}

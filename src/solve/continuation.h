@@ -1,0 +1,46 @@
+/* Following a branch of equilibria r(q, m) = 0 along a parameter m, through limit points, by arc length
+ * (H. B. Keller's pseudo-arclength with a bordered Newton corrector). Knows no physics. */
+#ifndef ZP_SOLVE_CONTINUATION_H
+#define ZP_SOLVE_CONTINUATION_H
+
+#include "solve/newton.h"
+
+typedef struct ZpBranchSystem {
+  ZpStaticSystem at_rest;
+  double (*get)(void *self);                     /* the parameter m */
+  void (*set)(void *self, double parameter);     /* change it at the present point */
+  void (*sensitivity)(void *self, double *r_m);  /* dr/dm [n] at the present point */
+  void (*position)(void *self, double *q);       /* the present point by its coordinates [n] */
+  void (*save)(void *self, void *to);            /* the whole present point, save_size bytes */
+  void (*restore)(void *self, const void *from);
+  size_t save_size;
+  double q_scale, m_scale; /* coordinates and parameter are measured in these */
+} ZpBranchSystem;
+
+/* A branch being followed. Direction in scaled units, length 1. */
+typedef struct ZpBranch {
+  const ZpBranchSystem *system;
+  ZpNewtonWork newton;
+  double *a, *b, *q, *q_start, *direction, *direction_saved, *direction_after; /* [n] */
+  double direction_m;  /* part of the direction along m: its sign changes at a limit point */
+  double step;         /* arc length to try next */
+  double longest_step;
+  double tolerance;
+  void *saved, *saved_before;
+} ZpBranch;
+
+void zp_branch_carve(ZpBranch *branch, const ZpBranchSystem *system, size_t bandwidth, ZpCarver *carver);
+
+/* Start at the present point, which must be an equilibrium, towards growing (or falling) m. False if the
+ * stiffness is singular there. */
+bool zp_branch_start(ZpBranch *branch, bool growing, double first_step, double longest_step, double tolerance);
+
+/* Go one point further, with as short a step as it takes. False if even the shortest fails; the present
+ * point is then the last good one. */
+bool zp_branch_advance(ZpBranch *branch);
+
+/* After a step over a limit point (direction_m has changed its sign): the parameter at the limit point, to
+ * about a millionth. The present point stays. */
+double zp_branch_limit(ZpBranch *branch);
+
+#endif
