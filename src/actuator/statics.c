@@ -43,6 +43,16 @@ static void number(ZpStatics *s) {
   s->bandwidth = 6 * model->s - 1; /* node i meets nodes i - 2 .. i + 2 */
 }
 
+static void lay_straight(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  memset(s->q, 0, 2 * model->stride * sizeof *s->q);
+  memset(s->tension, 0, model->stride * sizeof *s->tension);
+  for (size_t j = 0; j < model->stride; j++) {
+    size_t station = j / model->s;
+    s->q[j] = (double)station * model->l;
+  }
+}
+
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   memset(s, 0, sizeof *s);
   s->model = model;
@@ -58,10 +68,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->contact = (ZpUnilateralParams){
       model->nodes, model->l, fmax(closed, weight) / overlap, model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
-  for (size_t j = 0; j < model->stride; j++) {
-    size_t station = j / model->s;
-    s->q[j] = (double)station * model->l;
-  }
+  lay_straight(s);
   return true;
 }
 
@@ -71,9 +78,66 @@ void zp_statics_destroy(ZpStatics *s) {
   s->memory = NULL;
 }
 
-double zp_statics_floor(const ZpStatics *s) {
+double zp_statics_tolerance(const ZpStatics *s) {
   const ZpModel *model = s->model;
-  return 4 * DBL_EPSILON * model->section.EA / model->l * model->L / s->scale;
+  double stiffest = model->is_rod ? model->section.EA / model->l : model->spring.K_D;
+  return fmax(1e-3 * model->def.solver.tolerance, 4 * DBL_EPSILON * model->L * stiffest / s->scale);
+}
+
+enum { MOST_ITERATIONS = 200 };
+
+ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  double tolerance = zp_statics_tolerance(s);
+  s->U = 0;
+  s->contact_acts = false;
+  ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
+  s->contact_acts = true;
+  if (!zp_newton_good(info.end) || !s->model->field) return info;
+  ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
+  contact.iterations += info.iterations;
+  return contact;
+}
+
+ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  lay_straight(s);
+  s->U = voltage;
+  s->contact_acts = true;
+  /* faces overlap by what balances the attraction, which is where the solution begins to be found */
+  double W = zp_plates_law(&s->model->plates, voltage, 0).W;
+  for (size_t i = 0; i < s->model->nodes; i++)
+    s->q[s->model->stride + 2 * i + 1] = i > 0 ? W / s->contact.k : 0;
+  return zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+}
+
+double zp_statics_stroke(const ZpStatics *s) {
+  const double *y = s->q + s->model->stride;
+  return fabs(y[s->model->count - 1] - y[s->model->s - 1]);
+}
+
+double zp_statics_opening(const ZpStatics *s) {
+  const double *y = s->q + s->model->stride;
+  return s->model->s == 2 ? y[s->model->count - 2] - y[s->model->count - 1] : NAN;
+}
+
+size_t zp_statics_front(const ZpStatics *s) {
+  return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap, overlap) : 0;
+}
+
+ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
+  const ZpModel *model = s->model;
+  ZpShape shape = {.time = time,
+                   .voltage = s->U,
+                   .zipped = zp_statics_front(s),
+                   .x = s->q,
+                   .y = s->q + model->stride};
+  if (!model->field) return shape;
+  for (size_t i = 0; i < model->nodes; i++)
+    line_force[i] = zp_plates_law(&model->plates, s->U, s->eval.plates.gap[i]).W;
+  shape.gap = s->eval.plates.gap;
+  shape.line_force = line_force;
+  return shape;
 }
 
 /* -- residual ------------------------------------------------------------------------------------- */

@@ -7,6 +7,8 @@
 #include "contact/unilateral.h"
 #include "solve/continuation.h"
 
+#include <zipact/table.h>
+
 typedef struct ZpStatics {
   const ZpModel *model;
   ZpEval eval;
@@ -39,7 +41,23 @@ ZpBranchSystem zp_statics_branch(ZpStatics *statics);
 /* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness. `work` [n (bandwidth + 1)]. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
-/* Residual below which rounding takes over. */
-double zp_statics_floor(const ZpStatics *statics);
+/* Residual that is asked for: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */
+double zp_statics_tolerance(const ZpStatics *statics);
+
+/* From the present point to the equilibrium without voltage, the actuator hanging. Faces may pass through
+ * each other on the way, but not in the end. */
+ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
+
+/* From the straight shape to the equilibrium at `voltage` with all faces closed. */
+ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
+
+/* The present point: |y of the right end - y of the clip or clamp| of the lower ribbon, m; distance of the
+ * platforms' faces (NAN for one ribbon); how many stations from the clip on are closed, the clip not counted. */
+double zp_statics_stroke(const ZpStatics *statics);
+double zp_statics_opening(const ZpStatics *statics);
+size_t zp_statics_front(const ZpStatics *statics);
+
+/* The present shape, `time` being any mark; valid until the point moves. `line_force` [N] is filled. */
+ZpShape zp_statics_shape(const ZpStatics *statics, double time, double *line_force);
 
 #endif

@@ -1,8 +1,10 @@
-/* The hanging equilibrium, loaded and without voltage, by damped stepping from the straight shape. */
+/* The hanging equilibrium, loaded and without voltage, from the straight shape: by Newton's method, and by
+ * damped stepping where that finds nothing. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "actuator/statics.h"
 #include "sim/sim_internal.h"
 #include "solve/relax.h"
 
@@ -56,25 +58,55 @@ static double rounding_floor(const ZpModel *model) {
   return model->total_weight > 0 ? 3 * DBL_EPSILON * model->L * model->spring.K_D / model->total_weight : 0;
 }
 
-void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
+/* By Newton's method; false if it finds nothing (a chain without bending stiffness has no stiffness when straight)
+ * or there is no memory. */
+static bool solve(ZpSim *sim, double *q) {
+  const ZpModel *model = sim->model;
+  ZpStatics statics;
+  if (!zp_statics_create(model, &statics)) return false;
+  ZpNewtonWork work;
+  ZpCarver carver = {NULL, 0};
+  zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
+  carver = (ZpCarver){zp_calloc(1, carver.used), 0};
+  bool found = carver.base != NULL;
+  void *memory = carver.base;
+  if (found) {
+    zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
+    ZpNewtonInfo info = zp_statics_hang(&statics, &work);
+    found = zp_newton_good(info.end);
+    sim->settle_steps = info.iterations;
+    sim->settle_residual = info.residual;
+    memcpy(q, statics.q, 2 * model->stride * sizeof *q);
+  }
+  zp_free(memory);
+  zp_statics_destroy(&statics);
+  return found;
+}
+
+/* By damped stepping. */
+static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   const ZpModel *model = sim->model;
   size_t n = 2 * model->stride;
   /* the stroke's error is of the order of the imbalance times the number of nodes */
   double tolerance = fmax(1e-3 * model->def.solver.tolerance, rounding_floor(model));
   Settling settling = {.sim = sim, .hooks = hooks, .tolerance = tolerance};
-  if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) {
-    sim->settled = ZP_REACHED_END; /* neither a start nor a reference is needed */
-    return;
-  }
   ZpRelaxSystem system = {n, &settling, accelerate, residual, stop};
-  double *q = sim->relax_work;
   memcpy(q, zp_state_q(model, sim->state), n * sizeof *q);
   ZpRelaxInfo info = zp_relax(&system, tolerance, model->def.solver.max_steps, q, q + n);
   sim->settled = outcome_of(info.end);
   sim->settle_steps = info.steps;
   sim->settle_residual = info.residual;
+}
+
+void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
+  const ZpModel *model = sim->model;
+  double *q = sim->relax_work;
+  sim->settled = ZP_REACHED_END;
+  /* of one straight ribbon neither a start nor a reference is needed */
+  if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) return;
+  if (!solve(sim, q)) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return;
   const double *y = q + model->stride;
   if (model->s == 2) sim->state->opening0 = y[model->count - 2] - y[model->count - 1];
-  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) memcpy(zp_state_q(model, sim->state), q, n * sizeof *q);
+  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
 }
