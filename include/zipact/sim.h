@@ -20,7 +20,10 @@ typedef enum ZpOutcome {
   ZP_INTERRUPTED, /* "interrupted": the progress hook asked to stop */
   ZP_NOT_SETTLED, /* "not_settled": no equilibrium to start from was found */
   ZP_DIVERGED,    /* "diverged": numbers left all bounds */
-  ZP_STEP_LIMIT   /* "step_limit": solver.max_steps were not enough */
+  ZP_STEP_LIMIT,  /* "step_limit": solver.max_steps were not enough */
+  ZP_CONVERGED,   /* "converged": an equilibrium was found */
+  ZP_FOLLOWED,    /* "followed": a branch of equilibria was followed to its end */
+  ZP_BRANCH_LOST  /* "branch_lost": a branch could not be followed further */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json. */

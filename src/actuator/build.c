@@ -6,12 +6,34 @@
 #include "base/fail.h"
 #include "base/kernel.h"
 
-static ZpSection section_of(const ZpActuatorDef *def) {
+static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   ZpLayer layers[2] = {
-      {def->ribbon.thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density},
+      {thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density},
       {def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density},
   };
   return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane == ZP_PLANE_STRAIN);
+}
+
+/* What a ribbon is at a place along it. */
+typedef struct Place {
+  ZpSection section;
+  double curvature; /* natural, 1/m */
+} Place;
+
+static Place place_at(const ZpModel *model, double along) {
+  const ZpActuatorDef *def = &model->def;
+  double end = def->segment_1.length;
+  if (along < end) return (Place){section_of(def, def->segment_1.thickness), def->segment_1.curvature};
+  end += def->segment_2.length;
+  if (along < end) return (Place){section_of(def, def->segment_2.thickness), def->segment_2.curvature};
+  end += def->segment_3.length;
+  if (along < end) return (Place){section_of(def, def->segment_3.thickness), def->segment_3.curvature};
+  return (Place){model->section, 0};
+}
+
+/* The middle of edge `station`. */
+static Place edge_at(const ZpModel *model, size_t station) {
+  return place_at(model, ((double)station + 0.5) * model->l);
 }
 
 static ZpMassSpringParams spring_of(const ZpModel *model) {
@@ -45,7 +67,9 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .h_least = least_gap,
                           .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
                           .switch_offset = def->electro.switch_offset,
-                          .flat_length = def->platform.electrode ? def->platform.length / 2 : 0};
+                          .flat_length = model->s == 2 && def->platform.electrode ? def->platform.length / 2 : 0,
+                          .flat = model->flat,
+                          .flat_height = def->electro.gap_offset};
 }
 
 /* Which coordinates of node j are held, and what it weighs. */
@@ -55,12 +79,13 @@ typedef struct Node {
 } Node;
 
 /* Mass of the ribbon at a node: the paper's particles have 1/N each, eq. (6); the rod's nodes have that of
- * half an element on each side. */
+ * half an edge on each side. */
 static double ribbon_mass(const ZpModel *model, size_t station) {
-  double whole = model->section.mu * model->L;
-  if (!model->is_rod) return whole / (double)model->nodes;
-  bool end = station == 0 || station == model->nodes - 1;
-  return (end ? 0.5 : 1) * whole / (double)(model->nodes - 1);
+  if (!model->is_rod) return model->section.mu * model->L / (double)model->nodes;
+  double mass = 0;
+  if (station > 0) mass += 0.5 * model->l * edge_at(model, station - 1).section.mu;
+  if (station + 1 < model->nodes) mass += 0.5 * model->l * edge_at(model, station).section.mu;
+  return mass;
 }
 
 static Node node_of(const ZpModel *model, size_t j) {
@@ -88,7 +113,8 @@ typedef struct Arrays {
 
 static size_t carve(const ZpModel *model, void *block, Arrays *a) {
   ZpCarver carver = {block, 0};
-  double **of_nodes[] = {&a->rod_l, &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight, &a->mass, &a->pseudo, &a->x1, &a->y1, &a->px1, &a->py1};
+  double **of_nodes[] = {&a->rod_l,  &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight, &a->mass,
+                         &a->pseudo, &a->x1,    &a->y1,    &a->px1,    &a->py1};
   double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, model->stride);
@@ -103,8 +129,13 @@ static double joined(double inverse1, double inverse2) {
 }
 
 static void fill_masses(ZpModel *model, Arrays *a) {
+  double stiffness = 4 * model->spring.K_D + 16 * model->spring.K_S;
+  if (model->is_rod) {
+    ZpSection e = model->section;
+    stiffness = 4 * e.EA / model->l + 16 * e.EI / (model->l * model->l * model->l);
+  }
   /* a frequency of 1.4 in unit steps, below what relaxation allows */
-  double pseudo = model->pseudo_mass = 0.5 * (4 * model->spring.K_D + 16 * model->spring.K_S);
+  double pseudo = model->pseudo_mass = 0.5 * stiffness;
   model->total_weight = 0;
   for (size_t j = 0; j < model->count; j++) {
     Node node = node_of(model, j);
@@ -129,26 +160,43 @@ static void fill_masses(ZpModel *model, Arrays *a) {
   model->pseudo = (ZpMasses){{a->pseudo, a->px1, a->px2}, {a->pseudo, a->py1, a->py2}};
 }
 
-/* A clamp ties the first or last edge to the held slope over half a cell, which makes it second order in l. */
+/* A joint bends over the half edges beside it; a clamp is the held slope, over half an edge, which makes it
+ * second order in l; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
-  size_t s = model->s, edges = model->count - s;
-  double EI = model->section.EI, EA = model->section.EA, l = model->l;
+  size_t s = model->s, N = model->nodes;
+  double l = model->l;
   bool right_slope = s == 2 || model->def.actuator.right_end != ZP_END_FREE;
   for (size_t j = 0; j < model->count; j++) {
-    bool first = j < s, last = j >= edges;
-    a->rod_B[j] = last && !right_slope ? 0 : (first || last ? 2 : 1) * EI / l;
-    if (last) continue;
-    a->rod_l[j] = l;
-    a->rod_S[j] = EA / l;
+    size_t station = j / s;
+    double compliance = 0, turn = 0;
+    if (station > 0) {
+      Place left = edge_at(model, station - 1);
+      compliance += 0.5 * l / left.section.EI;
+      turn += 0.5 * l * left.curvature;
+    }
+    if (station + 1 < N) {
+      Place right = edge_at(model, station);
+      compliance += 0.5 * l / right.section.EI;
+      turn += 0.5 * l * right.curvature;
+      a->rod_l[j] = l;
+      a->rod_S[j] = right.section.EA / l;
+    }
+    a->rod_B[j] = station + 1 == N && !right_slope ? 0 : 1 / compliance;
+    a->rod_k0[j] = 2 * tan(0.5 * turn);
   }
-  model->rod = (ZpRodParams){s, model->nodes, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
+  model->rod = (ZpRodParams){s, N, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
 }
 
-/* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.6). */
+/* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.5). */
 static double frequency_bound(const ZpModel *model) {
-  double whole = model->section.mu * model->L, elements = (double)(model->nodes - 1), l = model->l;
-  if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, whole / (double)model->nodes);
-  return sqrt((4 * model->section.EA / l + 16 * model->section.EI / (l * l * l)) / (whole / elements));
+  double l = model->l, stiffest = 0;
+  if (!model->is_rod)
+    return zp_massspring_frequency_bound(&model->spring, model->section.mu * model->L / (double)model->nodes);
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    ZpSection e = edge_at(model, i).section;
+    stiffest = fmax(stiffest, (4 * e.EA / l + 16 * e.EI / (l * l * l)) / (e.mu * l));
+  }
+  return sqrt(stiffest);
 }
 
 static void derive(ZpModel *model) {
@@ -158,11 +206,12 @@ static void derive(ZpModel *model) {
   model->nodes = (size_t)def->mesh.nodes;
   model->count = model->s * model->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
-  model->field = two;
+  model->field = def->actuator.kind != ZP_KIND_RIBBON;
+  model->flat = def->actuator.kind == ZP_KIND_FLANGE;
   model->parts = two ? 2 : 1;
   model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)(model->nodes - 1);
-  model->section = section_of(def);
+  model->section = section_of(def, def->ribbon.thickness);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->spring = spring_of(model);
   model->plates = plates_of(model);

@@ -13,7 +13,8 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
     e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod.Rx, e->rod.Ry};
   } else {
     zp_massspring_carve(&model->spring, &e->spring, &carver);
-    e->edges = (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
+    e->edges =
+        (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
   }
   zp_plates_carve(&model->plates, &e->plates, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
@@ -35,14 +36,18 @@ void zp_eval_destroy(ZpEval *e) {
 }
 
 static void mechanics(const ZpModel *model, const double *q, ZpEval *e) {
-  if (model->is_rod) zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
-  else zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+  if (model->is_rod)
+    zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+  else
+    zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
 }
 
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *e, const double *tension, double (*D)[4]) {
   if (!tension) tension = e->edges.T;
-  if (model->is_rod) zp_rod_stiffness(&model->rod, &e->rod, tension, D);
-  else zp_massspring_stiffness(&model->spring, &e->spring, tension, D);
+  if (model->is_rod)
+    zp_rod_stiffness(&model->rod, &e->rod, tension, D);
+  else
+    zp_massspring_stiffness(&model->spring, &e->spring, tension, D);
 }
 
 /* Direction of the closed part where it ends: that of the last closed link, horizontal at the clip. */

@@ -12,7 +12,7 @@ typedef struct ZpEdges {
 typedef struct ZpEval {
   ZpMassSpringEval spring; /* one of the two is in use */
   ZpRodEval rod;
-  ZpEdges edges;           /* of the one in use */
+  ZpEdges edges; /* of the one in use */
   ZpPlatesEval plates;
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */

@@ -25,11 +25,12 @@ struct ZpModel {
   ZpActuatorDef def;
   size_t s, nodes, count; /* ribbons, N, s N */
   size_t stride;          /* count, rounded up */
-  bool field;             /* two ribbons that attract each other */
+  bool field;             /* there are electrodes that attract each other */
+  bool flat;              /* one ribbon below a flat electrode */
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
   double L, l;            /* flexible length, element, m */
   ZpSection section;
-  bool is_rod;            /* mechanics: rod, else spring */
+  bool is_rod; /* mechanics: rod, else spring */
   ZpMassSpringParams spring;
   ZpRodParams rod;
   ZpPlatesParams plates;

@@ -21,7 +21,7 @@ static size_t carve(ZpStatics *s, void *block) {
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->equation = (int *)(void *)zp_carve(&carver, model->count);
-  s->D = (double (*)[4])(void *)zp_carve(&carver, 12 * stride);
+  s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
@@ -65,8 +65,8 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   number(s);
   double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
   double weight = model->total_weight / model->L;
-  s->contact = (ZpUnilateralParams){
-      model->nodes, model->l, fmax(closed, weight) / overlap, model->s == 2 ? model->def.platform.length / 2 : 0};
+  s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight) / overlap,
+                                    model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   lay_straight(s);
   return true;
@@ -127,11 +127,7 @@ size_t zp_statics_front(const ZpStatics *s) {
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
   const ZpModel *model = s->model;
-  ZpShape shape = {.time = time,
-                   .voltage = s->U,
-                   .zipped = zp_statics_front(s),
-                   .x = s->q,
-                   .y = s->q + model->stride};
+  ZpShape shape = {.time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + model->stride};
   if (!model->field) return shape;
   for (size_t i = 0; i < model->nodes; i++)
     line_force[i] = zp_plates_law(&model->plates, s->U, s->eval.plates.gap[i]).W;
@@ -149,9 +145,10 @@ static double residual(void *self, double *r) {
   zp_eval_static_forces(model, s->q, s->U, &s->eval, s->force);
   if (model->field && s->contact_acts) {
     zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);
-    for (size_t i = 0; i < model->nodes; i++) {
-      s->force[stride + 2 * i] += s->push[i];
-      s->force[stride + 2 * i + 1] -= s->push[i];
+    for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
+      size_t lower = model->s * i + model->s - 1;
+      s->force[stride + lower] -= s->push[i];
+      if (model->s == 2) s->force[stride + lower - 1] += s->push[i];
     }
   }
   memset(r, 0, s->n * sizeof *r);
@@ -200,17 +197,20 @@ static void add_mechanics(const ZpStatics *s, ZpBand *K) {
 
 /* Second derivative by the gaps of stations i and k: gap = y upper - y lower. */
 static void add_gaps(const ZpStatics *s, ZpBand *K, size_t i, size_t k, double value) {
-  for (size_t a = 0; a < 2; a++)
-    for (size_t b = 0; b < 2; b++)
-      add(s, K, 4 * i + 2 * a + 1, 4 * k + 2 * b + 1, a == b ? value : -value);
+  size_t ribbons = s->model->s;
+  for (size_t a = 0; a < ribbons; a++)
+    for (size_t b = 0; b < ribbons; b++)
+      add(s, K, 2 * (ribbons * i + a) + 1, 2 * (ribbons * k + b) + 1, a == b ? value : -value);
 }
 
 /* Second derivative by the mean x-length of element i and the gap of station k, both orders. */
 static void add_along(const ZpStatics *s, ZpBand *K, size_t i, size_t k, double value) {
-  for (size_t a = 0; a < 4; a++)
-    for (size_t b = 0; b < 2; b++) {
-      size_t x = 4 * i + 2 * a, y = 4 * k + 2 * b + 1; /* a: upper, lower of i, upper, lower of i + 1 */
-      double sign = 0.5 * (a < 2 ? -1 : 1) * (b == 0 ? 1 : -1);
+  size_t ribbons = s->model->s;
+  for (size_t a = 0; a < 2 * ribbons; a++) /* nodes of station i, then of i + 1 */
+    for (size_t b = 0; b < ribbons; b++) {
+      size_t x = 2 * (ribbons * i + a), y = 2 * (ribbons * k + b) + 1;
+      double rises = ribbons == 2 && b == 0 ? 1 : -1; /* how the gap goes with this y */
+      double sign = (a < ribbons ? -1 : 1) * rises / (double)ribbons;
       add(s, K, x, y, sign * value);
       add(s, K, y, x, sign * value);
     }
@@ -332,8 +332,10 @@ static void lay_two(ZpStatics *s) {
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   turn_edges(s, step, fraction);
-  if (s->model->s == 2) lay_two(s);
-  else lay_one(s);
+  if (s->model->s == 2)
+    lay_two(s);
+  else
+    lay_one(s);
 }
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {

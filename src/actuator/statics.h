@@ -13,18 +13,18 @@ typedef struct ZpStatics {
   const ZpModel *model;
   ZpEval eval;
   ZpUnilateralParams contact;
-  double *q;              /* [2 stride] the present point */
-  double U;               /* V */
-  bool contact_acts;      /* faces push on each other; without, they may pass (to find a start) */
-  int *equation;          /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
+  double *q;         /* [2 stride] the present point */
+  double U;          /* V */
+  bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
+  int *equation;     /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
   size_t n, bandwidth;
-  double scale;           /* force that a residual is relative to, N */
-  double (*D)[4];         /* [3 edges] mechanics' stiffness */
+  double scale;                                /* force that a residual is relative to, N */
+  double (*D)[4];                              /* [3 edges] mechanics' stiffness */
   double *push, *own, *next, *along0, *along1; /* [N] contact and field, by stations */
-  double *tension;        /* [edges] what the last step foresaw, N */
-  double *moved;          /* [2 stride] work space of a move */
-  double *force;          /* [2 stride] */
-  double *r_up, *r_down;  /* [n] work space of the sensitivity */
+  double *tension;                             /* [edges] what the last step foresaw, N */
+  double *moved;                               /* [2 stride] work space of a move */
+  double *force;                               /* [2 stride] */
+  double *r_up, *r_down;                       /* [n] work space of the sensitivity */
   void *memory;
 } ZpStatics;
 

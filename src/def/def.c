@@ -274,6 +274,22 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
                    "force has no bound");
+  bool actuates = def->study == ZP_STUDY_ACTUATE;
+  if (def->actuator.kind == ZP_KIND_FLANGE && actuates)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "actuator.kind = flange: goes with the studies of rest only; contact.model sequential joins ribbons");
+  if (def->ribbon.density == 0 && def->insulator.density == 0 && (actuates || def->study == ZP_STUDY_MODES))
+    return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a ribbon that moves needs a mass");
+  double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  double segments = def->segment_1.length + def->segment_2.length + def->segment_3.length;
+  if (segments > flexible * (1 + 1e-12))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "segment_1.length to segment_3.length: %g m together, more than the ribbon's %g m", segments,
+                   flexible);
+  if (segments > 0 && def->ribbon.model != ZP_RIBBON_ROD)
+    return zp_fail(err, ZP_BAD_INPUT, "segment_1.length = %g m: segments go with ribbon.model rod only",
+                   def->segment_1.length);
   if (two && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);

@@ -49,8 +49,18 @@ ZP_KERNEL static void gaps(size_t nodes, const double *restrict x, const double 
     dx[i] = 0.5 * ((x[2 * i + 2] - x[2 * i]) + (x[2 * i + 3] - x[2 * i + 1]));
 }
 
+static void gaps_below_flat(const ZpPlatesParams *p, const double *x, const double *y, ZpPlatesEval *e) {
+  for (size_t i = 0; i < p->nodes; i++)
+    e->gap[i] = p->flat_height - y[i];
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    e->dx[i] = x[i + 1] - x[i];
+}
+
 void zp_plates_gaps(const ZpPlatesParams *p, const double *x, const double *y, ZpPlatesEval *e) {
-  gaps(p->nodes, x, y, e->gap, e->dx);
+  if (p->flat)
+    gaps_below_flat(p, x, y, e);
+  else
+    gaps(p->nodes, x, y, e->gap, e->dx);
 }
 
 /* Law at the Gauss points of each element, weighted to its two ends. */
@@ -102,10 +112,23 @@ ZP_KERNEL static void stations(size_t nodes, const double *restrict A, const dou
   }
 }
 
+/* The same on the one ribbon below a flat electrode, which takes all of the pull along x. */
+static void stations_below_flat(const ZpPlatesParams *p, ZpPlatesEval *e) {
+  size_t last = p->nodes - 1;
+  for (size_t i = 0; i <= last; i++) {
+    e->Fy[i] = (i < last ? e->A[i] : 0) + (i > 0 ? e->B[i - 1] : 0);
+    e->Fx[i] = (i < last ? e->P[i] : 0) - (i > 0 ? e->P[i - 1] : 0);
+  }
+}
+
 void zp_plates_polyline(const ZpPlatesParams *p, const double *x, const double *y, double U, ZpPlatesEval *e) {
   size_t last = p->nodes - 1;
   zp_plates_gaps(p, x, y, e);
   elements(p, p->k * U * U, zp_plates_least_h(p, U), e);
+  if (p->flat) {
+    stations_below_flat(p, e);
+    return;
+  }
   stations(p->nodes, e->A, e->B, e->P, e->Fx, e->Fy);
   act(e, 0, 0.5 * e->P[0], e->A[0]);
   act(e, last, -0.5 * e->P[last - 1], e->B[last - 1] + p->flat_length * zp_plates_law(p, U, e->gap[last]).W);

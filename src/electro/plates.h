@@ -22,13 +22,15 @@ typedef struct ZpPlatesParams {
   double h_least;           /* g + d below which the law is not followed further, m: touching bare faces */
   double h_switch_per_volt; /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
   double switch_offset;     /* what it takes for g + d - g, m */
+  bool flat;                /* one ribbon below a flat electrode instead of two that face each other */
+  double flat_height;       /* y of that electrode's face, m */
   double flat_length;       /* of the platform's electrode, at the gap of the last station, m; 0 without */
 } ZpPlatesParams;
 
 /* Written by zp_plates_polyline. */
 typedef struct ZpPlatesEval {
   double *gap;     /* [N] face distance, m */
-  double *Fx, *Fy; /* [stride] force on upper [2 i] and lower node [2 i + 1] of station i, N; 0 beyond */
+  double *Fx, *Fy; /* [stride] force on upper [2 i] and lower node [2 i + 1] of station i (flat: on [i]), N; 0 beyond */
   double *A, *B;   /* [N-1] parts of attraction from the element right (A) and left (B) of a station, N */
   double *P;       /* [N-1] mean potential per length of an element, J/m */
   double *dx;      /* [N-1] mean of both ribbons' x-lengths of an element, m */

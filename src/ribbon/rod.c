@@ -48,7 +48,8 @@ ZP_KERNEL static void edge_directions(const ZpRodParams *p, size_t padded, const
 }
 
 ZP_KERNEL static void joint_moments(const ZpRodParams *p, size_t padded, const ZpRodEval *e) {
-  const double *restrict ux = e->ux, *restrict uy = e->uy, *restrict bx = ux - p->ribbons, *restrict by = uy - p->ribbons;
+  const double *restrict ux = e->ux, *restrict uy = e->uy, *restrict bx = ux - p->ribbons,
+                         *restrict by = uy - p->ribbons;
   const double *restrict B = p->B, *restrict k0 = p->k0;
   double *restrict k_of = e->k, *restrict M = e->M;
   ZP_SIMD

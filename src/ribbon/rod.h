@@ -11,25 +11,25 @@
 #include "base/memory.h"
 
 typedef struct ZpRodParams {
-  size_t ribbons;     /* s */
-  size_t nodes;       /* N per ribbon */
-  size_t stride;      /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
-  const double *l;    /* [stride] rest lengths of edges, m */
-  const double *S;    /* [stride] stretching stiffness EA / l of edges, N/m */
-  const double *B;    /* [stride] bending stiffness of joints, EI over their length of rod, N m */
-  const double *k0;   /* [stride] natural 2 tan(phi / 2) of joints */
+  size_t ribbons;   /* s */
+  size_t nodes;     /* N per ribbon */
+  size_t stride;    /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  const double *l;  /* [stride] rest lengths of edges, m */
+  const double *S;  /* [stride] stretching stiffness EA / l of edges, N/m */
+  const double *B;  /* [stride] bending stiffness of joints, EI over their length of rod, N m */
+  const double *k0; /* [stride] natural 2 tan(phi / 2) of joints */
 } ZpRodParams;
 
 /* Written by zp_rod_eval. Arrays over edges and joints, with one edge more before the first and after the
  * last of each ribbon: the held slopes. */
 typedef struct ZpRodEval {
-  double *dpx, *dpy;  /* edges, m */
-  double *ux, *uy;    /* their unit vectors; outside: horizontal */
-  double *inverse;    /* 1 / length; outside: 0, a held slope does not turn */
-  double *T;          /* [stride] tension of edges, N */
-  double *k;          /* [stride] 2 tan(phi / 2) of joints */
-  double *M;          /* [stride] moment of joints, dE/dphi, N m */
-  double *Rx, *Ry;    /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
+  double *dpx, *dpy; /* edges, m */
+  double *ux, *uy;   /* their unit vectors; outside: horizontal */
+  double *inverse;   /* 1 / length; outside: 0, a held slope does not turn */
+  double *T;         /* [stride] tension of edges, N */
+  double *k;         /* [stride] 2 tan(phi / 2) of joints */
+  double *M;         /* [stride] moment of joints, dE/dphi, N m */
+  double *Rx, *Ry;   /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodEval;
 
 void zp_rod_carve(const ZpRodParams *params, ZpRodEval *eval, ZpCarver *carver);

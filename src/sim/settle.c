@@ -108,5 +108,6 @@ void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   if (sim->settled != ZP_REACHED_END) return;
   const double *y = q + model->stride;
   if (model->s == 2) sim->state->opening0 = y[model->count - 2] - y[model->count - 1];
-  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
+  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM)
+    memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
 }

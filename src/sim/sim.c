@@ -9,12 +9,13 @@
 #include "sim/sim_internal.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time", "zipped", "interrupted", "not_settled", "diverged", "step_limit"};
+  static const char *const names[] = {"end_time",   "zipped",    "interrupted", "not_settled", "diverged",
+                                      "step_limit", "converged", "followed",    "branch_lost"};
   return names[outcome];
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
-  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED;
+  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {

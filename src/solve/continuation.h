@@ -7,11 +7,11 @@
 
 typedef struct ZpBranchSystem {
   ZpStaticSystem at_rest;
-  double (*get)(void *self);                     /* the parameter m */
-  void (*set)(void *self, double parameter);     /* change it at the present point */
-  void (*sensitivity)(void *self, double *r_m);  /* dr/dm [n] at the present point */
-  void (*position)(void *self, double *q);       /* the present point by its coordinates [n] */
-  void (*save)(void *self, void *to);            /* the whole present point, save_size bytes */
+  double (*get)(void *self);                    /* the parameter m */
+  void (*set)(void *self, double parameter);    /* change it at the present point */
+  void (*sensitivity)(void *self, double *r_m); /* dr/dm [n] at the present point */
+  void (*position)(void *self, double *q);      /* the present point by its coordinates [n] */
+  void (*save)(void *self, void *to);           /* the whole present point, save_size bytes */
   void (*restore)(void *self, const void *from);
   size_t save_size;
   double q_scale, m_scale; /* coordinates and parameter are measured in these */
@@ -22,8 +22,8 @@ typedef struct ZpBranch {
   const ZpBranchSystem *system;
   ZpNewtonWork newton;
   double *a, *b, *q, *q_start, *direction, *direction_saved, *direction_after; /* [n] */
-  double direction_m;  /* part of the direction along m: its sign changes at a limit point */
-  double step;         /* arc length to try next */
+  double direction_m; /* part of the direction along m: its sign changes at a limit point */
+  double step;        /* arc length to try next */
   double longest_step;
   double tolerance;
   void *saved, *saved_before;

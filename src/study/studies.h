@@ -9,6 +9,15 @@
 /* Voltage on at t = 0, motion until closed or end_time. */
 ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
 
+/* The loaded shape at rest, no voltage. */
+ZpStatus zp_study_stationary(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+
+/* All states of rest up to drive.voltage. */
+ZpStatus zp_study_equilibrium(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+
+/* Frequencies and mode shapes about the loaded equilibrium. */
+ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+
 /* Append a number to the summary; one that follows from wall time; a sentence of warning. */
 void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);

@@ -15,6 +15,15 @@ ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *
   if (!result) return zp_fail_memory(err);
   result->study = def->study;
   switch (def->study) {
+  case ZP_STUDY_STATIONARY:
+    status = zp_study_stationary(def, hooks, result, err);
+    break;
+  case ZP_STUDY_EQUILIBRIUM:
+    status = zp_study_equilibrium(def, hooks, result, err);
+    break;
+  case ZP_STUDY_MODES:
+    status = zp_study_modes(def, hooks, result, err);
+    break;
   case ZP_STUDY_ACTUATE:
   case ZpStudy_COUNT:
     status = zp_study_actuate(def, hooks, result, err);

@@ -1,0 +1,205 @@
+/* Study `modes`: small free vibrations about the loaded equilibrium without voltage, K u = omega^2 m u with the
+ * lumped masses of the dynamics, by subspace iteration on the banded stiffness. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "actuator/statics.h"
+#include "base/fail.h"
+#include "math/eigen.h"
+#include "study/studies.h"
+
+enum { MODES = 8, SUBSPACE = 16, MOST_ROUNDS = 200 };
+
+static const ZpColumn columns[] = {
+    {"mode", "1", "number of the mode"},
+    {"frequency_Hz", "Hz", "frequency"},
+    {"residual", "1", "what is left of K u - omega^2 m u over K u"},
+};
+enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
+                                         "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
+
+typedef struct Problem {
+  ZpStatics statics;
+  ZpNewtonWork newton;
+  size_t n, m;      /* equations, vectors iterated */
+  double *mass;     /* [n] */
+  double *u, *next; /* [m][n] the subspace, and K^-1 m of it */
+  double *residual; /* [m] */
+  double *line_force;
+  double *q; /* [2 stride] of the equilibrium */
+  double reduced[SUBSPACE * SUBSPACE], turn[SUBSPACE * SUBSPACE];
+  double omega2[SUBSPACE];
+  void *memory;
+} Problem;
+
+static bool allocate(Problem *p, const ZpModel *model) {
+  if (!zp_statics_create(model, &p->statics)) return false;
+  p->n = p->statics.n;
+  p->m = p->n < SUBSPACE ? p->n : SUBSPACE;
+  ZpCarver carver = {NULL, 0};
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass) {
+      p->memory = zp_calloc(1, carver.used);
+      carver = (ZpCarver){p->memory, 0};
+      if (!p->memory) return false;
+    }
+    zp_newton_carve(&p->newton, p->n, p->statics.bandwidth, &carver);
+    p->mass = zp_carve(&carver, p->n);
+    p->u = zp_carve(&carver, p->m * p->n);
+    p->next = zp_carve(&carver, p->m * p->n);
+    p->residual = zp_carve(&carver, p->m);
+    p->line_force = zp_carve(&carver, model->nodes);
+    p->q = zp_carve(&carver, 2 * model->stride);
+  }
+  return true;
+}
+
+/* Masses by equation, and a start that has a part of every mode. */
+static void prepare(Problem *p) {
+  const ZpModel *model = p->statics.model;
+  for (size_t k = 0; k < 2 * model->count; k++)
+    if (p->statics.equation[k] >= 0) p->mass[p->statics.equation[k]] += model->mass[k / 2];
+  for (size_t j = 0; j < p->m; j++)
+    for (size_t i = 0; i < p->n; i++)
+      p->u[j * p->n + i] = sin(0.7 * (double)((i + 1) * (j + 1))) + (i % p->m == j);
+}
+
+static double inner(const Problem *p, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < p->n; i++)
+    sum += a[i] * p->mass[i] * b[i];
+  return sum;
+}
+
+/* Make the rows of `rows` orthogonal and of length 1 in the mass's measure. */
+static void orthonormalize(const Problem *p, double *rows) {
+  for (size_t j = 0; j < p->m; j++) {
+    double *row = rows + j * p->n;
+    for (int twice = 0; twice < 2; twice++)
+      for (size_t k = 0; k < j; k++) {
+        double part = inner(p, rows + k * p->n, row);
+        for (size_t i = 0; i < p->n; i++)
+          row[i] -= part * rows[k * p->n + i];
+      }
+    double scale = 1 / sqrt(inner(p, row, row));
+    for (size_t i = 0; i < p->n; i++)
+      row[i] *= scale;
+  }
+}
+
+/* One round: u => K^-1 m u, then turned to the best approximations of the modes inside that subspace. */
+static void iterate(Problem *p) {
+  size_t n = p->n, m = p->m;
+  for (size_t j = 0; j < m; j++) {
+    for (size_t i = 0; i < n; i++)
+      p->next[j * n + i] = p->mass[i] * p->u[j * n + i];
+    zp_band_solve(&p->newton.K, p->next + j * n);
+  }
+  /* of u, orthonormal in m: u' m K^-1 m u has the eigenvalues 1 / omega^2 */
+  for (size_t j = 0; j < m; j++)
+    for (size_t k = 0; k < m; k++)
+      p->reduced[j * m + k] =
+          -0.5 * (inner(p, p->u + j * n, p->next + k * n) + inner(p, p->u + k * n, p->next + j * n));
+  zp_eigen_symmetric(m, p->reduced, p->turn);
+  for (size_t j = 0; j < m; j++) {
+    p->omega2[j] = -1 / p->reduced[j * m + j];
+    double *to = p->u + j * n;
+    memset(to, 0, n * sizeof *to);
+    for (size_t k = 0; k < m; k++)
+      for (size_t i = 0; i < n; i++)
+        to[i] += p->turn[k * m + j] * p->next[k * n + i];
+  }
+  orthonormalize(p, p->u);
+}
+
+static bool settled(const Problem *p, const double *before, size_t modes) {
+  for (size_t j = 0; j < modes; j++)
+    if (!(fabs(p->omega2[j] - before[j]) < 1e-11 * fabs(p->omega2[j]))) return false;
+  return true;
+}
+
+static bool solve(Problem *p, size_t modes) {
+  double before[SUBSPACE] = {0};
+  orthonormalize(p, p->u);
+  for (int round = 0; round < MOST_ROUNDS; round++) {
+    memcpy(before, p->omega2, sizeof before);
+    iterate(p);
+    if (round > 0 && settled(p, before, modes)) return true;
+  }
+  return false;
+}
+
+/* The equilibrium moved along mode j, by a tenth of the length at most. */
+static void record_shape(Problem *p, size_t j, ZpShapes *shapes) {
+  const ZpModel *model = p->statics.model;
+  double *q = p->statics.q, largest = 0;
+  for (size_t i = 0; i < p->n; i++)
+    largest = fmax(largest, fabs(p->u[j * p->n + i]));
+  for (size_t k = 0; k < 2 * model->count; k++) {
+    size_t place = k / 2 + (k % 2) * model->stride;
+    int row = p->statics.equation[k];
+    q[place] = p->q[place] + (row >= 0 ? 0.1 * model->L / largest * p->u[j * p->n + (size_t)row] : 0);
+  }
+  ZpShape shape = zp_statics_shape(&p->statics, (double)(j + 1), p->line_force);
+  zp_shapes_offer(shapes, &shape);
+}
+
+static void report(Problem *p, size_t modes, ZpResult *result) {
+  const double two_pi = 6.283185307179586;
+  memcpy(p->q, p->statics.q, 2 * p->statics.model->stride * sizeof *p->q);
+  for (size_t j = 0; j < modes; j++) {
+    double frequency = sqrt(p->omega2[j]) / two_pi;
+    zp_result_add(result, names[j], "Hz", frequency);
+    zp_table_offer(result->series, (double[COLUMNS]){(double)(j + 1), frequency, p->residual[j]});
+    record_shape(p, j, result->shapes);
+  }
+}
+
+static void run(Problem *p, ZpResult *result) {
+  size_t modes = p->m < MODES ? p->m : MODES;
+  ZpNewtonInfo info = zp_statics_hang(&p->statics, &p->newton);
+  result->outcome = ZP_NOT_SETTLED;
+  snprintf(result->message, sizeof result->message, "no hanging equilibrium found");
+  if (!zp_newton_good(info.end)) return;
+  p->statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
+  if (!zp_statics_stable(&p->statics, &p->newton) || !zp_band_factor(&p->newton.K, NULL)) {
+    snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
+    return;
+  }
+  prepare(p);
+  bool found = solve(p, modes);
+  result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
+  if (!found)
+    snprintf(result->message, sizeof result->message, "modes not found in %d rounds", MOST_ROUNDS);
+  else
+    snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz",
+             sqrt(p->omega2[0]) / 6.283185307179586);
+  if (found) report(p, modes, result);
+}
+
+ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  (void)hooks; /* a matter of milliseconds */
+  if (def->ribbon.model != ZP_RIBBON_ROD)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
+  ZpModel *model;
+  ZpStatus status = zp_model_create(def, &model, err);
+  if (status != ZP_OK) return status;
+  Problem *p = zp_calloc(1, sizeof *p);
+  result->series = zp_table_create(columns, COLUMNS, MODES);
+  result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES) : NULL;
+  if (result->series && result->shapes && allocate(p, model))
+    run(p, result);
+  else
+    status = zp_fail_memory(err);
+  if (p) {
+    zp_free(p->memory);
+    zp_statics_destroy(&p->statics);
+  }
+  zp_free(p);
+  zp_model_destroy(model);
+  return status;
+}

@@ -1,0 +1,90 @@
+/* Study `stationary`: the loaded shape at rest, without voltage. */
+#include <math.h>
+#include <stdio.h>
+
+#include "actuator/statics.h"
+#include "base/fail.h"
+#include "study/studies.h"
+
+static const ZpColumn columns[] = {
+    {"station", "1", "number of the node from the clip or clamp on"},
+    {"x_m", "m", "lower or only ribbon, to the right"},
+    {"y_m", "m", "lower or only ribbon, upwards"},
+    {"tension_N", "N", "in the edge to the right"},
+    {"upper_x_m", "m", "upper ribbon"},
+    {"upper_y_m", "m", "upper ribbon"},
+};
+enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+static void fill_table(const ZpStatics *s, ZpTable *table) {
+  const ZpModel *model = s->model;
+  const double *x = s->q, *y = s->q + model->stride;
+  for (size_t i = 0; i < model->nodes; i++) {
+    size_t lower = model->s * i + model->s - 1;
+    bool last = i + 1 == model->nodes, two = model->s == 2;
+    double row[COLUMNS] = {(double)i,
+                           x[lower],
+                           y[lower],
+                           last ? NAN : s->eval.edges.T[lower],
+                           two ? x[lower - 1] : NAN,
+                           two ? y[lower - 1] : NAN};
+    zp_table_offer(table, row);
+  }
+}
+
+static const char *words_of(ZpNewtonEnd end) {
+  switch (end) {
+  case ZP_NEWTON_CONVERGED:
+    return "residual below tolerance";
+  case ZP_NEWTON_FLOOR:
+    return "residual at the floor of rounding";
+  case ZP_NEWTON_SINGULAR:
+    return "no equilibrium found: the stiffness has no inverse";
+  case ZP_NEWTON_DIVERGED:
+    return "no equilibrium found: numbers left all bounds";
+  case ZP_NEWTON_SLOW:
+    break;
+  }
+  return "no equilibrium found: most iterations done";
+}
+
+static bool run(ZpStatics *s, ZpResult *result) {
+  ZpNewtonWork work;
+  ZpCarver carver = {NULL, 0};
+  zp_newton_carve(&work, s->n, s->bandwidth, &carver);
+  double *line_force = zp_carve(&carver, s->model->nodes);
+  void *memory = zp_calloc(1, carver.used);
+  if (!memory) return false;
+  carver = (ZpCarver){memory, 0};
+  zp_newton_carve(&work, s->n, s->bandwidth, &carver);
+  line_force = zp_carve(&carver, s->model->nodes);
+  ZpNewtonInfo info = zp_statics_hang(s, &work);
+  bool found = zp_newton_good(info.end);
+  result->outcome = found ? ZP_CONVERGED : ZP_NOT_SETTLED;
+  snprintf(result->message, sizeof result->message, "%s", words_of(info.end));
+  zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
+  if (s->model->s == 2) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
+  zp_result_add(result, "iterations", "count", info.iterations);
+  zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
+  if (found) {
+    fill_table(s, result->series);
+    ZpShape shape = zp_statics_shape(s, 0, line_force);
+    zp_shapes_offer(result->shapes, &shape);
+  }
+  zp_free(memory);
+  return true;
+}
+
+ZpStatus zp_study_stationary(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  (void)hooks; /* done in less than a millisecond */
+  ZpModel *model;
+  ZpStatus status = zp_model_create(def, &model, err);
+  if (status != ZP_OK) return status;
+  ZpStatics statics = {0};
+  result->series = zp_table_create(columns, COLUMNS, model->nodes);
+  result->shapes = zp_shapes_create(model->s, model->nodes, 2);
+  bool done = result->series && result->shapes && zp_statics_create(model, &statics) && run(&statics, result);
+  zp_statics_destroy(&statics);
+  zp_model_destroy(model);
+  return done ? ZP_OK : zp_fail_memory(err);
+}
