@@ -6,9 +6,9 @@
 
 #include "base/kernel.h"
 
-/* Faces overlap by this at most under the attraction of closed faces: far below a micrometre, far above
- * rounding. */
-static const double overlap = 1e-7; /* m */
+/* Range of contact: far below a micrometre, far above rounding. Under the attraction of closed faces at
+ * drive.voltage the gap is 0. */
+static const double contact_range = 5e-7; /* m */
 
 static size_t carve(ZpStatics *s, void *block) {
   const ZpModel *model = s->model;
@@ -65,7 +65,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   number(s);
   double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
   double weight = model->total_weight / model->L;
-  s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight) / overlap,
+  s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight), contact_range,
                                     model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   lay_straight(s);
@@ -104,10 +104,6 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
   lay_straight(s);
   s->U = voltage;
   s->contact_acts = true;
-  /* faces overlap by what balances the attraction, which is where the solution begins to be found */
-  double W = zp_plates_law(&s->model->plates, voltage, 0).W;
-  for (size_t i = 0; i < s->model->nodes; i++)
-    s->q[s->model->stride + 2 * i + 1] = i > 0 ? W / s->contact.k : 0;
   return zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
 }
 
@@ -122,7 +118,7 @@ double zp_statics_opening(const ZpStatics *s) {
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
-  return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap, overlap) : 0;
+  return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap) : 0;
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {

@@ -1,5 +1,5 @@
-/* Penalty contact. Letters of docs/theory.md, section 9: g gap, m (negative where faces overlap);
- * k stiffness, N/m^2; energy per length k g^2 / 2 where g < 0. */
+/* Soft contact. Letters of docs/theory.md, section 9: g gap, m; with s = 1 - g / range, where it is positive,
+ * the pressure per length is p0 s^3, its energy p0 range s^4 / 4, its stiffness 3 p0 s^2 / range. */
 #include "contact/unilateral.h"
 
 #include <string.h>
@@ -8,45 +8,53 @@ enum { GAUSS = 3 };
 static const double gauss_at[GAUSS] = {0.11270166537925831, 0.5, 0.88729833462074169};
 static const double gauss_weight[GAUSS] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
+/* How deep faces are in each other's range: 0 beyond it, 1 at gap 0, more where they overlap. */
+static double depth(const ZpUnilateralParams *p, double gap) {
+  double s = 1 - gap / p->range;
+  return s > 0 ? s : 0;
+}
+
 double zp_unilateral_push(const ZpUnilateralParams *p, const double *gap, double *push) {
   double energy = 0;
   memset(push, 0, p->nodes * sizeof *push);
   for (size_t i = 0; i + 1 < p->nodes; i++) {
-    if (gap[i] >= 0 && gap[i + 1] >= 0) continue;
+    if (gap[i] >= p->range && gap[i + 1] >= p->range) continue;
     for (int q = 0; q < GAUSS; q++) {
-      double g = gap[i] + (gap[i + 1] - gap[i]) * gauss_at[q];
-      if (g >= 0) continue;
-      double f = -p->k * g * gauss_weight[q] * p->l;
+      double s = depth(p, gap[i] + (gap[i + 1] - gap[i]) * gauss_at[q]);
+      double f = p->p0 * s * s * s * gauss_weight[q] * p->l;
       push[i] += f * (1 - gauss_at[q]);
       push[i + 1] += f * gauss_at[q];
-      energy -= 0.5 * f * g;
+      energy += 0.25 * p->range * s * f;
     }
   }
-  double last = gap[p->nodes - 1];
-  if (last >= 0) return energy;
-  push[p->nodes - 1] -= p->k * last * p->flat_length;
-  return energy + 0.5 * p->k * last * last * p->flat_length;
+  double s = depth(p, gap[p->nodes - 1]), f = p->p0 * s * s * s * p->flat_length;
+  push[p->nodes - 1] += f;
+  return energy + 0.25 * p->range * s * f;
+}
+
+static double stiffness(const ZpUnilateralParams *p, double gap) {
+  double s = depth(p, gap);
+  return 3 * p->p0 * s * s / p->range;
 }
 
 void zp_unilateral_stiffness(const ZpUnilateralParams *p, const double *gap, double *own, double *next) {
   memset(own, 0, p->nodes * sizeof *own);
   memset(next, 0, p->nodes * sizeof *next);
   for (size_t i = 0; i + 1 < p->nodes; i++) {
-    if (gap[i] >= 0 && gap[i + 1] >= 0) continue;
+    if (gap[i] >= p->range && gap[i + 1] >= p->range) continue;
     for (int q = 0; q < GAUSS; q++) {
-      if (gap[i] + (gap[i + 1] - gap[i]) * gauss_at[q] >= 0) continue;
-      double c = p->k * gauss_weight[q] * p->l;
+      double c = stiffness(p, gap[i] + (gap[i + 1] - gap[i]) * gauss_at[q]) * gauss_weight[q] * p->l;
       own[i] += c * (1 - gauss_at[q]) * (1 - gauss_at[q]);
       own[i + 1] += c * gauss_at[q] * gauss_at[q];
       next[i] += c * gauss_at[q] * (1 - gauss_at[q]);
     }
   }
-  if (gap[p->nodes - 1] < 0) own[p->nodes - 1] += p->k * p->flat_length;
+  own[p->nodes - 1] += stiffness(p, gap[p->nodes - 1]) * p->flat_length;
 }
 
-size_t zp_unilateral_front(const ZpUnilateralParams *p, const double *gap, double closed) {
+size_t zp_unilateral_front(const ZpUnilateralParams *p, const double *gap) {
   size_t front = 0;
-  while (front + 1 < p->nodes && gap[front + 1] < closed)
+  while (front + 1 < p->nodes && gap[front + 1] < p->range)
     front++;
   return front;
 }

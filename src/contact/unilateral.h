@@ -1,8 +1,9 @@
-/* Unilateral contact: insulator faces press on each other where they would overlap, and nothing holds them
- * together. The pressure grows with the overlap, eq. (9.1); integrated inside each element at the same
- * points as the field, so the two balance point by point.
+/* Unilateral contact: insulator faces that come closer than a short range push each other apart, and nothing
+ * holds them together. The law, eq. (9.1), is smooth, so that a branch of equilibria has no corner where contact
+ * begins; its range is far below a micrometre. It is integrated inside each element at the same points as the
+ * field, so the two balance point by point.
  *
- * Stations are pairs of facing nodes; upper and lower node of station i at [2 i] and [2 i + 1]. */
+ * Stations are pairs of facing nodes. */
 #ifndef ZP_CONTACT_UNILATERAL_H
 #define ZP_CONTACT_UNILATERAL_H
 
@@ -11,7 +12,8 @@
 typedef struct ZpUnilateralParams {
   size_t nodes;       /* N stations */
   double l;           /* element length, m */
-  double k;           /* pressure per length over overlap, N/m^2 */
+  double p0;          /* push per length at gap 0, N/m */
+  double range;       /* gap below which faces push, m */
   double flat_length; /* of the platform's faces, at the gap of the last station, m */
 } ZpUnilateralParams;
 
@@ -21,7 +23,7 @@ double zp_unilateral_push(const ZpUnilateralParams *params, const double *gap, d
 /* (gaps [N]) => second derivatives of the energy by the gaps: own [N] and with the next station [N-1], N/m. */
 void zp_unilateral_stiffness(const ZpUnilateralParams *params, const double *gap, double *own, double *next);
 
-/* How many stations from the clip on are closed: gap below `closed`, m. */
-size_t zp_unilateral_front(const ZpUnilateralParams *params, const double *gap, double closed);
+/* How many stations from the clip on are in touch, the clip not counted. */
+size_t zp_unilateral_front(const ZpUnilateralParams *params, const double *gap);
 
 #endif
