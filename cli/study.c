@@ -5,6 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <zipact/calibrate.h>
+
 #include "cli.h"
 
 typedef struct Batch {
@@ -29,8 +31,10 @@ static ZpStatus read_scenario(const char *study, const Options *o, ZpScenario *s
 static ZpStatus check_all(const Batch *batch, ZpError *err) {
   ZpActuatorDef def;
   ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < batch->count && status == ZP_OK; i++)
+  for (size_t i = 0; i < batch->count && status == ZP_OK; i++) {
     status = zp_scenario_def(batch->scenario, i, &def, err);
+    if (status == ZP_OK) status = zp_data_check(&def, err);
+  }
   return status;
 }
 
@@ -40,7 +44,7 @@ static ZpStatus run_one(Batch *batch, Progress *progress, ZpError *err) {
   if (status != ZP_OK) return status;
   ZpHooks hooks = cli_hooks(progress);
   ZpResult *result;
-  status = zp_study_run(&def, &hooks, &result, err);
+  status = zp_data_study_run(&def, &hooks, &result, err);
   if (status != ZP_OK) return status;
   if (batch->count > 1) { /* a sweep reports no shapes: keep its memory to the series */
     zp_shapes_destroy(result->shapes);
@@ -74,6 +78,30 @@ static void print_scalar(const ZpScalar *scalar) {
     printf("  %-28s %14.6g %s\n", scalar->name, scalar->value, bare ? "" : scalar->unit);
 }
 
+/* What a row of a sweep shows of its result. */
+typedef struct Shown {
+  ZpStudy study;
+  const char *scalar, *label;
+  double factor;
+  const char *unit;
+} Shown;
+
+static void print_answers(const ZpResult *result) {
+  static const Shown shown[] = {
+      {ZP_STUDY_ACTUATE, "contraction", "contraction", 100, "%"},
+      {ZP_STUDY_ACTUATE, "zip_time_s", "zip time", 1e3, "ms"},
+      {ZP_STUDY_STATIONARY, "stroke_m", "stroke", 1e3, "mm"},
+      {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", "pull-in", 1e-3, "kV"},
+      {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", "release", 1e-3, "kV"},
+      {ZP_STUDY_MODES, "frequency_1_Hz", "frequency", 1, "Hz"},
+  };
+  for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
+    double value = zp_result_get(result, shown[i].scalar);
+    if (shown[i].study == result->study && !isnan(value))
+      printf("  %s %8.3f %s", shown[i].label, value * shown[i].factor, shown[i].unit);
+  }
+}
+
 /* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
 static void print_row(const Batch *batch, size_t index) {
   size_t lists;
@@ -87,9 +115,7 @@ static void print_row(const Batch *batch, size_t index) {
     printf("  %s = %-10s", zp_key(list[k])->name, text);
   }
   printf("  %-12s", zp_outcome_name(result->outcome));
-  double zip_time = zp_result_get(result, "zip_time_s"), contraction = zp_result_get(result, "contraction");
-  if (!isnan(contraction)) printf("  contraction %7.3f %%", 100 * contraction);
-  if (!isnan(zip_time)) printf("  zip time %8.3f ms", 1e3 * zip_time);
+  print_answers(result);
   printf("\n");
 }
 

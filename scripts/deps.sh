@@ -4,7 +4,7 @@
 #   scripts/deps.sh          build, run and check
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
 set -eu
-packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev check gnuplot-nox
+packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev check gnuplot-nox
  fonts-dejavu-core python3 ca-certificates"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
 
@@ -13,12 +13,12 @@ if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>
   for tool in cc cmake make pkg-config gnuplot python3; do
     command -v $tool >/dev/null 2>&1 || missing="$missing $tool"
   done
-  for library in hdf5 libfyaml udunits jansson check; do
+  for library in hdf5 libfyaml udunits jansson nlopt check; do
     pkg-config --exists $library 2>/dev/null || missing="$missing $library"
   done
   [ -z "$missing" ] && exit 0
   echo "zipact needs, and this system has no apt-get to install:$missing" >&2
-  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, Check, gnuplot, python3)" >&2
+  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, Check, gnuplot, python3)" >&2
   exit 1
 fi
 

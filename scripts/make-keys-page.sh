@@ -22,8 +22,8 @@ for key in json.load(sys.stdin):
     if isinstance(value, bool):
         value = str(value).lower()
     number = isinstance(value, (int, float))
-    shown = f"{value:g}{unit}" if number else value
-    allowed = ", ".join(words) or ("true, false" if key["type"] == "bool" else "%g to %g%s" % (key["min"], key["max"], unit))
+    shown = f"{value:g}{unit}" if number else value or "\"\""
+    allowed = "text" if key["type"] == "text" else ", ".join(words) or ("true, false" if key["type"] == "bool" else "%g to %g%s" % (key["min"], key["max"], unit))
     print("| `%s` | %s | %s | %s |" % (key["key"], cell(shown), cell(allowed), cell(key["help"])))
 ' >"$made"
 python3 - "$(dirname "$0")/../include/zipact/signals.def" >>"$made" <<'PYTHON'

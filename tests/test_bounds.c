@@ -47,19 +47,23 @@ static double cpu_seconds(void) {
 
 /* -- what a result may hold --------------------------------------------------------------------------- */
 
-/* Numbers that may not exist: never zipped, no opening to contract from, no work, no clock, no drag, at
+/* Numbers that may not exist: no pull-in, never zipped, no opening to contract from, no work, no clock, no drag, at
  * rest, no step taken. */
 static bool scalar_may_be_missing(const char *name) {
-  static const char *const names[] = {
-      "zip_time_s",       "contraction",           "energy_error",           "real_time_factor",
-      "mean_time_step_s", "smallest_drag_bound_s", "smallest_axial_bound_s", "smallest_shear_bound_s"};
+  static const char *const names[] = {"pull_in_voltage_V",     "release_voltage_V",     "zip_time_s",
+                                      "contraction",           "energy_error",          "real_time_factor",
+                                      "mean_time_step_s",      "smallest_drag_bound_s", "smallest_axial_bound_s",
+                                      "smallest_shear_bound_s"};
   for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
     if (strcmp(name, names[i]) == 0) return true;
   return false;
 }
 
 static bool cell_may_be_missing(const char *name, bool two) {
-  return strcmp(name, "contraction") == 0 || (!two && strcmp(name, "opening_m") == 0);
+  static const char *const of_two[] = {"opening_m", "upper_x_m", "upper_y_m"};
+  for (size_t i = 0; i < sizeof of_two / sizeof of_two[0]; i++)
+    if (!two && strcmp(name, of_two[i]) == 0) return true;
+  return strcmp(name, "contraction") == 0;
 }
 
 /* A run that found no start or diverged knows how it ended and how many steps it took, not where it is. */
@@ -84,11 +88,12 @@ static void check_table(const ZpResult *result, bool two, const char *what) {
     for (size_t c = 0; c < table->columns; c++) {
       double value = table->value[row * table->columns + c];
       const char *name = table->column[c].name, *outcome = zp_outcome_name(result->outcome);
-      bool may = cell_may_be_missing(name, two);
+      bool may = cell_may_be_missing(name, two) || (row + 1 == table->rows && strcmp(name, "tension_N") == 0);
+      bool rises = strcmp(name, "voltage_V") != 0; /* a branch turns round */
       ck_assert_msg(!isinf(value), "%s (%s): %s infinite in row %zu of %zu", what, outcome, name, row, table->rows);
       ck_assert_msg(may || !isnan(value), "%s (%s): %s NAN in row %zu of %zu", what, outcome, name, row, table->rows);
-      ck_assert_msg(row == 0 || c > 0 || value > table->value[(row - 1) * table->columns], "%s: time stands still",
-                    what);
+      ck_assert_msg(row == 0 || c > 0 || !rises || value > table->value[(row - 1) * table->columns],
+                    "%s: time stands still", what);
     }
 }
 
@@ -127,6 +132,12 @@ static ZpOutcome run_and_check(const ZpActuatorDef *def, const char *what) {
 static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
   if (strcmp(key, "ribbon.length") == 0 && value < 0.01) def->platform.length = 0.5 * value;
+  bool rests = strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_FLANGE;
+  if (rests || (strcmp(key, "ribbon.density") == 0 && value == 0)) def->study = ZP_STUDY_STATIONARY;
+  if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length") && value > 0) {
+    def->actuator.kind = ZP_KIND_RIBBON;
+    def->ribbon.length = value;
+  }
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;
   if (strcmp(key, "electro.switch_offset") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
   if (strcmp(key, "electro.refresh_period") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
@@ -146,8 +157,10 @@ static void run_at(int index, double value) {
 
 START_TEST(study_ends_at_the_bounds) {
   const ZpKey *key = zp_key(_i);
+  if (key->type == ZP_KEY_TEXT) return;
   run_at(_i, key->min);
-  if (key->max > key->min) run_at(_i, key->max);
+  bool is_study = strcmp(key->name, "study") == 0; /* its last, calibrate, needs data: test_calibrate */
+  if (key->max > key->min && !is_study) run_at(_i, key->max);
   for (double word = 1; key->type == ZP_KEY_ENUM && word < key->max; word++) {
     bool preset = strcmp(key->name, "preset") == 0; /* applied by zp_def_resolve: see below */
     if (!preset) run_at(_i, word);
@@ -207,6 +220,11 @@ START_TEST(bad_fields_are_refused) {
   const ZpKey *key = zp_key(_i);
   ZpActuatorDef def = zp_actuator_def_default();
   void *field = (char *)&def + key->offset;
+  if (key->type == ZP_KEY_TEXT) {
+    memset(field, 'x', ZP_TEXT_SIZE);
+    refuse_field(&def, key->name);
+    return;
+  }
   double real[] = {INFINITY, -INFINITY, nextafter(key->max, INFINITY), nextafter(key->min, -INFINITY)};
   int whole[] = {(int)key->min - 1, (int)key->max + 1};
   bool is_real = key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO;
@@ -255,9 +273,10 @@ START_TEST(wrong_words_are_refused) {
                                       "1..2",
                                       "1e",
                                       "none of these"};
+  const ZpKey *key = zp_key(_i);
+  if (key->type == ZP_KEY_TEXT) return; /* any words are right */
   for (size_t k = 0; k < sizeof never / sizeof never[0]; k++)
     refuse_text(_i, never[k]);
-  const ZpKey *key = zp_key(_i);
   if (key->type == ZP_KEY_INT) refuse_text(_i, "5.5");
   if (key->type == ZP_KEY_INT || key->type == ZP_KEY_REAL) refuse_text(_i, "auto");
   if (key->type == ZP_KEY_ENUM) refuse_text(_i, "0");
@@ -270,7 +289,7 @@ START_TEST(text_beyond_the_bounds_is_refused) {
   ZpError err;
   char text[64];
   double value;
-  if (key->type == ZP_KEY_BOOL || key->type == ZP_KEY_ENUM) return;
+  if (key->type == ZP_KEY_BOOL || key->type == ZP_KEY_ENUM || key->type == ZP_KEY_TEXT) return;
   snprintf(text, sizeof text, "%.17g", next_to(key, key->max, INFINITY));
   refuse_text(_i, text);
   ck_assert_int_eq(zp_value_parse(_i, text, &value, &err), ZP_BAD_INPUT);
@@ -452,6 +471,7 @@ END_TEST
 /* A preset that has a value only for some N says so for another, and which key is wanted. */
 START_TEST(presets_ask_for_what_they_lack) {
   for (int preset = 1; preset < ZpPreset_COUNT; preset++) {
+    if (preset == ZP_PRESET_PAPER_FE) continue; /* has what it needs at any N */
     ZpAssignment list[] = {{zp_key_find("preset"), preset}, {zp_key_find("mesh.nodes"), 33}};
     ZpActuatorDef def;
     ZpError err;

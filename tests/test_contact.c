@@ -228,7 +228,8 @@ END_TEST
 /* -- invariants during a run ----------------------------------------------------------------------- */
 
 static ZpActuatorDef zipping_def(void) {
-  return DEF({"mesh.nodes", 21}, {"mass_spring.axial", ZP_AXIAL_CODE}, {"damping.drag", 0.01});
+  return DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"mass_spring.axial", ZP_AXIAL_CODE},
+             {"damping.drag", 0.01});
 }
 
 typedef struct Run {

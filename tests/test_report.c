@@ -1,6 +1,6 @@
 /* Writing of results: what is in the files, that the same result gives the same bytes, and that a
  * failure leaves neither halves nor temporaries behind. The results are made up: two smooth ribbons of
- * 45 mm that zip from the clip in 75 ms. */
+ * 45 mm that zip from the clip in 75 ms. Those of the studies of rest are real: they take milliseconds. */
 #include <check.h>
 #include <dirent.h>
 #include <errno.h>
@@ -200,6 +200,29 @@ static void write_sweep(const char *name, const char *assignment, size_t count) 
   const ZpReport report = {in_base(name), scenario, result, count, 2.5};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
+  for (size_t i = 0; i < count; i++)
+    zp_result_destroy(result[i]);
+  free(result);
+  zp_scenario_destroy(scenario);
+}
+
+/* Run `study` as `assignment` (may be NULL) says, a sweep where it gives a list, and write the report. */
+static void write_study(const char *name, const char *study, const char *assignment) {
+  ZpScenario *scenario = scenario_of(assignment);
+  ZpError err = {0};
+  char choice[64];
+  snprintf(choice, sizeof choice, "study=%s", study);
+  ck_assert_int_eq(zp_scenario_set(scenario, choice, &err), ZP_OK);
+  const size_t count = zp_scenario_count(scenario);
+  ZpResult **result = calloc(count, sizeof(ZpResult *));
+  ck_assert_ptr_nonnull(result);
+  for (size_t i = 0; i < count; i++) {
+    ZpActuatorDef def;
+    ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
+    ck_assert_msg(zp_study_run(&def, NULL, &result[i], &err) == ZP_OK, "%s", err.message);
+  }
+  const ZpReport report = {in_base(name), scenario, result, count, 0.5};
+  ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
     zp_result_destroy(result[i]);
   free(result);
@@ -534,6 +557,116 @@ START_TEST(diverged) {
 }
 END_TEST
 
+/* That base/name has all of the files, ended by NULL, and that no notice was given. */
+static void check_files(const char *name, const char *const *file) {
+  for (; *file; file++) {
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", name, *file);
+    ck_assert_msg(exists(path), "no %s", path);
+  }
+  ck_assert_str_eq(notices, "");
+  count_files(name);
+}
+
+START_TEST(files_of_rest) {
+  write_study("e", "equilibrium", NULL);
+  check_files("e",
+              (const char *const[]){"table.csv", "results.h5", "shapes.pvd", "plots/stroke.svg", "plots/charge.svg",
+                                    "plots/zipped_length.svg", "plots/shapes.svg", "plots/animation.gif", NULL});
+  write_study("f", "equilibrium", "load.mass=61 g");
+  check_files("f", (const char *const[]){"plots/stroke.svg", "plots/charge.svg", "plots/shapes.svg", NULL});
+  write_study("s", "stationary", NULL);
+  check_files("s", (const char *const[]){"table.csv", "shapes.pvd", "plots/shape.svg", NULL});
+  write_study("r", "stationary", "actuator.kind=ribbon");
+  check_files("r", (const char *const[]){"plots/shape.svg", NULL});
+  write_study("m", "modes", NULL);
+  check_files("m", (const char *const[]){"table.csv", "shapes.pvd", "plots/modes.svg", NULL});
+  ck_assert(!exists("m/plots/stroke.svg") && !exists("s/plots/stroke.svg") && !exists("s/plots/modes.svg"));
+}
+END_TEST
+
+/* Of one list key there is a picture; its runs have none. */
+START_TEST(sweeps_of_rest) {
+  write_study("s", "stationary", "load.mass=[8 g, 61 g]");
+  check_files("s", (const char *const[]){"table.csv", "plots/strokes.svg", NULL});
+  write_study("e", "equilibrium", "load.mass=[8 g, 61 g]");
+  check_files("e", (const char *const[]){"table.csv", "plots/voltages.svg", NULL});
+  write_study("m", "modes", "load.mass=[8 g, 61 g]");
+  check_files("m", (const char *const[]){"table.csv", "plots/frequencies.svg", NULL});
+  ck_assert(!exists("s/plots/shape.svg") && !exists("e/plots/stroke.svg") && !exists("m/plots/modes.svg"));
+}
+END_TEST
+
+/* Neither a NaN nor infinity may be spelled out where other programs read. */
+static void check_numbers(const char *name) {
+  char path[128];
+  const char *const file[] = {"summary.json", "table.csv"};
+  for (size_t i = 0; i < 2; i++) {
+    size_t size;
+    snprintf(path, sizeof path, "%s/%s", name, file[i]);
+    char *text = read_whole(in_base(path), &size);
+    for (const char *c = text; (c = strcasestr(c, "nan")) != NULL; c++)
+      ck_assert_msg(c > text && (c[-1] >= 'a' && c[-1] <= 'z'), "%s: %.20s", path, c);
+    ck_assert_ptr_null(strstr(text, "inf,"));
+    free(text);
+  }
+}
+
+START_TEST(rest_is_the_same_each_time) {
+  const char *const study[] = {"equilibrium", "stationary", "modes"};
+  for (size_t i = 0; i < 3; i++) {
+    write_study("a", study[i], NULL); /* over what the study before left there */
+    write_study(study[i], study[i], NULL);
+    same_files("a", study[i]);
+    check_numbers("a");
+    write_study("b", study[i], "load.mass=[8 g, 61 g]");
+    check_numbers("b");
+  }
+  write_single("a", NULL, made_up(50, 10, false, 8e3, 1), 1);
+  write_single("c", NULL, made_up(50, 10, false, 8e3, 1), 1);
+  same_files("a", "c");
+  write_study("a", "equilibrium", NULL);
+  same_files("a", "equilibrium");
+}
+END_TEST
+
+static void check_frequencies(const json_t *object) {
+  const json_t *array = json_object_get(object, "frequencies_Hz");
+  ck_assert_uint_ge(json_array_size(array), 3);
+  for (size_t i = 1; i < json_array_size(array); i++)
+    ck_assert(json_number_value(json_array_get(array, i - 1)) < json_number_value(json_array_get(array, i)));
+  ck_assert_double_gt(json_number_value(json_array_get(array, 0)), 0);
+  ck_assert_ptr_null(json_object_get(object, "frequency_1_Hz"));
+}
+
+START_TEST(frequencies_are_an_array) {
+  size_t size;
+  write_study("one", "modes", NULL);
+  json_t *json = load_json("one/summary.json");
+  check_frequencies(json);
+  json_decref(json);
+  write_study("two", "modes", "load.mass=[8 g, 61 g]");
+  json = load_json("two/summary.json");
+  const json_t *rows = json_object_get(json, "rows");
+  ck_assert_uint_eq(json_array_size(rows), 2);
+  check_frequencies(json_array_get(rows, 0));
+  check_frequencies(json_array_get(rows, 1));
+  json_decref(json);
+  char *text = read_whole(in_base("two/table.csv"), &size);
+  ck_assert_int_eq(strncmp(text, "load.mass_kg,outcome,frequency_1_Hz,frequency_2_Hz,", 51), 0);
+  free(text);
+}
+END_TEST
+
+START_TEST(no_pull_in_is_null) {
+  write_study("out", "equilibrium", "load.mass=61 g");
+  json_t *json = load_json("out/summary.json");
+  ck_assert(json_is_null(json_object_get(json, "pull_in_voltage_V")));
+  ck_assert_double_gt(json_number_of(json, "release_voltage_V"), 0);
+  json_decref(json);
+}
+END_TEST
+
 START_TEST(folder_that_cannot_be) {
   ZpError err = {0};
   put_file("file", "mine");
@@ -667,6 +800,11 @@ static Suite *suite_of_report(void) {
                                interrupted_before_the_first_run,
                                kind_ribbon,
                                diverged,
+                               files_of_rest,
+                               sweeps_of_rest,
+                               rest_is_the_same_each_time,
+                               frequencies_are_an_array,
+                               no_pull_in_is_null,
                                folder_that_cannot_be,
                                name_taken_by_a_folder,
                                summary_to_a_full_device,

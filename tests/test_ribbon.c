@@ -366,9 +366,10 @@ static double compliance(int nodes, ZpRightEnd end, double *EI) {
   const double g = 9.81, light = 1e-5, heavy = 2e-5;
   double stroke[2];
   for (int i = 0; i < 2; i++) {
-    ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", end}, {"ribbon.length", L},
-                            {"ribbon.density", 1}, {"mesh.nodes", nodes}, {"mass_spring.axial", ZP_AXIAL_CODE},
-                            {"solver.tolerance", 1e-9}, {"gravity", g}, {"load.mass", i ? heavy : light});
+    ZpActuatorDef def =
+        DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", end},
+            {"ribbon.length", L}, {"ribbon.density", 1}, {"mesh.nodes", nodes}, {"mass_spring.axial", ZP_AXIAL_CODE},
+            {"solver.tolerance", 1e-9}, {"gravity", g}, {"load.mass", i ? heavy : light});
     stroke[i] = settled_value(&def, "stroke");
   }
   const ZpLayer layer = {50e-6, 200e9, 0.285, 7850};

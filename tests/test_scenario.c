@@ -500,6 +500,7 @@ static void assert_value_round_trip(int key, double value) {
 
 START_TEST(test_value_round_trip) {
   const ZpKey *key = zp_key(_i);
+  if (key->type == ZP_KEY_TEXT) return;
   assert_value_round_trip(_i, key->def);
   assert_value_round_trip(_i, key->min);
   assert_value_round_trip(_i, key->max);
@@ -516,6 +517,7 @@ END_TEST
 /* A scenario that sets one key: it need not pass the check of the whole Def to be written. */
 START_TEST(test_scenario_round_trip) {
   const ZpKey *key = zp_key(_i);
+  if (key->type == ZP_KEY_TEXT) return; /* test_texts */
   double values[] = {key->min, key->max, key->min + (key->max - key->min) / 3};
   for (size_t i = 0; i < LENGTH_OF(values); i++) {
     char value[256], line[512];
@@ -533,6 +535,38 @@ START_TEST(test_scenario_round_trip) {
     zp_scenario_destroy(back);
     zp_scenario_destroy(s);
   }
+}
+END_TEST
+
+/* Texts come back as they were, whatever is in them; a file is kept as an absolute path. */
+START_TEST(test_texts) {
+  ZpScenario *s = scenario_of("calibrate:\n  fit: a \"b\" \\ c, [d] é\n  x: 'it''s # not a comment'\n  y: "
+                              "\"0.5\"\ndata.file: /folder/a b.csv\n");
+  char *text = written(s);
+  ZpScenario *back = scenario_of(text);
+  ZpActuatorDef def = def_of(back, 0), first = def_of(s, 0);
+  ck_assert_str_eq(def.calibrate.fit, "a \"b\" \\ c, [d] é");
+  ck_assert_str_eq(def.calibrate.x, "it's # not a comment");
+  ck_assert_str_eq(def.calibrate.y, "0.5");
+  ck_assert_str_eq(def.data.file, "/folder/a b.csv");
+  ck_assert_mem_eq(&def, &first, sizeof def);
+  ZpError err;
+  ck_assert_int_eq(zp_scenario_set(s, "calibrate.fit=ribbon.width, ribbon.thickness", &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_set(s, "data.file=b.csv", &err), ZP_OK);
+  def = def_of(s, 0);
+  ck_assert_str_eq(def.calibrate.fit, "ribbon.width, ribbon.thickness");
+  ck_assert(*def.data.file == '/' && strstr(def.data.file, "/b.csv"));
+  ck_assert_int_eq(zp_scenario_set(s, "calibrate.x=[a, b]", &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "takes one text"));
+  ck_assert_int_eq(zp_scenario_set(s, "calibrate.x=\"a\\tb\"", &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "control character"));
+  char longest[400] = "calibrate.x=";
+  memset(longest + strlen(longest), 'x', ZP_TEXT_SIZE);
+  ck_assert_int_eq(zp_scenario_set(s, longest, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "longer than 255"));
+  free(text);
+  zp_scenario_destroy(back);
+  zp_scenario_destroy(s);
 }
 END_TEST
 
@@ -594,6 +628,8 @@ START_TEST(test_keys_json) {
     if (key->type == ZP_KEY_ENUM) {
       ck_assert_str_eq(json_string_value(def), key->choices[(int)key->def].word);
       ck_assert_int_eq((int)json_array_size(json_object_get(row, "choices")), (int)key->max + 1);
+    } else if (key->type == ZP_KEY_TEXT) {
+      ck_assert_str_eq(json_string_value(def), key->text);
     } else if (key->type != ZP_KEY_BOOL) {
       ck_assert(json_number_value(json_object_get(row, "min")) == key->min);
       ck_assert(json_number_value(json_object_get(row, "max")) == key->max);
@@ -720,6 +756,7 @@ int main(void) {
   tcase_add_test(scenarios, test_def_errors);
   tcase_add_test(scenarios, test_limits);
   tcase_add_test(scenarios, test_long_names);
+  tcase_add_test(scenarios, test_texts);
   tcase_add_loop_test(scenarios, test_scenario_round_trip, 0, zp_key_count());
   tcase_add_test(scenarios, test_files);
   suite_add_tcase(suite, scenarios);

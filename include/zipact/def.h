@@ -29,6 +29,9 @@ extern "C" {
 #undef ZP_CHOICE
 #undef ZP_CHOICES_END
 
+/* Bytes of a text key with the final 0. */
+#define ZP_TEXT_SIZE 256
+
 /* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; meaning, unit,
  * default and range of each are in keys.def (or: `zipact keys`). */
 #define ZP_GROUP(group) struct {
@@ -40,6 +43,7 @@ extern "C" {
 #define ZP_INT(path, name, def, min, max, help)               int name;
 #define ZP_BOOL(path, name, def, help)                        bool name;
 #define ZP_ENUM(path, name, type, def, help)                  type name;
+#define ZP_TEXT(path, name, def, help)                        char name[ZP_TEXT_SIZE];
 typedef struct ZpActuatorDef {
 #include <zipact/keys.def>
 } ZpActuatorDef;
@@ -50,6 +54,7 @@ typedef struct ZpActuatorDef {
 #undef ZP_INT
 #undef ZP_BOOL
 #undef ZP_ENUM
+#undef ZP_TEXT
 
 /* Kind of value that a key takes. */
 typedef enum ZpKeyType {
@@ -57,7 +62,8 @@ typedef enum ZpKeyType {
   ZP_KEY_REAL_AUTO, /* a number with a unit, or auto (NAN), which is its default */
   ZP_KEY_INT,       /* a whole number */
   ZP_KEY_BOOL,      /* 0 or 1; written true, false */
-  ZP_KEY_ENUM       /* one of `choices`, by its place in the list */
+  ZP_KEY_ENUM,      /* one of `choices`, by its place in the list */
+  ZP_KEY_TEXT       /* a text; has no number (NAN) */
 } ZpKeyType;
 
 /* A word of a choice key. */
@@ -78,6 +84,7 @@ typedef struct ZpKey {
   const char *help;        /* one line */
   const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
   size_t offset;           /* of its field in ZpActuatorDef, bytes */
+  const char *text;        /* ZP_KEY_TEXT: default; else NULL */
 } ZpKey;
 
 /* A value for a key, on its way into a Def. */
@@ -104,12 +111,19 @@ int zp_key_choice(int index, const char *word);
 /* The default of every key: the paper's actuator, physically right. */
 ZpActuatorDef zp_actuator_def_default(void);
 
-/* Value of key `index` in `def`, as in ZpAssignment. */
+/* Value of key `index` in `def`, as in ZpAssignment; NAN of a text key. */
 double zp_def_get(const ZpActuatorDef *def, int index);
 
 /* Set one key. ZP_BAD_INPUT with key, value, unit and range if the value is out of range or not a
  * number; `def` is then unchanged. */
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
+
+/* Text of the text key `index` in `def`; NULL if the key is of another type. */
+const char *zp_def_text(const ZpActuatorDef *def, int index);
+
+/* Set a text key. ZP_BAD_INPUT if the text is longer than 255 bytes or has control characters, or the key is
+ * of another type; `def` is then unchanged. */
+ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
 
 /* Fill `def` from the defaults, those of the kind, the preset and `count` assignments, in this order;
  * later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the

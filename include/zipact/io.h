@@ -46,11 +46,11 @@ typedef enum ZpKeysFormat { ZP_KEYS_TEXT, ZP_KEYS_JSON, ZP_KEYS_YAML } ZpKeysFor
 ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
 
 /* Read a value for key `index` as a person writes it: "130 um", "auto", "true", "plates"; a bare number
- * is SI. ZP_BAD_INPUT names key, value, unit and range. */
+ * is SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
 ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
 /* Write a value of key `index` as a person would: "100 mm", "auto", "true", "plates". Reads back to the
- * same bits. `text` gets at most `size` bytes with the final 0. */
+ * same bits; of a text key, its default. `text` gets at most `size` bytes with the final 0. */
 void zp_value_print(int index, double value, char *text, size_t size);
 
 /* Where results go, and what was run. */

@@ -22,14 +22,17 @@
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
-  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name)},
+  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name), NULL},
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
-  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name)},
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), NULL},
 #define ZP_INT(path, name, def, min, max, help)                                                                        \
-  {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, OFFSET(path, name)},
-#define ZP_BOOL(path, name, def, help) {#path #name, ZP_KEY_BOOL, "1", "", def, 0, 1, help, NULL, OFFSET(path, name)},
+  {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, OFFSET(path, name), NULL},
+#define ZP_BOOL(path, name, def, help)                                                                                 \
+  {#path #name, ZP_KEY_BOOL, "1", "", def, 0, 1, help, NULL, OFFSET(path, name), NULL},
 #define ZP_ENUM(path, name, type, def, help)                                                                           \
-  {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, OFFSET(path, name)},
+  {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, OFFSET(path, name), NULL},
+#define ZP_TEXT(path, name, def, help)                                                                                 \
+  {#path #name, ZP_KEY_TEXT, "1", "", NAN, 0, ZP_TEXT_SIZE - 1, help, NULL, OFFSET(path, name), def},
 static const ZpKey keys[] = {
 #include <zipact/keys.def>
 };
@@ -40,6 +43,7 @@ static const ZpKey keys[] = {
 #undef ZP_INT
 #undef ZP_BOOL
 #undef ZP_ENUM
+#undef ZP_TEXT
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
@@ -147,6 +151,8 @@ static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   case ZP_KEY_ENUM:
     memcpy(field, &(int){(int)value}, sizeof(int));
     break;
+  case ZP_KEY_TEXT: /* has no number */
+    break;
   }
 }
 
@@ -154,7 +160,10 @@ ZpActuatorDef zp_actuator_def_default(void) {
   ZpActuatorDef def;
   memset(&def, 0, sizeof def);
   for (int i = 0; i < KEY_COUNT; i++)
-    store(&def, &keys[i], keys[i].def);
+    if (keys[i].type == ZP_KEY_TEXT)
+      memcpy((char *)&def + keys[i].offset, keys[i].text, strlen(keys[i].text));
+    else
+      store(&def, &keys[i], keys[i].def);
   return def;
 }
 
@@ -170,6 +179,8 @@ double zp_def_get(const ZpActuatorDef *def, int index) {
     return real;
   case ZP_KEY_BOOL:
     return *(const bool *)field;
+  case ZP_KEY_TEXT:
+    return NAN;
   case ZP_KEY_INT:
   case ZP_KEY_ENUM:
     break;
@@ -178,9 +189,35 @@ double zp_def_get(const ZpActuatorDef *def, int index) {
   return whole;
 }
 
+const char *zp_def_text(const ZpActuatorDef *def, int index) {
+  return keys[index].type == ZP_KEY_TEXT ? (const char *)def + keys[index].offset : NULL;
+}
+
+static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
+  size_t length = strnlen(text, ZP_TEXT_SIZE);
+  if (length == ZP_TEXT_SIZE)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: longer than %d bytes", key->name, ZP_TEXT_SIZE - 1);
+  for (size_t i = 0; i < length; i++)
+    if ((unsigned char)text[i] < 0x20 || text[i] == 0x7F)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: has a control character in place %zu", key->name, i + 1);
+  return ZP_OK;
+}
+
+ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
+  const ZpKey *key = &keys[index];
+  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes no text", key->name);
+  ZpStatus status = check_text(key, text, err);
+  if (status != ZP_OK) return status;
+  char *field = (char *)def + key->offset;
+  memset(field, 0, ZP_TEXT_SIZE);
+  memcpy(field, text, strlen(text));
+  return ZP_OK;
+}
+
 static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
   const char *unit = strcmp(key->unit, "1") == 0 ? "" : key->unit;
   const char *space = *unit ? " " : "";
+  if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a text, not a number", key->name);
   if (key->type == ZP_KEY_REAL_AUTO && isnan(value)) return ZP_OK;
   if (!isfinite(value)) return zp_fail(err, ZP_BAD_INPUT, "%s: not a finite number", key->name);
   bool whole = key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO;
@@ -261,7 +298,8 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < KEY_COUNT; i++) {
-    ZpStatus status = check_value(&keys[i], zp_def_get(def, i), err);
+    const char *text = zp_def_text(def, i);
+    ZpStatus status = text ? check_text(&keys[i], text, err) : check_value(&keys[i], zp_def_get(def, i), err);
     if (status != ZP_OK) return status;
   }
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;

@@ -118,7 +118,8 @@ static void put_series(Store *store, hid_t parent, const ZpTable *table) {
 }
 
 /* Time, voltage and number of closed pairs of each frame. */
-static void put_frames(Store *store, hid_t group, const ZpShapes *shapes) {
+static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStudy study) {
+  static const Meaning moment = {"time", "s", "time of the frame"}, mark = {"time", "1", "number of the frame's state"};
   const hsize_t size = shapes->frames;
   double *time = numbers(store, shapes->frames), *voltage = numbers(store, shapes->frames);
   long long *zipped = calloc(shapes->frames + 1, sizeof *zipped);
@@ -129,7 +130,7 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes) {
     voltage[i] = clean(shape.voltage);
     zipped[i] = (long long)shape.zipped;
   }
-  put_reals(store, group, &(Meaning){"time", "s", "time of the frame"}, 1, &size, time);
+  put_reals(store, group, study == ZP_STUDY_ACTUATE ? &moment : &mark, 1, &size, time);
   put_reals(store, group, &(Meaning){"voltage", "V", "potential difference of the electrodes"}, 1, &size, voltage);
   put_array(store, group, &(Meaning){"zipped", "1", "pairs 0 .. zipped are closed; the clip is pair 0"}, H5T_STD_I64LE,
             H5T_NATIVE_LLONG, 1, &size, zipped);
@@ -164,10 +165,10 @@ static void put_field(Store *store, hid_t group, const ZpShapes *shapes, Field f
   free(value);
 }
 
-static void put_shapes(Store *store, hid_t parent, const ZpShapes *shapes) {
+static void put_shapes(Store *store, hid_t parent, const ZpShapes *shapes, ZpStudy study) {
   if (!shapes) return;
   hid_t group = open_group(store, parent, "shapes");
-  put_frames(store, group, shapes);
+  put_frames(store, group, shapes, study);
   put_field(store, group, shapes, FIELD_X,
             &(Meaning){"x", "m", "place of a node, to the right; [frame][ribbon][node]"});
   put_field(store, group, shapes, FIELD_Y, &(Meaning){"y", "m", "place of a node, upwards; [frame][ribbon][node]"});
@@ -190,7 +191,7 @@ static void put_summary(Store *store, hid_t parent, const ZpResult *result) {
 
 static void put_run(Store *store, hid_t parent, const ZpResult *result) {
   put_series(store, parent, result->series);
-  put_shapes(store, parent, result->shapes);
+  put_shapes(store, parent, result->shapes, result->study);
   put_summary(store, parent, result);
 }
 

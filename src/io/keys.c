@@ -14,7 +14,7 @@
 enum { COMMENT_COLUMN = 34 }; /* where the comments of the starter scenario begin */
 
 static bool is_number(const ZpKey *key) {
-  return key->type != ZP_KEY_BOOL && key->type != ZP_KEY_ENUM;
+  return key->type != ZP_KEY_BOOL && key->type != ZP_KEY_ENUM && key->type != ZP_KEY_TEXT;
 }
 
 /* What may be given: a range, or words joined by `between`. */
@@ -22,6 +22,10 @@ static void allowed(int index, const char *between, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
   if (is_number(key)) {
     zp_value_range(index, text, size);
+    return;
+  }
+  if (key->type == ZP_KEY_TEXT) {
+    snprintf(text, size, "text");
     return;
   }
   snprintf(text, size, "%s", key->choices ? key->choices[0].word : "true");
@@ -92,7 +96,7 @@ static void write_yaml(FILE *file) {
 }
 
 static const char *type_word(ZpKeyType type) {
-  static const char *const words[] = {"real", "real_auto", "int", "bool", "enum"};
+  static const char *const words[] = {"real", "real_auto", "int", "bool", "enum", "text"};
   return words[type];
 }
 
@@ -104,6 +108,8 @@ static json_t *json_of_value(int index, double value) {
     return json_boolean(value != 0);
   case ZP_KEY_ENUM:
     return json_string(key->choices[(int)value].word);
+  case ZP_KEY_TEXT:
+    return json_string(key->text);
   case ZP_KEY_INT:
     return json_integer((json_int_t)value);
   case ZP_KEY_REAL:

@@ -6,6 +6,8 @@
 
 #include <zipact/version.h>
 
+#include "io/number.h"
+
 ZpPlotUnit zp_plot_unit(double largest, const char *unit) {
   static const char *const prefix[] = {"f", "p", "n", "µ", "m", "", "k", "M", "G", "T"};
   int step = 0;
@@ -54,6 +56,56 @@ bool zp_plot_has(const ZpTable *table, const char *column) {
   return numbers >= 2;
 }
 
+ZpPlotBox zp_plot_box(const ZpShapes *shapes) {
+  ZpPlotBox box = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (size_t f = 0; f < shapes->frames; f++) {
+    const ZpShape shape = zp_shapes_get(shapes, f);
+    for (size_t i = 0; i < shapes->nodes * shapes->ribbons; i++) {
+      if (!isfinite(shape.x[i]) || !isfinite(shape.y[i])) continue;
+      box.left = fmin(box.left, shape.x[i]);
+      box.right = fmax(box.right, shape.x[i]);
+      box.bottom = fmin(box.bottom, shape.y[i]);
+      box.top = fmax(box.top, shape.y[i]);
+    }
+  }
+  return box;
+}
+
+bool zp_plot_fits_same_scale(const ZpPlotBox *box) {
+  const double width = box->right - box->left, height = box->top - box->bottom;
+  return height > 0.15 * width && width > 0.15 * height;
+}
+
+ZpPlotUnit zp_plot_box_unit(const ZpPlotBox *box) {
+  return zp_plot_unit(fmax(fmax(fabs(box->left), fabs(box->right)), box->top - box->bottom), "m");
+}
+
+void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics) {
+  double least = fmax(box->right - box->left, box->top - box->bottom) * unit.factor / tics;
+  if (!(least > 0)) return;
+  double power = pow(10, floor(log10(least))), step = least / power;
+  step = power * (step <= 1 ? 1 : step <= 2 ? 2 : step <= 5 ? 5 : 10);
+  fprintf(file, "set size ratio -1\nset xtics %.6g\nset ytics %.6g\n", step, step);
+}
+
+void zp_plot_put(FILE *file, double value, char after) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(value, text, sizeof text);
+  fprintf(file, "%s%c", text, after);
+}
+
+void zp_plot_put_shape(FILE *file, const ZpShapes *shapes, const ZpShape *shape, double more) {
+  for (size_t r = 0; r < shapes->ribbons; r++) {
+    for (size_t i = 0; i < shapes->nodes; i++) {
+      zp_plot_put(file, shape->x[i * shapes->ribbons + r], ' ');
+      zp_plot_put(file, shape->y[i * shapes->ribbons + r], ' ');
+      zp_plot_put(file, more, '\n');
+    }
+    fputs("NaN NaN ", file);
+    zp_plot_put(file, more, '\n');
+  }
+}
+
 void zp_plot_text(FILE *file, const char *text) {
   fputc('\'', file);
   for (; *text; text++) {
@@ -97,16 +149,41 @@ void zp_plot_foot(const ZpPlot *plot, FILE *file, const char *more) {
   fputs("set label 3 ", file);
   zp_plot_text(file, zp_plot_drag_note(plot));
   fputs(" at screen 0.985,0.025 right font ',10' tc rgb '#555555'\n", file);
-  if (!more) return;
+  if (more) zp_plot_remark(file, more);
+}
+
+void zp_plot_remark(FILE *file, const char *text) {
   fputs("set label 4 ", file);
-  zp_plot_text(file, more);
+  zp_plot_text(file, text);
   fputs(" at screen 0.015,0.025 left font ',10' tc rgb '#555555'\n", file);
+}
+
+void zp_plot_upper_panel(FILE *file) {
+  fputs("set multiplot\nset bmargin at screen 0.555\nset format x ''\nunset xlabel\n", file);
+}
+
+void zp_plot_lower_panel(FILE *file, double right, const char *xlabel) {
+  fprintf(file,
+          "unset label\nset tmargin at screen 0.505\nset bmargin at screen 0.17\n"
+          "set key at screen %g,0.505\nset format x '%%g'\nset xlabel '%s'\n",
+          right + 0.015, xlabel);
 }
 
 const char *zp_plot_colour(size_t index) {
   static const char *const colour[ZP_COLOURS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#000000", "#b8a800"};
   return colour[index % ZP_COLOURS];
+}
+
+unsigned zp_plot_shade(double place) {
+  static const double scale[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {200, 208, 32}};
+  int from = place < 1 ? (int)(4 * place) : 3;
+  unsigned colour = 0;
+  for (int i = 0; i < 3; i++) {
+    double part = scale[from][i] + (4 * place - from) * (scale[from + 1][i] - scale[from][i]);
+    colour = colour << 8 | (unsigned)lround(part);
+  }
+  return colour;
 }
 
 void zp_plot_curve(FILE *file, bool first, ZpPlotUnit time, const char *expression, const char *title, size_t colour) {

@@ -28,6 +28,9 @@ typedef struct ZpPicture {
 extern const ZpPicture zp_series_pictures[];
 extern const ZpPicture zp_shape_pictures[];
 extern const ZpPicture zp_sweep_pictures[];
+extern const ZpPicture zp_path_pictures[];
+extern const ZpPicture zp_rest_pictures[];
+extern const ZpPicture zp_fit_pictures[];
 
 /* A unit with an SI prefix in which a quantity has one to three digits before the point. */
 typedef struct ZpPlotUnit {
@@ -44,6 +47,29 @@ ZpPlotUnit zp_plot_table_unit(const ZpTable *table, const char *const *column, c
 /* Whether the column has two values at least that can be drawn. */
 bool zp_plot_has(const ZpTable *table, const char *column);
 
+/* Box around all frames, m; of a run that diverged, around what is finite. */
+typedef struct ZpPlotBox {
+  double left, right, bottom, top;
+} ZpPlotBox;
+
+ZpPlotBox zp_plot_box(const ZpShapes *shapes);
+
+/* Whether what is in the box can be seen where x and y have the same scale. */
+bool zp_plot_fits_same_scale(const ZpPlotBox *box);
+
+/* The unit for both axes. */
+ZpPlotUnit zp_plot_box_unit(const ZpPlotBox *box);
+
+/* Give both axes the same scale and tics, about as many as `tics` on the longer one. */
+void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics);
+
+/* Write a frame: lines of x and y, then of `more`. A row of NaN ends a ribbon, not an empty one: for that
+ * gnuplot 5.4 uses a colour that it never set, and its picture is not the same each time. */
+void zp_plot_put_shape(FILE *file, const ZpShapes *shapes, const ZpShape *shape, double more);
+
+/* Write a number of a .dat file so that it reads back the same. */
+void zp_plot_put(FILE *file, double value, char after);
+
 /* Write `text` as a gnuplot string that shows it as it is, in enhanced mode, too. */
 void zp_plot_text(FILE *file, const char *text);
 
@@ -54,12 +80,22 @@ void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *
 /* Small print at the foot of a picture that shows how fast something zips. */
 void zp_plot_foot(const ZpPlot *plot, FILE *file, const char *more);
 
+/* Small print at the foot, on the left. */
+void zp_plot_remark(FILE *file, const char *text);
+
+/* Upper and lower of two panels. Title and small print belong to the whole and are drawn once. */
+void zp_plot_upper_panel(FILE *file);
+void zp_plot_lower_panel(FILE *file, double right, const char *xlabel);
+
 /* The sentence of the small print. */
 const char *zp_plot_drag_note(const ZpPlot *plot);
 
 /* Colours that colour-blind people can tell apart (Okabe and Ito), "#0072b2". */
 #define ZP_COLOURS 8
 const char *zp_plot_colour(size_t index);
+
+/* A place (0 .. 1) on a scale from dark to light: 0x440154. */
+unsigned zp_plot_shade(double place);
 
 /* Write one curve of ../table.csv over time; the `first` opens the plot command, which the caller ends
  * with a newline. `expression` is in gnuplot's words. */

@@ -29,16 +29,10 @@ static void begin(FILE *file, ZpPlotUnit time) {
   fprintf(file, "set xlabel 'time / %s'\n", time.text);
 }
 
-/* Upper and lower of two panels. Title and small print belong to the whole and are drawn once. */
-static void upper_panel(FILE *file) {
-  fputs("set multiplot\nset bmargin at screen 0.555\nset format x ''\nunset xlabel\n", file);
-}
-
 static void lower_panel(FILE *file, ZpPlotUnit time) {
-  fprintf(file,
-          "unset label\nset tmargin at screen 0.505\nset bmargin at screen 0.17\n"
-          "set key at screen %g,0.505\nset format x '%%g'\nset xlabel 'time / %s'\n",
-          RIGHT + 0.015, time.text);
+  char label[32];
+  snprintf(label, sizeof label, "time / %s", time.text);
+  zp_plot_lower_panel(file, RIGHT, label);
 }
 
 /* A dashed line where the actuator has zipped. */
@@ -85,7 +79,7 @@ static void script_stroke(const ZpPlot *plot, FILE *file) {
   zp_plot_head(plot, file, "stroke", opens ? "Stroke and opening over time" : "Stroke over time", RIGHT);
   zp_plot_foot(plot, file, NULL);
   begin(file, time);
-  if (contracts) upper_panel(file);
+  if (contracts) zp_plot_upper_panel(file);
   mark_zip(plot, file, time);
   if (!contracts) name_zip(plot, file, time);
   plot_columns(plot, file, time, length, opens ? "length" : "stroke", curve, 2);
@@ -167,7 +161,7 @@ static void script_electric(const ZpPlot *plot, FILE *file) {
   ZpPlotUnit force = zp_plot_table_unit(series(plot), (const char *const[]){"force_N", NULL}, "N");
   zp_plot_head(plot, file, "electric", "Charge and electric force of the whole actuator over time", RIGHT);
   begin(file, time);
-  upper_panel(file);
+  zp_plot_upper_panel(file);
   plot_columns(plot, file, time, charge, "charge", charges, 1);
   lower_panel(file, time);
   plot_columns(plot, file, time, force, "force", forces, 1);

@@ -30,39 +30,23 @@ static size_t frame_at(const ZpShapes *shapes, double part) {
   return nearest;
 }
 
-static void put(FILE *file, double value, char after) {
-  char text[ZP_NUMBER_SIZE];
-  zp_number_print(value, text, sizeof text);
-  fprintf(file, "%s%c", text, after);
-}
-
-/* Box around all frames, m; of a run that diverged, around what is finite. */
-typedef struct Box {
-  double left, right, bottom, top;
-} Box;
-
-static Box box_of(const ZpShapes *shapes) {
-  Box box = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-  for (size_t f = 0; f < shapes->frames; f++) {
-    const ZpShape shape = zp_shapes_get(shapes, f);
-    for (size_t i = 0; i < shapes->nodes * shapes->ribbons; i++) {
-      if (!isfinite(shape.x[i]) || !isfinite(shape.y[i])) continue;
-      box.left = fmin(box.left, shape.x[i]);
-      box.right = fmax(box.right, shape.x[i]);
-      box.bottom = fmin(box.bottom, shape.y[i]);
-      box.top = fmax(box.top, shape.y[i]);
-    }
-  }
-  return box;
-}
-
 static bool has_shapes(const ZpPlot *plot) {
   if (plot->study != ZP_STUDY_ACTUATE || !plot->single || !plot->single->shapes) return false;
-  return film(plot)->frames >= 2 && isfinite(box_of(film(plot)).left);
+  return film(plot)->frames >= 2 && isfinite(zp_plot_box(film(plot)).left);
 }
 
-/* Blocks of x, y, time: one per snapshot and ribbon. A row of NaN ends a line, not an empty one: for that
- * gnuplot 5.4 uses a colour that it never set, and its picture is not the same each time. */
+/* Shapes along the voltage, whose time is the number of the state. */
+static bool is_path(const ZpPlot *plot) {
+  return plot->study == ZP_STUDY_EQUILIBRIUM;
+}
+
+static bool has_animation(const ZpPlot *plot) {
+  if (!is_path(plot)) return has_shapes(plot);
+  if (!plot->single || !film(plot) || plot->def.drive.voltage <= 0) return false;
+  return film(plot)->frames >= 2 && isfinite(zp_plot_box(film(plot)).left);
+}
+
+/* Blocks of x, y, time: one per snapshot and ribbon. */
 static void data_profiles(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   size_t before = shapes->frames;
@@ -72,27 +56,18 @@ static void data_profiles(const ZpPlot *plot, FILE *file) {
     if (frame == before) continue;
     before = frame;
     const ZpShape shape = zp_shapes_get(shapes, frame);
-    for (size_t r = 0; r < shapes->ribbons; r++) {
-      for (size_t i = 0; i < shapes->nodes; i++) {
-        put(file, shape.x[i * shapes->ribbons + r], ' ');
-        put(file, shape.y[i * shapes->ribbons + r], ' ');
-        put(file, shape.time, '\n');
-      }
-      fputs("NaN NaN ", file);
-      put(file, shape.time, '\n');
-    }
+    zp_plot_put_shape(file, shapes, &shape, shape.time);
   }
 }
 
 static void script_profiles(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
-  const Box box = box_of(shapes);
-  const double width = box.right - box.left, height = box.top - box.bottom;
-  const bool pair = shapes->ribbons > 1;
-  ZpPlotUnit length = zp_plot_unit(fmax(fmax(fabs(box.left), fabs(box.right)), height), "m");
+  const ZpPlotBox box = zp_plot_box(shapes);
+  const bool tall = zp_plot_fits_same_scale(&box), pair = shapes->ribbons > 1;
+  ZpPlotUnit length = zp_plot_box_unit(&box);
   ZpPlotUnit time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
   zp_plot_head(plot, file, "profiles", pair ? "Shapes of the ribbons, left half" : "Shapes of the ribbon", 0.82);
-  zp_plot_foot(plot, file, height > 0.15 * width ? NULL : "x and y have different scales");
+  zp_plot_foot(plot, file, tall ? NULL : "x and y have different scales");
   fprintf(file,
           "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#c8d020')\n"
           "set cblabel 'time / %s' offset 0.5\nset cbrange [%.17g:%.17g]\n"
@@ -100,7 +75,7 @@ static void script_profiles(const ZpPlot *plot, FILE *file) {
           "set xlabel 'x / %s'\nset ylabel 'y / %s' offset 0.5\n",
           time.text, time_of(shapes, 0) * time.factor, time_of(shapes, shapes->frames - 1) * time.factor, length.text,
           length.text);
-  if (height > 0.15 * width) fputs("set size ratio -1\n", file);
+  if (tall) fputs("set size ratio -1\n", file);
   fprintf(file,
           "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04\n"
           "plot 'profiles.dat' using ($1*%g):($2*%g):($3*%g) with lines lw 2 lc palette z notitle\n",
@@ -109,7 +84,7 @@ static void script_profiles(const ZpPlot *plot, FILE *file) {
 
 /* The stage of the film: x counts from the middle of what is drawn, m. */
 typedef struct Stage {
-  Box box;       /* of the shapes */
+  ZpPlotBox box; /* of the shapes */
   double middle; /* x of the mirror (kind ribbon: of the middle of the box) */
   double half;   /* half of the width of all that moves */
   double clamp;  /* x of the left end, from the middle */
@@ -121,7 +96,7 @@ typedef struct Stage {
 static Stage stage_of(const ZpPlot *plot) {
   const ZpShapes *shapes = film(plot);
   const size_t last = (shapes->nodes - 1) * shapes->ribbons;
-  Stage s = {.box = box_of(shapes)};
+  Stage s = {.box = zp_plot_box(shapes)};
   s.middle = (s.box.left + s.box.right) / 2;
   if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[last] + plot->def.platform.length / 2;
   s.half = fmax(s.middle - s.box.left, s.box.right - s.middle);
@@ -139,8 +114,8 @@ static size_t film_frame(const ZpShapes *shapes, const Stage *stage, size_t inde
 static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, const Stage *stage, size_t node,
                      double side) {
   for (size_t r = 0; r < shapes->ribbons; r++) {
-    put(file, side * (shape->x[node * shapes->ribbons + r] - stage->middle), ' ');
-    put(file, shape->y[node * shapes->ribbons + r], r + 1 < shapes->ribbons ? ' ' : '\n');
+    zp_plot_put(file, side * (shape->x[node * shapes->ribbons + r] - stage->middle), ' ');
+    zp_plot_put(file, shape->y[node * shapes->ribbons + r], r + 1 < shapes->ribbons ? ' ' : '\n');
   }
 }
 
@@ -196,7 +171,7 @@ static double caption_value(const ZpPlot *plot, Caption what, const ZpShape *sha
   case CAPTION_CONTRACTION:
     return column_at(plot->single->series, "contraction", shape->time);
   case CAPTION_STROKE:
-    return column_at(plot->single->series, "stroke_m", shape->time);
+    return is_path(plot) ? fabs(shape->y[end] - shape->y[0]) : column_at(plot->single->series, "stroke_m", shape->time);
   case CAPTION_END_X:
     return shape->x[end];
   default:
@@ -221,7 +196,9 @@ static void print_pace(const ZpPlot *plot, const Stage *stage, char *text, size_
   const ZpShapes *shapes = film(plot);
   double span = time_of(shapes, shapes->frames - 1) - time_of(shapes, 0);
   double factor = stage->delay / 100 * (double)(stage->frames - 1) / span;
-  if (!isfinite(factor))
+  if (is_path(plot))
+    snprintf(text, size, "states of rest one after the other, stable or not");
+  else if (!isfinite(factor))
     snprintf(text, size, "still picture");
   else if (factor >= 1)
     snprintf(text, size, "slow motion, %.3g times slower than real", factor);
@@ -246,6 +223,7 @@ static void animation_head(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlo
   fputs("set label 2 ", file);
   zp_plot_text(file, plot->subtitle);
   fprintf(file, " at screen 0.5,0.91 center\nset label 3 '%s' at screen 0.5,0.865 center\n", pace);
+  if (is_path(plot)) return;
   fputs("set label 4 ", file);
   zp_plot_text(file, zp_plot_drag_note(plot));
   fputs(" at screen 0.5,0.025 center font ',10' tc rgb '#555555'\n", file);
@@ -285,7 +263,19 @@ static void animation_load(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlo
           u, 1.2 * u, 2.6 * u, 1.2 * u, u, load, 1.8 * u);
 }
 
+static void path_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit mm) {
+  const ZpPlotUnit voltage = zp_plot_unit(plot->def.drive.voltage, "V");
+  fprintf(file,
+          "  caption = sprintf('%%.2f %s    stroke %%.2f %s', potential[i]*%g, stroke[i]*%g)\n"
+          "  set label 1 caption at screen 0.5,0.96 center\n",
+          voltage.text, mm.text, voltage.factor, mm.factor);
+}
+
 static void animation_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit time, ZpPlotUnit mm) {
+  if (is_path(plot)) {
+    path_caption(plot, file, mm);
+    return;
+  }
   fprintf(file, "  caption = sprintf('t = %%.1f %s', now[i]*%g)\n", time.text, time.factor);
   if (zp_plot_has(plot->single->series, "contraction"))
     fputs("  if (contraction[i] == contraction[i]) { caption = caption . sprintf('    contraction %.0f %%', "
@@ -326,6 +316,6 @@ static void script_animation(const ZpPlot *plot, FILE *file) {
 
 const ZpPicture zp_shape_pictures[] = {
     {"profiles", "svg", has_shapes, script_profiles, data_profiles},
-    {"animation", "gif", has_shapes, script_animation, data_animation},
+    {"animation", "gif", has_animation, script_animation, data_animation},
     {0},
 };

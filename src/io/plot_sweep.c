@@ -1,9 +1,9 @@
-/* Pictures of a sweep: contraction.svg, all runs over time, and zip_time.svg, against the only list key. */
+/* Pictures of a sweep: contraction.svg, all runs over time, and what a study asks for against the only list
+ * key: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "io/number.h"
 #include "io/plot.h"
 #include "io/units.h"
 
@@ -39,25 +39,12 @@ static bool has_contraction(const ZpPlot *plot) {
 
 /* Colour of a run: one of a few that differ much, or a place on a scale from dark to light. */
 static unsigned colour_of(const ZpPlot *plot, size_t run) {
-  static const double scale[][3] = {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {200, 208, 32}};
   unsigned colour = 0;
   if (plot->report->count <= ZP_COLOURS) {
     sscanf(zp_plot_colour(run), "#%x", &colour);
     return colour;
   }
-  double place = 4 * (double)run / (double)(plot->report->count - 1);
-  int from = place < 4 ? (int)place : 3;
-  for (int i = 0; i < 3; i++) {
-    double part = scale[from][i] + (place - from) * (scale[from + 1][i] - scale[from][i]);
-    colour = colour << 8 | (unsigned)lround(part);
-  }
-  return colour;
-}
-
-static void put(FILE *file, double value, char after) {
-  char text[ZP_NUMBER_SIZE];
-  zp_number_print(value, text, sizeof text);
-  fprintf(file, "%s%c", text, after);
+  return zp_plot_shade((double)run / (double)(plot->report->count - 1));
 }
 
 /* A block per run: time, value, colour; NaN between them (plot_shapes.c says why). */
@@ -69,8 +56,8 @@ static void data_contraction(const ZpPlot *plot, FILE *file) {
     for (size_t row = 0; row < rows; row++) {
       double value = zp_table_get(table, row, column(plot));
       if (!isfinite(value) || (row % step && row + 1 < rows)) continue;
-      put(file, zp_table_get(table, row, "time_s"), ' ');
-      put(file, value, ' ');
+      zp_plot_put(file, zp_table_get(table, row, "time_s"), ' ');
+      zp_plot_put(file, value, ' ');
       fprintf(file, "%u\n", colour_of(plot, run));
     }
     fprintf(file, "NaN NaN %u\n", colour_of(plot, run));
@@ -142,44 +129,113 @@ static void script_contraction(const ZpPlot *plot, FILE *file) {
   fputc('\n', file);
 }
 
-/* The list key of a sweep along one number; -1 for any other sweep. */
-static int only_key(const ZpPlot *plot) {
+/* The list key that varies fastest, against which numbers are drawn; -1 if there is none. */
+static int x_key(const ZpPlot *plot) {
   size_t keys;
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);
-  if (keys != 1) return -1;
-  ZpKeyType type = zp_key(key[0])->type;
-  return type == ZP_KEY_REAL || type == ZP_KEY_REAL_AUTO || type == ZP_KEY_INT ? key[0] : -1;
+  return keys > 0 ? key[keys - 1] : -1;
+}
+
+/* Does another curve begin at this run: has any other list key changed? */
+static bool begins_curve(const ZpPlot *plot, size_t run) {
+  size_t keys;
+  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  ZpActuatorDef before, now;
+  if (run == 0 || zp_scenario_def(plot->report->scenario, run - 1, &before, NULL) != ZP_OK) return false;
+  if (zp_scenario_def(plot->report->scenario, run, &now, NULL) != ZP_OK) return false;
+  for (size_t i = 0; i + 1 < keys; i++)
+    if (zp_def_get(&before, key[i]) != zp_def_get(&now, key[i])) return true;
+  return false;
 }
 
 /* Value of the list key in a run, SI; NAN for auto. */
 static double key_value(const ZpPlot *plot, size_t run) {
   ZpActuatorDef def;
   if (zp_scenario_def(plot->report->scenario, run, &def, NULL) != ZP_OK) return NAN;
-  return zp_def_get(&def, only_key(plot));
+  return zp_def_get(&def, x_key(plot));
 }
 
-static double zip_time(const ZpPlot *plot, size_t run) {
-  return zp_result_get(plot->report->result[run], "zip_time_s");
+/* What is drawn against the key: one or two numbers of the summary. */
+typedef struct Answer {
+  ZpStudy study;
+  const char *picture, *title, *axis, *unit;
+  const char *scalar[2], *legend[2]; /* the second may be NULL */
+  const char *count;                 /* how many points there are, after "3 of 5 runs " */
+} Answer;
+
+static const Answer answers[] = {
+    {ZP_STUDY_ACTUATE, "zip_time", "Time to zip", "zip time", "s", {"zip_time_s", NULL}, {NULL, NULL}, "zip"},
+    {ZP_STUDY_STATIONARY, "strokes", "Stroke at rest", "stroke", "m", {"stroke_m", NULL}, {NULL, NULL}, "are drawn"},
+    {ZP_STUDY_EQUILIBRIUM,
+     "voltages",
+     "Pull-in and release",
+     "voltage",
+     "V",
+     {"pull_in_voltage_V", "release_voltage_V"},
+     {"pull-in", "release"},
+     "pull in"},
+    {ZP_STUDY_MODES,
+     "frequencies",
+     "Lowest frequency about the loaded equilibrium",
+     "frequency",
+     "Hz",
+     {"frequency_1_Hz", NULL},
+     {NULL, NULL},
+     "are drawn"},
+};
+
+/* The answer of the study of this sweep; NULL if it has none. */
+static const Answer *answer_of(const ZpPlot *plot) {
+  for (size_t i = 0; i < sizeof answers / sizeof answers[0]; i++)
+    if (answers[i].study == plot->study) return &answers[i];
+  return NULL;
 }
 
-/* How many runs have a point in zip_time.svg. */
-static size_t points(const ZpPlot *plot) {
+static double answer(const ZpPlot *plot, size_t run, size_t curve) {
+  const char *name = answer_of(plot)->scalar[curve];
+  return name ? zp_result_get(plot->report->result[run], name) : (double)NAN;
+}
+
+/* How many runs have a point on the curve. */
+static size_t points(const ZpPlot *plot, size_t curve) {
   size_t count = 0;
   for (size_t run = 0; run < plot->report->count; run++)
-    count += isfinite(zip_time(plot, run)) && isfinite(key_value(plot, run));
+    count += isfinite(answer(plot, run, curve)) && isfinite(key_value(plot, run));
   return count;
 }
 
-static bool has_zip_time(const ZpPlot *plot) {
-  return is_sweep(plot) && only_key(plot) >= 0 && points(plot) >= 2;
+static bool has_answer(const ZpPlot *plot, ZpStudy study) {
+  if (plot->study != study || plot->single || plot->report->count == 0 || x_key(plot) < 0) return false;
+  return points(plot, 0) >= 2 || points(plot, 1) >= 2;
 }
 
-static void data_zip_time(const ZpPlot *plot, FILE *file) {
-  fprintf(file, "# %s zip_time_s\n", zp_key(only_key(plot))->name);
+static bool has_zip_time(const ZpPlot *plot) {
+  return has_answer(plot, ZP_STUDY_ACTUATE);
+}
+
+static bool has_strokes(const ZpPlot *plot) {
+  return has_answer(plot, ZP_STUDY_STATIONARY);
+}
+
+static bool has_voltages(const ZpPlot *plot) {
+  return has_answer(plot, ZP_STUDY_EQUILIBRIUM);
+}
+
+static bool has_frequencies(const ZpPlot *plot) {
+  return has_answer(plot, ZP_STUDY_MODES);
+}
+
+static void data_answer(const ZpPlot *plot, FILE *file) {
+  const Answer *a = answer_of(plot);
+  fprintf(file, "# %s %s%s%s\n", zp_key(x_key(plot))->name, a->scalar[0], a->scalar[1] ? " " : "",
+          a->scalar[1] ? a->scalar[1] : "");
   for (size_t run = 0; run < plot->report->count; run++) {
-    if (!isfinite(zip_time(plot, run)) || !isfinite(key_value(plot, run))) continue;
-    put(file, key_value(plot, run), ' ');
-    put(file, zip_time(plot, run), '\n');
+    if (begins_curve(plot, run)) fprintf(file, "NaN NaN%s\n", a->scalar[1] ? " NaN" : "");
+    const bool none = !isfinite(answer(plot, run, 0)) && !isfinite(answer(plot, run, 1));
+    if (none || !isfinite(key_value(plot, run))) continue;
+    zp_plot_put(file, key_value(plot, run), ' ');
+    zp_plot_put(file, answer(plot, run, 0), a->scalar[1] ? ' ' : '\n');
+    if (a->scalar[1]) zp_plot_put(file, answer(plot, run, 1), '\n');
   }
 }
 
@@ -190,28 +246,53 @@ static double key_factor(const ZpKey *key) {
   return scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor;
 }
 
-static void script_zip_time(const ZpPlot *plot, FILE *file) {
-  const ZpKey *key = zp_key(only_key(plot));
+/* The curves, each with a point per run. */
+static void plot_answer(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
+  const Answer *a = answer_of(plot);
+  const double factor = key_factor(zp_key(x_key(plot)));
+  bool first = true;
+  for (size_t i = 0; i < 2; i++) {
+    if (points(plot, i) == 0) continue;
+    fprintf(file, "%s'%s.dat' using ($1*%g):($%zu*%g) with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' ",
+            first ? "plot " : ", \\\n     ", a->picture, factor, i + 2, unit.factor, i ? 5 : 7, zp_plot_colour(i));
+    if (a->legend[i])
+      fprintf(file, "title '%s'", a->legend[i]);
+    else
+      fputs("notitle", file);
+    first = false;
+  }
+  fputc('\n', file);
+}
+
+static void script_answer(const ZpPlot *plot, FILE *file) {
+  const Answer *a = answer_of(plot);
+  const ZpKey *key = zp_key(x_key(plot));
   char more[64], label[128];
   double largest = 0;
-  for (size_t run = 0; run < plot->report->count; run++)
-    largest = fmax(largest, zip_time(plot, run));
-  ZpPlotUnit time = zp_plot_unit(largest, "s");
-  snprintf(more, sizeof more, "%zu of %zu runs zip", points(plot), plot->report->count);
+  for (size_t i = 0; i < 2 * plot->report->count; i++)
+    largest = fmax(largest, fabs(answer(plot, i / 2, i % 2)));
+  ZpPlotUnit unit = zp_plot_unit(largest, a->unit);
+  snprintf(more, sizeof more, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
   snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
-  zp_plot_head(plot, file, "zip_time", "Time to zip", 0.96);
-  zp_plot_foot(plot, file, more);
+  zp_plot_head(plot, file, a->picture, a->title, a->scalar[1] ? 0.82 : 0.96);
+  if (a->study == ZP_STUDY_ACTUATE)
+    zp_plot_foot(plot, file, more);
+  else
+    zp_plot_remark(file, more);
   fputs("set xlabel ", file);
   zp_plot_text(file, label);
   fprintf(file,
-          "\nset ylabel 'zip time / %s' offset 0.5\nset yrange [0:*]\n"
-          "set offsets graph 0.03, graph 0.03, graph 0.05, 0\n"
-          "plot 'zip_time.dat' using ($1*%g):($2*%g) with linespoints lw 2 pt 7 ps 0.8 lc rgb '%s' notitle\n",
-          time.text, key_factor(key), time.factor, zp_plot_colour(0));
+          "\nset ylabel '%s / %s' offset 0.5\nset autoscale x noextend\nset yrange [0:*]\n"
+          "set offsets graph 0.03, graph 0.03, graph 0.05, 0\n",
+          a->axis, unit.text);
+  plot_answer(plot, file, unit);
 }
 
 const ZpPicture zp_sweep_pictures[] = {
     {"contraction", "svg", has_contraction, script_contraction, data_contraction},
-    {"zip_time", "svg", has_zip_time, script_zip_time, data_zip_time},
+    {"zip_time", "svg", has_zip_time, script_answer, data_answer},
+    {"strokes", "svg", has_strokes, script_answer, data_answer},
+    {"voltages", "svg", has_voltages, script_answer, data_answer},
+    {"frequencies", "svg", has_frequencies, script_answer, data_answer},
     {0},
 };

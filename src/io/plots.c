@@ -26,7 +26,8 @@ typedef struct Drawing {
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
 
-static const ZpPicture *const tables[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures};
+static const ZpPicture *const tables[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures,
+                                          zp_path_pictures,   zp_rest_pictures,  zp_fit_pictures};
 
 #define TABLES (sizeof tables / sizeof tables[0])
 
@@ -81,7 +82,7 @@ static ZpStatus draw(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus remove_picture(const Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+static ZpStatus remove_picture(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
   const char *const extension[] = {"gp", "dat", picture->extension};
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < 3 && status == ZP_OK; i++) {
@@ -93,9 +94,8 @@ static ZpStatus remove_picture(const Drawing *drawing, const ZpPicture *picture,
 }
 
 static ZpStatus make_picture(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
-  ZpStatus status = remove_picture(drawing, picture, err);
-  if (status != ZP_OK || !picture->has(drawing->plot)) return status;
-  status = write_text(drawing, picture, "gp", picture->script, err);
+  if (!picture->has(drawing->plot)) return ZP_OK;
+  ZpStatus status = write_text(drawing, picture, "gp", picture->script, err);
   if (status == ZP_OK) status = write_text(drawing, picture, "dat", picture->data, err);
   return status == ZP_OK && !drawing->missing ? draw(drawing, picture, err) : status;
 }
@@ -118,18 +118,21 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
   if (status != ZP_OK) return status;
   plot->study = report->result[0]->study;
-  add_key(plot, "load.mass", "load ");
-  if (plot->def.actuator.kind != ZP_KIND_RIBBON) add_key(plot, "drive.voltage", "");
+  if (plot->study != ZP_STUDY_CALIBRATE) add_key(plot, "load.mass", "load ");
+  const bool powered = plot->study == ZP_STUDY_ACTUATE || plot->study == ZP_STUDY_EQUILIBRIUM;
+  if (powered && plot->def.actuator.kind != ZP_KIND_RIBBON)
+    add_key(plot, "drive.voltage", plot->study == ZP_STUDY_EQUILIBRIUM ? "up to " : "");
   add_key(plot, "mesh.nodes", "N = ");
   add_key(plot, "preset", "preset ");
   return ZP_OK;
 }
 
-static ZpStatus make_all(Drawing *drawing, ZpError *err) {
+static ZpStatus for_all(Drawing *drawing, ZpStatus (*act)(Drawing *drawing, const ZpPicture *picture, ZpError *err),
+                        ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t t = 0; t < TABLES; t++)
     for (const ZpPicture *picture = tables[t]; picture->name && status == ZP_OK; picture++)
-      status = make_picture(drawing, picture, err);
+      status = act(drawing, picture, err);
   return status;
 }
 
@@ -141,7 +144,9 @@ ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *messa
   ZpStatus status = look_at(report, &plot, err);
   if (status == ZP_OK && mkdir(folder, 0777) != 0 && errno != EEXIST)
     status = zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", folder, strerror(errno));
-  if (status == ZP_OK) status = make_all(&drawing, err);
+  /* pictures of different studies may have the same name: remove all before any is made */
+  if (status == ZP_OK) status = for_all(&drawing, remove_picture, err);
+  if (status == ZP_OK) status = for_all(&drawing, make_picture, err);
   free(folder);
   return status;
 }

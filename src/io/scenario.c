@@ -14,6 +14,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/fail.h"
 #include "io/source.h"
@@ -27,6 +28,7 @@ typedef struct Slot {
   double *value; /* [count], SI; NULL if the key is not given */
   size_t count;
   bool is_list; /* a list of one is a list: it makes a row in the table */
+  char *text;   /* of a text key, whose value is NAN; else NULL */
 } Slot;
 
 struct ZpScenario {
@@ -52,8 +54,10 @@ static size_t key_count(void) {
 }
 
 static void free_slots(Slot *slot) {
-  for (size_t i = 0; slot && i < key_count(); i++)
+  for (size_t i = 0; slot && i < key_count(); i++) {
     free(slot[i].value);
+    free(slot[i].text);
+  }
   free(slot);
 }
 
@@ -181,6 +185,8 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
   const char *name = zp_key(key)->name;
   ZpKeyType type = zp_key(key)->type;
   if (item->kind != ZP_YAML_LIST) return ZP_OK;
+  if (type == ZP_KEY_TEXT)
+    return zp_source_fail(reader->source, item->line, err, "%s: takes one text, not a list", name);
   if (type == ZP_KEY_BOOL || type == ZP_KEY_ENUM)
     return zp_source_fail(reader->source, item->line, err, "%s: takes one word, not a list", name);
   if (item->count == 0)
@@ -188,10 +194,45 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
   return ZP_OK;
 }
 
+/* A file named in a scenario is looked for in the folder of that scenario, one of --set in the current folder;
+ * kept as an absolute path, so that the written scenario finds it from wherever it is. => path to be freed. */
+static char *absolute_path(const ZpSource *source, const char *path) {
+  const char *slash = source->argument ? NULL : strrchr(source->name, '/');
+  int folder = slash ? (int)(slash - source->name) + 1 : 0;
+  if (*path == 0 || *path == '/') return strdup(path);
+  char *here = slash == NULL || *source->name != '/' ? getcwd(NULL, 0) : strdup("");
+  char *whole = NULL;
+  const char *between = here && *here && strcmp(here, "/") != 0 ? "/" : "";
+  if (here && asprintf(&whole, "%s%s%.*s%s", here, between, folder, source->name, path) < 0) whole = NULL;
+  free(here);
+  return whole;
+}
+
+static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  bool is_path = strcmp(zp_key(key)->name, "data.file") == 0;
+  Slot slot = {calloc(1, sizeof(double)), 1, false,
+               is_path ? absolute_path(reader->source, item->word) : strdup(item->word)};
+  ZpActuatorDef scratch;
+  ZpError reason;
+  ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
+  if (status == ZP_OK && zp_def_set_text(&scratch, key, slot.text, &reason) != ZP_OK)
+    status = zp_source_fail(reader->source, item->line, err, "%s", reason.message);
+  if (status != ZP_OK) {
+    free(slot.value);
+    free(slot.text);
+    return status;
+  }
+  *slot.value = NAN;
+  reader->slot[key] = slot;
+  reader->line[key] = item->line;
+  return ZP_OK;
+}
+
 static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
   ZpStatus status = check_shape(reader, key, item, err);
   if (status != ZP_OK) return status;
-  Slot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST};
+  if (zp_key(key)->type == ZP_KEY_TEXT) return take_text(reader, key, item, err);
+  Slot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST, NULL};
   if (!slot.value) return zp_fail_memory(err);
   const char *word = item->word;
   for (size_t i = 0; i < item->count && status == ZP_OK; i++, word += strlen(word) + 1) {
@@ -312,11 +353,21 @@ static size_t assignments(const ZpScenario *s, size_t index, ZpAssignment *list)
   size_t used = 0;
   for (size_t i = count; i-- > 0;) { /* backwards: the last list varies fastest */
     const Slot *slot = slot_of(s, i);
-    if (slot->count == 0) continue;
+    if (slot->count == 0 || slot->text) continue;
     list[used++] = (ZpAssignment){(int)i, slot->value[index % slot->count]};
     index /= slot->count;
   }
   return used;
+}
+
+/* The texts; nothing else depends on them. */
+static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < key_count() && status == ZP_OK; i++) {
+    const char *text = slot_of(s, i)->text;
+    if (text) status = zp_def_set_text(def, (int)i, text, err);
+  }
+  return status;
 }
 
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
@@ -324,7 +375,7 @@ static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, Z
   if (!list) return zp_fail_memory(err);
   ZpStatus status = zp_def_resolve(def, list, assignments(s, index, list), err);
   free(list);
-  return status;
+  return status == ZP_OK ? set_texts(s, def, err) : status;
 }
 
 /* Put the file and the row before the message of a Def that is wrong as a whole. */
@@ -388,8 +439,14 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
       write_slot(file, i, slot);
       continue;
     }
-    zp_value_print(i, zp_def_get(first, i), text, sizeof text);
-    fprintf(file, "%s\n", text);
+    const char *words = zp_def_text(first, i);
+    if (words) {
+      zp_yaml_write_text(file, words);
+    } else {
+      zp_value_print(i, zp_def_get(first, i), text, sizeof text);
+      fputs(text, file);
+    }
+    fputc('\n', file);
   }
 }
 

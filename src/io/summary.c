@@ -30,11 +30,29 @@ static json_t *number(double value, const char *unit) {
   return json_real(value);
 }
 
-static bool set_scalars(json_t *object, const ZpResult *result) {
+/* frequency_1_Hz, frequency_2_Hz, ...: scalars so that a sweep has columns, but an array in JSON. */
+static bool is_frequency(const ZpResult *result, const ZpScalar *scalar) {
+  int mode, end = 0;
+  if (result->study != ZP_STUDY_MODES) return false;
+  return sscanf(scalar->name, "frequency_%d_Hz%n", &mode, &end) == 1 && end > 0 && !scalar->name[end];
+}
+
+static bool set_frequencies(json_t *object, const ZpResult *result) {
+  json_t *array = json_array();
   bool done = true;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    done = set(object, scalar->name, number(scalar->value, scalar->unit)) && done;
+    if (is_frequency(result, scalar))
+      done = json_array_append_new(array, number(scalar->value, scalar->unit)) == 0 && done;
+  }
+  return set(object, "frequencies_Hz", array) && done;
+}
+
+static bool set_scalars(json_t *object, const ZpResult *result) {
+  bool done = result->study != ZP_STUDY_MODES || set_frequencies(object, result);
+  for (size_t i = 0; i < result->scalars; i++) {
+    const ZpScalar *scalar = &result->scalar[i];
+    if (!is_frequency(result, scalar)) done = set(object, scalar->name, number(scalar->value, scalar->unit)) && done;
   }
   return done;
 }

@@ -208,6 +208,7 @@ static ZpStatus read_word(int index, const char *text, double *value, ZpError *e
 
 static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError *err) {
   const ZpKey *key = zp_key(index);
+  if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "this key takes a text, which has no value");
   if (key->type == ZP_KEY_BOOL) return read_bool(text, value, err);
   if (key->type == ZP_KEY_ENUM) return read_word(index, text, value, err);
   if (*text == 0) return fail_number(index, "empty", err);
@@ -257,7 +258,9 @@ static bool print_shown(int index, double value, char *text, size_t size) {
 
 void zp_value_print(int index, double value, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
-  if (key->type == ZP_KEY_BOOL)
+  if (key->type == ZP_KEY_TEXT)
+    snprintf(text, size, "\"%s\"", key->text);
+  else if (key->type == ZP_KEY_BOOL)
     snprintf(text, size, "%s", value != 0 ? "true" : "false");
   else if (key->type == ZP_KEY_ENUM)
     snprintf(text, size, "%s", value >= 0 && value <= key->max ? key->choices[(int)value].word : "?");

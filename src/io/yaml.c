@@ -328,3 +328,10 @@ int zp_yaml_write_key(FILE *file, const char *name, const char *before) {
   if (!same) fprintf(file, "%.*s:\n", (int)group, name);
   return fprintf(file, "  %s: ", name + group + 1);
 }
+
+void zp_yaml_write_text(FILE *file, const char *text) {
+  fputc('"', file);
+  for (; *text; text++)
+    fprintf(file, "%s%c", *text == '"' || *text == '\\' ? "\\" : "", *text);
+  fputc('"', file);
+}

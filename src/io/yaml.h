@@ -43,6 +43,9 @@ ZpStatus zp_yaml_read_value(const ZpSource *source, const char *text, size_t siz
  * key written last or NULL, is of another group. Returns the width of what is on the line. */
 int zp_yaml_write_key(FILE *file, const char *name, const char *before);
 
+/* Write `text`, which has no control characters, between double quotes. */
+void zp_yaml_write_text(FILE *file, const char *text);
+
 /* Bytes of the group in a key name: 6 in "ribbon.length", 0 in "gravity". */
 size_t zp_yaml_group(const char *name);
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "actuator/statics.h"
+#include "rest/statics.h"
 #include "sim/sim_internal.h"
 #include "solve/relax.h"
 
@@ -58,29 +58,28 @@ static double rounding_floor(const ZpModel *model) {
   return model->total_weight > 0 ? 3 * DBL_EPSILON * model->L * model->spring.K_D / model->total_weight : 0;
 }
 
-/* By Newton's method; false if it finds nothing (a chain without bending stiffness has no stiffness when straight)
- * or there is no memory. */
-static bool solve(ZpSim *sim, double *q) {
+/* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when
+ * straight). => false if there is no memory. */
+static bool solve(ZpSim *sim, double *q, bool *found) {
   const ZpModel *model = sim->model;
   ZpStatics statics;
   if (!zp_statics_create(model, &statics)) return false;
   ZpNewtonWork work;
   ZpCarver carver = {NULL, 0};
   zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
-  carver = (ZpCarver){zp_calloc(1, carver.used), 0};
-  bool found = carver.base != NULL;
-  void *memory = carver.base;
-  if (found) {
+  void *memory = zp_calloc(1, carver.used);
+  if (memory) {
+    carver = (ZpCarver){memory, 0};
     zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
     ZpNewtonInfo info = zp_statics_hang(&statics, &work);
-    found = zp_newton_good(info.end);
+    *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     memcpy(q, statics.q, 2 * model->stride * sizeof *q);
+    zp_free(memory);
   }
-  zp_free(memory);
   zp_statics_destroy(&statics);
-  return found;
+  return memory != NULL;
 }
 
 /* By damped stepping. */
@@ -98,16 +97,19 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   sim->settle_residual = info.residual;
 }
 
-void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
+bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
   double *q = sim->relax_work;
   sim->settled = ZP_REACHED_END;
   /* of one straight ribbon neither a start nor a reference is needed */
-  if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) return;
-  if (!solve(sim, q)) relax(sim, hooks, q);
-  if (sim->settled != ZP_REACHED_END) return;
+  if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
+  bool found;
+  if (!solve(sim, q, &found)) return false;
+  if (!found) relax(sim, hooks, q);
+  if (sim->settled != ZP_REACHED_END) return true;
   const double *y = q + model->stride;
   if (model->s == 2) sim->state->opening0 = y[model->count - 2] - y[model->count - 1];
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM)
     memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
+  return true;
 }

@@ -65,7 +65,10 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   ZpState *state = sim->state;
   state->zip_time = state->refreshed = NAN;
   lay_straight(model, zp_state_q(model, state));
-  zp_sim_settle(sim, hooks);
+  if (!zp_sim_settle(sim, hooks)) {
+    zp_sim_destroy(sim);
+    return zp_fail_memory(err);
+  }
   state->U = model->def.drive.voltage;
   start_energy_account(sim);
   *out = sim;
@@ -257,6 +260,10 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_STEP_LIMIT:
     snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps", t, sim->model->def.solver.max_steps);
     break;
+  case ZP_CONVERGED:
+  case ZP_FOLLOWED:
+  case ZP_BRANCH_LOST:
+    break; /* of studies of rest */
   }
 }
 

@@ -27,8 +27,9 @@ struct ZpSim {
   ZpZipState opened; /* what is joined after it if nothing meets */
 };
 
-/* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. */
-void zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
+/* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
+ * there is no memory. */
+bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);

@@ -57,6 +57,7 @@ static double find_direction(ZpBranch *b) {
 }
 
 bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, double tolerance) {
+  b->longest_m_step = 0.025;
   b->step = first;
   b->longest_step = longest;
   b->tolerance = tolerance;
@@ -119,9 +120,10 @@ bool zp_branch_advance(ZpBranch *b) {
   sys->save(self, b->saved_before);
   memcpy(b->direction_saved, b->direction, bytes);
   while (b->step > shortest_step) {
-    int corrections = try_step(b, b->step);
-    double s = b->step;
+    double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
+    int corrections = try_step(b, s);
     if (corrections >= 0 && find_direction(b) > sharpest_turn) {
+      b->step = s;
       if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
       if (corrections > 2 * EASY_CORRECTIONS) b->step = 0.5 * s;
       return true;

@@ -25,6 +25,7 @@ typedef struct ZpBranch {
   double direction_m; /* part of the direction along m: its sign changes at a limit point */
   double step;        /* arc length to try next */
   double longest_step;
+  double longest_m_step; /* of m_scale, so that a branch along which little moves is not left with few points */
   double tolerance;
   void *saved, *saved_before;
 } ZpBranch;

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "actuator/statics.h"
 #include "base/fail.h"
+#include "rest/statics.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -43,7 +43,7 @@ typedef struct Follower {
 
 static bool allocate(Follower *f) {
   if (!zp_statics_create(f->model, &f->statics)) return false;
-  f->system = zp_statics_branch(&f->statics);
+  f->system = zp_statics_branch(&f->statics, ZP_ALONG_VOLTAGE);
   ZpCarver carver = {NULL, 0};
   for (int pass = 0; pass < 2; pass++) {
     if (pass) {
@@ -72,9 +72,13 @@ static void record(Follower *f, int branch) {
                          model->parts * area * totals.inverse_gap,
                          stable,
                          branch};
-  zp_table_offer(f->result->series, row);
+  bool last = s->U == model->def.drive.voltage && f->points > 0;
   ZpShape shape = zp_statics_shape(s, f->points++, f->line_force);
+  zp_table_offer(f->result->series, row);
   zp_shapes_offer(f->result->shapes, &shape);
+  if (!last) return;
+  zp_table_keep_last(f->result->series, row);
+  zp_shapes_keep_last(f->result->shapes, &shape);
 }
 
 static bool asked_to_stop(const Follower *f) {
@@ -106,6 +110,16 @@ static void smooth_limits(Follower *f) {
   }
 }
 
+/* The last point exactly at the highest voltage. */
+static bool end_at(Follower *f, double voltage, int mark) {
+  ZpStaticSystem system = zp_statics_system(&f->statics);
+  enum { MOST = 30 };
+  f->statics.U = voltage;
+  if (!zp_newton_good(zp_newton(&system, zp_statics_tolerance(&f->statics), MOST, &f->branch.newton).end)) return false;
+  record(f, mark);
+  return true;
+}
+
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage]. => false if it
  * was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
@@ -119,7 +133,8 @@ static bool follow(Follower *f, bool growing, int mark) {
     if (!zp_branch_advance(&f->branch)) return false;
     if (f->branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->branch));
     direction = f->branch.direction_m;
-    if (f->statics.U > top || f->statics.U < 0) return true;
+    if (f->statics.U < 0) return true;
+    if (f->statics.U > top) return end_at(f, top, mark);
     record(f, mark);
     if (asked_to_stop(f)) {
       f->outcome = ZP_INTERRUPTED;

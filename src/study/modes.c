@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "actuator/statics.h"
 #include "base/fail.h"
 #include "math/eigen.h"
+#include "rest/statics.h"
 #include "study/studies.h"
 
 enum { MODES = 8, SUBSPACE = 16, MOST_ROUNDS = 200 };
@@ -17,6 +17,9 @@ static const ZpColumn columns[] = {
     {"residual", "1", "what is left of K u - omega^2 m u over K u"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+/* Relative change of omega^2 in a round: far above what rounding leaves at N = 2001, far below what a mesh gives. */
+static const double settled_to = 1e-7;
 
 static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
                                          "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
@@ -117,7 +120,7 @@ static void iterate(Problem *p) {
 
 static bool settled(const Problem *p, const double *before, size_t modes) {
   for (size_t j = 0; j < modes; j++)
-    if (!(fabs(p->omega2[j] - before[j]) < 1e-11 * fabs(p->omega2[j]))) return false;
+    if (!(fabs(p->omega2[j] - before[j]) < settled_to * fabs(p->omega2[j]))) return false;
   return true;
 }
 
@@ -132,29 +135,37 @@ static bool solve(Problem *p, size_t modes) {
   return false;
 }
 
-/* The equilibrium moved along mode j, by a tenth of the length at most. */
-static void record_shape(Problem *p, size_t j, ZpShapes *shapes) {
+/* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
+static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
   const ZpModel *model = p->statics.model;
-  double *q = p->statics.q, largest = 0;
-  for (size_t i = 0; i < p->n; i++)
-    largest = fmax(largest, fabs(p->u[j * p->n + i]));
+  double *q = p->statics.q;
   for (size_t k = 0; k < 2 * model->count; k++) {
     size_t place = k / 2 + (k % 2) * model->stride;
     int row = p->statics.equation[k];
-    q[place] = p->q[place] + (row >= 0 ? 0.1 * model->L / largest * p->u[j * p->n + (size_t)row] : 0);
+    q[place] = p->q[place] + (row >= 0 ? amplitude * p->u[j * p->n + (size_t)row] : 0);
   }
-  ZpShape shape = zp_statics_shape(&p->statics, (double)(j + 1), p->line_force);
+  if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->statics.eval.plates);
+  ZpShape shape = zp_statics_shape(&p->statics, frame, p->line_force);
   zp_shapes_offer(shapes, &shape);
+}
+
+/* What moves the node that moves most by a tenth of the length. */
+static double amplitude_of(const Problem *p, size_t j) {
+  double largest = 0;
+  for (size_t i = 0; i < p->n; i++)
+    largest = fmax(largest, fabs(p->u[j * p->n + i]));
+  return 0.1 * p->statics.model->L / largest;
 }
 
 static void report(Problem *p, size_t modes, ZpResult *result) {
   const double two_pi = 6.283185307179586;
   memcpy(p->q, p->statics.q, 2 * p->statics.model->stride * sizeof *p->q);
+  record_shape(p, 0, 0, 0, result->shapes);
   for (size_t j = 0; j < modes; j++) {
     double frequency = sqrt(p->omega2[j]) / two_pi;
     zp_result_add(result, names[j], "Hz", frequency);
     zp_table_offer(result->series, (double[COLUMNS]){(double)(j + 1), frequency, p->residual[j]});
-    record_shape(p, j, result->shapes);
+    record_shape(p, (double)(j + 1), j, amplitude_of(p, j), result->shapes);
   }
 }
 
@@ -190,7 +201,7 @@ ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult
   if (status != ZP_OK) return status;
   Problem *p = zp_calloc(1, sizeof *p);
   result->series = zp_table_create(columns, COLUMNS, MODES);
-  result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES) : NULL;
+  result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
   if (result->series && result->shapes && allocate(p, model))
     run(p, result);
   else

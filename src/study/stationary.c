@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "actuator/statics.h"
 #include "base/fail.h"
+#include "rest/statics.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {

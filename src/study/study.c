@@ -24,6 +24,9 @@ ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *
   case ZP_STUDY_MODES:
     status = zp_study_modes(def, hooks, result, err);
     break;
+  case ZP_STUDY_CALIBRATE: /* needs a file */
+    status = zp_fail(err, ZP_BAD_INPUT, "study = calibrate: run by zp_data_study_run of zipact/calibrate.h");
+    break;
   case ZP_STUDY_ACTUATE:
   case ZpStudy_COUNT:
     status = zp_study_actuate(def, hooks, result, err);

@@ -1,7 +1,7 @@
 /* An actuator at rest as a static system: equations numbered, forces, exact stiffness, and how to move.
  * Contact is unilateral; the clip is joined. */
-#ifndef ZP_ACTUATOR_STATICS_H
-#define ZP_ACTUATOR_STATICS_H
+#ifndef ZP_REST_STATICS_H
+#define ZP_REST_STATICS_H
 
 #include "actuator/eval.h"
 #include "contact/unilateral.h"
@@ -15,6 +15,7 @@ typedef struct ZpStatics {
   ZpUnilateralParams contact;
   double *q;         /* [2 stride] the present point */
   double U;          /* V */
+  double load;       /* mass hung on the actuator, kg; starts as load.mass */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   int *equation;     /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
   size_t n, bandwidth;
@@ -35,10 +36,12 @@ void zp_statics_destroy(ZpStatics *statics);
 /* The vtable for solve/newton.h. */
 ZpStaticSystem zp_statics_system(ZpStatics *statics);
 
-/* The same with the voltage as parameter. */
-ZpBranchSystem zp_statics_branch(ZpStatics *statics);
+/* The same with the voltage or the load as parameter. */
+typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_LOAD } ZpAlong;
+ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
-/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness. `work` [n (bandwidth + 1)]. */
+/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness; of mass_spring: no negative
+ * determinant. `work` [n (bandwidth + 1)]. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
 /* Residual that is asked for: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */

@@ -1,4 +1,4 @@
-#include "actuator/statics.h"
+#include "rest/statics.h"
 
 #include <float.h>
 #include <math.h>
@@ -68,6 +68,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight), contact_range,
                                     model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
+  s->load = model->def.load.mass;
   lay_straight(s);
   return true;
 }
@@ -139,6 +140,8 @@ static double residual(void *self, double *r) {
   const ZpModel *model = s->model;
   size_t stride = model->stride;
   zp_eval_static_forces(model, s->q, s->U, &s->eval, s->force);
+  const ZpActuatorDef *def = &model->def;
+  s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
     zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);
     for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
@@ -338,28 +341,45 @@ ZpStaticSystem zp_statics_system(ZpStatics *s) {
   return (ZpStaticSystem){s->n, s, residual, stiffness, length, move};
 }
 
-/* -- along the voltage ---------------------------------------------------------------------------- */
+/* -- along a parameter ---------------------------------------------------------------------------- */
 
 static double get_voltage(void *self) {
-  return ((ZpStatics *)self)->U;
+  return ((const ZpStatics *)self)->U;
 }
 
 static void set_voltage(void *self, double U) {
   ((ZpStatics *)self)->U = U;
 }
 
-/* dr/dU by a central difference: it only steers, the residual is exact. */
-static void sensitivity(void *self, double *r_m) {
-  ZpStatics *s = self;
-  double U = s->U, h = 1e-5 * fmax(fabs(U), 1);
-  s->U = U + h;
+static double get_load(void *self) {
+  return ((const ZpStatics *)self)->load;
+}
+
+static void set_load(void *self, double load) {
+  ((ZpStatics *)self)->load = load;
+}
+
+/* dr/dm by a central difference over +- h: it only steers, the residual is exact. */
+static void difference(ZpStatics *s, double *parameter, double h, double *r_m) {
+  double m = *parameter;
+  *parameter = m + h;
   residual(s, s->r_up);
-  s->U = U - h;
+  *parameter = m - h;
   residual(s, s->r_down);
-  s->U = U;
+  *parameter = m;
   residual(s, r_m);
   for (size_t i = 0; i < s->n; i++)
     r_m[i] = (s->r_up[i] - s->r_down[i]) / (2 * h);
+}
+
+static void by_voltage(void *self, double *r_m) {
+  ZpStatics *s = self;
+  difference(s, &s->U, 1e-5 * fmax(fabs(s->U), 1), r_m);
+}
+
+static void by_load(void *self, double *r_m) {
+  ZpStatics *s = self;
+  difference(s, &s->load, 1e-3 * fmax(fabs(s->load), 1e-6), r_m);
 }
 
 static void position(void *self, double *q) {
@@ -368,7 +388,7 @@ static void position(void *self, double *q) {
     if (s->equation[k] >= 0) q[s->equation[k]] = s->q[k / 2 + (k % 2) * s->model->stride];
 }
 
-/* q, tensions, voltage. */
+/* q, tensions, voltage, load. */
 static void save(void *self, void *to) {
   const ZpStatics *s = self;
   size_t stride = s->model->stride;
@@ -376,6 +396,7 @@ static void save(void *self, void *to) {
   memcpy(place, s->q, 2 * stride * sizeof *place);
   memcpy(place + 2 * stride, s->tension, stride * sizeof *place);
   place[3 * stride] = s->U;
+  place[3 * stride + 1] = s->load;
 }
 
 static void restore(void *self, const void *from) {
@@ -385,20 +406,22 @@ static void restore(void *self, const void *from) {
   memcpy(s->q, place, 2 * stride * sizeof *place);
   memcpy(s->tension, place + 2 * stride, stride * sizeof *place);
   s->U = place[3 * stride];
+  s->load = place[3 * stride + 1];
 }
 
-ZpBranchSystem zp_statics_branch(ZpStatics *s) {
+ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
   const ZpModel *model = s->model;
+  bool voltage = along == ZP_ALONG_VOLTAGE;
   return (ZpBranchSystem){.at_rest = zp_statics_system(s),
-                          .get = get_voltage,
-                          .set = set_voltage,
-                          .sensitivity = sensitivity,
+                          .get = voltage ? get_voltage : get_load,
+                          .set = voltage ? set_voltage : set_load,
+                          .sensitivity = voltage ? by_voltage : by_load,
                           .position = position,
                           .save = save,
                           .restore = restore,
-                          .save_size = (3 * model->stride + 1) * sizeof(double),
+                          .save_size = (3 * model->stride + 2) * sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt((double)s->n),
-                          .m_scale = fmax(model->def.drive.voltage, 1)};
+                          .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(model->def.load.mass, 1e-3)};
 }
 
 bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
@@ -406,5 +429,7 @@ bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
   system.residual(s, work->r);
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
   system.stiffness(s, &work->K);
-  return zp_band_negative_pivots(&work->K, work->LDL) == 0;
+  if (s->model->is_rod) return zp_band_negative_pivots(&work->K, work->LDL) == 0;
+  bool negative; /* the shear law's stiffness is not symmetric: its determinant changes sign at a limit point */
+  return zp_band_factor(&work->K, &negative) && !negative;
 }

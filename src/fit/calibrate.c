@@ -1,0 +1,170 @@
+/* Study `calibrate`: keys fitted to measured strokes; and which studies need a file of data. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "fit/fit.h"
+#include "fit/reference.h"
+#include "study/studies.h"
+
+/* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
+typedef struct Names {
+  const char *error;
+  const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
+  ZpColumn column[4];
+} Names;
+
+#define ZP_GROUP(group)
+#define ZP_GROUP_END(group)
+#define NAMES(key, unit)                                                                                               \
+  {key "_standard_error",                                                                                              \
+   {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"},                           \
+   {{key "_" unit, unit, "what was set"},                                                                              \
+    {"measured_m", "m", "stroke or opening in data.file"},                                                             \
+    {"fitted_m", "m", "the same from the model with the fitted values; nan: no state of rest"},                        \
+    {"residual_m", "m", "fitted less measured"}}},
+#define ZP_REAL(path, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
+#define ZP_INT(path, name, def, min, max, help)               NAMES(#path #name, "1")
+#define ZP_BOOL(path, name, def, help)                        NAMES(#path #name, "1")
+#define ZP_ENUM(path, name, type, def, help)                  NAMES(#path #name, "1")
+#define ZP_TEXT(path, name, def, help)                        NAMES(#path #name, "1")
+static const Names names[] = {
+#include <zipact/keys.def>
+};
+
+/* Inverse of J^T J in units of z, by Cholesky; false if the data do not tell the keys apart. */
+static bool covariance(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_FIT_MOST]) {
+  int n = fit->n;
+  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, M[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}};
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b <= a; b++) {
+      double sum = 0, whole = 0;
+      for (size_t i = 0; i < fit->rows; i++)
+        sum += J[i * (size_t)n + (size_t)a] * J[i * (size_t)n + (size_t)b];
+      whole = sum;
+      for (int k = 0; k < b; k++)
+        sum -= L[a][k] * L[b][k];
+      if (a == b && !(sum > 1e-10 * whole)) return false;
+      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
+    }
+  for (int a = 0; a < n; a++) /* M = L^-1 */
+    for (int b = 0; b <= a; b++) {
+      double sum = a == b;
+      for (int k = b; k < a; k++)
+        sum -= L[a][k] * M[k][b];
+      M[a][b] = sum / L[a][a];
+    }
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b < n; b++) {
+      C[a][b] = 0;
+      for (int k = a > b ? a : b; k < n; k++)
+        C[a][b] += M[k][a] * M[k][b];
+    }
+  return true;
+}
+
+static bool at_bound(const ZpFit *fit, const double *z, int k) {
+  return z[k] <= fit->lower[k] * (1 + 1e-6) || z[k] >= fit->upper[k] * (1 - 1e-6);
+}
+
+/* What the summary says of the keys; `square`: sum of squared residuals. */
+static void report_keys(const ZpFit *fit, const double *z, const double *J, double square, ZpResult *result) {
+  double C[ZP_FIT_MOST][ZP_FIT_MOST];
+  bool told_apart = J && covariance(fit, J, C);
+  size_t n = (size_t)fit->n;
+  double variance = fit->rows > n ? square / (double)(fit->rows - n) : NAN;
+  for (int k = 0; k < fit->n; k++) {
+    const ZpKey *key = zp_key(fit->key[k]);
+    bool known = told_apart && !at_bound(fit, z, k);
+    zp_result_add(result, key->name, key->unit, z[k] * fit->start[k]);
+    zp_result_add(result, names[fit->key[k]].error, key->unit,
+                  known ? fabs(fit->start[k]) * sqrt(variance * C[k][k]) : NAN);
+    for (int j = 0; j < k; j++)
+      zp_result_add(result, names[fit->key[k]].correlation[j], "1",
+                    told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
+    if (at_bound(fit, z, k)) zp_result_warn(result, "%s stands at a bound: no standard error", key->name);
+  }
+  if (!told_apart) zp_result_warn(result, "the data do not tell the fitted keys apart: no standard errors");
+}
+
+static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
+  result->series = zp_table_create(names[fit->x_key].column, 4, fit->rows < 2 ? 2 : fit->rows);
+  if (!result->series) return false;
+  for (size_t i = 0; i < fit->rows; i++)
+    zp_table_offer(result->series, (double[]){fit->x[i], fit->y[i], fitted[i], fitted[i] - fit->y[i]});
+  return true;
+}
+
+static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult *result, ZpError *err) {
+  double z[ZP_FIT_MOST] = {0}, square = 0;
+  for (int k = 0; k < fit->n; k++)
+    z[k] = fmin(fmax(1, fit->lower[k]), fit->upper[k]);
+  if (!zp_fit_solve(fit, z, fitted) && fit->status != ZP_OK) return fit->status;
+  for (size_t i = 0; i < fit->rows; i++)
+    square += (fitted[i] - fit->y[i]) * (fitted[i] - fit->y[i]);
+  bool good = isfinite(square) && !fit->stopped;
+  bool has_J = good && zp_fit_jacobian(fit, z, J);
+  if (fit->status != ZP_OK) return fit->status;
+  result->outcome = good ? ZP_CONVERGED : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
+  if (good)
+    snprintf(result->message, sizeof result->message, "%zu rows fitted, residual %.3g mm rms", fit->rows, 1e3 * rms);
+  else
+    snprintf(result->message, sizeof result->message,
+             fit->stopped ? "interrupted" : "some rows have no state of rest within the bounds");
+  report_keys(fit, z, has_J ? J : NULL, square, result);
+  zp_result_add(result, "residual_rms_m", "m", rms);
+  zp_result_add(result, "data_rows", "count", (double)fit->rows);
+  zp_result_add(result, "evaluations", "count", fit->evaluations);
+  return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);
+}
+
+static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
+  ZpFit fit;
+  ZpStatus status = zp_fit_open(def, &fit, err);
+  fit.hooks = hooks;
+  ZpResult *result = status == ZP_OK ? zp_calloc(1, sizeof *result) : NULL;
+  double *fitted = status == ZP_OK ? calloc(fit.rows, sizeof *fitted) : NULL;
+  double *J = status == ZP_OK ? calloc(fit.rows * (size_t)fit.n, sizeof *J) : NULL;
+  if (status == ZP_OK && (!result || !fitted || !J)) status = zp_fail_memory(err);
+  if (result) result->study = ZP_STUDY_CALIBRATE;
+  if (status == ZP_OK) status = solve_and_report(&fit, fitted, J, result, err);
+  free(fitted);
+  free(J);
+  zp_fit_close(&fit);
+  if (status == ZP_OK)
+    *out = result;
+  else
+    zp_result_destroy(result);
+  return status;
+}
+
+ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  if (def->study == ZP_STUDY_CALIBRATE) {
+    ZpFit fit;
+    status = zp_fit_open(def, &fit, err);
+    zp_fit_close(&fit);
+  } else if (def->study == ZP_STUDY_STATIONARY && *def->data.file) {
+    ZpReference reference;
+    status = zp_reference_read(def->data.file, &reference, err);
+    zp_reference_free(&reference);
+  }
+  return status;
+}
+
+ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
+  *result = NULL;
+  ZpStatus status = zp_def_check(def, err);
+  if (status != ZP_OK) return status;
+  if (def->study == ZP_STUDY_CALIBRATE) return calibrate(def, hooks, result, err);
+  if (def->study != ZP_STUDY_STATIONARY || *def->data.file == 0) return zp_study_run(def, hooks, result, err);
+  ZpReference reference;
+  status = zp_reference_read(def->data.file, &reference, err);
+  if (status == ZP_OK) status = zp_study_run(def, hooks, result, err);
+  if (status == ZP_OK) zp_result_add(*result, "area_error_m2", "m2", zp_reference_area(&reference, (*result)->series));
+  zp_reference_free(&reference);
+  return status;
+}

@@ -1,0 +1,39 @@
+/* A fit of keys to measured strokes: what is fitted to what. */
+#ifndef ZP_FIT_FIT_H
+#define ZP_FIT_FIT_H
+
+#include <zipact/calibrate.h>
+
+enum { ZP_FIT_MOST = 5 }; /* keys fitted at once */
+
+typedef struct ZpFit {
+  const ZpActuatorDef *def;
+  const ZpHooks *hooks;
+  int n; /* keys fitted; their values are z times the start */
+  int key[ZP_FIT_MOST];
+  double start[ZP_FIT_MOST];
+  double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
+  int x_key;                                     /* what is set */
+  bool opening;                                  /* the opening is measured, else the stroke */
+  size_t rows;
+  double *x, *y; /* [rows] SI */
+  int evaluations;
+  bool stopped;    /* the progress hook asked for it */
+  ZpStatus status; /* of the machine */
+  ZpError *err;
+} ZpFit;
+
+/* Read and check all that `def` says of the fit. To be closed whatever the status. */
+ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
+void zp_fit_close(ZpFit *fit);
+
+/* What the model gives at the factors z for row `row`, m; NAN where it finds no state of rest. */
+double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
+
+/* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */
+bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
+
+/* Derivative of the fitted values by z => J [rows][n]. False where there is none. */
+bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J);
+
+#endif

@@ -1,0 +1,145 @@
+/* Def and CSV file => what is fitted to what. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "fit/fit.h"
+#include "io/data.h"
+
+void zp_fit_close(ZpFit *fit) {
+  free(fit->x);
+  free(fit->y);
+  fit->x = fit->y = NULL;
+}
+
+static bool is_real(int key) {
+  return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
+}
+
+/* Bounds of z: those of the scenario, and the range of the key. */
+static void find_bounds(ZpFit *fit, int i) {
+  const ZpKey *key = zp_key(fit->key[i]);
+  double start = fit->start[i], at_min = key->min / start, at_max = key->max / start;
+  fit->lower[i] = fmax(fit->def->calibrate.lower, fmin(at_min, at_max));
+  fit->upper[i] = fmin(fit->def->calibrate.upper, fmax(at_min, at_max));
+}
+
+static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
+  int key = zp_key_find(name);
+  if (key < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %.80s: unknown key; did you mean %s?", name,
+                   zp_key_nearest(name));
+  if (!is_real(key))
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: takes no real number, cannot be fitted", name);
+  if (fit->n == ZP_FIT_MOST) return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: more than %d keys", ZP_FIT_MOST);
+  for (int i = 0; i < fit->n; i++)
+    if (fit->key[i] == key) return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: named twice", name);
+  double start = zp_def_get(fit->def, key);
+  if (isnan(start) || start == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,
+                   isnan(start) ? "auto" : "0");
+  fit->key[fit->n] = key;
+  fit->start[fit->n] = start;
+  find_bounds(fit, fit->n++);
+  return ZP_OK;
+}
+
+/* "a, b" => keys. */
+static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
+  char list[ZP_TEXT_SIZE], *rest = list;
+  memcpy(list, fit->def->calibrate.fit, sizeof list);
+  ZpStatus status = ZP_OK;
+  if (strspn(list, " ") == strlen(list))
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: empty; name the keys to fit");
+  for (char *name = strsep(&rest, ","); name && status == ZP_OK; name = strsep(&rest, ",")) {
+    name += strspn(name, " ");
+    name[strcspn(name, " ")] = 0;
+    status = add_key(fit, name, err);
+  }
+  return status;
+}
+
+/* A column, by its name or, if that is empty, by its place. */
+static ZpStatus find_column(const ZpData *data, const char *key, const char *name, int place, int *column,
+                            ZpError *err) {
+  *column = *name ? zp_data_column(data, name) : place < (int)data->columns ? place : -1;
+  if (*column >= 0) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%s = \"%.60s\": no such column in %.200s", key, name, data->path);
+}
+
+/* The key that a column header stands for and the unit, -1 if none. */
+static int key_of_header(const char *name, double *factor, double *divisor) {
+  if (zp_data_unit(name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
+  if (zp_data_unit(name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
+  for (int i = 0; i < zp_key_count(); i++)
+    if (is_real(i) && zp_data_unit(name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
+  return -1;
+}
+
+static ZpStatus read_x(ZpFit *fit, const ZpData *data, int column, ZpError *err) {
+  double factor, divisor;
+  const char *name = data->cell[column];
+  fit->x_key = key_of_header(name, &factor, &divisor);
+  if (fit->x_key < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.x: column %.60s: not load, voltage or a number key with its unit",
+                   name);
+  for (int i = 0; i < fit->n; i++)
+    if (fit->key[i] == fit->x_key)
+      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: given by column %.60s, cannot be fitted",
+                     zp_key(fit->x_key)->name, name);
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < fit->rows && status == ZP_OK; i++) {
+    ZpActuatorDef scratch = *fit->def;
+    status = zp_data_number(data, i, (size_t)column, &fit->x[i], err);
+    fit->x[i] = fit->x[i] * factor / divisor;
+    if (status == ZP_OK) status = zp_def_set(&scratch, fit->x_key, fit->x[i], err);
+  }
+  return status;
+}
+
+static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err) {
+  double factor, divisor;
+  const char *name = data->cell[column];
+  fit->opening = zp_data_unit(name, "opening", "m", &factor, &divisor);
+  if (!fit->opening && !zp_data_unit(name, "stroke", "m", &factor, &divisor))
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: not stroke or opening with a unit of length", name);
+  if (fit->opening && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < fit->rows && status == ZP_OK; i++) {
+    status = zp_data_number(data, i, (size_t)column, &fit->y[i], err);
+    fit->y[i] = fit->y[i] * factor / divisor;
+  }
+  return status;
+}
+
+static ZpStatus read_data(ZpFit *fit, const ZpData *data, ZpError *err) {
+  int x, y;
+  const ZpActuatorDef *def = fit->def;
+  fit->rows = data->rows;
+  if (fit->rows < (size_t)fit->n || fit->rows == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "%.200s: %zu rows of data, fewer than the %d keys of calibrate.fit", data->path,
+                   fit->rows, fit->n);
+  fit->x = calloc(fit->rows, sizeof *fit->x);
+  fit->y = calloc(fit->rows, sizeof *fit->y);
+  if (!fit->x || !fit->y) return zp_fail_memory(err);
+  ZpStatus status = find_column(data, "calibrate.x", def->calibrate.x, 0, &x, err);
+  if (status == ZP_OK) status = find_column(data, "calibrate.y", def->calibrate.y, 1, &y, err);
+  if (status == ZP_OK) status = read_x(fit, data, x, err);
+  return status == ZP_OK ? read_y(fit, data, y, err) : status;
+}
+
+ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
+  *fit = (ZpFit){.def = def, .err = err};
+  if (*def->data.file == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
+  ZpStatus status = read_keys(fit, err);
+  if (status != ZP_OK) return status;
+  ZpData data;
+  status = zp_data_read(def->data.file, &data, err);
+  if (status == ZP_OK) status = read_data(fit, &data, err);
+  zp_data_destroy(&data);
+  return status;
+}

@@ -1,0 +1,236 @@
+/* The least squares themselves: NLopt's COBYLA finds the way within the bounds, without derivatives, so that a
+ * try without a state of rest only costs; Gauss-Newton with finite differences makes the end sharp. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <nlopt.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "fit/fit.h"
+#include "rest/statics.h"
+
+enum { VOLTAGE_STEPS = 20, NEWTON_MOST = 100, POLISH_MOST = 30, HALVINGS = 12 };
+
+/* A stroke that changes by more than this share in one step of the voltage has jumped to another branch. */
+static const double jump = 0.1;
+
+/* Relative step of the finite differences: far above what Newton leaves, small against the curvature. */
+static const double difference = 1e-4;
+
+/* Raise the voltage in equal steps of its square, staying on the branch that hangs. */
+static bool raise_voltage(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  double before = zp_statics_stroke(s);
+  for (int k = 1; k <= VOLTAGE_STEPS; k++) {
+    s->U = voltage * sqrt((double)k / VOLTAGE_STEPS);
+    if (!zp_newton_good(zp_newton(&system, zp_statics_tolerance(s), NEWTON_MOST, work).end)) return false;
+    double now = zp_statics_stroke(s);
+    if (fabs(now - before) > jump * fabs(before)) return false;
+    before = now;
+  }
+  return zp_statics_stable(s, work);
+}
+
+static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
+  ZpStatics statics = {0};
+  ZpNewtonWork work;
+  ZpCarver carver = {NULL, 0};
+  double value = NAN;
+  void *memory = NULL;
+  if (zp_statics_create(model, &statics)) {
+    zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
+    memory = zp_calloc(1, carver.used);
+  }
+  if (memory) {
+    carver = (ZpCarver){memory, 0};
+    zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
+    bool found = zp_newton_good(zp_statics_hang(&statics, &work).end);
+    if (found && voltage > 0 && model->field) found = raise_voltage(&statics, voltage, &work);
+    if (found) value = fit->opening ? zp_statics_opening(&statics) : zp_statics_stroke(&statics);
+  } else {
+    fit->status = zp_fail_memory(fit->err);
+  }
+  zp_free(memory);
+  zp_statics_destroy(&statics);
+  return value;
+}
+
+double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
+  ZpActuatorDef def = *fit->def;
+  ZpModel *model;
+  def.study = ZP_STUDY_STATIONARY;
+  bool set = zp_def_set(&def, fit->x_key, fit->x[row], NULL) == ZP_OK;
+  for (int i = 0; i < fit->n && set; i++)
+    set = zp_def_set(&def, fit->key[i], z[i] * fit->start[i], NULL) == ZP_OK;
+  if (!set) return NAN;
+  ZpStatus status = zp_model_create(&def, &model, NULL);
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  if (status != ZP_OK) return NAN;
+  bool driven = fit->x_key == zp_key_find("drive.voltage");
+  double value = measure(fit, model, driven ? fit->x[row] : 0);
+  zp_model_destroy(model);
+  return value;
+}
+
+static bool ask(ZpFit *fit) {
+  const ZpHooks *hooks = fit->hooks;
+  double fraction = 1 - 1 / (1 + 0.02 * fit->evaluations);
+  if (hooks && hooks->progress && hooks->progress(hooks->user, "fitting", fraction)) fit->stopped = true;
+  return fit->stopped || fit->status != ZP_OK;
+}
+
+/* Fitted values at z; false if one of them is not there. */
+static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
+  bool all = true;
+  fit->evaluations++;
+  for (size_t i = 0; i < fit->rows; i++) {
+    fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, i);
+    all &= isfinite(fitted[i]) != 0;
+  }
+  return all;
+}
+
+/* Sum of squares; a row that is not there counts as twice the largest measured value. */
+static double squares(const ZpFit *fit, const double *fitted) {
+  double sum = 0, largest = 0;
+  for (size_t i = 0; i < fit->rows; i++)
+    largest = fmax(largest, fabs(fit->y[i]));
+  for (size_t i = 0; i < fit->rows; i++) {
+    double r = isfinite(fitted[i]) ? fitted[i] - fit->y[i] : 2 * largest;
+    sum += r * r;
+  }
+  return sum;
+}
+
+typedef struct Search {
+  ZpFit *fit;
+  double *fitted;
+  nlopt_opt opt;
+} Search;
+
+/* An nlopt_func: logarithm of the sum of squares, so that tolerances need no scale. */
+static double objective(unsigned n, const double *z, double *gradient, void *user) {
+  Search *search = user;
+  (void)n, (void)gradient;
+  predict_all(search->fit, z, search->fitted);
+  if (search->fit->stopped || search->fit->status != ZP_OK) nlopt_force_stop(search->opt);
+  return log(squares(search->fit, search->fitted) + 1e-30);
+}
+
+static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
+  Search search = {fit, fitted, nlopt_create(NLOPT_LN_COBYLA, (unsigned)fit->n)};
+  double best;
+  if (!search.opt) return false;
+  nlopt_set_lower_bounds(search.opt, fit->lower);
+  nlopt_set_upper_bounds(search.opt, fit->upper);
+  nlopt_set_min_objective(search.opt, objective, &search);
+  nlopt_set_xtol_rel(search.opt, 1e-3);
+  nlopt_set_maxeval(search.opt, 60 * fit->n);
+  nlopt_set_initial_step1(search.opt, 0.1);
+  nlopt_result end = nlopt_optimize(search.opt, z, &best);
+  nlopt_destroy(search.opt);
+  return end != NLOPT_OUT_OF_MEMORY && end != NLOPT_INVALID_ARGS;
+}
+
+bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
+  double *up = calloc(2 * fit->rows, sizeof *up), *down = up ? up + fit->rows : NULL;
+  bool good = up != NULL;
+  for (int k = 0; k < fit->n && good; k++) {
+    double at[ZP_FIT_MOST];
+    memcpy(at, z, sizeof at);
+    double high = fmin(z[k] * (1 + difference), fit->upper[k]), low = fmax(z[k] * (1 - difference), fit->lower[k]);
+    at[k] = high;
+    good = predict_all(fit, at, up);
+    at[k] = low;
+    good = good && predict_all(fit, at, down) && high > low;
+    for (size_t i = 0; i < fit->rows && good; i++)
+      J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
+  }
+  free(up);
+  return good;
+}
+
+/* Solve A x = b, n at most ZP_FIT_MOST, by elimination with pivoting; false if A is singular. */
+static bool solve_small(int n, double A[ZP_FIT_MOST][ZP_FIT_MOST], double *b) {
+  for (int k = 0; k < n; k++) {
+    int pivot = k;
+    for (int i = k + 1; i < n; i++)
+      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
+    if (!(fabs(A[pivot][k]) > 0)) return false;
+    for (int j = 0; j < n; j++) {
+      double kept = A[k][j];
+      A[k][j] = A[pivot][j], A[pivot][j] = kept;
+    }
+    double kept = b[k];
+    b[k] = b[pivot], b[pivot] = kept;
+    for (int i = k + 1; i < n; i++) {
+      double f = A[i][k] / A[k][k];
+      for (int j = k; j < n; j++)
+        A[i][j] -= f * A[k][j];
+      b[i] -= f * b[k];
+    }
+  }
+  for (int k = n - 1; k >= 0; k--) {
+    for (int j = k + 1; j < n; j++)
+      b[k] -= A[k][j] * b[j];
+    b[k] /= A[k][k];
+  }
+  return true;
+}
+
+/* The Gauss-Newton step; what stands at a bound and would leave it stays. */
+static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted, const double *J, double *step) {
+  int n = fit->n, free_key[ZP_FIT_MOST], used = 0;
+  double A[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, b[ZP_FIT_MOST] = {0}, g[ZP_FIT_MOST] = {0};
+  for (int k = 0; k < n; k++) {
+    for (size_t i = 0; i < fit->rows; i++)
+      g[k] += J[i * (size_t)n + (size_t)k] * (fit->y[i] - fitted[i]);
+    bool stays = (z[k] <= fit->lower[k] && g[k] < 0) || (z[k] >= fit->upper[k] && g[k] > 0);
+    if (!stays) free_key[used++] = k;
+    step[k] = 0;
+  }
+  for (int a = 0; a < used; a++) {
+    b[a] = g[free_key[a]];
+    for (int c = 0; c < used; c++)
+      for (size_t i = 0; i < fit->rows; i++)
+        A[a][c] += J[i * (size_t)n + (size_t)free_key[a]] * J[i * (size_t)n + (size_t)free_key[c]];
+    A[a][a] *= 1 + 1e-10;
+  }
+  if (!solve_small(used, A, b)) return false;
+  for (int a = 0; a < used; a++)
+    step[free_key[a]] = b[a];
+  return true;
+}
+
+/* Go along a step as far as the sum of squares falls; => how far z moved, 0 if it does not fall. */
+static double take_step(ZpFit *fit, double *z, double *fitted, const double *step, double *trial) {
+  double before = squares(fit, fitted), fraction = 1;
+  for (int h = 0; h < HALVINGS; h++, fraction /= 2) {
+    double at[ZP_FIT_MOST] = {0}, moved = 0;
+    for (int k = 0; k < fit->n; k++) {
+      at[k] = fmin(fmax(z[k] + fraction * step[k], fit->lower[k]), fit->upper[k]);
+      moved = fmax(moved, fabs(at[k] - z[k]) / z[k]);
+    }
+    if (!predict_all(fit, at, trial) || squares(fit, trial) >= before) continue;
+    memcpy(z, at, (size_t)fit->n * sizeof *z);
+    memcpy(fitted, trial, fit->rows * sizeof *fitted);
+    return moved;
+  }
+  return 0;
+}
+
+bool zp_fit_solve(ZpFit *fit, double *z, double *fitted) {
+  double *J = calloc(fit->rows * (size_t)(fit->n + 1), sizeof *J), step[ZP_FIT_MOST];
+  double *trial = J ? J + fit->rows * (size_t)fit->n : NULL;
+  bool good = J && search_within_bounds(fit, z, fitted);
+  if (!good) fit->status = zp_fail_memory(fit->err);
+  good = good && predict_all(fit, z, fitted);
+  for (int k = 0; k < POLISH_MOST && good && !fit->stopped; k++) {
+    if (!zp_fit_jacobian(fit, z, J) || !gauss_newton(fit, z, fitted, J, step)) break;
+    if (take_step(fit, z, fitted, step, trial) < 1e-9) break;
+  }
+  free(J);
+  return good && fit->status == ZP_OK;
+}

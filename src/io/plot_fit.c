@@ -1,0 +1,67 @@
+/* Picture of a calibration, fit.svg: measurements against the fit. */
+#include <math.h>
+#include <string.h>
+
+#include "io/plot.h"
+#include "io/units.h"
+
+static bool has_fit(const ZpPlot *plot) {
+  if (plot->study != ZP_STUDY_CALIBRATE) return false;
+  for (size_t run = 0; run < plot->report->count; run++) {
+    const ZpTable *table = plot->report->result[run]->series;
+    for (size_t row = 0; table && row < table->rows; row++)
+      if (isfinite(zp_table_get(table, row, "fitted_m"))) return true;
+  }
+  return false;
+}
+
+static void data_fit(const ZpPlot *plot, FILE *file) {
+  fputs("# x measured_m fitted_m\n", file);
+  for (size_t run = 0; run < plot->report->count; run++) {
+    const ZpTable *table = plot->report->result[run]->series;
+    for (size_t row = 0; table && row < table->rows; row++) {
+      zp_plot_put(file, table->value[row * table->columns], ' ');
+      zp_plot_put(file, zp_table_get(table, row, "measured_m"), ' ');
+      zp_plot_put(file, zp_table_get(table, row, "fitted_m"), '\n');
+    }
+  }
+}
+
+/* What is on the x axis: the key that the first column has the name of, in its usual unit. */
+static ZpPlotUnit unit_of_x(const ZpColumn *column, char *label, size_t size) {
+  ZpPlotUnit unit = {1, ""};
+  ZpUnitScale scale;
+  for (int i = 0; i < zp_key_count(); i++) {
+    const ZpKey *key = zp_key(i);
+    size_t length = strlen(key->name);
+    if (strncmp(column->name, key->name, length) != 0 || column->name[length] != '_') continue;
+    bool shown = *key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK;
+    if (shown) unit.factor = scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor;
+    snprintf(label, size, "%s%s%s", key->name, shown ? " / " : "", shown ? key->shown : "");
+    return unit;
+  }
+  snprintf(label, size, "%s", column->name);
+  return unit;
+}
+
+static void script_fit(const ZpPlot *plot, FILE *file) {
+  const ZpTable *table = plot->report->result[0]->series;
+  const char *const lengths[] = {"measured_m", "fitted_m", NULL};
+  char label[128];
+  const ZpPlotUnit length = zp_plot_table_unit(table, lengths, "m");
+  const ZpPlotUnit x = unit_of_x(&table->column[0], label, sizeof label);
+  zp_plot_head(plot, file, "fit", "Measured and fitted", 0.82);
+  fputs("set xlabel ", file);
+  zp_plot_text(file, label);
+  fprintf(file,
+          "\nset ylabel 'stroke or opening / %s' offset 0.5\nset autoscale noextend\nset yrange [0:*]\n"
+          "set offsets graph 0.04, graph 0.04, graph 0.06, 0\n"
+          "plot 'fit.dat' using ($1*%g):($2*%g) with points pt 6 ps 1.2 lw 1.5 lc rgb '%s' title 'measured', \\\n"
+          "     'fit.dat' using ($1*%g):($3*%g) with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title 'fitted'\n",
+          length.text, x.factor, length.factor, zp_plot_colour(0), x.factor, length.factor, zp_plot_colour(1));
+}
+
+const ZpPicture zp_fit_pictures[] = {
+    {"fit", "svg", has_fit, script_fit, data_fit},
+    {NULL, NULL, NULL, NULL, NULL},
+};

@@ -1,0 +1,320 @@
+/* Study calibrate: what synthetic data were made with is found again, wrong input is refused with the place where it
+ * stands; Table I of the paper; the area between a shape and a reference curve. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <check.h>
+
+#include <zipact/calibrate.h>
+#include <zipact/io.h>
+
+#include "fit/reference.h"
+
+static void write_file(const char *path, const char *text) {
+  FILE *file = fopen(path, "w");
+  ck_assert_ptr_nonnull(file);
+  fputs(text, file);
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+static void set(ZpActuatorDef *def, const char *key, double value) {
+  ZpError err;
+  ck_assert_msg(zp_def_set(def, zp_key_find(key), value, &err) == ZP_OK, "%s", err.message);
+}
+
+static void set_text(ZpActuatorDef *def, const char *key, const char *text) {
+  ZpError err;
+  ck_assert_msg(zp_def_set_text(def, zp_key_find(key), text, &err) == ZP_OK, "%s", err.message);
+}
+
+static ZpActuatorDef calibration(const char *file, const char *keys) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.study = ZP_STUDY_CALIBRATE;
+  set_text(&def, "data.file", file);
+  set_text(&def, "calibrate.fit", keys);
+  set(&def, "mesh.nodes", 31);
+  return def;
+}
+
+static ZpResult *fit(const ZpActuatorDef *def) {
+  ZpResult *result;
+  ZpError err = {0};
+  ck_assert_msg(zp_data_study_run(def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  return result;
+}
+
+/* Stroke of the hanging default actuator, m. */
+static double stroke(ZpActuatorDef def, double mass) {
+  ZpResult *result;
+  def.study = ZP_STUDY_STATIONARY;
+  def.load.mass = mass;
+  *def.data.file = 0;
+  ck_assert_int_eq(zp_data_study_run(&def, NULL, &result, NULL), ZP_OK);
+  double value = zp_result_get(result, "stroke_m");
+  zp_result_destroy(result);
+  return value;
+}
+
+/* Strokes at seven loads with an error of `noise` that alternates, +-. */
+static void make_data(const char *path, ZpActuatorDef truth, double noise) {
+  static const double grams[] = {0, 2, 5, 8, 15, 30, 60};
+  FILE *file = fopen(path, "w");
+  ck_assert_ptr_nonnull(file);
+  fprintf(file, "# made by the test\nload_g, stroke_mm\n");
+  for (int i = 0; i < 7; i++)
+    fprintf(file, "%g, %.12g\n", grams[i], 1e3 * (stroke(truth, grams[i] / 1e3) + (i % 2 ? noise : -noise)));
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+static void assert_near(double value, double expected, double relative) {
+  ck_assert_msg(fabs(value - expected) <= relative * fabs(expected), "%.10g, expected %.10g", value, expected);
+}
+
+START_TEST(one_key_is_found) {
+  ZpActuatorDef def = calibration("one.csv", "ribbon.young_modulus"), truth = def;
+  truth.ribbon.young_modulus = 137e9;
+  make_data("one.csv", truth, 0);
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 137e9, 1e-5);
+  ck_assert(zp_result_get(result, "ribbon.young_modulus_standard_error") < 1e-4 * 137e9);
+  ck_assert(zp_result_get(result, "residual_rms_m") < 1e-8);
+  ck_assert_uint_eq(result->series->rows, 7);
+  ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
+  assert_near(zp_table_get(result->series, 3, "load.mass_kg"), 0.008, 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(two_keys_are_found) {
+  ZpActuatorDef def = calibration("two.csv", "ribbon.young_modulus, load.share"), truth = def;
+  truth.ribbon.young_modulus = 150e9;
+  truth.load.share = 0.4;
+  make_data("two.csv", truth, 0);
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 150e9, 1e-3);
+  assert_near(zp_result_get(result, "load.share"), 0.4, 1e-3);
+  double correlation = zp_result_get(result, "load.share_correlation_1");
+  ck_assert(correlation > 0.5 && correlation < 1);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Twice the noise: twice the standard error, which covers the error that was made. */
+START_TEST(standard_error_follows_the_noise) {
+  double error[2];
+  for (int i = 0; i < 2; i++) {
+    ZpActuatorDef def = calibration("noise.csv", "ribbon.young_modulus"), truth = def;
+    truth.ribbon.young_modulus = 150e9;
+    make_data("noise.csv", truth, (i + 1) * 2e-5);
+    ZpResult *result = fit(&def);
+    error[i] = zp_result_get(result, "ribbon.young_modulus_standard_error");
+    ck_assert(fabs(zp_result_get(result, "ribbon.young_modulus") - 150e9) < 3 * error[i]);
+    ck_assert(error[i] > 1e-5 * 150e9 && error[i] < 0.05 * 150e9);
+    assert_near(zp_result_get(result, "residual_rms_m"), (i + 1) * 2e-5, 0.1);
+    zp_result_destroy(result);
+  }
+  assert_near(error[1], 2 * error[0], 0.05);
+}
+END_TEST
+
+/* Opening against voltage, below pull-in: the permittivity of the liquid. */
+START_TEST(voltage_data) {
+  static const char *const volts[] = {"0", "2", "3", "4"};
+  ZpActuatorDef def = calibration("volts.csv", "medium.permittivity"), truth = def;
+  ZpResult *result;
+  char text[400] = "opening_mm,remark,voltage_kV\n";
+  truth.medium.permittivity = 2.2;
+  truth.study = ZP_STUDY_EQUILIBRIUM;
+  set(&truth, "output.samples", 20000);
+  ck_assert_int_eq(zp_data_study_run(&truth, NULL, &result, NULL), ZP_OK);
+  for (int i = 0; i < 4; i++) {
+    double at = 1e3 * atof(volts[i]);
+    const ZpTable *t = result->series;
+    size_t k = 1; /* the hanging branch comes first and its voltage rises */
+    while (k + 1 < t->rows && zp_table_get(t, k, "voltage_V") < at)
+      k++;
+    double v0 = zp_table_get(t, k - 1, "voltage_V"), v1 = zp_table_get(t, k, "voltage_V");
+    double o0 = zp_table_get(t, k - 1, "opening_m"), o1 = zp_table_get(t, k, "opening_m");
+    double share = (at * at - v0 * v0) / (v1 * v1 - v0 * v0);
+    size_t used = strlen(text);
+    snprintf(text + used, sizeof text - used, "%.9g,some text,%s\n", 1e3 * (o0 + share * (o1 - o0)), volts[i]);
+  }
+  zp_result_destroy(result);
+  write_file("volts.csv", text);
+  set_text(&def, "calibrate.x", "voltage_kV");
+  set_text(&def, "calibrate.y", "opening_mm");
+  result = fit(&def);
+  assert_near(zp_result_get(result, "medium.permittivity"), 2.2, 5e-3);
+  ck_assert_str_eq(result->series->column[0].name, "drive.voltage_V");
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(bounds_are_kept) {
+  ZpActuatorDef def = calibration("bounds.csv", "ribbon.young_modulus"), truth = def;
+  truth.ribbon.young_modulus = 100e9;
+  make_data("bounds.csv", truth, 0);
+  set(&def, "calibrate.lower", 0.8);
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 160e9, 1e-6);
+  ck_assert(zp_result_get(result, "ribbon.young_modulus") >= 160e9);
+  ck_assert(isnan(zp_result_get(result, "ribbon.young_modulus_standard_error")));
+  ck_assert_uint_eq(result->warnings, 1);
+  ck_assert_ptr_nonnull(strstr(result->warning[0], "bound"));
+  zp_result_destroy(result);
+  truth.load.share = 0.5;
+  set_text(&def, "calibrate.fit", "load.share"); /* the key's own range ends at 1, not at 5 * 0.5 */
+  result = fit(&def);
+  ck_assert(zp_result_get(result, "load.share") <= 1);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Saved states of the paper's authors at 8 and 61 g, published FE strokes: within 3 %. */
+START_TEST(table_1_of_the_paper) {
+  static const struct {
+    const char *file;
+    double value[3];
+  } cases[] = {{"/examples/calibrate-table-1-8g.yaml", {6434, 1.586e5, 1.537e6}},
+               {"/examples/calibrate-table-1-61g.yaml", {6031, 1.461e5, 1.408e6}}};
+  for (int c = 0; c < 2; c++) {
+    char path[1024];
+    ZpError err = {0};
+    snprintf(path, sizeof path, "%s%s", ZP_SOURCE_DIR, cases[c].file);
+    ZpScenario *scenario = zp_scenario_create();
+    ck_assert_msg(zp_scenario_read(scenario, path, &err) == ZP_OK, "%s", err.message);
+    ck_assert_uint_eq(zp_scenario_count(scenario), 3);
+    for (size_t i = 0; i < 3; i++) {
+      ZpActuatorDef def;
+      ck_assert_int_eq(zp_scenario_def(scenario, i, &def, &err), ZP_OK);
+      set(&def, "mass_spring.shear_coefficient", 2 * def.mass_spring.shear_coefficient); /* not from the answer */
+      ZpResult *result = fit(&def);
+      assert_near(zp_result_get(result, "mass_spring.shear_coefficient"), cases[c].value[i], 0.03);
+      ck_assert(isnan(zp_result_get(result, "mass_spring.shear_coefficient_standard_error")));
+      zp_result_destroy(result);
+    }
+    zp_scenario_destroy(scenario);
+  }
+}
+END_TEST
+
+static void refuse(const ZpActuatorDef *def, const char *words) {
+  ZpError err = {0};
+  ZpResult *result = NULL;
+  ck_assert_int_eq(zp_data_check(def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, words) != NULL, "%s", err.message);
+  ck_assert_int_eq(zp_data_study_run(def, NULL, &result, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_null(result);
+}
+
+static void refuse_file(const char *text, const char *keys, const char *words) {
+  write_file("bad.csv", text);
+  ZpActuatorDef def = calibration("bad.csv", keys);
+  refuse(&def, words);
+}
+
+START_TEST(bad_input_is_refused) {
+  const char *E = "ribbon.young_modulus", *good = "load_g,stroke_mm\n8,2\n9,3\n";
+  ZpActuatorDef missing = calibration("no such file.csv", E), nameless = calibration("", E);
+  refuse(&missing, "cannot be opened");
+  refuse(&nameless, "data.file: empty");
+  refuse_file("", E, "empty");
+  refuse_file("# only a remark\n\n", E, "empty");
+  refuse_file("load_g,stroke_mm\n", E, "0 rows of data");
+  refuse_file("load_g,stroke_mm\n\n8,abc\n", E, "bad.csv:3: column stroke_mm: \"abc\": text in a number column");
+  refuse_file("load_g,stroke_mm\n8,nan\n", E, "text in a number column");
+  refuse_file("load_g,stroke_mm\n8,\n", E, "text in a number column");
+  refuse_file("load_g,stroke_mm\n8,0x10\n", E, "text in a number column");
+  refuse_file("load_g,stroke_mm\n8,1e999\n", E, "text in a number column");
+  refuse_file("load_g,stroke_mm\n8,2,3\n", E, "bad.csv:2: 3 cells; the header has 2");
+  refuse_file("load_s,stroke_mm\n8,2\n", E, "calibrate.x");
+  refuse_file("load_g,stroke_kg\n8,2\n", E, "calibrate.y");
+  refuse_file("load_g\n8\n", E, "calibrate.y");
+  refuse_file("load_g,stroke_mm\n-8,2\n", E, "load.mass");
+  refuse_file(good, "ribbon.young_modulos", "did you mean ribbon.young_modulus?");
+  refuse_file(good, "ribbon.model", "ribbon.model");
+  refuse_file(good, "mesh.nodes", "mesh.nodes");
+  refuse_file(good, "data.file", "data.file");
+  refuse_file(good, "ribbon.width, ribbon.width", "named twice");
+  refuse_file(good, "ribbon.width,", "unknown key");
+  refuse_file(good, " ", "calibrate.fit: empty");
+  refuse_file(good, "load.mass", "cannot be fitted");
+  refuse_file(good, "mass_spring.shear_coefficient", "is auto");
+  refuse_file(good, "damping.drag", "is 0");
+  refuse_file(good, "ribbon.width, ribbon.thickness, load.share", "fewer than the 3 keys");
+}
+END_TEST
+
+/* A triangle of height h against the axis, and two lines that cross. */
+START_TEST(area_of_known_curves) {
+  static const ZpColumn columns[] = {{"x_m", "m", ""}, {"y_m", "m", ""}};
+  ZpTable *table = zp_table_create(columns, 2, 8);
+  zp_table_offer(table, (double[]){0, 0});
+  zp_table_offer(table, (double[]){0.01, 0});
+  zp_table_offer(table, (double[]){0.02, 0.002});
+  ZpReference reference;
+  write_file("curve.csv", "x_mm,y_mm\n-5,0\n5,1\n10,0\n15,0\n");
+  ck_assert_int_eq(zp_reference_read("curve.csv", &reference, NULL), ZP_OK);
+  assert_near(zp_reference_area(&reference, table), (0.75e-3 * 5e-3) + 0.5e-3 * 5e-3 + 0.5e-3 * 5e-3, 1e-9);
+  zp_reference_free(&reference);
+  write_file("curve.csv", "x_m,y_m\n0.01,0.001\n0.02,0.001\n");
+  ck_assert_int_eq(zp_reference_read("curve.csv", &reference, NULL), ZP_OK);
+  assert_near(zp_reference_area(&reference, table), 0.5e-3 * 1e-2, 1e-9);
+  zp_reference_free(&reference);
+  write_file("curve.csv", "x_m,y_m\n0.05,0.001\n0.06,0.001\n");
+  ck_assert_int_eq(zp_reference_read("curve.csv", &reference, NULL), ZP_OK);
+  ck_assert(isnan(zp_reference_area(&reference, table)));
+  zp_reference_free(&reference);
+  zp_table_destroy(table);
+}
+END_TEST
+
+/* The own shape as reference leaves no area; other columns do no harm. */
+START_TEST(area_error_of_stationary) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpResult *result;
+  ZpError err = {0};
+  def.study = ZP_STUDY_STATIONARY;
+  ck_assert_int_eq(zp_data_study_run(&def, NULL, &result, &err), ZP_OK);
+  ck_assert(isnan(zp_result_get(result, "area_error_m2")));
+  FILE *file = fopen("shape.csv", "w");
+  fprintf(file, "station,x_m,y_m\n");
+  for (size_t i = 0; i < result->series->rows; i++)
+    fprintf(file, "-,%.17g,%.17g\n", zp_table_get(result->series, i, "x_m"), zp_table_get(result->series, i, "y_m"));
+  fclose(file);
+  zp_result_destroy(result);
+  set_text(&def, "data.file", "shape.csv");
+  ck_assert_int_eq(zp_data_study_run(&def, NULL, &result, &err), ZP_OK);
+  ck_assert(zp_result_get(result, "area_error_m2") < 1e-12);
+  zp_result_destroy(result);
+  write_file("shape.csv", "x_mm,y_mm\n1,2\n1,3\n");
+  refuse(&def, "x does not rise");
+  write_file("shape.csv", "x_mm,height_mm\n1,2\n1,3\n");
+  refuse(&def, "no column y_m");
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("calibrate");
+  TCase *fits = tcase_create("fits"), *areas = tcase_create("areas");
+  tcase_set_timeout(fits, 120);
+  tcase_add_test(fits, one_key_is_found);
+  tcase_add_test(fits, two_keys_are_found);
+  tcase_add_test(fits, standard_error_follows_the_noise);
+  tcase_add_test(fits, voltage_data);
+  tcase_add_test(fits, bounds_are_kept);
+  tcase_add_test(fits, table_1_of_the_paper);
+  tcase_add_test(fits, bad_input_is_refused);
+  tcase_add_test(areas, area_of_known_curves);
+  tcase_add_test(areas, area_error_of_stationary);
+  suite_add_tcase(suite, fits);
+  suite_add_tcase(suite, areas);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}

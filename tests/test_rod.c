@@ -1,0 +1,413 @@
+/* The discrete elastic rod and the algebra under its statics: forces and stiffness as differences of the energy,
+ * momentum of a free rod; band LU and LDL' against dense elimination; eigenvalues against closed forms;
+ * the mass-spring chain's stiffness against differences of its forces. */
+#include "check_util.h"
+
+#include "base/kernel.h"
+#include "math/band.h"
+#include "math/eigen.h"
+#include "ribbon/massspring.h"
+#include "ribbon/rod.h"
+
+/* -- a rod of no particular shape ------------------------------------------------------------------ */
+
+enum { NODES = 9, MOST = 2 * NODES, PLACES = 32 };
+
+typedef struct Rod {
+  ZpRodParams params;
+  ZpRodEval eval;
+  double l[PLACES], S[PLACES], B[PLACES], k0[PLACES];
+  double x[PLACES], y[PLACES];
+  void *memory;
+} Rod;
+
+/* Unequal edges and joints, naturally curved, bent up to 0.5 rad a joint and stretched by a few percent.
+ * `free_ends`: no slope is held. */
+static void make_rod(Rod *r, size_t ribbons, bool free_ends, uint64_t seed) {
+  *r = (Rod){.params = {ribbons, NODES, PLACES, r->l, r->S, r->B, r->k0}};
+  size_t count = ribbons * NODES;
+  for (size_t j = 0; j < PLACES; j++) {
+    size_t station = j / ribbons;
+    bool end = station == 0 || station == NODES - 1;
+    r->l[j] = 1 + 0.3 * noise(&seed);
+    r->S[j] = j < count - ribbons ? 5 + 2 * noise(&seed) : 0;
+    r->B[j] = j < count && !(end && free_ends) ? 2 + noise(&seed) : 0;
+    r->k0[j] = 0.3 * noise(&seed);
+    double angle = 0.4 * noise(&seed), length = r->l[j] * (1 + 0.05 * noise(&seed));
+    if (j + ribbons >= PLACES) continue;
+    r->x[j + ribbons] = r->x[j] + length * cos(angle);
+    r->y[j + ribbons] = r->y[j] + length * sin(angle);
+  }
+  ZpCarver carver = {NULL, 0};
+  zp_rod_carve(&r->params, &r->eval, &carver);
+  r->memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){r->memory, 0};
+  zp_rod_carve(&r->params, &r->eval, &carver);
+}
+
+static double *coordinate(Rod *r, size_t k) {
+  return k % 2 ? &r->y[k / 2] : &r->x[k / 2];
+}
+
+static double energy_of(Rod *r) {
+  zp_rod_eval(&r->params, r->x, r->y, &r->eval);
+  return zp_rod_stretching_energy(&r->params, &r->eval) + zp_rod_bending_energy(&r->params, &r->eval);
+}
+
+/* Forces on nodes from those of edges: coordinates x and y of node j at 2 j and 2 j + 1. */
+static void gather(const double *Rx, const double *Ry, size_t ribbons, double *force) {
+  size_t count = ribbons * NODES, edges = count - ribbons;
+  for (size_t j = 0; j < count; j++) {
+    force[2 * j] = (j >= ribbons ? Rx[j - ribbons] : 0) - (j < edges ? Rx[j] : 0);
+    force[2 * j + 1] = (j >= ribbons ? Ry[j - ribbons] : 0) - (j < edges ? Ry[j] : 0);
+  }
+}
+
+static void rod_forces(Rod *r, double *force) {
+  zp_rod_eval(&r->params, r->x, r->y, &r->eval);
+  gather(r->eval.Rx, r->eval.Ry, r->params.ribbons, force);
+}
+
+/* Central difference of the fourth order. */
+static double difference(const double *at, double h) {
+  return (8 * (at[2] - at[1]) - (at[3] - at[0])) / (12 * h);
+}
+
+static const double offsets[4] = {-2, -1, 1, 2};
+
+START_TEST(test_force_is_gradient) {
+  const double h = 1e-3;
+  size_t ribbons = (size_t)_i % 2 + 1;
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    Rod r;
+    make_rod(&r, ribbons, _i / 2, seed);
+    double force[2 * MOST];
+    rod_forces(&r, force);
+    for (size_t k = 0; k < 2 * ribbons * NODES; k++) {
+      double at[4], kept = *coordinate(&r, k);
+      for (int m = 0; m < 4; m++) {
+        *coordinate(&r, k) = kept + offsets[m] * h;
+        at[m] = energy_of(&r);
+      }
+      *coordinate(&r, k) = kept;
+      ck_assert_double_eq_tol(force[k], -difference(at, h), 1e-9);
+    }
+    zp_free(r.memory);
+  }
+}
+END_TEST
+
+/* -- stiffness ------------------------------------------------------------------------------------- */
+
+/* What edges feel of edges, as actuator/statics.c puts it together: K[row][column] of node coordinates. */
+static void assemble(const double (*D)[4], size_t ribbons, double (*K)[2 * MOST]) {
+  memset(K, 0, 2 * MOST * sizeof *K);
+  ptrdiff_t s = (ptrdiff_t)ribbons, edges = s * (NODES - 1);
+  for (ptrdiff_t j = 0; j < edges; j++)
+    for (ptrdiff_t m = 0; m < 3; m++)
+      for (int entry = 0; entry < 4; entry++) {
+        ptrdiff_t k = j + (m - 1) * s, row = entry / 2, column = entry % 2;
+        if (k < 0 || k >= edges) continue;
+        double value = D[3 * j + m][entry];
+        K[2 * (j + s) + row][2 * (k + s) + column] += value;
+        K[2 * (j + s) + row][2 * k + column] -= value;
+        K[2 * j + row][2 * (k + s) + column] -= value;
+        K[2 * j + row][2 * k + column] += value;
+      }
+}
+
+static double stiffness_error(double (*K)[2 * MOST], const double (*at)[2 * MOST], size_t n, size_t column, double h) {
+  double most = 0;
+  for (size_t row = 0; row < n; row++) {
+    double of_row[4] = {at[0][row], at[1][row], at[2][row], at[3][row]};
+    most = fmax(most, fabs(K[row][column] + difference(of_row, h)));
+  }
+  return most;
+}
+
+START_TEST(test_stiffness_is_second_derivative) {
+  const double h = 1e-3;
+  size_t ribbons = (size_t)_i % 2 + 1, n = 2 * ribbons * NODES;
+  static double K[2 * MOST][2 * MOST], at[4][2 * MOST], D[3 * PLACES][4];
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    Rod r;
+    make_rod(&r, ribbons, _i / 2, seed);
+    zp_rod_eval(&r.params, r.x, r.y, &r.eval);
+    zp_rod_stiffness(&r.params, &r.eval, r.eval.T, D);
+    assemble(D, ribbons, K);
+    for (size_t k = 0; k < n; k++) {
+      double kept = *coordinate(&r, k);
+      for (int m = 0; m < 4; m++) {
+        *coordinate(&r, k) = kept + offsets[m] * h;
+        rod_forces(&r, at[m]);
+      }
+      *coordinate(&r, k) = kept;
+      ck_below(stiffness_error(K, at, n, k, h), 1e-7);
+      for (size_t m = 0; m < n; m++)
+        ck_assert_double_eq_tol(K[m][k], K[k][m], 1e-12);
+    }
+    zp_free(r.memory);
+  }
+}
+END_TEST
+
+/* Of a rod that nothing holds, forces and moments add up to nothing, ribbon by ribbon. */
+START_TEST(test_free_rod_keeps_momentum) {
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    Rod r;
+    make_rod(&r, 2, true, seed);
+    double force[2 * MOST];
+    rod_forces(&r, force);
+    for (size_t ribbon = 0; ribbon < 2; ribbon++) {
+      double sum[3] = {0}, size = 0;
+      for (size_t j = ribbon; j < 2 * NODES; j += 2) {
+        sum[0] += force[2 * j];
+        sum[1] += force[2 * j + 1];
+        sum[2] += r.x[j] * force[2 * j + 1] - r.y[j] * force[2 * j];
+        size += fabs(force[2 * j]) + fabs(force[2 * j + 1]);
+      }
+      ck_assert_double_gt(size, 0.1);
+      for (int k = 0; k < 3; k++)
+        ck_below(fabs(sum[k]), 1e-13 * NODES * size);
+    }
+    zp_free(r.memory);
+  }
+}
+END_TEST
+
+/* A rod in its natural shape bears nothing. */
+START_TEST(test_natural_shape) {
+  Rod r;
+  make_rod(&r, 1, true, 7);
+  double angle = 0.2, force[2 * MOST];
+  for (size_t j = 0; j + 1 < PLACES; j++) {
+    angle += j > 0 ? 2 * atan(0.5 * r.k0[j]) : 0;
+    r.x[j + 1] = r.x[j] + r.l[j] * cos(angle);
+    r.y[j + 1] = r.y[j] + r.l[j] * sin(angle);
+  }
+  rod_forces(&r, force);
+  for (size_t k = 0; k < 2 * NODES; k++)
+    ck_below(fabs(force[k]), 1e-13);
+  ck_below(energy_of(&r), 1e-25);
+  zp_free(r.memory);
+}
+END_TEST
+
+/* -- the mass-spring chain's stiffness ------------------------------------------------------------- */
+
+typedef struct Chain {
+  ZpMassSpringParams params;
+  ZpMassSpringEval eval;
+  Rod shape;
+  void *memory;
+} Chain;
+
+static void make_chain(Chain *c, size_t ribbons, bool slopes, uint64_t seed) {
+  make_rod(&c->shape, ribbons, false, seed);
+  c->params = (ZpMassSpringParams){ribbons, NODES, PLACES, 1, 5, 2, slopes, slopes};
+  ZpCarver carver = {NULL, 0};
+  zp_massspring_carve(&c->params, &c->eval, &carver);
+  c->memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){c->memory, 0};
+  zp_massspring_carve(&c->params, &c->eval, &carver);
+}
+
+static void chain_forces(Chain *c, double *force) {
+  zp_massspring_eval(&c->params, c->shape.x, c->shape.y, &c->eval);
+  gather(c->eval.Rx, c->eval.Ry, c->params.ribbons, force);
+}
+
+START_TEST(test_chain_stiffness) {
+  const double h = 1e-3;
+  size_t ribbons = (size_t)_i % 2 + 1, n = 2 * ribbons * NODES;
+  static double K[2 * MOST][2 * MOST], at[4][2 * MOST], D[3 * PLACES][4];
+  for (uint64_t seed = 1; seed <= 5; seed++) {
+    Chain c;
+    make_chain(&c, ribbons, _i / 2, seed);
+    zp_massspring_eval(&c.params, c.shape.x, c.shape.y, &c.eval);
+    zp_massspring_stiffness(&c.params, &c.eval, c.eval.T, D);
+    assemble(D, ribbons, K);
+    for (size_t k = 0; k < n; k++) {
+      double kept = *coordinate(&c.shape, k);
+      for (int m = 0; m < 4; m++) {
+        *coordinate(&c.shape, k) = kept + offsets[m] * h;
+        chain_forces(&c, at[m]);
+      }
+      *coordinate(&c.shape, k) = kept;
+      ck_below(stiffness_error(K, at, n, k, h), 1e-7);
+    }
+    zp_free(c.memory);
+    zp_free(c.shape.memory);
+  }
+}
+END_TEST
+
+/* -- band matrices --------------------------------------------------------------------------------- */
+
+enum { EQUATIONS = 24 };
+
+typedef double Dense[EQUATIONS][EQUATIONS];
+
+/* Gauss with row pivoting: the solution in b; returns the determinant. */
+static double eliminate(Dense a, double *b) {
+  double determinant = 1;
+  for (size_t k = 0; k < EQUATIONS; k++) {
+    size_t p = k;
+    for (size_t i = k; i < EQUATIONS; i++)
+      if (fabs(a[i][k]) > fabs(a[p][k])) p = i;
+    for (size_t j = 0; j < EQUATIONS; j++) {
+      double kept = a[k][j];
+      a[k][j] = a[p][j];
+      a[p][j] = kept;
+    }
+    double kept = b[k];
+    b[k] = b[p];
+    b[p] = kept;
+    determinant *= p == k ? a[k][k] : -a[k][k];
+    for (size_t i = 0; i < EQUATIONS; i++) {
+      double factor = i == k ? 0 : a[i][k] / a[k][k];
+      for (size_t j = k; j < EQUATIONS; j++)
+        a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (size_t k = 0; k < EQUATIONS; k++)
+    b[k] /= a[k][k];
+  return determinant;
+}
+
+/* A band of random numbers, as such and dense; symmetric with `shift` on the diagonal if asked. */
+static void *random_band(ZpBand *band, Dense a, size_t lower, size_t upper, bool symmetric, double shift,
+                         uint64_t seed) {
+  ZpCarver carver = {NULL, 0};
+  zp_band_carve(band, EQUATIONS, lower, upper, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){memory, 0};
+  zp_band_carve(band, EQUATIONS, lower, upper, &carver);
+  zp_band_clear(band);
+  memset(a, 0, sizeof(Dense));
+  for (size_t i = 0; i < EQUATIONS; i++)
+    for (size_t j = 0; j < EQUATIONS; j++) {
+      if (j + lower < i || i + upper < j) continue;
+      a[i][j] = symmetric && j < i ? a[j][i] : noise(&seed) + (i == j ? shift : 0);
+      *zp_band_at(band, i, j) = a[i][j];
+    }
+  return memory;
+}
+
+START_TEST(test_band_lu) {
+  static const size_t diagonals[][2] = {{0, 0}, {1, 1}, {5, 5}, {11, 11}, {2, 7}, {7, 2}, {EQUATIONS - 1, 3}};
+  for (size_t c = 0; c < LENGTH_OF(diagonals); c++)
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+      ZpBand band;
+      Dense a;
+      void *memory = random_band(&band, a, diagonals[c][0], diagonals[c][1], false, 0, seed);
+      double b[EQUATIONS], expected[EQUATIONS], size = 0;
+      for (size_t i = 0; i < EQUATIONS; i++)
+        b[i] = expected[i] = sin(1 + (double)i);
+      bool negative, factored = zp_band_factor(&band, &negative);
+      ck_assert(factored);
+      zp_band_solve(&band, b);
+      double determinant = eliminate(a, expected);
+      ck_assert(negative == (determinant < 0));
+      for (size_t i = 0; i < EQUATIONS; i++)
+        size = fmax(size, fabs(expected[i]));
+      for (size_t i = 0; i < EQUATIONS; i++)
+        ck_assert_double_eq_tol(b[i], expected[i], 1e-8 * size); /* condition up to 1e6 */
+      zp_free(memory);
+    }
+}
+END_TEST
+
+START_TEST(test_band_singular) {
+  ZpBand band;
+  Dense a;
+  void *memory = random_band(&band, a, 2, 2, false, 0, 1);
+  for (size_t i = 3; i <= 7; i++) /* a column of zeros */
+    *zp_band_at(&band, i, 5) = 0;
+  ck_assert(!zp_band_factor(&band, NULL));
+  zp_band_clear(&band);
+  *zp_band_at(&band, 0, 0) = NAN;
+  ck_assert(!zp_band_factor(&band, NULL));
+  zp_free(memory);
+}
+END_TEST
+
+/* Sylvester: as many negative pivots as eigenvalues. */
+START_TEST(test_negative_pivots) {
+  static const double shifts[] = {-20, -1, 0, 0.5, 2, 20};
+  static Dense v;
+  int seen[EQUATIONS + 1] = {0};
+  for (size_t c = 0; c < LENGTH_OF(shifts); c++)
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+      ZpBand band;
+      Dense a;
+      void *memory = random_band(&band, a, 4, 4, true, shifts[c], seed);
+      double work[EQUATIONS * 5];
+      int pivots = zp_band_negative_pivots(&band, work), eigenvalues = 0;
+      zp_eigen_symmetric(EQUATIONS, &a[0][0], &v[0][0]);
+      for (size_t i = 0; i < EQUATIONS; i++)
+        eigenvalues += a[i][i] < 0;
+      ck_assert_int_eq(pivots, eigenvalues);
+      seen[pivots] = 1;
+      zp_free(memory);
+    }
+  ck_assert(seen[0] && seen[EQUATIONS]);
+}
+END_TEST
+
+/* -- eigenvalues ----------------------------------------------------------------------------------- */
+
+/* 2 on the diagonal and -1 beside it: 2 - 2 cos(k pi / (n + 1)), vectors sin(i k pi / (n + 1)). */
+START_TEST(test_eigen_chain) {
+  Dense a = {{0}};
+  static Dense v;
+  for (size_t i = 0; i < EQUATIONS; i++) {
+    a[i][i] = 2;
+    if (i > 0) a[i][i - 1] = a[i - 1][i] = -1;
+  }
+  zp_eigen_symmetric(EQUATIONS, &a[0][0], &v[0][0]);
+  for (size_t k = 0; k < EQUATIONS; k++) {
+    double angle = M_PI * (double)(k + 1) / (EQUATIONS + 1), scale = sqrt(2.0 / (EQUATIONS + 1));
+    ck_assert_double_eq_tol(a[k][k], 2 - 2 * cos(angle), 1e-13);
+    double sign = v[0][k] < 0 ? -1 : 1;
+    for (size_t i = 0; i < EQUATIONS; i++)
+      ck_assert_double_eq_tol(sign * v[i][k], scale * sin((double)(i + 1) * angle), 1e-12);
+  }
+}
+END_TEST
+
+/* Equal eigenvalues, and one row. */
+START_TEST(test_eigen_limits) {
+  double same[9] = {2, 1, 1, 1, 2, 1, 1, 1, 2}, v[9], one = -3, w;
+  zp_eigen_symmetric(3, same, v);
+  ck_assert_double_eq_tol(same[0], 1, 1e-14);
+  ck_assert_double_eq_tol(same[4], 1, 1e-14);
+  ck_assert_double_eq_tol(same[8], 4, 1e-14);
+  for (size_t i = 0; i < 3; i++)
+    for (size_t j = 0; j < 3; j++)
+      ck_assert_double_eq_tol(v[i] * v[j] + v[3 + i] * v[3 + j] + v[6 + i] * v[6 + j], i == j, 1e-14);
+  zp_eigen_symmetric(1, &one, &w);
+  ck_assert_double_eq(one, -3);
+  ck_assert_double_eq(w, 1);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("rod");
+  TCase *rod = tcase_create("rod");
+  tcase_add_loop_test(rod, test_force_is_gradient, 0, 4);
+  tcase_add_loop_test(rod, test_stiffness_is_second_derivative, 0, 4);
+  tcase_add_test(rod, test_free_rod_keeps_momentum);
+  tcase_add_test(rod, test_natural_shape);
+  tcase_add_loop_test(rod, test_chain_stiffness, 0, 4);
+  suite_add_tcase(suite, rod);
+  TCase *algebra = tcase_create("algebra");
+  tcase_add_test(algebra, test_band_lu);
+  tcase_add_test(algebra, test_band_singular);
+  tcase_add_test(algebra, test_negative_pivots);
+  tcase_add_test(algebra, test_eigen_chain);
+  tcase_add_test(algebra, test_eigen_limits);
+  suite_add_tcase(suite, algebra);
+  return run_suite(suite);
+}
