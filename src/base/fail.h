@@ -4,10 +4,12 @@
 
 #include <zipact/error.h>
 
-/* (status, printf format) => err filled if not NULL; returns status, so that one can `return zp_fail(...)`. */
-__attribute__((format(printf, 3, 4))) ZpStatus zp_fail(ZpError *err, ZpStatus status, const char *format, ...);
+/* (err, status, printf format, ...) => err filled if not NULL; is the status, so that one can
+ * `return zp_fail(...)`. A macro, so that readers and analysers see that it is. */
+#define zp_fail(err, status, ...) (zp_fail_fill(err, status, __VA_ARGS__), (status))
+__attribute__((format(printf, 3, 4))) void zp_fail_fill(ZpError *err, ZpStatus status, const char *format, ...);
 
 /* The same for the failure that needs no words of its own. */
-ZpStatus zp_fail_memory(ZpError *err);
+#define zp_fail_memory(err) zp_fail(err, ZP_MACHINE, "no memory")
 
 #endif

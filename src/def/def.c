@@ -210,7 +210,7 @@ ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpErro
   if (status != ZP_OK) return status;
   char *field = (char *)def + key->offset;
   memset(field, 0, ZP_TEXT_SIZE);
-  memcpy(field, text, strlen(text));
+  memcpy(field, text, strlen(text) + 1);
   return ZP_OK;
 }
 
@@ -298,8 +298,9 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < KEY_COUNT; i++) {
-    const char *text = zp_def_text(def, i);
-    ZpStatus status = text ? check_text(&keys[i], text, err) : check_value(&keys[i], zp_def_get(def, i), err);
+    bool is_text = keys[i].type == ZP_KEY_TEXT;
+    ZpStatus status = is_text ? check_text(&keys[i], (const char *)def + keys[i].offset, err)
+                              : check_value(&keys[i], zp_def_get(def, i), err);
     if (status != ZP_OK) return status;
   }
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;

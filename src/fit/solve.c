@@ -182,7 +182,7 @@ static bool solve_small(int n, double A[ZP_FIT_MOST][ZP_FIT_MOST], double *b) {
 
 /* The Gauss-Newton step; what stands at a bound and would leave it stays. */
 static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted, const double *J, double *step) {
-  int n = fit->n, free_key[ZP_FIT_MOST], used = 0;
+  int n = fit->n, free_key[ZP_FIT_MOST] = {0}, used = 0;
   double A[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, b[ZP_FIT_MOST] = {0}, g[ZP_FIT_MOST] = {0};
   for (int k = 0; k < n; k++) {
     for (size_t i = 0; i < fit->rows; i++)
@@ -222,7 +222,7 @@ static double take_step(ZpFit *fit, double *z, double *fitted, const double *ste
 }
 
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted) {
-  double *J = calloc(fit->rows * (size_t)(fit->n + 1), sizeof *J), step[ZP_FIT_MOST];
+  double *J = calloc(fit->rows * (size_t)(fit->n + 1), sizeof *J), step[ZP_FIT_MOST] = {0};
   double *trial = J ? J + fit->rows * (size_t)fit->n : NULL;
   bool good = J && search_within_bounds(fit, z, fitted);
   if (!good) fit->status = zp_fail_memory(fit->err);

@@ -85,7 +85,7 @@ static ZpStatus cut(ZpData *data, ZpError *err) {
   int number = 0;
   data->line = calloc(lines, sizeof *data->line);
   if (!data->line) return zp_fail_memory(err);
-  for (char *next = start; start && status == ZP_OK; start = next) {
+  for (char *next; start && status == ZP_OK; start = next) {
     char *end = strchr(start, '\n');
     if (end) *end = 0;
     next = end ? end + 1 : NULL;
