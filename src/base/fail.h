@@ -5,9 +5,14 @@
 #include <zipact/error.h>
 
 /* (err, status, printf format, ...) => err filled if not NULL; is the status, so that one can
- * `return zp_fail(...)`. A macro, so that readers and analysers see that it is. */
-#define zp_fail(err, status, ...) (zp_fail_fill(err, status, __VA_ARGS__), (status))
+ * `return zp_fail(...)`. A macro around an inline function, so that readers and analysers see that it is. */
+#define zp_fail(err, status, ...) zp_status_after(status, (zp_fail_fill(err, status, __VA_ARGS__), 0))
 __attribute__((format(printf, 3, 4))) void zp_fail_fill(ZpError *err, ZpStatus status, const char *format, ...);
+
+static inline ZpStatus zp_status_after(ZpStatus status, int filled) {
+  (void)filled;
+  return status;
+}
 
 /* The same for the failure that needs no words of its own. */
 #define zp_fail_memory(err) zp_fail(err, ZP_MACHINE, "no memory")
