@@ -240,7 +240,9 @@ START_TEST(bad_input_is_refused) {
   refuse_file(good, "data.file", "data.file");
   refuse_file(good, "ribbon.width, ribbon.width", "named twice");
   refuse_file(good, "ribbon.width,", "unknown key");
-  refuse_file(good, " ", "calibrate.fit: empty");
+  refuse_file("load_g,load.mass_g,stroke_mm\n8,9,2\n9,9,3\n", "load.mass", "cannot be fitted");
+  refuse_file("time_ms,stroke_mm\n2,2\n1,3\n", E, "bad.csv:3: times must rise");
+  refuse_file("time_ms,stroke_mm,load_g\n1,2,8\n2,3,8\n", E, "no key may change");
   refuse_file(good, "load.mass", "cannot be fitted");
   refuse_file(good, "mass_spring.shear_coefficient", "is auto");
   refuse_file(good, "damping.drag", "is 0");
@@ -297,6 +299,57 @@ START_TEST(area_error_of_stationary) {
 }
 END_TEST
 
+/* Columns that are keys set them for their row; with nothing to fit the rows are only compared. */
+START_TEST(rows_of_different_actuators_are_compared) {
+  ZpActuatorDef def = calibration("rows.csv", " "), thick = def;
+  thick.ribbon.thickness = 100e-6;
+  char text[256];
+  snprintf(text, sizeof text, "force_N,ribbon.thickness_um,remark,stroke_mm\n%.17g,50,a,%.17g\n%.17g,100,b,%.17g\n",
+           0.008 * def.gravity, 1e3 * stroke(def, 0.008), 0.03 * def.gravity, 1e3 * stroke(thick, 0.03));
+  write_file("rows.csv", text);
+  set_text(&def, "calibrate.y", "stroke_mm");
+  ZpResult *result = fit(&def);
+  ck_assert(zp_result_get(result, "residual_rms_m") < 1e-12);
+  ck_assert_uint_eq(result->series->rows, 2);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A ribbon that swings, slowed by drag: the drag is found again from its stroke over time. */
+START_TEST(drag_is_found_from_a_swing) {
+  ZpActuatorDef def = calibration("swing.csv", "damping.drag");
+  def.actuator.kind = ZP_KIND_RIBBON;
+  def.actuator.right_end = ZP_END_FREE;
+  def.ribbon.length = 0.045;
+  def.ribbon.thickness = 100e-6;
+  def.load.mass = 0.002;
+  def.load.share = 1;
+  def.initial.state = ZP_INITIAL_STRAIGHT;
+  def.mesh.nodes = 9;
+  def.damping.drag = 0.03;
+  def.study = ZP_STUDY_ACTUATE;
+  ZpModel *model;
+  ZpSim *sim;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  FILE *file = fopen("swing.csv", "w");
+  fputs("time_ms,stroke_mm\n", file);
+  for (int i = 0; i <= 8; i++) {
+    if (i) zp_sim_run(sim, 0.01 * i, false, NULL, NULL);
+    fprintf(file, "%d,%.17g\n", 10 * i, 1e3 * zp_sim_get(sim, "stroke"));
+  }
+  ck_assert_int_eq(fclose(file), 0);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  def.study = ZP_STUDY_CALIBRATE;
+  def.damping.drag = 0.05;
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "damping.drag"), 0.03, 1e-4);
+  ck_assert_str_eq(result->series->column[0].name, "time_s");
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("calibrate");
   TCase *fits = tcase_create("fits"), *areas = tcase_create("areas");
@@ -307,6 +360,8 @@ int main(void) {
   tcase_add_test(fits, voltage_data);
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, table_1_of_the_paper);
+  tcase_add_test(fits, rows_of_different_actuators_are_compared);
+  tcase_add_test(fits, drag_is_found_from_a_swing);
   tcase_add_test(fits, bad_input_is_refused);
   tcase_add_test(areas, area_of_known_curves);
   tcase_add_test(areas, area_error_of_stationary);

@@ -319,6 +319,37 @@ START_TEST(test_band_lu) {
 }
 END_TEST
 
+/* LAPACK's banded LU, by its Fortran name. */
+void dgbsv_(const int *n, const int *kl, const int *ku, const int *nrhs, double *ab, const int *ldab, int *ipiv,
+            double *b, const int *ldb, int *info);
+
+START_TEST(test_band_is_lapack) {
+  enum { KL = 11, KU = 11, LD = 2 * KL + KU + 1 };
+  static const int n = EQUATIONS, kl = KL, ku = KU, one = 1, ld = LD;
+  for (uint64_t seed = 1; seed <= 10; seed++) {
+    ZpBand band;
+    Dense a;
+    void *memory = random_band(&band, a, KL, KU, false, 0, seed);
+    double ab[EQUATIONS * LD] = {0}, b[EQUATIONS], expected[EQUATIONS], size = 0;
+    int pivots[EQUATIONS], info;
+    for (size_t i = 0; i < EQUATIONS; i++) {
+      b[i] = expected[i] = cos((double)i);
+      for (size_t j = 0; j < EQUATIONS; j++)
+        if (j + KL >= i && i + KU >= j) ab[j * LD + KL + KU + i - j] = a[i][j];
+    }
+    dgbsv_(&n, &kl, &ku, &one, ab, &ld, pivots, expected, &n, &info);
+    ck_assert_int_eq(info, 0);
+    ck_assert(zp_band_factor(&band, NULL));
+    zp_band_solve(&band, b);
+    for (size_t i = 0; i < EQUATIONS; i++)
+      size = fmax(size, fabs(expected[i]));
+    for (size_t i = 0; i < EQUATIONS; i++)
+      ck_assert_double_eq_tol(b[i], expected[i], 1e-9 * size); /* the same pivots: rounding times the condition */
+    zp_free(memory);
+  }
+}
+END_TEST
+
 START_TEST(test_band_singular) {
   ZpBand band;
   Dense a;
@@ -404,6 +435,7 @@ int main(void) {
   suite_add_tcase(suite, rod);
   TCase *algebra = tcase_create("algebra");
   tcase_add_test(algebra, test_band_lu);
+  tcase_add_test(algebra, test_band_is_lapack);
   tcase_add_test(algebra, test_band_singular);
   tcase_add_test(algebra, test_negative_pivots);
   tcase_add_test(algebra, test_eigen_chain);

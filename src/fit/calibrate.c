@@ -86,11 +86,19 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
                     told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
     if (at_bound(fit, z, k)) zp_result_warn(result, "%s stands at a bound: no standard error", key->name);
   }
-  if (!told_apart) zp_result_warn(result, "the data do not tell the fitted keys apart: no standard errors");
+  if (!told_apart && n > 0) zp_result_warn(result, "the data do not tell the fitted keys apart: no standard errors");
 }
 
+static const ZpColumn over_time[4] = {
+    {"time_s", "s", "time since the voltage was switched on"},
+    {"measured_m", "m", "stroke or opening in data.file"},
+    {"fitted_m", "m", "the same from the model with the fitted values"},
+    {"residual_m", "m", "fitted less measured"},
+};
+
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
-  result->series = zp_table_create(names[fit->x_key].column, 4, fit->rows < 2 ? 2 : fit->rows);
+  const ZpColumn *columns = fit->x_key < 0 ? over_time : names[fit->x_key].column;
+  result->series = zp_table_create(columns, 4, fit->rows < 2 ? 2 : fit->rows);
   if (!result->series) return false;
   for (size_t i = 0; i < fit->rows; i++)
     zp_table_offer(result->series, (double[]){fit->x[i], fit->y[i], fitted[i], fitted[i] - fit->y[i]});
@@ -110,7 +118,8 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   result->outcome = good ? ZP_CONVERGED : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
   if (good)
-    snprintf(result->message, sizeof result->message, "%zu rows fitted, residual %.3g mm rms", fit->rows, 1e3 * rms);
+    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g mm rms", fit->rows,
+             fit->n > 0 ? "fitted" : "compared", 1e3 * rms);
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "some rows have no state of rest within the bounds");
@@ -127,7 +136,7 @@ static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResu
   fit.hooks = hooks;
   ZpResult *result = status == ZP_OK ? zp_calloc(1, sizeof *result) : NULL;
   double *fitted = status == ZP_OK ? calloc(fit.rows, sizeof *fitted) : NULL;
-  double *J = status == ZP_OK ? calloc(fit.rows * (size_t)fit.n, sizeof *J) : NULL;
+  double *J = status == ZP_OK ? calloc(fit.rows * (size_t)(fit.n + 1), sizeof *J) : NULL;
   if (status == ZP_OK && (!result || !fitted || !J)) status = zp_fail_memory(err);
   if (result) result->study = ZP_STUDY_CALIBRATE;
   if (status == ZP_OK) status = solve_and_report(&fit, fitted, J, result, err);

@@ -4,7 +4,10 @@
 
 #include <zipact/calibrate.h>
 
-enum { ZP_FIT_MOST = 5 }; /* keys fitted at once */
+enum {
+  ZP_FIT_MOST = 5,  /* keys fitted at once */
+  ZP_FIT_OTHERS = 8 /* further columns that set keys */
+};
 
 typedef struct ZpFit {
   const ZpActuatorDef *def;
@@ -13,8 +16,11 @@ typedef struct ZpFit {
   int key[ZP_FIT_MOST];
   double start[ZP_FIT_MOST];
   double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
-  int x_key;                                     /* what is set */
-  bool opening;                                  /* the opening is measured, else the stroke */
+  int x_key;                                     /* what is set; -1: x is time, s */
+  int others;                                    /* further columns whose header is a key: set for their row, too */
+  int other_key[ZP_FIT_OTHERS];
+  double *other[ZP_FIT_OTHERS]; /* [rows] SI */
+  bool opening;                 /* the opening is measured, else the stroke */
   size_t rows;
   double *x, *y; /* [rows] SI */
   int evaluations;
@@ -26,9 +32,6 @@ typedef struct ZpFit {
 /* Read and check all that `def` says of the fit. To be closed whatever the status. */
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
 void zp_fit_close(ZpFit *fit);
-
-/* What the model gives at the factors z for row `row`, m; NAN where it finds no state of rest. */
-double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
 
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);

@@ -11,7 +11,10 @@
 void zp_fit_close(ZpFit *fit) {
   free(fit->x);
   free(fit->y);
+  for (int k = 0; k < fit->others; k++)
+    free(fit->other[k]);
   fit->x = fit->y = NULL;
+  fit->others = 0;
 }
 
 static bool is_real(int key) {
@@ -51,8 +54,7 @@ static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
   char list[ZP_TEXT_SIZE], *rest = list;
   memcpy(list, fit->def->calibrate.fit, sizeof list);
   ZpStatus status = ZP_OK;
-  if (strspn(list, " ") == strlen(list))
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: empty; name the keys to fit");
+  if (strspn(list, " ") == strlen(list)) return ZP_OK; /* nothing is fitted: a comparison */
   for (char *name = strsep(&rest, ","); name && status == ZP_OK; name = strsep(&rest, ",")) {
     name += strspn(name, " ");
     name[strcspn(name, " ")] = 0;
@@ -70,7 +72,11 @@ static ZpStatus find_column(const ZpData *data, const char *key, const char *nam
 }
 
 /* The key that a column header stands for and the unit, -1 if none. */
-static int key_of_header(const char *name, double *factor, double *divisor) {
+static int key_of_header(const ZpFit *fit, const char *name, double *factor, double *divisor) {
+  if (zp_data_unit(name, "force", "N", factor, divisor) && fit->def->gravity > 0) { /* the weight of a load */
+    *divisor *= fit->def->gravity;
+    return zp_key_find("load.mass");
+  }
   if (zp_data_unit(name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
   if (zp_data_unit(name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
   for (int i = 0; i < zp_key_count(); i++)
@@ -78,23 +84,68 @@ static int key_of_header(const char *name, double *factor, double *divisor) {
   return -1;
 }
 
-static ZpStatus read_x(ZpFit *fit, const ZpData *data, int column, ZpError *err) {
-  double factor, divisor;
-  const char *name = data->cell[column];
-  fit->x_key = key_of_header(name, &factor, &divisor);
-  if (fit->x_key < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.x: column %.60s: not load, voltage or a number key with its unit",
-                   name);
-  for (int i = 0; i < fit->n; i++)
-    if (fit->key[i] == fit->x_key)
-      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: given by column %.60s, cannot be fitted",
-                     zp_key(fit->x_key)->name, name);
+/* A column of numbers that set `key` (any number, if -1) => values [rows], SI. */
+static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, int key, double factor, double divisor,
+                            double *values, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < fit->rows && status == ZP_OK; i++) {
     ZpActuatorDef scratch = *fit->def;
-    status = zp_data_number(data, i, (size_t)column, &fit->x[i], err);
-    fit->x[i] = fit->x[i] * factor / divisor;
-    if (status == ZP_OK) status = zp_def_set(&scratch, fit->x_key, fit->x[i], err);
+    status = zp_data_number(data, i, (size_t)column, &values[i], err);
+    values[i] = values[i] * factor / divisor;
+    if (status == ZP_OK && key >= 0) status = zp_def_set(&scratch, key, values[i], err);
+  }
+  return status;
+}
+
+/* A key that a column sets cannot be fitted as well. */
+static ZpStatus check_set(const ZpFit *fit, int key, const char *column, ZpError *err) {
+  for (int i = 0; i < fit->n; i++)
+    if (fit->key[i] == key)
+      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: given by column %.60s, cannot be fitted", zp_key(key)->name,
+                     column);
+  return ZP_OK;
+}
+
+/* Times of one run must rise from 0 on. */
+static ZpStatus check_times(const ZpFit *fit, const ZpData *data, ZpError *err) {
+  for (size_t i = 0; i < fit->rows; i++)
+    if (!(fit->x[i] >= (i ? fit->x[i - 1] : 0)))
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must rise from 0 on", data->path, data->line[i + 1]);
+  return ZP_OK;
+}
+
+static ZpStatus read_x(ZpFit *fit, const ZpData *data, int column, ZpError *err) {
+  double factor, divisor;
+  const char *name = data->cell[column];
+  bool is_time = zp_data_unit(name, "time", "s", &factor, &divisor);
+  fit->x_key = is_time ? -1 : key_of_header(fit, name, &factor, &divisor);
+  if (!is_time && fit->x_key < 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "calibrate.x: column %.60s: not time, load, force, voltage or a number key with its unit", name);
+  ZpStatus status = check_set(fit, fit->x_key, name, err);
+  if (status == ZP_OK) status = read_column(fit, data, column, fit->x_key, factor, divisor, fit->x, err);
+  return status == ZP_OK && is_time ? check_times(fit, data, err) : status;
+}
+
+/* All other columns whose header is a key. */
+static ZpStatus read_others(ZpFit *fit, const ZpData *data, int x, int y, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int column = 0; column < (int)data->columns && status == ZP_OK; column++) {
+    double factor, divisor;
+    const char *name = data->cell[column];
+    int key = column == x || column == y ? -1 : key_of_header(fit, name, &factor, &divisor);
+    if (key < 0) continue;
+    if (fit->x_key < 0)
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s: column %.60s: rows over time are of one run, no key may change",
+                     data->path, name);
+    if (fit->others == ZP_FIT_OTHERS)
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns that set keys", data->path, ZP_FIT_OTHERS);
+    fit->other_key[fit->others] = key;
+    fit->other[fit->others] = calloc(fit->rows, sizeof(double));
+    if (!fit->other[fit->others++]) return zp_fail_memory(err);
+    status = check_set(fit, key, name, err);
+    if (status == ZP_OK)
+      status = read_column(fit, data, column, key, factor, divisor, fit->other[fit->others - 1], err);
   }
   return status;
 }
@@ -128,6 +179,7 @@ static ZpStatus read_data(ZpFit *fit, const ZpData *data, ZpError *err) {
   ZpStatus status = find_column(data, "calibrate.x", def->calibrate.x, 0, &x, err);
   if (status == ZP_OK) status = find_column(data, "calibrate.y", def->calibrate.y, 1, &y, err);
   if (status == ZP_OK) status = read_x(fit, data, x, err);
+  if (status == ZP_OK) status = read_others(fit, data, x, y, err);
   return status == ZP_OK ? read_y(fit, data, y, err) : status;
 }
 

@@ -11,27 +11,10 @@
 #include "fit/fit.h"
 #include "rest/statics.h"
 
-enum { VOLTAGE_STEPS = 20, NEWTON_MOST = 100, POLISH_MOST = 30, HALVINGS = 12 };
-
-/* A stroke that changes by more than this share in one step of the voltage has jumped to another branch. */
-static const double jump = 0.1;
+enum { POLISH_MOST = 30, HALVINGS = 12 };
 
 /* Relative step of the finite differences: far above what Newton leaves, small against the curvature. */
 static const double difference = 1e-4;
-
-/* Raise the voltage in equal steps of its square, staying on the branch that hangs. */
-static bool raise_voltage(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
-  double before = zp_statics_stroke(s);
-  for (int k = 1; k <= VOLTAGE_STEPS; k++) {
-    s->U = voltage * sqrt((double)k / VOLTAGE_STEPS);
-    if (!zp_newton_good(zp_newton(&system, zp_statics_tolerance(s), NEWTON_MOST, work).end)) return false;
-    double now = zp_statics_stroke(s);
-    if (fabs(now - before) > jump * fabs(before)) return false;
-    before = now;
-  }
-  return zp_statics_stable(s, work);
-}
 
 static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
   ZpStatics statics = {0};
@@ -47,7 +30,7 @@ static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
     carver = (ZpCarver){memory, 0};
     zp_newton_carve(&work, statics.n, statics.bandwidth, &carver);
     bool found = zp_newton_good(zp_statics_hang(&statics, &work).end);
-    if (found && voltage > 0 && model->field) found = raise_voltage(&statics, voltage, &work);
+    if (found && voltage > 0 && model->field) found = zp_statics_raise(&statics, voltage, &work);
     if (found) value = fit->opening ? zp_statics_opening(&statics) : zp_statics_stroke(&statics);
   } else {
     fit->status = zp_fail_memory(fit->err);
@@ -57,21 +40,56 @@ static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
   return value;
 }
 
-double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
-  ZpActuatorDef def = *fit->def;
-  ZpModel *model;
-  def.study = ZP_STUDY_STATIONARY;
-  bool set = zp_def_set(&def, fit->x_key, fit->x[row], NULL) == ZP_OK;
+/* The definition with the fitted keys at z; false if a value is out of its key's range. */
+static bool set_fitted(const ZpFit *fit, const double *z, ZpActuatorDef *def) {
+  bool set = true;
+  *def = *fit->def;
   for (int i = 0; i < fit->n && set; i++)
-    set = zp_def_set(&def, fit->key[i], z[i] * fit->start[i], NULL) == ZP_OK;
-  if (!set) return NAN;
-  ZpStatus status = zp_model_create(&def, &model, NULL);
-  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
-  if (status != ZP_OK) return NAN;
-  bool driven = fit->x_key == zp_key_find("drive.voltage");
-  double value = measure(fit, model, driven ? fit->x[row] : 0);
+    set = zp_def_set(def, fit->key[i], z[i] * fit->start[i], NULL) == ZP_OK;
+  return set;
+}
+
+static ZpModel *build(ZpFit *fit, const ZpActuatorDef *def) {
+  ZpModel *model;
+  if (zp_model_create(def, &model, NULL) == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  return model;
+}
+
+/* What the model gives for row `row`, m; NAN where it finds no state of rest. */
+static double predict_rest(ZpFit *fit, const double *z, size_t row) {
+  ZpActuatorDef def;
+  double voltage = 0;
+  int drive = zp_key_find("drive.voltage");
+  bool set = set_fitted(fit, z, &def) && zp_def_set(&def, fit->x_key, fit->x[row], NULL) == ZP_OK;
+  if (fit->x_key == drive) voltage = fit->x[row];
+  for (int k = 0; k < fit->others && set; k++) {
+    set = zp_def_set(&def, fit->other_key[k], fit->other[k][row], NULL) == ZP_OK;
+    if (fit->other_key[k] == drive) voltage = fit->other[k][row];
+  }
+  def.study = ZP_STUDY_STATIONARY;
+  ZpModel *model = set ? build(fit, &def) : NULL;
+  double value = model ? measure(fit, model, voltage) : NAN;
   zp_model_destroy(model);
   return value;
+}
+
+/* One run in time through all rows; NAN from where it ends badly. */
+static void predict_run(ZpFit *fit, const double *z, double *fitted) {
+  ZpActuatorDef def;
+  bool set = set_fitted(fit, z, &def), runs = false;
+  def.study = ZP_STUDY_ACTUATE;
+  ZpModel *model = set ? build(fit, &def) : NULL;
+  ZpSim *sim = NULL;
+  if (model && zp_sim_create(model, NULL, &sim, NULL) == ZP_OK)
+    runs = true;
+  else if (model)
+    fit->status = zp_fail_memory(fit->err);
+  for (size_t i = 0; i < fit->rows; i++) {
+    if (runs && fit->x[i] > 0) runs = zp_outcome_good(zp_sim_run(sim, fit->x[i], false, fit->hooks, NULL));
+    fitted[i] = runs ? zp_sim_get(sim, fit->opening ? "opening" : "stroke") : (double)NAN;
+  }
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
 }
 
 static bool ask(ZpFit *fit) {
@@ -85,8 +103,9 @@ static bool ask(ZpFit *fit) {
 static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
   bool all = true;
   fit->evaluations++;
+  if (fit->x_key < 0 && !ask(fit)) predict_run(fit, z, fitted);
   for (size_t i = 0; i < fit->rows; i++) {
-    fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, i);
+    if (fit->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : predict_rest(fit, z, i);
     all &= isfinite(fitted[i]) != 0;
   }
   return all;
@@ -224,10 +243,10 @@ static double take_step(ZpFit *fit, double *z, double *fitted, const double *ste
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted) {
   double *J = calloc(fit->rows * (size_t)(fit->n + 1), sizeof *J), step[ZP_FIT_MOST] = {0};
   double *trial = J ? J + fit->rows * (size_t)fit->n : NULL;
-  bool good = J && search_within_bounds(fit, z, fitted);
+  bool good = J && (fit->n == 0 || search_within_bounds(fit, z, fitted));
   if (!good) fit->status = zp_fail_memory(fit->err);
   good = good && predict_all(fit, z, fitted);
-  for (int k = 0; k < POLISH_MOST && good && !fit->stopped; k++) {
+  for (int k = 0; k < POLISH_MOST && good && fit->n > 0 && !fit->stopped; k++) {
     if (!zp_fit_jacobian(fit, z, J) || !gauss_newton(fit, z, fitted, J, step)) break;
     if (take_step(fit, z, fitted, step, trial) < 1e-9) break;
   }

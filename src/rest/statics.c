@@ -17,6 +17,7 @@ static size_t carve(ZpStatics *s, void *block) {
   s->q = zp_carve(&carver, 2 * stride);
   s->moved = zp_carve(&carver, 2 * stride);
   s->force = zp_carve(&carver, 2 * stride);
+  s->good = zp_carve(&carver, 2 * stride);
   s->tension = zp_carve(&carver, stride);
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
@@ -69,6 +70,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
                                     model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   s->load = model->def.load.mass;
+  s->weight_share = 1;
   lay_straight(s);
   return true;
 }
@@ -85,7 +87,37 @@ double zp_statics_tolerance(const ZpStatics *s) {
   return fmax(1e-3 * model->def.solver.tolerance, 4 * DBL_EPSILON * model->L * stiffest / s->scale);
 }
 
-enum { MOST_ITERATIONS = 200 };
+enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
+
+/* From straight under growing shares of the weight, for what is too far to reach at once. */
+static ZpNewtonInfo hang_step_by_step(ZpStatics *s, ZpNewtonWork *work) {
+  static const double shortest = 1e-4;
+  ZpStaticSystem system = zp_statics_system(s);
+  size_t bytes = 2 * s->model->stride * sizeof *s->q;
+  double reached = 0, step = 0.01;
+  ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
+  int iterations = 0;
+  lay_straight(s);
+  memcpy(s->good, s->q, bytes);
+  while (reached < 1 && step > shortest) {
+    s->weight_share = fmin(reached + step, 1);
+    info = zp_newton(&system, zp_statics_tolerance(s), STEP_ITERATIONS, work);
+    iterations += info.iterations;
+    if (zp_newton_good(info.end)) {
+      reached = s->weight_share;
+      step *= 2;
+      memcpy(s->good, s->q, bytes);
+    } else {
+      memcpy(s->q, s->good, bytes);
+      memset(s->tension, 0, s->model->stride * sizeof *s->tension);
+      step *= 0.25;
+    }
+  }
+  s->weight_share = 1;
+  info.iterations = iterations;
+  if (reached < 1) info.end = ZP_NEWTON_SLOW;
+  return info;
+}
 
 ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
@@ -93,11 +125,27 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   s->U = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
+  if (!zp_newton_good(info.end)) info = hang_step_by_step(s, work);
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
   ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
   contact.iterations += info.iterations;
   return contact;
+}
+
+bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  enum { STEPS = 20 };            /* equal ones of the voltage's square, as the force is */
+  static const double jump = 0.1; /* a stroke that changes by a larger share has jumped to another branch */
+  ZpStaticSystem system = zp_statics_system(s);
+  double before = zp_statics_stroke(s);
+  for (int k = 1; k <= STEPS; k++) {
+    s->U = voltage * sqrt((double)k / STEPS);
+    if (!zp_newton_good(zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work).end)) return false;
+    double now = zp_statics_stroke(s);
+    if (fabs(now - before) > jump * fabs(before)) return false;
+    before = now;
+  }
+  return zp_statics_stable(s, work);
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {
@@ -141,6 +189,8 @@ static double residual(void *self, double *r) {
   size_t stride = model->stride;
   zp_eval_static_forces(model, s->q, s->U, &s->eval, s->force);
   const ZpActuatorDef *def = &model->def;
+  for (size_t j = 0; j < model->count && s->weight_share < 1; j++)
+    s->force[stride + j] += (1 - s->weight_share) * model->weight[j];
   s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
     zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);

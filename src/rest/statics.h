@@ -13,11 +13,12 @@ typedef struct ZpStatics {
   const ZpModel *model;
   ZpEval eval;
   ZpUnilateralParams contact;
-  double *q;         /* [2 stride] the present point */
-  double U;          /* V */
-  double load;       /* mass hung on the actuator, kg; starts as load.mass */
-  bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
-  int *equation;     /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
+  double *q;           /* [2 stride] the present point */
+  double U;            /* V */
+  double load;         /* mass hung on the actuator, kg; starts as load.mass */
+  double weight_share; /* of all weight that acts: 1, less on the way to a heavy load */
+  bool contact_acts;   /* faces push on each other; without, they may pass (to find a start) */
+  int *equation;       /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
   size_t n, bandwidth;
   double scale;                                /* force that a residual is relative to, N */
   double (*D)[4];                              /* [3 edges] mechanics' stiffness */
@@ -25,6 +26,7 @@ typedef struct ZpStatics {
   double *tension;                             /* [edges] what the last step foresaw, N */
   double *moved;                               /* [2 stride] work space of a move */
   double *force;                               /* [2 stride] */
+  double *good;                                /* [2 stride] the last equilibrium on that way */
   double *r_up, *r_down;                       /* [n] work space of the sensitivity */
   void *memory;
 } ZpStatics;
@@ -50,6 +52,9 @@ double zp_statics_tolerance(const ZpStatics *statics);
 /* From the present point to the equilibrium without voltage, the actuator hanging. Faces may pass through
  * each other on the way, but not in the end. */
 ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
+
+/* From the hanging equilibrium up to `voltage` on the branch that hangs. False if that ends before, at the pull-in. */
+bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
 /* From the straight shape to the equilibrium at `voltage` with all faces closed. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);

@@ -1,4 +1,4 @@
-/* Study `modes`: small free vibrations about the loaded equilibrium without voltage, K u = omega^2 m u with the
+/* Study `modes`: small free vibrations about the loaded equilibrium, K u = omega^2 m u with the
  * lumped masses of the dynamics, by subspace iteration on the banded stiffness. */
 #include <math.h>
 #include <stdio.h>
@@ -175,6 +175,12 @@ static void run(Problem *p, ZpResult *result) {
   result->outcome = ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return;
+  double voltage = p->statics.model->def.modes.voltage;
+  if (voltage > 0 && p->statics.model->field && !zp_statics_raise(&p->statics, voltage, &p->newton)) {
+    snprintf(result->message, sizeof result->message,
+             "no hanging equilibrium at modes.voltage = %g V: it pulls in before", voltage);
+    return;
+  }
   p->statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
   if (!zp_statics_stable(&p->statics, &p->newton) || !zp_band_factor(&p->newton.K, NULL)) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
