@@ -44,21 +44,43 @@ static ZpPlotUnit unit_of_x(const ZpColumn *column, char *label, size_t size) {
   return unit;
 }
 
+/* Does a column reach over more than a decade, all of it positive? */
+static bool spans_decades(const ZpTable *table, const char *name) {
+  double least = INFINITY, largest = 0;
+  for (size_t row = 0; row < table->rows; row++) {
+    double value = zp_table_get(table, row, name);
+    if (isnan(value)) continue;
+    least = fmin(least, value);
+    largest = fmax(largest, value);
+  }
+  return least > 0 && largest > 20 * least;
+}
+
+/* Axes from 0, or logarithmic where linear ones would hide most points in a corner. */
+static const char *axes(const ZpTable *table) {
+  if (spans_decades(table, table->column[0].name) && spans_decades(table, "measured_m"))
+    return "set logscale xy\nset offsets graph 0.1, graph 0.1, graph 0.1, graph 0.1\n";
+  return "set autoscale noextend\nset yrange [0:*]\nset offsets graph 0.04, graph 0.04, graph 0.06, 0\n";
+}
+
 static void script_fit(const ZpPlot *plot, FILE *file) {
   const ZpTable *table = plot->report->result[0]->series;
   const char *const lengths[] = {"measured_m", "fitted_m", NULL};
   char label[128];
   const ZpPlotUnit length = zp_plot_table_unit(table, lengths, "m");
   const ZpPlotUnit x = unit_of_x(&table->column[0], label, sizeof label);
-  zp_plot_head(plot, file, "fit", "Measured and fitted", 0.82);
+  ZpActuatorDef def;
+  bool resolved = zp_scenario_def(plot->report->scenario, 0, &def, NULL) == ZP_OK;
+  bool fitted = resolved && strspn(def.calibrate.fit, " ") < strlen(def.calibrate.fit);
+  zp_plot_head(plot, file, "fit", fitted ? "Measured and fitted" : "Measured and computed", 0.82);
   fputs("set xlabel ", file);
   zp_plot_text(file, label);
   fprintf(file,
-          "\nset ylabel 'stroke or opening / %s' offset 0.5\nset autoscale noextend\nset yrange [0:*]\n"
-          "set offsets graph 0.04, graph 0.04, graph 0.06, 0\n"
+          "\nset ylabel 'stroke or opening / %s' offset 0.5\n%s"
           "plot 'fit.dat' using ($1*%g):($2*%g) with points pt 6 ps 1.2 lw 1.5 lc rgb '%s' title 'measured', \\\n"
-          "     'fit.dat' using ($1*%g):($3*%g) with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title 'fitted'\n",
-          length.text, x.factor, length.factor, zp_plot_colour(0), x.factor, length.factor, zp_plot_colour(1));
+          "     'fit.dat' using ($1*%g):($3*%g) with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title '%s'\n",
+          length.text, axes(table), x.factor, length.factor, zp_plot_colour(0), x.factor, length.factor,
+          zp_plot_colour(1), fitted ? "fitted" : "computed");
 }
 
 const ZpPicture zp_fit_pictures[] = {
