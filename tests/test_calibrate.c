@@ -315,6 +315,22 @@ START_TEST(rows_of_different_actuators_are_compared) {
 }
 END_TEST
 
+/* Force against stroke is stroke against force. */
+START_TEST(force_against_stroke) {
+  ZpActuatorDef def = calibration("force.csv", "ribbon.young_modulus"), truth = def;
+  truth.ribbon.young_modulus = 170e9;
+  FILE *file = fopen("force.csv", "w");
+  fputs("stroke_mm,force_N\n", file);
+  for (int i = 1; i <= 4; i++)
+    fprintf(file, "%.17g,%.17g\n", 1e3 * stroke(truth, 0.004 * i), 0.004 * i * def.gravity);
+  ck_assert_int_eq(fclose(file), 0);
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 170e9, 1e-5);
+  ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* A ribbon that swings, slowed by drag: the drag is found again from its stroke over time. */
 START_TEST(drag_is_found_from_a_swing) {
   ZpActuatorDef def = calibration("swing.csv", "damping.drag");
@@ -361,6 +377,7 @@ int main(void) {
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, table_1_of_the_paper);
   tcase_add_test(fits, rows_of_different_actuators_are_compared);
+  tcase_add_test(fits, force_against_stroke);
   tcase_add_test(fits, drag_is_found_from_a_swing);
   tcase_add_test(fits, bad_input_is_refused);
   tcase_add_test(areas, area_of_known_curves);

@@ -420,6 +420,62 @@ END_TEST
 
 /* -- main ------------------------------------------------------------------------------------------ */
 
+/* Both ends clamped, sagging under its own weight: w L^4 / (384 EI), with an error that goes with l^2. */
+START_TEST(test_order_between_clamps) {
+  static const int nodes[] = {17, 31, 61};
+  double gravity = 1e-3, scaled[3];
+  for (int i = 0; i < 3; i++) {
+    ZpActuatorDef def =
+        DEF({"study", ZP_STUDY_STATIONARY}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED},
+            {"ribbon.length", L}, {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", gravity}, {"load.mass", 0},
+            {"mesh.nodes", nodes[i]});
+    double exact = rho * width * thickness * gravity * L * L * L * L / (384 * bending_stiffness(thickness));
+    ZpResult *result = rest_of(&def);
+    double sag = -zp_table_get(result->series, (size_t)(nodes[i] - 1) / 2, "y_m");
+    scaled[i] = (sag / exact - 1) * (nodes[i] - 1) * (nodes[i] - 1);
+    zp_result_destroy(result);
+  }
+  printf("between clamps: error times (N-1)^2 %.4f, %.4f, %.4f\n", scaled[0], scaled[1], scaled[2]);
+  ck_near(scaled[0], scaled[2], 0.02);
+  ck_near(scaled[1], scaled[2], 0.02);
+}
+END_TEST
+
+/* -- along the load -------------------------------------------------------------------------------- */
+
+/* The branch followed along the load meets the equilibria that are found from straight, and is stable all along. */
+START_TEST(test_branch_along_the_load) {
+  ZpActuatorDef def = DEF({"study", ZP_STUDY_STATIONARY}, {"load.mass", 0.008});
+  ZpModel *model;
+  ZpStatics statics;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert(zp_statics_create(model, &statics));
+  ZpBranchSystem system = zp_statics_branch(&statics, ZP_ALONG_LOAD);
+  ZpBranch branch;
+  ZpCarver carver = {NULL, 0};
+  zp_branch_carve(&branch, &system, statics.bandwidth, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){memory, 0};
+  zp_branch_carve(&branch, &system, statics.bandwidth, &carver);
+  ck_assert(zp_newton_good(zp_statics_hang(&statics, &branch.newton).end));
+  ck_assert(zp_branch_start(&branch, true, 0.01, 1, 2 * zp_statics_tolerance(&statics)));
+  int points = 0;
+  for (; statics.load < 0.03 && points < 2000; points++) {
+    ck_assert(zp_branch_advance(&branch));
+    ck_assert(branch.direction_m > 0);
+    ck_assert(zp_statics_stable(&statics, &branch.newton));
+  }
+  ck_assert_double_ge(statics.load, 0.03);
+  def.load.mass = statics.load;
+  printf("along the load: %d points to %.4g g, stroke %.6f mm\n", points, 1e3 * statics.load,
+         1e3 * zp_statics_stroke(&statics));
+  ck_near(zp_statics_stroke(&statics), value_of(&def, "stroke_m"), 1e-5); /* both to a residual of 1e-7 */
+  zp_free(memory);
+  zp_statics_destroy(&statics);
+  zp_model_destroy(model);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("statics");
   TCase *rest = tcase_create("rest");
@@ -432,6 +488,8 @@ int main(void) {
   tcase_add_test(rest, test_paper_fe);
   tcase_add_loop_test(rest, test_paper_code, 0, 2);
   tcase_add_loop_test(rest, test_modes, 0, 2);
+  tcase_add_test(rest, test_branch_along_the_load);
+  tcase_add_test(rest, test_order_between_clamps);
   tcase_add_test(rest, test_modes_converge);
   suite_add_tcase(suite, rest);
   TCase *voltage = tcase_create("voltage");

@@ -166,6 +166,20 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
   return status;
 }
 
+static bool is_length(const char *name) {
+  double factor, divisor;
+  return zp_data_unit(name, "stroke", "m", &factor, &divisor) || zp_data_unit(name, "opening", "m", &factor, &divisor);
+}
+
+static bool is_force(const char *name) {
+  double factor, divisor;
+  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor);
+}
+
+static bool is_force_against_stroke(const ZpData *data, int x, int y) {
+  return is_length(data->cell[x]) && is_force(data->cell[y]);
+}
+
 static ZpStatus read_data(ZpFit *fit, const ZpData *data, ZpError *err) {
   int x, y;
   const ZpActuatorDef *def = fit->def;
@@ -178,6 +192,11 @@ static ZpStatus read_data(ZpFit *fit, const ZpData *data, ZpError *err) {
   if (!fit->x || !fit->y) return zp_fail_memory(err);
   ZpStatus status = find_column(data, "calibrate.x", def->calibrate.x, 0, &x, err);
   if (status == ZP_OK) status = find_column(data, "calibrate.y", def->calibrate.y, 1, &y, err);
+  if (status == ZP_OK && is_force_against_stroke(data, x, y)) {
+    int stroke = x; /* the model takes a force and gives a stroke, whichever of them was set on the bench */
+    x = y;
+    y = stroke;
+  }
   if (status == ZP_OK) status = read_x(fit, data, x, err);
   if (status == ZP_OK) status = read_others(fit, data, x, y, err);
   return status == ZP_OK ? read_y(fit, data, y, err) : status;
