@@ -1,5 +1,5 @@
 /* Soft contact. Letters of docs/theory.md, section 9: g gap, m; with s = 1 - g / range, where it is positive,
- * the pressure per length is p0 s^3, its energy p0 range s^4 / 4, its stiffness 3 p0 s^2 / range. */
+ * the pressure per length is p0 s^3, its stiffness 3 p0 s^2 / range. */
 #include "contact/unilateral.h"
 
 #include <string.h>
@@ -14,8 +14,7 @@ static double depth(const ZpUnilateralParams *p, double gap) {
   return s > 0 ? s : 0;
 }
 
-double zp_unilateral_push(const ZpUnilateralParams *p, const double *gap, double *push) {
-  double energy = 0;
+void zp_unilateral_push(const ZpUnilateralParams *p, const double *gap, double *push) {
   memset(push, 0, p->nodes * sizeof *push);
   for (size_t i = 0; i + 1 < p->nodes; i++) {
     if (gap[i] >= p->range && gap[i + 1] >= p->range) continue;
@@ -24,12 +23,10 @@ double zp_unilateral_push(const ZpUnilateralParams *p, const double *gap, double
       double f = p->p0 * s * s * s * gauss_weight[q] * p->l;
       push[i] += f * (1 - gauss_at[q]);
       push[i + 1] += f * gauss_at[q];
-      energy += 0.25 * p->range * s * f;
     }
   }
-  double s = depth(p, gap[p->nodes - 1]), f = p->p0 * s * s * s * p->flat_length;
-  push[p->nodes - 1] += f;
-  return energy + 0.25 * p->range * s * f;
+  double s = depth(p, gap[p->nodes - 1]);
+  push[p->nodes - 1] += p->p0 * s * s * s * p->flat_length;
 }
 
 static double stiffness(const ZpUnilateralParams *p, double gap) {

@@ -17,8 +17,8 @@ typedef struct ZpUnilateralParams {
   double flat_length; /* of the platform's faces, at the gap of the last station, m */
 } ZpUnilateralParams;
 
-/* (gaps [N]) => push on each station [N], N, positive opens; returns the energy, J. */
-double zp_unilateral_push(const ZpUnilateralParams *params, const double *gap, double *push);
+/* (gaps [N]) => push on each station [N], N, positive opens. */
+void zp_unilateral_push(const ZpUnilateralParams *params, const double *gap, double *push);
 
 /* (gaps [N]) => second derivatives of the energy by the gaps: own [N] and with the next station [N-1], N/m. */
 void zp_unilateral_stiffness(const ZpUnilateralParams *params, const double *gap, double *own, double *next);

@@ -5,7 +5,6 @@
 void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, ZpCarver *carver) {
   zp_band_carve(&work->K, n, bandwidth, bandwidth, carver);
   work->r = zp_carve(carver, n);
-  work->tangent = zp_carve(carver, n);
   work->LDL = zp_carve(carver, n * (bandwidth + 1));
 }
 

@@ -39,7 +39,7 @@ typedef struct ZpNewtonInfo {
 /* Work space: the stiffness and vectors of n doubles. */
 typedef struct ZpNewtonWork {
   ZpBand K;
-  double *r, *tangent, *LDL;
+  double *r, *LDL;
 } ZpNewtonWork;
 
 void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, ZpCarver *carver);
