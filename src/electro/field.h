@@ -1,0 +1,106 @@
+/* The electric field of two insulated electrodes that face each other, solved in the plane of the ribbons: metal
+ * strips of finite thickness with a layer of insulator on their facing sides, at any shape from contact over thin
+ * wedges to millimetres, liquid all around, closed clip at the left, half a platform and the mirror plane of the
+ * actuator at the right, docs/theory.md section 14.
+ *
+ * Everything goes with the voltage or its square, so it is solved for 1 V. Forces and energies are of one modelled
+ * half. Stations are pairs of points that face each other on the two insulator faces. Between two stations the
+ * faces are straight; with one column of nodes per piece each three stations lie on a parabola.
+ */
+#ifndef ZP_ELECTRO_FIELD_H
+#define ZP_ELECTRO_FIELD_H
+
+#include "electro/grid.h"
+
+/* How fine the grid is: numbers of elements across or along each part, and the size of the smallest. */
+typedef struct ZpFieldMesh {
+  size_t gap, insulator, strip, clip, platform, outside;
+  double first;  /* smallest elements, at the electrodes' ends and outer faces, m */
+  double growth; /* of neighbouring elements away from there */
+} ZpFieldMesh;
+
+/* What gives 0.1 % in force and profile. */
+ZpFieldMesh zp_field_mesh(void);
+
+typedef struct ZpFieldParams {
+  size_t stations;     /* from the clip's edge to the platform's, 3 or more */
+  size_t columns;      /* columns of nodes per piece between two stations: even, or 1 with an odd number of stations */
+  double w;            /* width, m */
+  double b, t;         /* thickness of strip and of insulator, m */
+  double eps_m, eps_i; /* relative permittivity of liquid and insulator */
+  double clip;         /* length that is closed left of the first station, m */
+  double platform;     /* straight length right of the last station up to the mirror plane, m; 0 without */
+  bool electrode;      /* whether the platform's faces are electrodes, too */
+  ZpFieldMesh mesh;
+} ZpFieldParams;
+
+/* The two insulator faces: places of their stations, `step` doubles apart. */
+typedef struct ZpFaces {
+  const double *upper_x, *upper_y, *lower_x, *lower_y;
+  size_t step;
+} ZpFaces;
+
+typedef enum ZpFieldEnd {
+  ZP_FIELD_SOLVED,
+  ZP_FIELD_CROSSING, /* faces pass through each other by more than a micrometre */
+  ZP_FIELD_BARE,     /* faces touch without an insulator between the metals */
+  ZP_FIELD_FOLDED,   /* a ribbon runs back, or bends more sharply than its thickness allows */
+  ZP_FIELD_SINGULAR  /* no solution: numbers left all bounds */
+} ZpFieldEnd;
+
+/* Words for a message: "the faces pass through each other". */
+const char *zp_field_words(ZpFieldEnd end);
+
+/* The field on the facing surfaces at one column of nodes, at 1 V. */
+typedef struct ZpFieldProfile {
+  double x;     /* mean of both faces, m */
+  double gap;   /* m */
+  double upper; /* vertical traction on strip and insulator of the upper ribbon per x-length, closing positive, N/m */
+  double lower; /* the same of the lower ribbon */
+  double E;     /* in the liquid at the faces, the larger of both, V/m */
+  double E_insulator; /* in the insulators, the larger of both, V/m */
+} ZpFieldProfile;
+
+typedef struct ZpFieldColumn ZpFieldColumn;
+typedef struct ZpFieldRow ZpFieldRow;
+
+typedef struct ZpField {
+  ZpFieldParams params;
+  ZpGrid grid;
+  ZpFieldColumn *column; /* [grid.nx] how a column of nodes follows from the stations */
+  ZpFieldRow *row;       /* [grid.ny] where a row lies between the surfaces */
+  size_t first, last;    /* columns of the first and the last station; the platform's follow */
+  /* results, at 1 V */
+  double *Fx, *Fy;         /* [2 stations], upper and lower of each: derivative of the energy, N, eq. (14.5) */
+  double energy;           /* of the field right of the clip, J, eq. (14.4) */
+  ZpFieldProfile *profile; /* [profiles] from the first station to the mirror plane */
+  size_t profiles;
+  void *memory;
+} ZpField;
+
+/* Allocate and number. False if there is no memory. */
+bool zp_field_create(const ZpFieldParams *params, ZpField *field);
+void zp_field_destroy(ZpField *field);
+
+/* Is this a geometry that can be solved as it stands? zp_field_solve itself lays faces that overlap on each other
+ * and goes on with the force they then have, as the plates law does. */
+ZpFieldEnd zp_field_check(const ZpFieldParams *params, const ZpFaces *faces);
+
+/* Solve at this shape => energy, forces on the stations. */
+ZpFieldEnd zp_field_solve(ZpField *field, const ZpFaces *faces);
+
+/* Traction and field strength on the facing surfaces at the last solution => profile. */
+void zp_field_profile(ZpField *field);
+
+/* Forces on one ribbon as wholes, at 1 V, closing positive. */
+typedef struct ZpFieldTotals {
+  double upper, lower;                   /* by traction, clip's edge to last station, N */
+  double upper_platform, lower_platform; /* by traction, last station to mirror plane, N */
+  double upper_work, lower_work;         /* clip's edge to mirror plane by virtual work, eq. (14.6), N */
+  double E;                              /* largest in the liquid on the facing surfaces, V/m */
+} ZpFieldTotals;
+
+/* (last solution and profile) => totals. Overwrites grid.Fx and grid.Fy. */
+ZpFieldTotals zp_field_totals(ZpField *field);
+
+#endif
