@@ -1,6 +1,25 @@
 /* State => energies and electric totals, of one modelled part. Read at records only. */
 #include "actuator/eval.h"
 
+/* Energy of the field beyond plates at 1 V, J/V^2: since the last refresh it changed by what the held force did. */
+static double beyond_plates(const ZpModel *model, const ZpState *state) {
+  const double *q = state->data, *held = q + 4 * model->stride, *then = q + 6 * model->stride;
+  double energy = state->held_energy;
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    energy += held[k] * (q[k] - then[k]);
+  return energy;
+}
+
+static void add_beyond_plates(const ZpModel *model, const ZpState *state, ZpEnergies *energies) {
+  const double *Fy = state->data + 5 * model->stride;
+  double U = state->U, energy = beyond_plates(model, state);
+  for (size_t i = 0; i < model->nodes; i++)
+    energies->force += 0.5 * U * U * (Fy[2 * i + 1] - Fy[2 * i]);
+  energies->charge += 2 * energy * U;
+  energies->field += energy * U * U;
+  energies->capacitance += 2 * energy;
+}
+
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
   ZpMotion m = zp_state_motion(model, state);
   ZpEnergies energies = {0};
@@ -25,5 +44,6 @@ ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *
   energies.charge = totals.charge;
   energies.field = totals.charge * state->U + totals.potential;
   energies.capacitance = ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  if (model->field_solved) add_beyond_plates(model, state, &energies);
   return energies;
 }

@@ -267,22 +267,32 @@ static Point column_force(const ZpField *f, size_t i, size_t r) {
   return (Point){F.x * f->params.w, F.y * f->params.w};
 }
 
+/* The clip holds both ribbons: what acts on either there acts on both alike. */
+static void hand_on_clip(ZpField *f, Point upper, Point lower) {
+  for (size_t r = 0; r < 2; r++) {
+    f->Fx[r] += 0.5 * (upper.x + lower.x);
+    f->Fy[r] += 0.5 * (upper.y + lower.y);
+  }
+}
+
+static void hand_on(ZpField *f, const ZpFieldColumn *c, size_t r, Point F) {
+  size_t k = 2 * c->station + r;
+  f->Fx[k] += (1 - c->share) * F.x;
+  f->Fy[k] += (1 - c->share) * F.y;
+  f->Fx[k + 2] += c->share * F.x;
+  f->Fy[k + 2] += c->share * F.y;
+}
+
 static void find_forces(ZpField *f) {
   size_t pairs = 2 * f->params.stations;
   zp_grid_forces(&f->grid, 0);
   memset(f->Fx, 0, pairs * sizeof *f->Fx);
   memset(f->Fy, 0, pairs * sizeof *f->Fy);
-  for (size_t i = 0; i < f->grid.nx; i++) {
-    const ZpFieldColumn *c = &f->column[i];
-    for (size_t r = 0; r < 2; r++) {
-      Point F = column_force(f, i, r);
-      size_t k = 2 * c->station + r;
-      f->Fx[k] += (1 - c->share) * F.x;
-      f->Fy[k] += (1 - c->share) * F.y;
-      f->Fx[k + 2] += c->share * F.x;
-      f->Fy[k + 2] += c->share * F.y;
-    }
-  }
+  for (size_t i = 0; i < f->first; i++)
+    hand_on_clip(f, column_force(f, i, 0), column_force(f, i, 1));
+  for (size_t i = f->first; i < f->grid.nx; i++)
+    for (size_t r = 0; r < 2; r++)
+      hand_on(f, &f->column[i], r, column_force(f, i, r));
 }
 
 static void find_energy(ZpField *f) {
