@@ -296,6 +296,25 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   return apply_assignments(def, list, count, err);
 }
 
+/* What electro.model field asks of other keys. */
+static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.model = field: goes with actuator.kind electro_ribbon only; use plates, which are right "
+                   "within 1 %% where a gap opens slowly");
+  if (def->electro.surface != ZP_SURFACE_POLYLINE)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: goes with electro.surface polyline only");
+  if (def->insulator.thickness == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "insulator.thickness = 0 m: with electro.model field faces that touch need an insulator between "
+                   "the metals");
+  if (def->study == ZP_STUDY_MODES && def->modes.voltage > 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "modes.voltage = %g V: frequencies under voltage go with electro.model plates only",
+                   def->modes.voltage);
+  return ZP_OK;
+}
+
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < KEY_COUNT; i++) {
     bool is_text = keys[i].type == ZP_KEY_TEXT;
@@ -338,5 +357,5 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.refresh_period > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
                    def->electro.refresh_period);
-  return ZP_OK;
+  return def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
 }
