@@ -73,11 +73,11 @@ static void bezier_forces(const ZpModel *model, const ZpState *state, const doub
   zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, &e->plates);
 }
 
-/* U^2 F, x and y `stride` apart, added to the attraction by the plates law. */
-static void add_beyond_plates(const ZpModel *model, const double *F, size_t stride, double U, ZpEval *e) {
+/* U^2 F added to the attraction by the plates law. */
+static void add_beyond_plates(const ZpModel *model, const double *F, double U, ZpEval *e) {
   for (size_t j = 0; j < model->count; j++) {
     e->plates.Fx[j] += U * U * F[j];
-    e->plates.Fy[j] += U * U * F[stride + j];
+    e->plates.Fy[j] += U * U * F[model->stride + j];
   }
 }
 
@@ -90,7 +90,7 @@ static void electric_forces(const ZpModel *model, const ZpState *state, const do
     memcpy(e->plates.Fy, state->data + 5 * model->stride, model->stride * sizeof(double));
   else
     bezier_forces(model, state, q, e);
-  if (model->field_solved) add_beyond_plates(model, state->data + 4 * model->stride, model->stride, state->U, e);
+  if (model->field_solved) add_beyond_plates(model, state->data + 4 * model->stride, state->U, e);
 }
 
 /* What adds up on the nodes, all [stride]. L and R are the same array, s places apart. */
@@ -171,15 +171,16 @@ void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *e, double 
   add_forces(stride, &forces, a, a + stride);
 }
 
+bool zp_eval_solve_field(const ZpModel *model, const double *q, double U, ZpEval *e) {
+  return !model->field_solved || zp_surplus_solve(&e->surplus, q, U) == ZP_FIELD_SOLVED;
+}
+
 void zp_eval_static_forces(const ZpModel *model, const double *q, double U, ZpEval *e, double *force) {
   size_t s = model->s, stride = model->stride;
   const double *Rx = e->edges.Rx, *Ry = e->edges.Ry, *Lx = Rx - s, *Ly = Ry - s;
   mechanics(model, q, e);
   if (model->field) zp_plates_polyline(&model->plates, q, q + stride, U, &e->plates);
-  if (model->field_solved && U != 0) {
-    zp_surplus_solve(&e->surplus, q, q + stride);
-    add_beyond_plates(model, e->surplus.Fx, (size_t)(e->surplus.Fy - e->surplus.Fx), U, e);
-  }
+  if (model->field_solved) add_beyond_plates(model, e->surplus.F, U, e);
   for (size_t j = 0; j < model->count; j++) {
     force[j] = Lx[j] - Rx[j] + e->plates.Fx[j];
     force[stride + j] = Ly[j] - Ry[j] + e->plates.Fy[j] - model->weight[j];
@@ -208,14 +209,14 @@ bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
   return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
 }
 
+/* NAN where the field cannot be solved: the run then ends as diverged. */
 static void refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
-  size_t stride = model->stride, bytes = model->count * sizeof(double);
-  double *held = zp_state_held(model, state);
-  zp_surplus_solve(&e->surplus, q, q + stride);
-  memcpy(held, e->surplus.Fx, bytes);
-  memcpy(held + stride, e->surplus.Fy, bytes);
-  memcpy(zp_state_held_at(model, state), q, 2 * stride * sizeof(double));
+  size_t bytes = 2 * model->stride * sizeof(double);
+  bool solved = zp_eval_solve_field(model, q, state->U, e);
+  memcpy(zp_state_held(model, state), e->surplus.F, bytes);
+  memcpy(zp_state_held_at(model, state), q, bytes);
   state->held_energy = e->surplus.energy;
+  if (!solved) zp_state_held(model, state)[0] = NAN;
 }
 
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {

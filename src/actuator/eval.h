@@ -38,9 +38,12 @@ void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *eval, doub
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
-/* (positions, voltage) => forces at rest [2 stride], N: mechanics, weight, attraction on the polyline, and what the
- * solved field has beyond it. */
+/* (positions, voltage) => forces at rest [2 stride], N: mechanics, weight, attraction on the polyline, and what
+ * the solved field has beyond it where it was solved last. */
 void zp_eval_static_forces(const ZpModel *model, const double *q, double voltage, ZpEval *eval, double *force);
+
+/* Solve the field at these positions and voltage, where the model does; false if it cannot be. */
+bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, ZpEval *eval);
 
 /* Stiffness of the mechanics at the last positions, as zp_rod_stiffness; `tension` NULL: the present one. */
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);

@@ -6,16 +6,14 @@
 static size_t carve(ZpSurplus *s, void *block) {
   ZpCarver carver = {block, 0};
   zp_plates_carve(&s->plates, &s->eval, &carver);
-  double **arrays[] = {&s->x, &s->y, &s->Fx, &s->Fy};
-  for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_carve(&carver, s->plates.stride);
+  s->q = zp_carve(&carver, 2 * s->plates.stride);
+  s->F = zp_carve(&carver, 2 * s->plates.stride);
   return carver.used;
 }
 
 bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale, ZpSurplus *s) {
   memset(s, 0, sizeof *s);
   s->plates = *plates;
-  s->plates.h_per_volt = 0;
   s->scale = scale;
   s->memory = zp_calloc(1, carve(s, NULL));
   if (!s->memory || !zp_field_create(field, &s->field)) {
@@ -23,7 +21,7 @@ bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates,
     return false;
   }
   carve(s, s->memory);
-  s->x[0] = NAN;
+  s->q[0] = NAN;
   return true;
 }
 
@@ -34,27 +32,29 @@ void zp_surplus_destroy(ZpSurplus *s) {
 }
 
 static void subtract_plates(ZpSurplus *s) {
-  zp_plates_polyline(&s->plates, s->x, s->y, 1, &s->eval);
+  size_t stride = s->plates.stride;
+  double per_U2 = 1 / (s->U * s->U);
+  zp_plates_polyline(&s->plates, s->q, s->q + stride, s->U, &s->eval);
   for (size_t k = 0; k < 2 * s->plates.nodes; k++) {
-    s->Fx[k] = s->scale * s->field.Fx[k] - s->eval.Fx[k];
-    s->Fy[k] = s->scale * s->field.Fy[k] - s->eval.Fy[k];
+    s->F[k] = s->scale * s->field.Fx[k] - per_U2 * s->eval.Fx[k];
+    s->F[stride + k] = s->scale * s->field.Fy[k] - per_U2 * s->eval.Fy[k];
   }
-  s->energy = s->scale * s->field.energy + zp_plates_totals(&s->plates, &s->eval, 1).potential;
+  s->energy = s->scale * s->field.energy + per_U2 * zp_plates_totals(&s->plates, &s->eval, s->U).potential;
 }
 
-ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *x, const double *y) {
-  size_t count = 2 * s->plates.nodes, bytes = count * sizeof *x;
-  if (memcmp(s->x, x, bytes) == 0 && memcmp(s->y, y, bytes) == 0) return ZP_FIELD_SOLVED;
-  memcpy(s->x, x, bytes);
-  memcpy(s->y, y, bytes);
+ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage) {
+  size_t stride = s->plates.stride, bytes = 2 * stride * sizeof *q;
+  double U = voltage != 0 ? fabs(voltage) : 1;
+  bool same_cap = U == s->U || s->plates.h_per_volt == 0;
+  if (same_cap && memcmp(s->q, q, bytes) == 0) return ZP_FIELD_SOLVED;
+  const double *y = q + stride;
+  ZpFaces faces = {q, y, q + 1, y + 1, 2};
+  ZpFieldEnd end = zp_field_solve(&s->field, &faces, U * s->plates.h_per_volt - s->plates.d);
   s->solutions++;
-  ZpFieldEnd end = zp_field_solve(&s->field, &(ZpFaces){x, y, x + 1, y + 1, 2});
-  if (end == ZP_FIELD_SOLVED) {
-    subtract_plates(s);
-    return end;
-  }
-  for (size_t k = 0; k < count; k++)
-    s->Fx[k] = s->Fy[k] = NAN;
-  s->energy = s->x[0] = NAN;
+  s->U = U;
+  s->q[0] = NAN;
+  if (end != ZP_FIELD_SOLVED) return end;
+  memcpy(s->q, q, bytes);
+  subtract_plates(s);
   return end;
 }

@@ -1,6 +1,6 @@
-/* What the solved field has beyond the plates law: forces and energy at 1 V, on the nodes of two ribbons. The plates
- * law follows the ribbons at every step and has the breakdown cap; added to it, U^2 times this makes the
- * field's own force where no breakdown caps it, eq. (14.8). It is small and varies slowly, so it may be held. */
+/* What the solved field has beyond the plates law, on the nodes of two ribbons. The plates law follows the ribbons at
+ * every step; this is small and varies slowly, so it may be held for a while. Both have the breakdown cap: no gap is
+ * followed below that at which it sets in. Per U^2, eq. (14.8): without cap it does not depend on U. */
 #ifndef ZP_ELECTRO_SURPLUS_H
 #define ZP_ELECTRO_SURPLUS_H
 
@@ -9,13 +9,14 @@
 
 typedef struct ZpSurplus {
   ZpField field;
-  ZpPlatesParams plates; /* without cap */
+  ZpPlatesParams plates;
   ZpPlatesEval eval;
-  double scale;    /* on the field's force and energy, as in the plates law */
-  double *x, *y;   /* [stride] where it was solved; NAN: nowhere yet */
-  double *Fx, *Fy; /* [stride] field less plates on upper [2 i] and lower node [2 i + 1], N/V^2 */
-  double energy;   /* the same of the energies, J/V^2: F is its gradient */
-  int solutions;   /* how often the field was solved */
+  double scale;  /* on the field's force and energy, as in the plates law */
+  double U;      /* V, and */
+  double *q;     /* [2 stride] where it was solved: x, then y, of interleaved upper and lower nodes; NAN: nowhere */
+  double *F;     /* [2 stride] field less plates, force on each node in that order, N/V^2; 0 at first */
+  double energy; /* the same of the energies, J/V^2: F is its gradient */
+  int solutions; /* how often the field was solved */
   void *memory;
 } ZpSurplus;
 
@@ -23,8 +24,8 @@ typedef struct ZpSurplus {
 bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale, ZpSurplus *surplus);
 void zp_surplus_destroy(ZpSurplus *surplus);
 
-/* (x, y of interleaved upper and lower nodes) => Fx, Fy, energy; all NAN if the field cannot be solved there.
- * Costs nothing where it was solved last. */
-ZpFieldEnd zp_surplus_solve(ZpSurplus *surplus, const double *x, const double *y);
+/* (coordinates as q, voltage) => F, energy. Where the field cannot be solved they stay. Costs nothing where it was
+ * solved last. Without voltage: as at 1 V, where nothing is capped. */
+ZpFieldEnd zp_surplus_solve(ZpSurplus *surplus, const double *q, double voltage);
 
 #endif

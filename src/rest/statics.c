@@ -224,12 +224,13 @@ static ZpPlatesTotals totals(const ZpStatics *s) {
 }
 
 double zp_statics_charge(const ZpStatics *s) {
-  return s->model->parts * totals(s).charge;
+  return s->model->parts * (totals(s).charge + 2 * s->eval.surplus.energy * s->U);
 }
 
 double zp_statics_capacitance(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
-  return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap;
+  return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap +
+         2 * s->model->parts * s->eval.surplus.energy;
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
@@ -493,8 +494,13 @@ static void move(void *self, const double *step, double fraction) {
     lay_one(s);
 }
 
+static bool refresh(void *self) {
+  ZpStatics *s = self;
+  return s->U == 0 || zp_eval_solve_field(s->model, s->q, s->U, &s->eval);
+}
+
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
-  return (ZpStaticSystem){s->n, s, residual, stiffness, length, move};
+  return (ZpStaticSystem){s->n, s, residual, stiffness, length, move, s->model->field_solved ? refresh : NULL};
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */
