@@ -1,23 +1,18 @@
 /* State => energies and electric totals, of one modelled part. Read at records only. */
 #include "actuator/eval.h"
 
-/* Energy of the field beyond plates at 1 V, J/V^2: since the last refresh it changed by what the held force did. */
-static double beyond_plates(const ZpModel *model, const ZpState *state) {
-  const double *q = state->data, *held = q + 4 * model->stride, *then = q + 6 * model->stride;
-  double energy = state->held_energy;
-  for (size_t k = 0; k < 2 * model->stride; k++)
-    energy += held[k] * (q[k] - then[k]);
-  return energy;
-}
-
+/* What a solved field has beyond plates: since the last refresh its co-energy changed by the held force's work. */
 static void add_beyond_plates(const ZpModel *model, const ZpState *state, ZpEnergies *energies) {
-  const double *Fy = state->data + 5 * model->stride;
-  double U = state->U, energy = beyond_plates(model, state);
+  const double *q = state->data, *held = q + 4 * model->stride, *then = q + 6 * model->stride;
+  double U = state->U, work = 0;
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    work += held[k] * (q[k] - then[k]);
   for (size_t i = 0; i < model->nodes; i++)
-    energies->force += 0.5 * U * U * (Fy[2 * i + 1] - Fy[2 * i]);
-  energies->charge += 2 * energy * U;
-  energies->field += energy * U * U;
-  energies->capacitance += 2 * energy;
+    energies->force += 0.5 * U * U * (held[model->stride + 2 * i + 1] - held[model->stride + 2 * i]);
+  double capacitance = state->held_charge + 2 * work;
+  energies->charge += capacitance * U;
+  energies->field += U * U * (capacitance - state->held_energy - work);
+  energies->capacitance += capacitance;
 }
 
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {

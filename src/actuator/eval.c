@@ -216,6 +216,7 @@ static void refresh_beyond_plates(const ZpModel *model, ZpState *state, const do
   memcpy(zp_state_held(model, state), e->surplus.F, bytes);
   memcpy(zp_state_held_at(model, state), q, bytes);
   state->held_energy = e->surplus.energy;
+  state->held_charge = e->surplus.charge;
   if (!solved) zp_state_held(model, state)[0] = NAN;
 }
 

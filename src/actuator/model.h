@@ -63,7 +63,8 @@ typedef struct ZpState {
   double drag_loss;    /* per part, J */
   double contact_loss; /* per part, J */
   double refreshed;    /* time of the last refresh of a held electric force, s; NAN: due now */
-  double held_energy;  /* per part: energy of the field beyond plates at the last refresh, J/V^2 */
+  double held_energy;  /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
+  double held_charge;  /* and charge, C/V */
   double data[];       /* q [2 stride], v [2 stride], held force [2 stride], and where it was found [2 stride] */
 } ZpState;
 

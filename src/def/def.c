@@ -309,9 +309,10 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
                    "insulator.thickness = 0 m: with electro.model field faces that touch need an insulator between "
                    "the metals");
   if (def->study == ZP_STUDY_MODES && def->modes.voltage > 0)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "modes.voltage = %g V: frequencies under voltage go with electro.model plates only",
-                   def->modes.voltage);
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
+        def->modes.voltage);
   return ZP_OK;
 }
 

@@ -158,7 +158,6 @@ static size_t carve(ZpField *f, void *block) {
   f->column = (void *)zp_carve(&carver, nx * ((sizeof *f->column + size - 1) / size));
   f->row = (void *)zp_carve(&carver, ny * ((sizeof *f->row + size - 1) / size));
   f->profile = (void *)zp_carve(&carver, nx * (sizeof *f->profile / size));
-  f->gap = zp_carve(&carver, nx);
   double **arrays[] = {&f->Fx, &f->Fy};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_carve(&carver, pairs);
@@ -223,10 +222,10 @@ static Point face_at(const ZpFaces *faces, const ZpFieldColumn *c, size_t r) {
   return (Point){mix(c->share, x[at], x[to]) + c->offset, mix(c->share, y[at], y[to])};
 }
 
-/* The eight points in which a column crosses the surfaces. */
+/* The eight points in which a column crosses the surfaces. Faces that overlap are laid on each other. */
 static void cross(const ZpField *f, Point upper, Point lower, Point at[SURFACES]) {
   double t = f->params.t, outer = t + f->params.b;
-  double apart = fmax(upper.y - lower.y, f->least), middle = 0.5 * (upper.y + lower.y);
+  double apart = fmax(upper.y - lower.y, least_gap), middle = 0.5 * (upper.y + lower.y);
   double low = middle - 0.5 * apart, high = middle + 0.5 * apart;
   const double height[SURFACES] = {-far_away, low - outer, low - t, low, high, high + t, high + outer, far_away};
   for (size_t s = 0; s < SURFACES; s++)
@@ -237,9 +236,7 @@ static void place_nodes(ZpField *f, const ZpFaces *faces) {
   ZpGrid *g = &f->grid;
   Point at[SURFACES];
   for (size_t i = 0; i < g->nx; i++) {
-    Point upper = face_at(faces, &f->column[i], 0), lower = face_at(faces, &f->column[i], 1);
-    f->gap[i] = upper.y - lower.y;
-    cross(f, upper, lower, at);
+    cross(f, face_at(faces, &f->column[i], 0), face_at(faces, &f->column[i], 1), at);
     for (size_t j = 0; j < g->ny; j++) {
       Point below = at[f->row[j].layer], above = at[f->row[j].layer + 1];
       g->x[i * g->ny + j] = mix(f->row[j].share, below.x, above.x);
@@ -286,38 +283,32 @@ static void hand_on(ZpField *f, const ZpFieldColumn *c, size_t r, Point F) {
   f->Fy[k + 2] += c->share * F.y;
 }
 
+/* Elements left of the first station belong to the clip, all others to the ribbons. */
 static void find_forces(ZpField *f) {
-  size_t pairs = 2 * f->params.stations;
-  zp_grid_forces(&f->grid, 0);
+  size_t pairs = 2 * f->params.stations, clip = f->first / 2;
   memset(f->Fx, 0, pairs * sizeof *f->Fx);
   memset(f->Fy, 0, pairs * sizeof *f->Fy);
-  for (size_t i = 0; i < f->first; i++)
+  zp_grid_forces(&f->grid, 0, clip);
+  for (size_t i = 0; i <= f->first; i++)
     hand_on_clip(f, column_force(f, i, 0), column_force(f, i, 1));
+  zp_grid_forces(&f->grid, clip, f->grid.columns);
   for (size_t i = f->first; i < f->grid.nx; i++)
     for (size_t r = 0; r < 2; r++)
       hand_on(f, &f->column[i], r, column_force(f, i, r));
 }
 
-/* What the clip's closed part would have by the plates law, J/m per m of width and V^2. */
-static double clip_energy(const ZpField *f) {
-  const ZpFieldParams *p = &f->params;
-  double d = 2 * p->t * p->eps_m / p->eps_i, inverse = 1 / (d + f->least);
-  return 0.5 * ZP_EPS0 * p->eps_m * p->clip * inverse * (2 - d * inverse);
-}
-
+/* Without what the clip's closed part has by the plates law. */
 static void find_energy(ZpField *f) {
   const ZpGrid *g = &f->grid;
-  double energy = 0;
+  const ZpFieldParams *p = &f->params;
+  double energy = 0, h = 2 * p->t * p->eps_m / p->eps_i + least_gap;
   for (size_t c = 0; c < g->columns; c++)
     for (size_t r = 0; r < g->rows; r++)
       energy += zp_grid_energy(g, c, r);
-  f->energy = f->params.w * (energy - clip_energy(f));
-  for (size_t i = 0; i < g->nx; i++) /* from the gap that was solved to the one there is */
-    f->energy += 0.5 * fmax(f->least - f->gap[i], 0) * (column_force(f, i, 1).y - column_force(f, i, 0).y);
+  f->energy = p->w * (energy - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
 }
 
-ZpFieldEnd zp_field_solve(ZpField *f, const ZpFaces *faces, double least) {
-  f->least = fmax(least, least_gap);
+ZpFieldEnd zp_field_solve(ZpField *f, const ZpFaces *faces) {
   place_nodes(f, faces);
   ZpGridEnd end = zp_grid_solve(&f->grid);
   if (end == ZP_GRID_FOLDED) return ZP_FIELD_FOLDED;
@@ -389,7 +380,7 @@ void zp_field_profile(ZpField *f) {
     traction_at(f, &lower_back, i, &back_l, &unused, &unused);
     traction_at(f, &upper_back, i, &back_u, &unused, &unused);
     f->profile[k] = (ZpFieldProfile){.x = 0.5 * (f->grid.x[low] + f->grid.x[high]),
-                                     .gap = f->gap[i],
+                                     .gap = f->grid.y[high] - f->grid.y[low],
                                      .upper = -p->w * (Wu + back_u),
                                      .lower = p->w * (Wl + back_l),
                                      .E = fmax(El, Eu),
@@ -427,7 +418,7 @@ ZpFieldTotals zp_field_totals(ZpField *f) {
   integrate(f, f->last, f->grid.nx - 1, &totals.upper_platform, &totals.lower_platform);
   for (size_t k = 0; k < f->profiles; k++)
     totals.E = fmax(totals.E, f->profile[k].E);
-  zp_grid_forces(&f->grid, f->first / 2);
+  zp_grid_forces(&f->grid, f->first / 2, f->grid.columns);
   for (size_t i = f->first; i < f->grid.nx; i++) {
     totals.upper_work -= f->params.w * body_force(f, i, 0);
     totals.lower_work += f->params.w * body_force(f, i, 1);

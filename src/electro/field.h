@@ -70,11 +70,9 @@ typedef struct ZpField {
   ZpFieldColumn *column; /* [grid.nx] how a column of nodes follows from the stations */
   ZpFieldRow *row;       /* [grid.ny] where a row lies between the surfaces */
   size_t first, last;    /* columns of the first and the last station; the platform's follow */
-  double least;          /* of the last solution, m */
-  double *gap;           /* [grid.nx] of the faces, which may be below that, m */
   /* results, at 1 V */
   double *Fx, *Fy;         /* [2 stations], upper and lower of each: derivative of the energy, N, eq. (14.5) */
-  double energy;           /* of the field right of the clip, J, eq. (14.4) */
+  double energy;           /* of the field right of the clip, J, eq. (14.6); 2 energy is the capacitance, F */
   ZpFieldProfile *profile; /* [profiles] from the first station to the mirror plane */
   size_t profiles;
   void *memory;
@@ -84,13 +82,11 @@ typedef struct ZpField {
 bool zp_field_create(const ZpFieldParams *params, ZpField *field);
 void zp_field_destroy(ZpField *field);
 
-/* Is this a geometry that can be solved as it stands? zp_field_solve itself only refuses what it cannot map. */
+/* Is this a geometry that can be solved as it stands? zp_field_solve itself lays faces that overlap on each other. */
 ZpFieldEnd zp_field_check(const ZpFieldParams *params, const ZpFaces *faces);
 
-/* Solve at this shape => energy, forces on the stations. Where a gap is below `least` (faces that overlap included)
- * it is solved at `least`, and the force goes on unchanged: below the gap at which the liquid breaks down the surface
- * charge stays, eq. (14.7). At least a nanometre is taken. */
-ZpFieldEnd zp_field_solve(ZpField *field, const ZpFaces *faces, double least);
+/* Solve at this shape => energy, forces on the stations. */
+ZpFieldEnd zp_field_solve(ZpField *field, const ZpFaces *faces);
 
 /* Traction and field strength on the facing surfaces at the last solution => profile. */
 void zp_field_profile(ZpField *field);
@@ -99,7 +95,7 @@ void zp_field_profile(ZpField *field);
 typedef struct ZpFieldTotals {
   double upper, lower;                   /* by traction, clip's edge to last station, N */
   double upper_platform, lower_platform; /* by traction, last station to mirror plane, N */
-  double upper_work, lower_work;         /* clip's edge to mirror plane by virtual work, eq. (14.6), N */
+  double upper_work, lower_work;         /* clip's edge to mirror plane by virtual work, eq. (14.8), N */
   double E;                              /* largest in the liquid on the facing surfaces, V/m */
 } ZpFieldTotals;
 

@@ -259,13 +259,13 @@ static void element_forces(ZpGrid *g, const Reference *ref, const Element *e, do
   }
 }
 
-void zp_grid_forces(ZpGrid *g, size_t first) {
+void zp_grid_forces(ZpGrid *g, size_t first, size_t end) {
   Reference ref;
   Element e;
   reference(&ref);
   memset(g->Fx, 0, g->nx * g->ny * sizeof *g->Fx);
   memset(g->Fy, 0, g->nx * g->ny * sizeof *g->Fy);
-  for (size_t c = first; c < g->columns; c++)
+  for (size_t c = first; c < end; c++)
     for (size_t r = 0; r < g->rows; r++) {
       double eps = g->eps[c * g->rows + r];
       if (!(eps > 0)) continue;

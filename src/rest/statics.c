@@ -224,7 +224,7 @@ static ZpPlatesTotals totals(const ZpStatics *s) {
 }
 
 double zp_statics_charge(const ZpStatics *s) {
-  return s->model->parts * (totals(s).charge + 2 * s->eval.surplus.energy * s->U);
+  return s->model->parts * (totals(s).charge + s->eval.surplus.charge * s->U);
 }
 
 double zp_statics_capacitance(const ZpStatics *s) {
