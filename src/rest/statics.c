@@ -174,7 +174,8 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   s->contact_acts = false;
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
-  if (!zp_newton_good(info.end)) info = hold_step_by_step(s, opening, work);
+  bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
+  if (folded || !zp_newton_good(info.end)) info = hold_step_by_step(s, opening, work);
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
   ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
