@@ -71,8 +71,8 @@ typedef struct ZpField {
   ZpFieldRow *row;       /* [grid.ny] where a row lies between the surfaces */
   size_t first, last;    /* columns of the first and the last station; the platform's follow */
   /* results, at 1 V */
-  double *Fx, *Fy;         /* [2 stations], upper and lower of each: derivative of the energy, N, eq. (14.5) */
-  double energy;           /* of the field right of the clip, J, eq. (14.6); 2 energy is the capacitance, F */
+  double *Fx, *Fy;         /* [2 stations], upper and lower of each: derivative of the energy, N, eq. (14.3) */
+  double energy;           /* of the field right of the clip, J, eq. (14.4); 2 energy is the capacitance, F */
   ZpFieldProfile *profile; /* [profiles] from the first station to the mirror plane */
   size_t profiles;
   void *memory;
@@ -95,7 +95,7 @@ void zp_field_profile(ZpField *field);
 typedef struct ZpFieldTotals {
   double upper, lower;                   /* by traction, clip's edge to last station, N */
   double upper_platform, lower_platform; /* by traction, last station to mirror plane, N */
-  double upper_work, lower_work;         /* clip's edge to mirror plane by virtual work, eq. (14.8), N */
+  double upper_work, lower_work;         /* clip's edge to mirror plane by virtual work, eq. (14.6), N */
   double E;                              /* largest in the liquid on the facing surfaces, V/m */
 } ZpFieldTotals;
 

@@ -1,4 +1,4 @@
-/* Letters of docs/theory.md, section 14:
+/* Letters of docs/theory.md, section 14, eq. (14.2):
  *   N     shape functions of an element, products of the quadratic Lagrange polynomials in xi and eta
  *   J     Jacobian of its map from [-1, 1]^2, m
  *   w     weight of an integration point times det J, m^2

@@ -1,6 +1,6 @@
 /* What the solved field has beyond the plates law, on the nodes of two ribbons. The plates law follows the ribbons at
  * every step; this is small and varies slowly, so it may be held for a while. Where the breakdown cap holds the force,
- * nothing is added: both are taken with no gap below that at which it sets in, eq. (14.9). Per U^2: without
+ * nothing is added: both are taken with no gap below that at which it sets in, eq. (14.7). Per U^2: without
  * cap it does not depend on U. */
 #ifndef ZP_ELECTRO_SURPLUS_H
 #define ZP_ELECTRO_SURPLUS_H
