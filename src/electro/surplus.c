@@ -14,6 +14,7 @@ static size_t carve(ZpSurplus *s, void *block) {
 bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale, ZpSurplus *s) {
   memset(s, 0, sizeof *s);
   s->plates = *plates;
+  s->plates.edges = NULL; /* the field solved is that of the strips' middle: edges stay in the plates law beside it */
   s->scale = scale;
   s->memory = zp_calloc(1, carve(s, NULL));
   if (!s->memory || !zp_field_create(field, &s->field)) {
