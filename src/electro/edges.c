@@ -1,6 +1,7 @@
 /* Lateral edges. Letters of docs/theory.md, section 16:
  *   g   gap between the insulator faces, m          d   liquid thickness of both insulators, m
- *   e   C' / (eps0 eps_m) - w / (g + d), 1          z   variable of the polynomial, in [-1, 1]
+ *   e   C' / (eps0 eps_m) - w / (g + d), 1; fitted is e / w
+ *   z   variable of the polynomial, in [-1, 1]
  *   s   sqrt(g + d), m^0.5
  */
 #include "electro/edges.h"

@@ -25,7 +25,7 @@ bool zp_edges_capacitance(const ZpEdgeParams *params, const ZpFieldMesh *mesh, s
 
 enum { ZP_EDGE_TERMS = 18 };
 
-/* e(g) / w with e = C' / (eps0 eps_m) - w / (g + d), a polynomial in z(g), eqs. (16.1) to (16.3). Beyond its ends it
+/* e(g) / w with e = C' / (eps0 eps_m) - w / (g + d), a polynomial in z(g), eqs. (16.1), (16.2). Beyond its ends it
  * goes on straight. */
 typedef struct ZpEdgeLaw {
   double largest;          /* it holds for gaps 0 .. largest, m */
@@ -39,7 +39,7 @@ typedef struct ZpEdgeLaw {
 /* => law. Says why if it cannot be. */
 ZpStatus zp_edges_make(const ZpEdgeParams *params, double largest, ZpEdgeLaw *law, ZpError *err);
 
-/* The law and its derivatives by the gap at a gap within its ends. */
+/* e / w and its derivatives by the gap, at a gap within the ends of the law. */
 typedef struct ZpEdgeValue {
   double e, slope, bend; /* 1/m, 1/m^2, 1/m^3 */
 } ZpEdgeValue;

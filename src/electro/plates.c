@@ -4,8 +4,8 @@
  *   W   attraction per length, N/m                  P   its potential per length, J/m
  *   K   k U^2, so that W = K / h^2 above h_c, N m
  * Below h_c the surface charge stays, and with it W: W = K / h_c^2, P = -K / h_c (2 - h / h_c). Both
- * branches are one formula with h* = max(h, h_c). Lateral edges add e, section 16: W = -K e'(h*),
- * P = -K (e(h*) + e'(h*) (h - h*)), h* within the ends of their law, too.
+ * branches are one formula with h* = max(h, h_c). Lateral edges add e / w to 1 / h, section 16; in the code `e` is
+ * that e / w, m^-1.
  */
 #include "electro/plates.h"
 
@@ -32,7 +32,7 @@ static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
   return bounded < p->edges->largest ? bounded : p->edges->largest;
 }
 
-/* Eqs. (16.4) to (16.6). Where the cap acts its gap goes with the voltage, and the charge with that. */
+/* Eqs. (16.3) to (16.5). Where the cap acts its gap goes with the voltage, and the charge with that. */
 static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPlatesLaw *law) {
   double K = p->k * U * U, cap = p->h_per_volt * U - p->d, at = edge_gap(p, zp_plates_least_h(p, U), gap);
   ZpEdgeValue v = zp_edges_value(p->edges, at);
