@@ -219,6 +219,16 @@ static ZpStatus create_model(ZpError *err, bool *whole) {
   return status;
 }
 
+static ZpStatus create_model_with_edges(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  def.electro.edges = true;
+  ZpModel *model = NULL;
+  ZpStatus status = zp_model_create(&def, &model, err);
+  *whole = (model != NULL) == (status == ZP_OK);
+  zp_model_destroy(model);
+  return status;
+}
+
 static ZpModel *shared_model; /* made while no one watches */
 
 static ZpStatus create_sim(ZpError *err, bool *whole) {
@@ -255,6 +265,7 @@ START_TEST(core_survives_every_failure) {
   ck_assert_int_eq(zp_model_create(&def, &shared_model, NULL), ZP_OK);
   /* the counts: a model is a struct and a block, a simulation a struct and at least state and work space */
   ck_assert_int_ge(fail_each("zp_model_create", create_model, false), 2);
+  ck_assert_int_ge(fail_each("zp_model_create with edges", create_model_with_edges, false), 6); /* a field more */
   ck_assert_int_ge(fail_each("zp_sim_create", create_sim, false), 3);
   ck_assert_int_ge(fail_each("zp_study_run", run_study, false), 8);
   ck_assert_int_ge(fail_each("study isometric", run_isometric, false), 8);

@@ -244,6 +244,20 @@ static void derive(ZpModel *model) {
   model->stable_step = 0.8 * 2 / frequency_bound(model);
 }
 
+/* What the lateral edges add, up to more than ribbons that hang straight down part. */
+static ZpStatus make_edges(ZpModel *model, ZpError *err) {
+  static const double halves = 2.5; /* of the flexible length */
+  const ZpActuatorDef *def = &model->def;
+  if (!model->field || !def->electro.edges) return ZP_OK;
+  ZpEdgeParams params = {.w = def->ribbon.width,
+                         .b = def->ribbon.thickness,
+                         .t = def->insulator.thickness,
+                         .eps_m = def->medium.permittivity,
+                         .eps_i = def->insulator.permittivity};
+  model->plates.edges = &model->edge_law;
+  return zp_edges_make(&params, halves * model->L, &model->edge_law, err);
+}
+
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
@@ -254,9 +268,10 @@ ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) 
   derive(model);
   Arrays arrays;
   model->memory = zp_calloc(1, carve(model, NULL, &arrays));
-  if (!model->memory) {
+  status = model->memory ? make_edges(model, err) : zp_fail_memory(err);
+  if (status != ZP_OK) {
     zp_model_destroy(model);
-    return zp_fail_memory(err);
+    return status;
   }
   carve(model, model->memory, &arrays);
   fill_rod(model, &arrays);

@@ -11,6 +11,7 @@
 #include <zipact/model.h>
 
 #include "contact/zip.h"
+#include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/surface.h"
 #include "ribbon/massspring.h"
@@ -36,6 +37,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpRodParams rod;
   ZpPlatesParams plates;
+  ZpEdgeLaw edge_law; /* of plates, where electro.edges */
   ZpFieldParams cross_section;
   double field_scale;   /* force_scale * voltage_share^2 */
   ZpMasses masses;      /* true masses */

@@ -316,6 +316,21 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+/* What electro.edges asks of other keys. */
+static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
+  if (def->actuator.kind == ZP_KIND_FLANGE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges: goes with actuator.kind electro_ribbon, two strips of one width; how wide the flat "
+                   "electrode of a flange is, is not said");
+  if (def->electro.surface != ZP_SURFACE_POLYLINE)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.edges: goes with electro.surface polyline only");
+  if (def->insulator.thickness == 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "insulator.thickness = 0 m: with electro.edges faces that touch need an insulator between the metals");
+  return ZP_OK;
+}
+
 static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
@@ -374,6 +389,10 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    def->electro.refresh_period);
   if (def->electro.model == ZP_ELECTRO_FIELD) {
     ZpStatus status = check_field(def, err);
+    if (status != ZP_OK) return status;
+  }
+  if (def->electro.edges) {
+    ZpStatus status = check_edges(def, err);
     if (status != ZP_OK) return status;
   }
   return def->study == ZP_STUDY_ISOMETRIC ? check_isometric(def, err) : ZP_OK;
