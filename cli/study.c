@@ -93,6 +93,8 @@ static void print_answers(const ZpResult *result) {
       {ZP_STUDY_STATIONARY, "stroke_m", "stroke", 1e3, "mm"},
       {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", "pull-in", 1e-3, "kV"},
       {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", "release", 1e-3, "kV"},
+      {ZP_STUDY_ISOMETRIC, "force_N", "force", 1, "N"},
+      {ZP_STUDY_ISOMETRIC, "zipped_length_m", "zipped", 1e3, "mm"},
       {ZP_STUDY_MODES, "frequency_1_Hz", "frequency", 1, "Hz"},
   };
   for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {

@@ -296,6 +296,20 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   return apply_assignments(def, list, count, err);
 }
 
+static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
+  static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = %s: study isometric holds the platform of actuator.kind electro_ribbon",
+                   zp_key(zp_key_find("actuator.kind"))->choices[def->actuator.kind].word);
+  double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
+  if (separation > longest)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "isometric.separation = %g m: out of reach; at most %g of ribbon.length - platform.length, %g m",
+                   separation, most, longest);
+  return ZP_OK;
+}
+
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < KEY_COUNT; i++) {
     bool is_text = keys[i].type == ZP_KEY_TEXT;
@@ -338,5 +352,5 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.refresh_period > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
                    def->electro.refresh_period);
-  return ZP_OK;
+  return def->study == ZP_STUDY_ISOMETRIC ? check_isometric(def, err) : ZP_OK;
 }

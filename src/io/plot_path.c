@@ -1,4 +1,5 @@
-/* Pictures of the states of rest along the voltage: stroke.svg, charge.svg, zipped_length.svg, shapes.svg. */
+/* Pictures of the states of rest along the voltage: stroke.svg or (isometric) force.svg, charge.svg, zipped_length.svg,
+ * shapes.svg. */
 #include <math.h>
 #include <string.h>
 
@@ -28,13 +29,18 @@ static double get(const ZpPlot *plot, size_t row, const char *column) {
   return zp_table_get(series(plot), row, column);
 }
 
-static bool is_path(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_EQUILIBRIUM && plot->single && zp_plot_has(series(plot), "voltage_V") &&
-         plot->def.drive.voltage > 0;
+static bool is_held(const ZpPlot *plot) {
+  return plot->study == ZP_STUDY_ISOMETRIC;
 }
 
-/* What tells how far it is closed: the opening, or the stroke of a kind that has none. */
+static bool is_path(const ZpPlot *plot) {
+  return (plot->study == ZP_STUDY_EQUILIBRIUM || is_held(plot)) && plot->single &&
+         zp_plot_has(series(plot), "voltage_V") && plot->def.drive.voltage > 0;
+}
+
+/* What tells how far it is closed: the opening, or the stroke of a kind that has none; of a held one, its force. */
 static const char *travel(const ZpPlot *plot) {
+  if (is_held(plot)) return "force_N";
   return zp_plot_has(series(plot), "opening_m") ? "opening_m" : "stroke_m";
 }
 
@@ -161,7 +167,7 @@ static void mark_jump(const ZpPlot *plot, FILE *file, int tag, const char *scala
 }
 
 static bool has_stroke(const ZpPlot *plot) {
-  return is_path(plot) && zp_plot_has(series(plot), travel(plot));
+  return is_path(plot) && !is_held(plot) && zp_plot_has(series(plot), travel(plot));
 }
 
 static void script_stroke(const ZpPlot *plot, FILE *file) {
@@ -175,6 +181,20 @@ static void script_stroke(const ZpPlot *plot, FILE *file) {
   fprintf(file, "set ylabel '%s / %s' offset 0.5\nset autoscale y noextend\nset offsets 0, 0, graph 0.05, graph 0.03\n",
           opens ? "opening" : "stroke", length.text);
   plot_path(plot, file, "stroke", 2, length);
+}
+
+static bool has_force(const ZpPlot *plot) {
+  return is_path(plot) && is_held(plot) && zp_plot_has(series(plot), "force_N");
+}
+
+static void script_force(const ZpPlot *plot, FILE *file) {
+  ZpPlotUnit unit = zp_plot_table_unit(series(plot), (const char *const[]){"force_N", NULL}, "N");
+  zp_plot_head(plot, file, "force", "Force on the held platform against voltage", RIGHT);
+  begin(plot, file, voltage_unit(plot));
+  fprintf(file,
+          "set ylabel 'force / %s' offset 0.5\nset autoscale y noextend\nset offsets 0, 0, graph 0.05, graph 0.03\n",
+          unit.text);
+  plot_path(plot, file, "force", 2, unit);
 }
 
 static bool has_zipped_length(const ZpPlot *plot) {
@@ -300,6 +320,7 @@ static void script_shapes(const ZpPlot *plot, FILE *file) {
 
 const ZpPicture zp_path_pictures[] = {
     {"stroke", "svg", has_stroke, script_stroke, data_path},
+    {"force", "svg", has_force, script_force, data_path},
     {"zipped_length", "svg", has_zipped_length, script_zipped_length, data_path},
     {"charge", "svg", has_charge, script_charge, data_path},
     {"shapes", "svg", has_shapes, script_shapes, data_shapes},

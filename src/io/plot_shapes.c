@@ -37,7 +37,12 @@ static bool has_shapes(const ZpPlot *plot) {
 
 /* Shapes along the voltage, whose time is the number of the state. */
 static bool is_path(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_EQUILIBRIUM;
+  return plot->study == ZP_STUDY_EQUILIBRIUM || plot->study == ZP_STUDY_ISOMETRIC;
+}
+
+/* The platform is held, no load hangs on it. */
+static bool is_held(const ZpPlot *plot) {
+  return plot->study == ZP_STUDY_ISOMETRIC;
 }
 
 static bool has_animation(const ZpPlot *plot) {
@@ -254,7 +259,8 @@ static void animation_load(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlo
   if (pair)
     fprintf(file, "  set object 2 rectangle from %.6g,v-%.6g to %.6g,v fc rgb '#555555' fs solid noborder\n", -plat,
             0.35 * u, plat);
-  if (plot->def.load.mass <= 0) return;
+  if (is_held(plot)) fputs("  set arrow 2 from h,v to h,graph 0 nohead lw 3 lc rgb '#555555'\n", file);
+  if (is_held(plot) || plot->def.load.mass <= 0) return;
   zp_value_print(zp_key_find("load.mass"), plot->def.load.mass, load, sizeof load);
   fprintf(file,
           "  set arrow 2 from h,v to h,v-%.6g nohead lw 2 lc rgb '#555555'\n"
@@ -265,10 +271,12 @@ static void animation_load(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlo
 
 static void path_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit mm) {
   const ZpPlotUnit voltage = zp_plot_unit(plot->def.drive.voltage, "V");
-  fprintf(file,
-          "  caption = sprintf('%%.2f %s    stroke %%.2f %s', potential[i]*%g, stroke[i]*%g)\n"
-          "  set label 1 caption at screen 0.5,0.96 center\n",
-          voltage.text, mm.text, voltage.factor, mm.factor);
+  if (is_held(plot))
+    fprintf(file, "  caption = sprintf('%%.2f %s', potential[i]*%g)\n", voltage.text, voltage.factor);
+  else
+    fprintf(file, "  caption = sprintf('%%.2f %s    stroke %%.2f %s', potential[i]*%g, stroke[i]*%g)\n", voltage.text,
+            mm.text, voltage.factor, mm.factor);
+  fputs("  set label 1 caption at screen 0.5,0.96 center\n", file);
 }
 
 static void animation_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit time, ZpPlotUnit mm) {

@@ -1,5 +1,6 @@
-/* Pictures of a sweep: contraction.svg, all runs over time, and what a study asks for against the only list
- * key: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg. */
+/* Pictures of a sweep: contraction.svg, all runs over time, and what a study asks for against the list key that
+ * varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg; forces.svg, a curve for each value of the
+ * others. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -77,24 +78,25 @@ static ZpPlotUnit common_unit(const ZpPlot *plot, const char *name, const char *
   return common;
 }
 
-/* "8 kV, 21": the values of the list keys of a run. */
-static void run_name(const ZpPlot *plot, size_t run, char *text, size_t size) {
+/* "8 kV, 21": the values of the list keys of a run, but of the last `without` of them. */
+static void run_name(const ZpPlot *plot, size_t run, size_t without, char *text, size_t size) {
   size_t keys, used = 0;
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);
   ZpActuatorDef def;
   text[0] = 0;
   if (zp_scenario_def(plot->report->scenario, run, &def, NULL) != ZP_OK) return;
-  for (size_t i = 0; i < keys && used < size; i++) {
+  for (size_t i = 0; i + without < keys && used < size; i++) {
     char value[64];
     zp_value_print(key[i], zp_def_get(&def, key[i]), value, sizeof value);
     used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", value);
   }
 }
 
-/* The names of the list keys over the legend, each on a line so that it fits. */
-static void legend_title(const ZpPlot *plot, FILE *file) {
+/* The names of the list keys but the last `without` over the legend, each on a line so that it fits. */
+static void legend_title(const ZpPlot *plot, FILE *file, size_t without) {
   size_t keys;
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  keys -= without;
   fputs("set key title \"", file);
   for (size_t i = 0; i < keys; i++) {
     fputs(i ? ",\\n" : "", file);
@@ -107,7 +109,7 @@ static void legend_title(const ZpPlot *plot, FILE *file) {
 /* A legend entry for a curve that is drawn with many others. */
 static void legend_entry(const ZpPlot *plot, FILE *file, size_t run) {
   char name[256];
-  run_name(plot, run, name, sizeof name);
+  run_name(plot, run, 0, name, sizeof name);
   fprintf(file, ", \\\n     NaN with lines lw 2 lc rgb '#%06x' title ", colour_of(plot, run));
   zp_plot_text(file, name);
 }
@@ -119,7 +121,7 @@ static void script_contraction(const ZpPlot *plot, FILE *file) {
   if (!is_ribbon(plot)) shown = (ZpPlotUnit){.factor = 100, .text = "%"};
   zp_plot_head(plot, file, "contraction", is_ribbon(plot) ? "Stroke over time" : "Contraction over time", RIGHT);
   zp_plot_foot(plot, file, NULL);
-  legend_title(plot, file);
+  legend_title(plot, file, 0);
   fprintf(file,
           "set xrange [0:*]\nset xlabel 'time / %s'\nset ylabel '%s / %s' offset 0.5\n"
           "plot 'contraction.dat' using ($1*%g):($2*%g):3 with lines lw 2 lc rgb variable notitle",
@@ -174,6 +176,7 @@ static const Answer answers[] = {
      {"pull_in_voltage_V", "release_voltage_V"},
      {"pull-in", "release"},
      "pull in"},
+    {ZP_STUDY_ISOMETRIC, "forces", "Force", "force", "N", {"force_N", NULL}, {NULL, NULL}, "are drawn"},
     {ZP_STUDY_MODES,
      "frequencies",
      "Lowest frequency about the loaded equilibrium",
@@ -288,11 +291,93 @@ static void script_answer(const ZpPlot *plot, FILE *file) {
   plot_answer(plot, file, unit);
 }
 
+/* -- forces --------------------------------------------------------------------------------------- */
+
+/* Runs that begin a curve, at most LEGEND evenly chosen. => how many */
+static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
+  size_t curves = 0, kept = 0, at = 0;
+  for (size_t run = 0; run < plot->report->count; run++)
+    curves += run == 0 || begins_curve(plot, run);
+  for (size_t run = 0; run < plot->report->count && kept < LEGEND; run++) {
+    if (run > 0 && !begins_curve(plot, run)) continue;
+    if (curves <= LEGEND || at * (LEGEND - 1) >= kept * (curves - 1)) chosen[kept++] = run;
+    at++;
+  }
+  return kept;
+}
+
+static bool has_forces(const ZpPlot *plot) {
+  return has_answer(plot, ZP_STUDY_ISOMETRIC);
+}
+
+/* An index per curve. */
+static void data_forces(const ZpPlot *plot, FILE *file) {
+  size_t chosen[LEGEND], curves = choose_curves(plot, chosen);
+  fprintf(file, "# %s force_N; an index per curve\n", zp_key(x_key(plot))->name);
+  for (size_t k = 0; k < curves; k++) {
+    for (size_t run = chosen[k]; run < plot->report->count && (run == chosen[k] || !begins_curve(plot, run)); run++) {
+      zp_plot_put(file, key_value(plot, run), ' ');
+      zp_plot_put(file, answer(plot, run, 0), '\n');
+    }
+    fputs("\n\n", file);
+  }
+}
+
+/* Of many curves the first list key has a line style, the others together a colour. */
+static size_t curves_of_a_style(const ZpPlot *plot, const size_t *chosen, size_t curves) {
+  size_t keys, alike = 1;
+  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  ZpActuatorDef first, other;
+  if (keys < 3 || zp_scenario_def(plot->report->scenario, chosen[0], &first, NULL) != ZP_OK) return curves;
+  while (alike < curves && zp_scenario_def(plot->report->scenario, chosen[alike], &other, NULL) == ZP_OK &&
+         zp_def_get(&other, key[0]) == zp_def_get(&first, key[0]))
+    alike++;
+  return alike;
+}
+
+static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
+  size_t chosen[LEGEND], curves = choose_curves(plot, chosen), alike = curves_of_a_style(plot, chosen, curves);
+  for (size_t k = 0; k < curves; k++) {
+    char name[256];
+    double shade = alike > 1 ? (double)(k % alike) / (double)(alike - 1) : 0.3;
+    run_name(plot, chosen[k], 1, name, sizeof name);
+    fprintf(file,
+            "%s'forces.dat' index %zu using ($1*%g):($2*%g) with linespoints lw 2 dt %zu pt %d ps 0.6 lc rgb '#%06x' "
+            "title ",
+            k ? ", \\\n     " : "plot ", k, key_factor(zp_key(x_key(plot))), unit.factor, k / alike % 5 + 1,
+            k / alike % 2 ? 6 : 7, zp_plot_shade(shade));
+    zp_plot_text(file, name);
+  }
+  fputc('\n', file);
+}
+
+static void script_forces(const ZpPlot *plot, FILE *file) {
+  const ZpKey *key = zp_key(x_key(plot));
+  size_t keys;
+  double largest = 0;
+  zp_scenario_lists(plot->report->scenario, &keys);
+  for (size_t i = 0; i < plot->report->count; i++)
+    if (isfinite(answer(plot, i, 0))) largest = fmax(largest, fabs(answer(plot, i, 0)));
+  ZpPlotUnit unit = zp_plot_unit(largest, "N");
+  char label[128];
+  snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
+  zp_plot_head(plot, file, "forces", "Force on the held platform", keys > 1 ? RIGHT : 0.96);
+  if (keys > 1) legend_title(plot, file, 1);
+  fputs("set xlabel ", file);
+  zp_plot_text(file, label);
+  fprintf(file,
+          "\nset ylabel 'force / %s' offset 0.5\nset xrange [0:*]\nset yrange [*<0:*]\n"
+          "set offsets 0, graph 0.03, graph 0.05, 0\n",
+          unit.text);
+  plot_forces(plot, file, unit);
+}
+
 const ZpPicture zp_sweep_pictures[] = {
     {"contraction", "svg", has_contraction, script_contraction, data_contraction},
     {"zip_time", "svg", has_zip_time, script_answer, data_answer},
     {"strokes", "svg", has_strokes, script_answer, data_answer},
     {"voltages", "svg", has_voltages, script_answer, data_answer},
+    {"forces", "svg", has_forces, script_forces, data_forces},
     {"frequencies", "svg", has_frequencies, script_answer, data_answer},
     {0},
 };

@@ -118,10 +118,13 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
   if (status != ZP_OK) return status;
   plot->study = report->result[0]->study;
-  if (plot->study != ZP_STUDY_CALIBRATE) add_key(plot, "load.mass", "load ");
-  const bool powered = plot->study == ZP_STUDY_ACTUATE || plot->study == ZP_STUDY_EQUILIBRIUM;
-  if (powered && plot->def.actuator.kind != ZP_KIND_RIBBON)
-    add_key(plot, "drive.voltage", plot->study == ZP_STUDY_EQUILIBRIUM ? "up to " : "");
+  const bool isometric = plot->study == ZP_STUDY_ISOMETRIC, up_to = plot->study == ZP_STUDY_EQUILIBRIUM || isometric;
+  if (isometric)
+    add_key(plot, "isometric.separation", "held at ");
+  else if (plot->study != ZP_STUDY_CALIBRATE)
+    add_key(plot, "load.mass", "load ");
+  if ((up_to || plot->study == ZP_STUDY_ACTUATE) && plot->def.actuator.kind != ZP_KIND_RIBBON)
+    add_key(plot, "drive.voltage", up_to && plot->single ? "up to " : "");
   add_key(plot, "mesh.nodes", "N = ");
   add_key(plot, "preset", "preset ");
   return ZP_OK;

@@ -71,6 +71,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->scale = fmax(model->total_weight, 1e-3);
   s->load = model->def.load.mass;
   s->weight_share = 1;
+  s->opening = NAN;
   lay_straight(s);
   return true;
 }
@@ -133,6 +134,54 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   return contact;
 }
 
+/* From straight through growing openings, for what is too far to reach at once. */
+static ZpNewtonInfo hold_step_by_step(ZpStatics *s, double opening, ZpNewtonWork *work) {
+  static const double shortest = 1e-4;
+  ZpStaticSystem system = zp_statics_system(s);
+  size_t bytes = 2 * s->model->stride * sizeof *s->q;
+  double reached = 0, step = 0.05;
+  ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
+  int iterations = 0;
+  lay_straight(s);
+  memcpy(s->good, s->q, bytes);
+  while (reached < 1 && step > shortest) {
+    double share = fmin(reached + step, 1);
+    s->opening = share * opening;
+    info = zp_newton(&system, zp_statics_tolerance(s), STEP_ITERATIONS, work);
+    iterations += info.iterations;
+    if (zp_newton_good(info.end)) {
+      reached = share;
+      step *= 2;
+      memcpy(s->good, s->q, bytes);
+    } else {
+      memcpy(s->q, s->good, bytes);
+      memset(s->tension, 0, s->model->stride * sizeof *s->tension);
+      step *= 0.25;
+    }
+  }
+  s->opening = opening;
+  info.iterations = iterations;
+  if (reached < 1) info.end = ZP_NEWTON_SLOW;
+  return info;
+}
+
+ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  double tolerance = zp_statics_tolerance(s);
+  s->U = 0;
+  s->load = 0;
+  s->opening = opening;
+  s->contact_acts = false;
+  lay_straight(s);
+  ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
+  if (!zp_newton_good(info.end)) info = hold_step_by_step(s, opening, work);
+  s->contact_acts = true;
+  if (!zp_newton_good(info.end) || !s->model->field) return info;
+  ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
+  contact.iterations += info.iterations;
+  return contact;
+}
+
 bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
   enum { STEPS = 20 };            /* equal ones of the voltage's square, as the force is */
   static const double jump = 0.1; /* a stroke that changes by a larger share has jumped to another branch */
@@ -170,6 +219,19 @@ size_t zp_statics_front(const ZpStatics *s) {
   return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap) : 0;
 }
 
+static ZpPlatesTotals totals(const ZpStatics *s) {
+  return s->model->field ? zp_plates_totals(&s->model->plates, &s->eval.plates, s->U) : (ZpPlatesTotals){0, 0, 0, 0};
+}
+
+double zp_statics_charge(const ZpStatics *s) {
+  return s->model->parts * totals(s).charge;
+}
+
+double zp_statics_capacitance(const ZpStatics *s) {
+  const ZpActuatorDef *def = &s->model->def;
+  return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap;
+}
+
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
   const ZpModel *model = s->model;
   ZpShape shape = {.time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + model->stride};
@@ -179,6 +241,45 @@ ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
   shape.gap = s->eval.plates.gap;
   shape.line_force = line_force;
   return shape;
+}
+
+/* -- the held platform ---------------------------------------------------------------------------- */
+
+/* Its equation, instead of balance: the platform is where it is held. So a step aims there while the ribbons are
+ * laid as they turn, and nothing that misses is spread along them. */
+static bool is_held(const ZpStatics *s) {
+  return !isnan(s->opening);
+}
+
+static size_t platform_row(const ZpStatics *s) {
+  return (size_t)s->equation[2 * (s->model->count - 1) + 1];
+}
+
+/* The equation is a force for the tolerance's sake: a stiffness times the way that is left. */
+static double holding(const ZpStatics *s) {
+  static const double soft = 1e-3; /* of the stiffest: what rounding leaves of y then counts nothing */
+  const ZpModel *model = s->model;
+  return soft * (model->is_rod ? model->section.EA / model->l : model->spring.K_D);
+}
+
+static void hold_platform(ZpStatics *s, double *r) {
+  size_t row = platform_row(s);
+  s->reaction = r[row];
+  r[row] = holding(s) * (zp_statics_opening(s) - s->opening);
+}
+
+static void hold_row(const ZpStatics *s, ZpBand *K) {
+  size_t row = platform_row(s), first = row > K->lower ? row - K->lower : 0;
+  for (size_t j = first; j < s->n && j <= row + K->upper; j++)
+    *zp_band_at(K, row, j) = 0;
+  *zp_band_at(K, row, row) = holding(s);
+}
+
+/* Symmetric again, with the same eigenvalues: how the forces on the others go with what does not move. */
+static void hold_column(const ZpStatics *s, ZpBand *K) {
+  size_t row = platform_row(s), first = row > K->upper ? row - K->upper : 0;
+  for (size_t i = first; i < s->n && i <= row + K->lower; i++)
+    if (i != row) *zp_band_at(K, i, row) = 0;
 }
 
 /* -- residual ------------------------------------------------------------------------------------- */
@@ -205,6 +306,7 @@ static double residual(void *self, double *r) {
     int row = s->equation[k];
     if (row >= 0) r[row] += s->force[k / 2 + (k % 2) * stride];
   }
+  if (is_held(s)) hold_platform(s, r);
   double largest = 0;
   for (size_t i = 0; i < s->n; i++)
     if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
@@ -274,12 +376,8 @@ static void add_stations(const ZpStatics *s, ZpBand *K) {
   }
 }
 
-static void stiffness(void *self, ZpBand *K) {
-  ZpStatics *s = self;
+static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
-  zp_band_clear(K);
-  add_mechanics(s, K);
-  if (!model->field) return;
   if (s->contact_acts) {
     zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, s->own, s->next);
     add_stations(s, K);
@@ -291,6 +389,14 @@ static void stiffness(void *self, ZpBand *K) {
     add_along(s, K, i, i, s->along0[i]);
     add_along(s, K, i, i + 1, s->along1[i]);
   }
+}
+
+static void stiffness(void *self, ZpBand *K) {
+  ZpStatics *s = self;
+  zp_band_clear(K);
+  add_mechanics(s, K);
+  if (s->model->field) add_faces(s, K);
+  if (is_held(s)) hold_row(s, K);
 }
 
 /* -- moving --------------------------------------------------------------------------------------- */
@@ -479,6 +585,7 @@ bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
   system.residual(s, work->r);
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
   system.stiffness(s, &work->K);
+  if (is_held(s)) hold_column(s, &work->K);
   if (s->model->is_rod) return zp_band_negative_pivots(&work->K, work->LDL) == 0;
   bool negative; /* the shear law's stiffness is not symmetric: its determinant changes sign at a limit point */
   return zp_band_factor(&work->K, &negative) && !negative;

@@ -1,5 +1,5 @@
 /* An actuator at rest as a static system: equations numbered, forces, exact stiffness, and how to move.
- * Contact is unilateral; the clip is joined. */
+ * Contact is unilateral; the clip is joined. The lower platform hangs free or is held at an opening. */
 #ifndef ZP_REST_STATICS_H
 #define ZP_REST_STATICS_H
 
@@ -17,6 +17,8 @@ typedef struct ZpStatics {
   double U;            /* V */
   double load;         /* mass hung on the actuator, kg; starts as load.mass */
   double weight_share; /* of all weight that acts: 1, less on the way to a heavy load */
+  double opening;      /* at which the lower platform is held, m; NAN: it hangs free */
+  double reaction;     /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts;   /* faces push on each other; without, they may pass (to find a start) */
   int *equation;       /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
   size_t n, bandwidth;
@@ -56,6 +58,10 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
 /* From the hanging equilibrium up to `voltage` on the branch that hangs. False if that ends before, at the pull-in. */
 bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
+/* Hold the lower platform of two ribbons at `opening` (below 2 L), without load and voltage, ever after; from the
+ * straight shape to the equilibrium there. */
+ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
+
 /* From the straight shape to the equilibrium at `voltage` with all faces closed. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
@@ -64,6 +70,10 @@ ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
 size_t zp_statics_front(const ZpStatics *statics);
+
+/* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */
+double zp_statics_charge(const ZpStatics *statics);
+double zp_statics_capacitance(const ZpStatics *statics);
 
 /* The present shape, `time` being any mark; valid until the point moves. `line_force` [N] is filled. */
 ZpShape zp_statics_shape(const ZpStatics *statics, double time, double *line_force);

@@ -123,7 +123,7 @@ bool zp_branch_advance(ZpBranch *b) {
     double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
     int corrections = try_step(b, s);
     if (corrections >= 0 && find_direction(b) > sharpest_turn) {
-      b->step = s;
+      b->step = b->taken = s;
       if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
       if (corrections > 2 * EASY_CORRECTIONS) b->step = 0.5 * s;
       return true;
@@ -140,17 +140,21 @@ double zp_branch_limit(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
   size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double after_m = b->direction_m, step = b->step, s = step;
+  double after_m = b->direction_m, s = 0.5 * b->taken, gone = 0;
   sys->save(self, b->saved);
   memcpy(b->direction_after, b->direction, bytes);
   sys->restore(self, b->saved_before);
   find_direction(b);
-  /* walk towards the limit point in steps that halve whenever one would pass it; m is flat there, so its
-   * error falls with the square of the last step */
-  for (int k = 0; s > 1e-4 * step && k < 1000; k++) {
+  /* walk towards the limit point in steps that halve whenever one would pass it, no further than the last step went:
+   * there may be more limit points beyond; m is flat there, so its error falls with the square of the last step */
+  while (s > 1e-4 * b->taken) {
     double sign = b->direction_m;
     sys->save(self, b->saved_before);
-    if (try_step(b, s) >= 0 && find_direction(b) > 0 && b->direction_m * sign > 0) continue;
+    bool within = gone + s < b->taken;
+    if (within && try_step(b, s) >= 0 && find_direction(b) > 0 && b->direction_m * sign > 0) {
+      gone += s;
+      continue;
+    }
     sys->restore(self, b->saved_before);
     find_direction(b);
     s *= 0.5;

@@ -24,6 +24,7 @@ typedef struct ZpBranch {
   double *a, *b, *q, *q_start, *direction, *direction_saved, *direction_after; /* [n] */
   double direction_m; /* part of the direction along m: its sign changes at a limit point */
   double step;        /* arc length to try next */
+  double taken;       /* arc length of the last step */
   double longest_step;
   double longest_m_step; /* of m_scale, so that a branch along which little moves is not left with few points */
   double tolerance;

@@ -55,12 +55,8 @@ static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
 }
 
 static void warn(const ZpModel *model, const ZpActuatorDef *def, ZpResult *result) {
-  ZpModelInfo info = zp_model_info(model);
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON) return;
-  if (info.closed_insulator_field > def->insulator.breakdown_field)
-    zp_result_warn(
-        result, "the insulator's field reaches %.3g MV/m where the faces touch, above its breakdown field of %.3g MV/m",
-        info.closed_insulator_field / 1e6, def->insulator.breakdown_field / 1e6);
+  zp_result_warn_insulator(result, model);
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_warn(result, "zip times hold no drag of the liquid, which is not modelled: they are no prediction");
 }

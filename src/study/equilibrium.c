@@ -61,15 +61,12 @@ static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
   ZpStatics *s = &f->statics;
   bool stable = zp_statics_stable(s, &f->branch.newton);
-  ZpPlatesTotals totals = {0, 0, 0, 0};
-  if (model->field) totals = zp_plates_totals(&model->plates, &s->eval.plates, s->U);
-  double area = ZP_EPS0 * model->def.medium.permittivity * model->def.ribbon.width;
   double row[COLUMNS] = {s->U,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
                          (double)zp_statics_front(s) * model->l,
-                         model->parts * totals.charge,
-                         model->parts * area * totals.inverse_gap,
+                         zp_statics_charge(s),
+                         zp_statics_capacitance(s),
                          stable,
                          branch};
   bool last = s->U == model->def.drive.voltage && f->points > 0;

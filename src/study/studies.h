@@ -15,6 +15,9 @@ ZpStatus zp_study_stationary(const ZpActuatorDef *def, const ZpHooks *hooks, ZpR
 /* All states of rest up to drive.voltage. */
 ZpStatus zp_study_equilibrium(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
 
+/* The platform held at isometric.separation, the voltage raised to drive.voltage. */
+ZpStatus zp_study_isometric(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+
 /* Frequencies and mode shapes about the loaded equilibrium. */
 ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
 
@@ -22,5 +25,8 @@ ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult
 void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 __attribute__((format(printf, 2, 3))) void zp_result_warn(ZpResult *result, const char *format, ...);
+
+/* Warn where closed faces' insulator would break down at drive.voltage. */
+void zp_result_warn_insulator(ZpResult *result, const ZpModel *model);
 
 #endif

@@ -24,6 +24,9 @@ ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *
   case ZP_STUDY_MODES:
     status = zp_study_modes(def, hooks, result, err);
     break;
+  case ZP_STUDY_ISOMETRIC:
+    status = zp_study_isometric(def, hooks, result, err);
+    break;
   case ZP_STUDY_CALIBRATE: /* needs a file */
     status = zp_fail(err, ZP_BAD_INPUT, "study = calibrate: run by zp_data_study_run of zipact/calibrate.h");
     break;
@@ -66,4 +69,12 @@ void zp_result_warn(ZpResult *result, const char *format, ...) {
   va_start(args, format);
   vsnprintf(result->warning[result->warnings++], sizeof result->warning[0], format, args);
   va_end(args);
+}
+
+void zp_result_warn_insulator(ZpResult *result, const ZpModel *model) {
+  double field = zp_model_info(model).closed_insulator_field, most = zp_model_def(model)->insulator.breakdown_field;
+  if (field > most)
+    zp_result_warn(
+        result, "the insulator's field reaches %.3g MV/m where the faces touch, above its breakdown field of %.3g MV/m",
+        field / 1e6, most / 1e6);
 }

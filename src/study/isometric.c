@@ -1,0 +1,288 @@
+/* Study `isometric`: the platform is held at isometric.separation and the voltage raised from 0 to drive.voltage; the
+ * ribbons zip until at rest. What force does it take to hold the platform?
+ *
+ * The state at a voltage is the first one there on the branch of equilibria that starts from the unpowered shape.
+ * While that branch rises, this is the state that a slowly rising voltage leads to. Where it turns back (a limit
+ * point), the state jumps; the branch is followed through the turn until it is stable and above the voltage of the
+ * turn again: there the jump lands. Theory, section 13. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "rest/statics.h"
+#include "study/studies.h"
+
+static const ZpColumn columns[] = {
+    {"voltage_V", "V", "potential difference of the electrodes"},
+    {"force_N", "N", "what the voltage adds to the load that would just hold the platform there"},
+    {"zipped_length_m", "m", "closed length from the clip, one half"},
+    {"charge_C", "C", "charge on the electrodes"},
+    {"capacitance_F", "F", "capacitance of the electrodes"},
+    {"stable", "1", "1: comes back when pushed, 0: does not"},
+    {"passed", "1", "1: a rising voltage leads through it, 0: it is jumped over"},
+};
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000, MOST_BEYOND = 2000 };
+
+/* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
+static const double first_step = 0.01, longest_step = 0.1;
+
+/* Other states at drive.voltage are looked for where the branch comes back from up to this times it. */
+static const double look_beyond = 1.25;
+
+typedef struct Holder {
+  const ZpModel *model;
+  const ZpHooks *hooks;
+  ZpResult *result;
+  ZpStatics statics;
+  ZpBranch branch;
+  ZpBranchSystem system;
+  void *memory;
+  void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
+  bool rising;         /* before the last step */
+  double *line_force;
+  double unpowered; /* holds the platform without voltage, N, whole actuator */
+  double highest;   /* voltage that the branch has come to, V */
+  double force;     /* at the last state that was passed, N */
+  double leap;      /* the largest change of force in a jump, N */
+  int jumps, points;
+  int others; /* more stable states at drive.voltage; the force of the last, N */
+  double other_force;
+  ZpOutcome outcome;
+} Holder;
+
+static bool allocate(Holder *h) {
+  if (!zp_statics_create(h->model, &h->statics)) return false;
+  h->system = zp_statics_branch(&h->statics, ZP_ALONG_VOLTAGE);
+  ZpCarver carver = {NULL, 0};
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass) {
+      h->memory = zp_calloc(1, carver.used);
+      carver = (ZpCarver){h->memory, 0};
+      if (!h->memory) return false;
+    }
+    zp_branch_carve(&h->branch, &h->system, h->statics.bandwidth, &carver);
+    h->before = zp_carve(&carver, h->system.save_size / sizeof(double));
+    h->near = zp_carve(&carver, h->system.save_size / sizeof(double));
+    h->line_force = zp_carve(&carver, h->model->nodes);
+  }
+  return true;
+}
+
+/* Whole actuator, N. */
+static double force(const Holder *h) {
+  return h->model->parts * h->statics.reaction - h->unpowered;
+}
+
+static double zipped_length(const Holder *h) {
+  return (double)zp_statics_front(&h->statics) * h->model->l;
+}
+
+static bool is_stable(Holder *h) {
+  return zp_statics_stable(&h->statics, &h->branch.newton);
+}
+
+static void record(Holder *h, bool passed, bool last) {
+  ZpStatics *s = &h->statics;
+  bool stable = is_stable(h);
+  double row[COLUMNS] = {s->U,   force(h), zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s),
+                         stable, passed};
+  ZpShape shape = zp_statics_shape(s, h->points++, h->line_force);
+  zp_table_offer(h->result->series, row);
+  zp_shapes_offer(h->result->shapes, &shape);
+  if (!last) return;
+  zp_table_keep_last(h->result->series, row);
+  zp_shapes_keep_last(h->result->shapes, &shape);
+}
+
+static bool asked_to_stop(const Holder *h) {
+  const ZpHooks *hooks = h->hooks;
+  double fraction = fmax(h->statics.U, 0) / h->model->def.drive.voltage;
+  return hooks && hooks->progress && hooks->progress(hooks->user, "raising the voltage", fmin(fraction, 1));
+}
+
+/* The present point is one that a rising voltage leads to: has it jumped there? */
+static void pass(Holder *h, bool jumped) {
+  double now = force(h);
+  if (jumped) {
+    h->jumps++;
+    if (fabs(now - h->force) > fabs(h->leap)) h->leap = now - h->force;
+  }
+  h->force = now;
+  h->highest = h->statics.U;
+}
+
+/* After a step of the branch: where has it come to? */
+static void look_at(Holder *h, double direction, bool *turned) {
+  if (direction > 0 && h->branch.direction_m < 0) {
+    *turned = true;
+    h->highest = fmax(h->highest, zp_branch_limit(&h->branch));
+  }
+  if (h->statics.U <= h->highest || !is_stable(h)) return;
+  pass(h, *turned);
+  *turned = false;
+}
+
+/* Follow the branch until it has come to drive.voltage within its last step. => false if it is lost on the way, or
+ * does not come there. */
+static bool follow(Holder *h) {
+  double top = h->model->def.drive.voltage;
+  ZpStatics *s = &h->statics;
+  bool turned = false;
+  if (!zp_branch_start(&h->branch, true, first_step, longest_step, 2 * zp_statics_tolerance(s))) return false;
+  for (int k = 0; k < MOST_POINTS; k++) {
+    double direction = h->branch.direction_m;
+    h->rising = direction > 0;
+    h->system.save(s, h->before);
+    if (!zp_branch_advance(&h->branch) || s->U < 0) return false;
+    look_at(h, direction, &turned);
+    if (fmax(h->highest, s->U) > top) {
+      h->system.save(s, h->near);
+      if (s->U < top) memcpy(h->near, h->before, h->system.save_size); /* come there and turned back within this step */
+      return true;
+    }
+    record(h, s->U == h->highest, false);
+    if (!asked_to_stop(h)) continue;
+    h->outcome = ZP_INTERRUPTED;
+    return true;
+  }
+  return false;
+}
+
+/* The state at drive.voltage from the present point near it. */
+static bool settle(Holder *h, ZpNewtonInfo *info) {
+  enum { MOST = 30 };
+  ZpStaticSystem system = zp_statics_system(&h->statics);
+  int iterations = info->iterations;
+  h->statics.U = h->model->def.drive.voltage;
+  *info = zp_newton(&system, zp_statics_tolerance(&h->statics), MOST, &h->branch.newton);
+  info->iterations += iterations;
+  return zp_newton_good(info->end) && is_stable(h);
+}
+
+/* Where that fails, limit points are near: the branch's last step again in shorter and shorter ones. */
+static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
+  enum { LEVELS = 4, FINER = 8 };
+  ZpStatics *s = &h->statics;
+  double step = taken;
+  for (int level = 0, most = 4 * FINER; level < LEVELS; level++, most *= FINER) {
+    step /= FINER;
+    h->system.restore(s, h->before);
+    if (!zp_branch_start(&h->branch, h->rising, step, step, 2 * zp_statics_tolerance(s))) return false;
+    for (int k = 0; k < most && s->U < h->model->def.drive.voltage; k++)
+      if (!zp_branch_advance(&h->branch)) return false;
+    if (settle(h, info)) return true;
+  }
+  return false;
+}
+
+/* Further along the branch: other stable states at drive.voltage. */
+static void count_others(Holder *h) {
+  double top = h->model->def.drive.voltage;
+  ZpStatics *s = &h->statics;
+  for (int k = 0; k < MOST_BEYOND; k++) {
+    bool below = s->U < top;
+    if (!zp_branch_advance(&h->branch) || s->U < 0 || s->U > look_beyond * top) return;
+    if (!below || s->U < top || !is_stable(h)) continue;
+    h->others++;
+    h->other_force = force(h);
+  }
+}
+
+static void summarize(Holder *h, const ZpNewtonInfo *info) {
+  ZpResult *r = h->result;
+  const ZpStatics *s = &h->statics;
+  bool found = h->outcome == ZP_CONVERGED, held = h->outcome != ZP_NOT_SETTLED;
+  zp_result_add(r, "force_N", "N", found ? force(h) : NAN);
+  zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
+  zp_result_add(r, "opening_m", "m", held ? zp_statics_opening(s) : NAN);
+  zp_result_add(r, "zipped_length_m", "m", found ? zipped_length(h) : NAN);
+  zp_result_add(r, "charge_C", "C", found ? zp_statics_charge(s) : NAN);
+  zp_result_add(r, "capacitance_F", "F", found ? zp_statics_capacitance(s) : NAN);
+  zp_result_add(r, "other_states", "count", found ? (double)h->others : (double)NAN);
+  zp_result_add(r, "jumps", "count", held ? (double)h->jumps : (double)NAN);
+  zp_result_add(r, "iterations", "count", info->iterations);
+  zp_result_add(r, "residual", "1", isfinite(info->residual) ? info->residual : NAN);
+}
+
+static void warn(Holder *h) {
+  ZpResult *r = h->result;
+  zp_result_warn_insulator(r, h->model);
+  if (h->jumps > 0)
+    zp_result_warn(
+        r,
+        "%d jumps on the way up, the largest by %.3g N: so the front passes nodes where the wedge is shorter "
+        "than an element; more mesh.nodes show whether they are real",
+        h->jumps, h->leap);
+  if (h->others > 0)
+    zp_result_warn(
+        r,
+        "%d more stable states at drive.voltage (force %.4g N at the last): reached from a higher voltage, or "
+        "by a sudden one",
+        h->others, h->other_force);
+}
+
+static void describe(Holder *h) {
+  ZpResult *r = h->result;
+  size_t size = sizeof r->message;
+  double top = h->model->def.drive.voltage;
+  if (h->outcome == ZP_NOT_SETTLED)
+    snprintf(r->message, size, "no equilibrium without voltage found at isometric.separation = %g m",
+             h->model->def.isometric.separation);
+  else if (h->outcome == ZP_INTERRUPTED)
+    snprintf(r->message, size, "interrupted at %.4g V", h->statics.U);
+  else if (h->outcome == ZP_BRANCH_LOST)
+    snprintf(r->message, size, "lost the branch at %.4g V, below drive.voltage = %g V; what was found is kept",
+             h->statics.U, top);
+  else
+    snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
+}
+
+/* From the unpowered state to the one at drive.voltage. */
+static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
+  if (!follow(h)) h->outcome = ZP_BRANCH_LOST;
+  if (h->outcome != ZP_CONVERGED) return;
+  double taken = h->branch.taken;
+  count_others(h);
+  h->system.restore(&h->statics, h->near);
+  if (settle(h, info) || settle_closer(h, taken, info))
+    record(h, true, true);
+  else
+    h->outcome = ZP_BRANCH_LOST;
+}
+
+static void run(Holder *h) {
+  ZpStatics *s = &h->statics;
+  ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->branch.newton);
+  if (zp_newton_good(info.end)) {
+    h->unpowered = h->model->parts * s->reaction;
+    record(h, true, false);
+    if (h->model->def.drive.voltage > 0) raise_voltage(h, &info);
+  } else {
+    h->outcome = ZP_NOT_SETTLED;
+  }
+  summarize(h, &info);
+  describe(h);
+  warn(h);
+  h->result->outcome = h->outcome;
+}
+
+/* What hangs there does not count: the load is taken off before anything is scaled by it. */
+ZpStatus zp_study_isometric(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  ZpActuatorDef bare = *def;
+  bare.load.mass = 0;
+  ZpModel *model;
+  ZpStatus status = zp_model_create(&bare, &model, err);
+  if (status != ZP_OK) return status;
+  Holder h = {.model = model, .hooks = hooks, .result = result, .outcome = ZP_CONVERGED};
+  result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
+  result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)def->output.shapes);
+  if (result->series && result->shapes && allocate(&h))
+    run(&h);
+  else
+    status = zp_fail_memory(err);
+  zp_free(h.memory);
+  zp_statics_destroy(&h.statics);
+  zp_model_destroy(model);
+  return status;
+}
