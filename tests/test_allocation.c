@@ -237,6 +237,17 @@ static ZpStatus run_study(ZpError *err, bool *whole) {
   return status;
 }
 
+static ZpStatus run_isometric(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  def.study = ZP_STUDY_ISOMETRIC;
+  ZpResult *result = NULL;
+  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  *whole = (result != NULL) == (status == ZP_OK);
+  if (result) *whole = result->outcome == ZP_CONVERGED && result->series && result->shapes;
+  zp_result_destroy(result);
+  return status;
+}
+
 START_TEST(core_survives_every_failure) {
   ZpActuatorDef def = short_def();
   ck_assert_int_eq(zp_model_create(&def, &shared_model, NULL), ZP_OK);
@@ -244,6 +255,7 @@ START_TEST(core_survives_every_failure) {
   ck_assert_int_ge(fail_each("zp_model_create", create_model, false), 2);
   ck_assert_int_ge(fail_each("zp_sim_create", create_sim, false), 3);
   ck_assert_int_ge(fail_each("zp_study_run", run_study, false), 8);
+  ck_assert_int_ge(fail_each("study isometric", run_isometric, false), 8);
   zp_model_destroy(shared_model);
 }
 END_TEST

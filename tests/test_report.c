@@ -579,6 +579,10 @@ START_TEST(files_of_rest) {
   check_files("s", (const char *const[]){"table.csv", "shapes.pvd", "plots/shape.svg", NULL});
   write_study("r", "stationary", "actuator.kind=ribbon");
   check_files("r", (const char *const[]){"plots/shape.svg", NULL});
+  write_study("i", "isometric", NULL);
+  check_files("i", (const char *const[]){"table.csv", "plots/force.svg", "plots/charge.svg", "plots/zipped_length.svg",
+                                         "plots/shapes.svg", "plots/animation.gif", NULL});
+  ck_assert(!exists("i/plots/stroke.svg") && !exists("e/plots/force.svg"));
   write_study("m", "modes", NULL);
   check_files("m", (const char *const[]){"table.csv", "shapes.pvd", "plots/modes.svg", NULL});
   ck_assert(!exists("m/plots/stroke.svg") && !exists("s/plots/stroke.svg") && !exists("s/plots/modes.svg"));
@@ -593,6 +597,9 @@ START_TEST(sweeps_of_rest) {
   check_files("e", (const char *const[]){"table.csv", "plots/voltages.svg", NULL});
   write_study("m", "modes", "load.mass=[8 g, 61 g]");
   check_files("m", (const char *const[]){"table.csv", "plots/frequencies.svg", NULL});
+  write_study("i", "isometric", "isometric.separation=[1 mm, 2 mm]");
+  check_files("i", (const char *const[]){"table.csv", "plots/forces.svg", NULL});
+  ck_assert(!exists("i/plots/force.svg"));
   ck_assert(!exists("s/plots/shape.svg") && !exists("e/plots/stroke.svg") && !exists("m/plots/modes.svg"));
 }
 END_TEST
@@ -613,13 +620,13 @@ static void check_numbers(const char *name) {
 }
 
 START_TEST(rest_is_the_same_each_time) {
-  const char *const study[] = {"equilibrium", "stationary", "modes"};
-  for (size_t i = 0; i < 3; i++) {
+  const char *const study[] = {"equilibrium", "stationary", "modes", "isometric"};
+  for (size_t i = 0; i < 4; i++) {
     write_study("a", study[i], NULL); /* over what the study before left there */
     write_study(study[i], study[i], NULL);
     same_files("a", study[i]);
     check_numbers("a");
-    write_study("b", study[i], "load.mass=[8 g, 61 g]");
+    write_study("b", study[i], i < 3 ? "load.mass=[8 g, 61 g]" : "drive.voltage=[0, 2 kV]");
     check_numbers("b");
   }
   write_single("a", NULL, made_up(50, 10, false, 8e3, 1), 1);

@@ -140,14 +140,14 @@ double zp_branch_limit(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
   size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double after_m = b->direction_m, s = 0.5 * b->taken, gone = 0;
+  double after_m = b->direction_m, step = b->step, s = step, gone = 0;
   sys->save(self, b->saved);
   memcpy(b->direction_after, b->direction, bytes);
   sys->restore(self, b->saved_before);
   find_direction(b);
   /* walk towards the limit point in steps that halve whenever one would pass it, no further than the last step went:
    * there may be more limit points beyond; m is flat there, so its error falls with the square of the last step */
-  while (s > 1e-4 * b->taken) {
+  while (s > 1e-4 * step) {
     double sign = b->direction_m;
     sys->save(self, b->saved_before);
     bool within = gone + s < b->taken;
