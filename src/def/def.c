@@ -314,6 +314,7 @@ static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
 }
 
 static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
+  static const double thinnest = 1e-6; /* m: then that nanometre counts 0.2 % of the force */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "actuator.kind = %s: study profile looks at the two ribbons of actuator.kind electro_ribbon",
@@ -323,6 +324,12 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
         err, ZP_BAD_INPUT,
         "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
         "the field has no bound there");
+  if (def->insulator.thickness < thinnest)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "insulator.thickness = %g m: study profile needs %g m at least, for the field's grid keeps closed faces a "
+        "nanometre apart",
+        def->insulator.thickness, thinnest);
   if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
     return def->profile.shape == ZP_PROFILE_HELD ? check_isometric(def, err) : ZP_OK;
   return zp_fail(

@@ -40,6 +40,9 @@ static const double clip_length = 5e-3;
 /* The two ways to find the force from the field should not differ by more than this. */
 static const double agreement = 5e-3;
 
+/* By how much the field may differ from the right plates law before that is said. */
+static const double valid = 0.02;
+
 typedef double Row[COLUMNS];
 
 typedef struct Profiler {
@@ -148,10 +151,15 @@ static bool by_field(const Profiler *p) {
   return p->model->def.electro.model == ZP_ELECTRO_FIELD;
 }
 
+/* The law whose cap acts. */
+static const ZpPlatesParams *law_of(const Profiler *p) {
+  return by_field(p) ? &p->true_set : &p->set;
+}
+
 static void fill_row(const Profiler *p, size_t k, double *row) {
   const ZpFieldProfile *at = &p->field.profile[k];
   double U = p->U, mean = 0.5 * (at->upper + at->lower), unit = zp_plates_law(&p->free, 1, at->gap).W;
-  const ZpPlatesParams *law = by_field(p) ? &p->true_set : &p->set;
+  const ZpPlatesParams *law = law_of(p);
   row[X] = at->x;
   row[GAP] = at->gap;
   row[PLATES] = unit * U * U;
@@ -186,42 +194,49 @@ static double largest(const Profiler *p, int column) {
 /* The cap's kink wants finer steps than the field does: this many for two intervals. */
 enum { FINER = 64 };
 
-/* Gap in the middle of step i of the parabola through three rows. */
-static double gap_within(const Row *r, int i) {
-  double u = (2 * i + 1.0) / FINER - 1;
+/* Gap at `part` (0 .. 1) of the parabola through three rows. */
+static double gap_within(const Row *r, double part) {
+  double u = 2 * part - 1;
   return 0.5 * u * (u - 1) * r[0][GAP] + (1 - u * u) * r[1][GAP] + 0.5 * u * (u + 1) * r[2][GAP];
 }
 
-/* What the cap takes off between rows from .. to, an even number of intervals, N. */
-static double taken(const Profiler *p, size_t from, size_t to) {
-  const ZpPlatesParams *set = by_field(p) ? &p->true_set : &p->set, *free = by_field(p) ? &p->true_free : &p->free;
+/* Mean of the capped law along the parabola through three rows, N/m. */
+static double capped_mean(const Profiler *p, const ZpPlatesParams *law, const Row *r) {
+  double sum = 0;
+  for (int i = 0; i <= FINER; i++)
+    sum += (i % 2 ? 4 : i == 0 || i == FINER ? 1 : 2) * zp_plates_law(law, p->U, gap_within(r, (double)i / FINER)).W;
+  return sum / (3 * FINER);
+}
+
+/* Integral of FORCE over rows from .. to. Where some is capped: of the capped law in fine steps, and of what the model
+ * differs by from the law, which is smooth. */
+static double limited_force(const Profiler *p, size_t from, size_t to) {
+  const ZpPlatesParams *law = law_of(p);
   double sum = 0;
   for (size_t k = from; k + 2 <= to; k += 2) {
     const Row *r = p->row + k;
-    if (!(fmin(r[0][GAP], r[2][GAP]) + set->d < set->h_per_volt * p->U)) continue;
-    double part = 0;
-    for (int i = 0; i < FINER; i++) {
-      double gap = gap_within(r, i);
-      part += zp_plates_law(free, p->U, gap).W - zp_plates_law(set, p->U, gap).W;
+    double part = r[0][FORCE] + 4 * r[1][FORCE] + r[2][FORCE];
+    if (r[0][CAPPED] + r[1][CAPPED] + r[2][CAPPED] > 0) {
+      part += 6 * capped_mean(p, law, r);
+      part -= zp_plates_law(law, p->U, r[0][GAP]).W + 4 * zp_plates_law(law, p->U, r[1][GAP]).W +
+              zp_plates_law(law, p->U, r[2][GAP]).W;
     }
-    sum += part * (r[2][X] - r[0][X]) / FINER;
+    sum += (r[2][X] - r[0][X]) / 6 * part;
   }
   return sum;
 }
 
-/* Length of the flexible part where the gap is below that at which breakdown sets in. */
+/* Length of the flexible part where breakdown limits the force; gaps are straight within a fine step. */
 static double capped_length(const Profiler *p) {
-  const ZpPlatesParams *law = by_field(p) ? &p->true_set : &p->set;
+  const ZpPlatesParams *law = law_of(p);
   double limit = law->h_per_volt * p->U - law->d, length = 0;
   for (size_t k = 0; k + 2 <= p->last; k += 2) {
     const Row *r = p->row + k;
-    double step = (r[2][X] - r[0][X]) / FINER, before = r[0][GAP] - limit;
-    for (int i = 0; i < FINER; i++) { /* to the middle of step i, at last to the end; straight between */
-      double after = (i + 1 < FINER ? gap_within(r, i) : r[2][GAP]) - limit;
-      double low = fmin(before, after), high = fmax(before, after);
-      double part = high < 0 ? 1 : low < 0 ? low / (low - high) : 0;
-      length += part * step * (i == 0 ? 0.5 : i + 1 < FINER ? 1 : 1.5);
-      before = after;
+    double step = (r[2][X] - r[0][X]) / FINER;
+    for (int i = 0; i < FINER; i++) {
+      double a = gap_within(r, (double)i / FINER) - limit, b = gap_within(r, (i + 1.0) / FINER) - limit;
+      double low = fmin(a, b), high = fmax(a, b);
+      length += high < 0 ? step : low < 0 ? step * low / (low - high) : 0;
     }
   }
   return length;
@@ -249,14 +264,14 @@ static double difference(const Profiler *p) {
   return (t->upper_work + t->lower_work) / traction - 1;
 }
 
-/* Total force on the flexible part, field over plates law as set, without cap; the voltage cancels. */
-static double scale_factor(const Profiler *p) {
+/* Total force on the flexible part, field over a plates law without cap; the voltage cancels. */
+static double field_over(const Profiler *p, const ZpPlatesParams *law) {
   double plates = 0;
   for (size_t k = 0; k + 2 <= p->last; k += 2) {
     const ZpFieldProfile *at = p->field.profile + k;
     plates += (at[2].x - at[0].x) / 6 *
-              (zp_plates_law(&p->free, 1, at[0].gap).W + 4 * zp_plates_law(&p->free, 1, at[1].gap).W +
-               zp_plates_law(&p->free, 1, at[2].gap).W);
+              (zp_plates_law(law, 1, at[0].gap).W + 4 * zp_plates_law(law, 1, at[1].gap).W +
+               zp_plates_law(law, 1, at[2].gap).W);
   }
   return plates > 0 ? 0.5 * (p->totals.upper + p->totals.lower) / plates : (double)NAN;
 }
@@ -265,16 +280,15 @@ static void summarize(const Profiler *p) {
   ZpResult *r = p->result;
   const ZpFieldTotals *t = &p->totals;
   size_t end = p->rows - 1;
-  int model = by_field(p) ? FIELD : PLATES;
-  double U2 = p->U * p->U, force = integrate(p, model, 0, p->last);
-  zp_result_add(r, "force_N", "N", force - taken(p, 0, p->last));
-  zp_result_add(r, "platform_force_N", "N", integrate(p, model, p->last, end) - taken(p, p->last, end));
-  zp_result_add(r, "force_uncapped_N", "N", force);
+  double U2 = p->U * p->U;
+  zp_result_add(r, "force_N", "N", limited_force(p, 0, p->last));
+  zp_result_add(r, "platform_force_N", "N", limited_force(p, p->last, end));
+  zp_result_add(r, "force_uncapped_N", "N", integrate(p, by_field(p) ? FIELD : PLATES, 0, p->last));
   zp_result_add(r, "plates_force_N", "N", integrate(p, PLATES, 0, p->last));
   zp_result_add(r, "field_force_N", "N", integrate(p, FIELD, 0, p->last));
   zp_result_add(r, "virtual_work_force_N", "N", 0.5 * (t->upper_work + t->lower_work) * U2);
   zp_result_add(r, "virtual_work_difference", "1", difference(p));
-  zp_result_add(r, "scale_factor", "1", scale_factor(p));
+  zp_result_add(r, "scale_factor", "1", field_over(p, &p->free));
   zp_result_add(r, "max_field_V_per_m", "V/m", largest(p, LIQUID));
   zp_result_add(r, "insulator_field_V_per_m", "V/m", largest(p, INSULATOR));
   zp_result_add(r, "capped_length_m", "m", capped_length(p));
@@ -297,6 +311,7 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
 static void warn(const Profiler *p) {
   const ZpActuatorDef *def = &p->model->def;
   double insulator = largest(p, INSULATOR), liquid = largest(p, LIQUID), off = difference(p);
+  double local = field_over(p, &p->true_free) - 1;
   if (insulator > def->insulator.breakdown_field)
     zp_result_warn(p->result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
                    insulator / 1e6, def->insulator.breakdown_field / 1e6);
@@ -305,6 +320,12 @@ static void warn(const Profiler *p) {
                    "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
                    "electro.breakdown_cap is false: the force is not limited",
                    liquid / 1e6, def->medium.breakdown_field / 1e6);
+  if (fabs(local) > valid)
+    zp_result_warn(
+        p->result,
+        "the field pulls with %.3g times what any local plates law gives: the faces are too steep or too far "
+        "apart for it",
+        1 + local);
   if (fabs(off) > agreement)
     zp_result_warn(p->result,
                    "force by traction and by virtual work differ by %.2g %%: too steep a wedge for the field's grid",
@@ -321,7 +342,9 @@ typedef struct Window {
 static Window window_of(const Profiler *p) {
   const ZpGrid *g = &p->field.grid;
   const double *x = g->x, *y = g->y + p->field.first * g->ny;
-  double margin = 0.25 * p->model->L, middle = y[g->ny / 2], edge = x[g->ny / 2] - p->params.clip - margin;
+  double opening = p->model->def.isometric.separation;
+  double margin = fmax(0.25 * p->model->L, 0.65 * opening) + p->params.t + p->params.b;
+  double middle = y[g->ny / 2], edge = x[g->ny / 2] - p->params.clip - margin;
   Window w = {0, g->nx - 1, 0, g->ny - 1};
   while (w.left + 1 < p->field.first && x[(w.left + 1) * g->ny + g->ny / 2] < edge)
     w.left++;
@@ -383,8 +406,9 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   summarize(p);
   warn(p);
   r->outcome = ZP_CONVERGED;
-  snprintf(r->message, sizeof r->message, "%g V attract a ribbon of one half with %.4g N; field over plates law %.5g",
-           p->U, zp_result_get(r, "force_N"), zp_result_get(r, "scale_factor"));
+  snprintf(r->message, sizeof r->message,
+           "%g V attract a ribbon of one half with %.4g N; by the field without cap %.4g N", p->U,
+           zp_result_get(r, "force_N"), zp_result_get(r, "field_force_N"));
   if (!make_map(p)) return zp_fail_memory(err);
   return p->model->def.profile.paper_factor ? keep_the_papers_books(p, err) : ZP_OK;
 }
