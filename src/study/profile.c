@@ -341,12 +341,11 @@ typedef struct Window {
 
 static Window window_of(const Profiler *p) {
   const ZpGrid *g = &p->field.grid;
-  const double *x = g->x, *y = g->y + p->field.first * g->ny;
-  double opening = p->model->def.isometric.separation;
+  const double *y = g->y + p->field.first * g->ny, opening = p->model->def.isometric.separation;
   double margin = fmax(0.25 * p->model->L, 0.65 * opening) + p->params.t + p->params.b;
-  double middle = y[g->ny / 2], edge = x[g->ny / 2] - p->params.clip - margin;
+  double middle = y[g->ny / 2], edge = -p->params.clip - margin;
   Window w = {0, g->nx - 1, 0, g->ny - 1};
-  while (w.left + 1 < p->field.first && x[(w.left + 1) * g->ny + g->ny / 2] < edge)
+  while (w.left + 1 < p->field.first && g->x[(w.left + 1) * g->ny + g->ny / 2] < edge)
     w.left++;
   while (y[w.bottom + 1] < middle - margin)
     w.bottom++;
