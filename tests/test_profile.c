@@ -425,6 +425,36 @@ START_TEST(test_refusals) {
 }
 END_TEST
 
+/* -- every key at its bounds ----------------------------------------------------------------------- */
+
+static void try_out(const ZpActuatorDef *def, const char *what) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ZpStatus status = zp_study_run(def, NULL, &result, &err);
+  ck_assert_msg(status == ZP_OK || status == ZP_BAD_INPUT, "%s: %s", what, err.message);
+  ck_assert_msg(status == ZP_OK || *err.message, "%s: no message", what);
+  for (size_t k = 0; result && k < result->scalars; k++)
+    ck_assert_msg(!isinf(result->scalar[k].value), "%s: %s is not finite", what, result->scalar[k].name);
+  for (size_t k = 0; result && k < result->series->rows * result->series->columns; k++)
+    ck_assert_msg(!isinf(result->series->value[k]), "%s: number %zu of the table is not finite", what, k);
+  zp_result_destroy(result);
+}
+
+/* It ends, with numbers or a reason, wherever a key stands. */
+START_TEST(test_ends_at_the_bounds) {
+  const ZpKey *key = zp_key(_i);
+  if (key->type == ZP_KEY_TEXT || strcmp(key->name, "study") == 0) return;
+  for (int shape = ZP_PROFILE_HELD; shape <= ZP_PROFILE_CUBIC; shape++)
+    for (int high = 0; high < 2; high++) {
+      char what[128];
+      ZpActuatorDef def = DEF({"study", ZP_STUDY_PROFILE}, {"profile.shape", shape});
+      snprintf(what, sizeof what, "%s = %g", key->name, high ? key->max : key->min);
+      ck_assert_int_eq(zp_def_set(&def, _i, high ? key->max : key->min, NULL), ZP_OK);
+      try_out(&def, what);
+    }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("profile");
   TCase *tests = tcase_create("profile");
@@ -443,6 +473,7 @@ int main(void) {
   tcase_add_test(tests, test_platform);
   tcase_add_test(tests, test_map);
   tcase_add_test(tests, test_refusals);
+  tcase_add_loop_test(tests, test_ends_at_the_bounds, 0, zp_key_count());
   tcase_set_timeout(tests, 120);
   suite_add_tcase(suite, tests);
   return run_suite(suite);

@@ -304,7 +304,7 @@ static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = %s: study %s holds the platform of actuator.kind electro_ribbon",
-                   word_of("actuator.kind", def->actuator.kind), word_of("study", def->study));
+                   word_of("actuator.kind", (int)def->actuator.kind), word_of("study", (int)def->study));
   double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
   if (separation > longest)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -318,7 +318,7 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "actuator.kind = %s: study profile looks at the two ribbons of actuator.kind electro_ribbon",
-                   word_of("actuator.kind", def->actuator.kind));
+                   word_of("actuator.kind", (int)def->actuator.kind));
   if (def->insulator.thickness == 0)
     return zp_fail(
         err, ZP_BAD_INPUT,

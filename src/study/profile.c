@@ -37,6 +37,9 @@ enum { STATIONS = 121 };
 /* How long the closed clip is, m. What it is ends up in no force: its field decays within some gaps. */
 static const double clip_length = 5e-3;
 
+/* Gaps below this are none, m. */
+static const double rounding = 1e-15;
+
 /* The two ways to find the force from the field should not differ by more than this. */
 static const double agreement = 5e-3;
 
@@ -161,7 +164,7 @@ static void fill_row(const Profiler *p, size_t k, double *row) {
   double U = p->U, mean = 0.5 * (at->upper + at->lower), unit = zp_plates_law(&p->free, 1, at->gap).W;
   const ZpPlatesParams *law = law_of(p);
   row[X] = at->x;
-  row[GAP] = at->gap;
+  row[GAP] = fabs(at->gap) > rounding ? at->gap : 0;
   row[PLATES] = unit * U * U;
   row[FIELD] = mean * U * U;
   row[UPPER] = at->upper * U * U;
@@ -388,15 +391,16 @@ static ZpStatus refuse(const Profiler *p, ZpFieldEnd end, ZpError *err) {
                  p->model->def.isometric.separation, zp_field_words(end), p->params.b);
 }
 
-static ZpStatus solve(Profiler *p, ZpError *err) {
+/* => how the field ended; once solved, profile and totals. */
+static ZpFieldEnd solve(Profiler *p) {
   ZpFieldEnd end = zp_field_check(&p->params, &p->faces);
   if (end == ZP_FIELD_SOLVED) end = zp_field_solve(&p->field, &p->faces);
-  if (end != ZP_FIELD_SOLVED) return refuse(p, end, err);
+  if (end != ZP_FIELD_SOLVED) return end;
   zp_field_profile(&p->field);
   p->totals = zp_field_totals(&p->field);
   for (size_t k = 0; k < p->rows; k++)
     fill_row(p, k, p->row[k]);
-  return ZP_OK;
+  return end;
 }
 
 static ZpStatus report(Profiler *p, ZpError *err) {
@@ -412,6 +416,13 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   return p->model->def.profile.paper_factor ? keep_the_papers_books(p, err) : ZP_OK;
 }
 
+static ZpStatus end_badly(const Profiler *p, ZpOutcome outcome, const char *why) {
+  p->result->outcome = outcome;
+  snprintf(p->result->message, sizeof p->result->message, "%s at isometric.separation = %g m", why,
+           p->model->def.isometric.separation);
+  return ZP_OK;
+}
+
 static ZpStatus run(Profiler *p, ZpError *err) {
   ZpResult *r = p->result;
   bool found = false;
@@ -420,14 +431,10 @@ static ZpStatus run(Profiler *p, ZpError *err) {
   r->shapes = zp_shapes_create(2, STATIONS, 2);
   if (!r->series || !r->shapes || !find_shape(p, &found)) return zp_fail_memory(err);
   find_laws(p);
-  if (!found) {
-    r->outcome = ZP_NOT_SETTLED;
-    snprintf(r->message, sizeof r->message, "no equilibrium without voltage found at isometric.separation = %g m",
-             p->model->def.isometric.separation);
-    return ZP_OK;
-  }
-  ZpStatus status = solve(p, err);
-  return status == ZP_OK ? report(p, err) : status;
+  if (!found) return end_badly(p, ZP_NOT_SETTLED, "no equilibrium without voltage found");
+  ZpFieldEnd end = solve(p);
+  if (end == ZP_FIELD_SINGULAR) return end_badly(p, ZP_DIVERGED, zp_field_words(end));
+  return end == ZP_FIELD_SOLVED ? report(p, err) : refuse(p, end, err);
 }
 
 /* As in study isometric, what hangs there does not count. */
