@@ -1,6 +1,6 @@
 /* Prints numbers of the core as the bits that they are, for tests/bits.sh to compare between compilers and
- * optimisations: runs on both surfaces and of the one ribbon, and single evaluations of the kernels on states
- * that no run would choose. Small, because -O0 is slow. */
+ * optimisations: runs on both surfaces and of the one ribbon, single evaluations of the kernels on states
+ * that no run would choose, a matrix factored. Small, because -O0 is slow. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -11,6 +11,7 @@
 #include <zipact/zipact.h>
 
 #include "actuator/eval.h"
+#include "math/skyline.h"
 
 /* A NAN has many bit patterns, all of which mean the same. */
 static void put(double value) {
@@ -157,8 +158,36 @@ static void print_kernels(void) {
   }
 }
 
+/* A ragged skyline, its factor and solutions. */
+static void print_skyline(void) {
+  enum { N = 75 };
+  size_t first[N];
+  double b[N], lanes[(N + ZP_LANES) * ZP_LANES];
+  uint64_t seed = 1;
+  for (size_t i = 0; i < N; i++)
+    first[i] = (size_t)((double)i * (0.5 + 0.5 * next_random(&seed)));
+  ZpSkyline s;
+  if (!zp_skyline_create(&s, N, first)) exit(1);
+  for (size_t i = 0; i < N; i++) {
+    for (size_t j = first[i]; j < i; j++)
+      *zp_skyline_at(&s, i, j) = next_random(&seed);
+    *zp_skyline_at(&s, i, i) = N;
+    b[i] = next_random(&seed);
+    for (size_t side = 0; side < ZP_LANES; side++)
+      lanes[i * ZP_LANES + side] = next_random(&seed);
+  }
+  if (!zp_skyline_factor(&s)) exit(1);
+  zp_skyline_solve(&s, b);
+  zp_skyline_solve_lanes(&s, lanes);
+  put_array("skyline", s.a, s.tiles * ZP_LANES * ZP_LANES);
+  put_array("skyline, solved", b, N);
+  put_array("skyline, sides", lanes, N * ZP_LANES);
+  zp_skyline_destroy(&s);
+}
+
 int main(void) {
   print_kernels();
+  print_skyline();
   print_studies();
   return 0;
 }

@@ -24,6 +24,8 @@
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
+#include "math/skyline.h"
+
 /* -- the wrappers ---------------------------------------------------------------------------------- */
 
 enum { MOST_BLOCKS = 65536 };
@@ -287,6 +289,21 @@ static ZpStatus create_table(ZpError *err, bool *whole) {
 
 START_TEST(tables_survive_every_failure) {
   ck_assert_int_eq(fail_each("zp_table_create, zp_shapes_create", create_table, false), 4);
+}
+END_TEST
+
+static ZpStatus create_skyline(ZpError *err, bool *whole) {
+  static const size_t first[] = {0, 0, 1, 0, 3, 2, 5, 5, 1, 9, 8};
+  ZpSkyline s;
+  ZpStatus status = zp_skyline_create(&s, sizeof first / sizeof first[0], first) ? ZP_OK : ZP_MACHINE;
+  if (status != ZP_OK) *err = (ZpError){ZP_MACHINE, "false"};
+  *whole = (s.a && s.block) == (status == ZP_OK);
+  if (status == ZP_OK) zp_skyline_destroy(&s);
+  return status;
+}
+
+START_TEST(skyline_survives_every_failure) {
+  ck_assert_int_eq(fail_each("zp_skyline_create", create_skyline, false), 2);
 }
 END_TEST
 
@@ -678,6 +695,7 @@ int main(void) {
   TCase *core = tcase_create("core"), *files = tcase_create("files");
   tcase_add_test(core, core_survives_every_failure);
   tcase_add_test(core, tables_survive_every_failure);
+  tcase_add_test(core, skyline_survives_every_failure);
   tcase_add_test(core, steps_allocate_nothing);
   tcase_add_test(core, zipping_allocates_nothing);
   tcase_add_test(core, bezier_steps_allocate_nothing);

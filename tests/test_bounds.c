@@ -134,7 +134,6 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "ribbon.length") == 0 && value < 0.01) def->platform.length = 0.5 * value;
   bool rests = strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_FLANGE;
   if (rests || (strcmp(key, "ribbon.density") == 0 && value == 0)) def->study = ZP_STUDY_STATIONARY;
-  if (strcmp(key, "electro.model") == 0 && value == ZP_ELECTRO_FIELD) def->study = ZP_STUDY_PROFILE;
   if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length") && value > 0) {
     def->actuator.kind = ZP_KIND_RIBBON;
     def->ribbon.length = value;

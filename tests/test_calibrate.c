@@ -233,6 +233,8 @@ START_TEST(bad_input_is_refused) {
   refuse_file("load_s,stroke_mm\n8,2\n", E, "calibrate.x");
   refuse_file("load_g,stroke_kg\n8,2\n", E, "calibrate.y");
   refuse_file("load_g\n8\n", E, "calibrate.y");
+  refuse_file("load_g,force_N\n8,2\n", E, "calibrate.y");
+  refuse_file("isometric.separation_mm,force_N\n2,1\n89,2\n", E, "bad.csv:3: isometric.separation = 0.089 m");
   refuse_file("load_g,stroke_mm\n-8,2\n", E, "load.mass");
   refuse_file(good, "ribbon.young_modulos", "did you mean ribbon.young_modulus?");
   refuse_file(good, "ribbon.model", "ribbon.model");
@@ -331,6 +333,37 @@ START_TEST(force_against_stroke) {
 }
 END_TEST
 
+/* The force on a held platform against voltage and separation: the permittivity of the liquid. */
+START_TEST(held_force_data) {
+  static const double volts[] = {2000, 4000, 6000, 3000, 5000}, mm[] = {1, 2, 4, 6, 3};
+  for (int by_separation = 0; by_separation < 2; by_separation++) {
+    ZpActuatorDef def = calibration("held.csv", "medium.permittivity"), truth = def;
+    ZpResult *result;
+    truth.medium.permittivity = 2.2;
+    truth.study = ZP_STUDY_ISOMETRIC;
+    FILE *file = fopen("held.csv", "w");
+    fputs(by_separation ? "isometric.separation_mm,force_mN,voltage_kV\n"
+                        : "voltage_kV,force_mN,isometric.separation_mm\n",
+          file);
+    for (size_t i = 0; i < 5; i++) {
+      truth.drive.voltage = volts[i];
+      truth.isometric.separation = 1e-3 * mm[i];
+      ck_assert_int_eq(zp_data_study_run(&truth, NULL, &result, NULL), ZP_OK);
+      double mN = 1e3 * zp_result_get(result, "force_N"), kV = 1e-3 * volts[i];
+      fprintf(file, "%.17g,%.17g,%.17g\n", by_separation ? mm[i] : kV, mN, by_separation ? kV : mm[i]);
+      zp_result_destroy(result);
+    }
+    ck_assert_int_eq(fclose(file), 0);
+    result = fit(&def);
+    assert_near(zp_result_get(result, "medium.permittivity"), 2.2, 1e-5);
+    ck_assert(zp_result_get(result, "residual_rms_N") < 1e-6);
+    ck_assert_str_eq(result->series->column[0].name, by_separation ? "isometric.separation_m" : "drive.voltage_V");
+    ck_assert_str_eq(result->series->column[1].name, "measured_N");
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
 /* A ribbon that swings, slowed by drag: the drag is found again from its stroke over time. */
 START_TEST(drag_is_found_from_a_swing) {
   ZpActuatorDef def = calibration("swing.csv", "damping.drag");
@@ -378,6 +411,7 @@ int main(void) {
   tcase_add_test(fits, table_1_of_the_paper);
   tcase_add_test(fits, rows_of_different_actuators_are_compared);
   tcase_add_test(fits, force_against_stroke);
+  tcase_add_test(fits, held_force_data);
   tcase_add_test(fits, drag_is_found_from_a_swing);
   tcase_add_test(fits, bad_input_is_refused);
   tcase_add_test(areas, area_of_known_curves);

@@ -72,6 +72,28 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .flat_height = def->electro.gap_offset};
 }
 
+/* Grid columns enough that 60 elements lie along a ribbon even where it has few nodes. */
+static size_t columns_per_edge(size_t nodes) {
+  enum { ALONG = 60 };
+  return 2 * ((ALONG + nodes - 2) / (nodes - 1));
+}
+
+static ZpFieldParams cross_section_of(const ZpModel *model) {
+  static const double clip = 5e-3; /* m: the field behind it is that of its far end, wherever that is */
+  const ZpActuatorDef *def = &model->def;
+  return (ZpFieldParams){.stations = model->nodes,
+                         .columns = columns_per_edge(model->nodes),
+                         .w = def->ribbon.width,
+                         .b = def->ribbon.thickness,
+                         .t = def->insulator.thickness,
+                         .eps_m = def->medium.permittivity,
+                         .eps_i = def->insulator.permittivity,
+                         .clip = clip,
+                         .platform = def->platform.length / 2,
+                         .electrode = def->platform.electrode,
+                         .mesh = zp_field_mesh()};
+}
+
 /* Which coordinates of node j are held, and what it weighs. */
 typedef struct Node {
   bool held_x, held_y;
@@ -215,6 +237,9 @@ static void derive(ZpModel *model) {
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->spring = spring_of(model);
   model->plates = plates_of(model);
+  model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
+  model->cross_section = cross_section_of(model);
+  model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it */
   model->stable_step = 0.8 * 2 / frequency_bound(model);
 }
@@ -269,5 +294,5 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + 5 * model->stride * sizeof(double);
+  return sizeof(ZpState) + 8 * model->stride * sizeof(double);
 }

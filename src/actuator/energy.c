@@ -1,6 +1,20 @@
 /* State => energies and electric totals, of one modelled part. Read at records only. */
 #include "actuator/eval.h"
 
+/* What a solved field has beyond plates: since the last refresh its co-energy changed by the held force's work. */
+static void add_beyond_plates(const ZpModel *model, const ZpState *state, ZpEnergies *energies) {
+  const double *q = state->data, *held = q + 4 * model->stride, *then = q + 6 * model->stride;
+  double U = state->U, work = 0;
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    work += held[k] * (q[k] - then[k]);
+  for (size_t i = 0; i < model->nodes; i++)
+    energies->force += 0.5 * U * U * (held[model->stride + 2 * i + 1] - held[model->stride + 2 * i]);
+  double capacitance = state->held_charge + 2 * work;
+  energies->charge += capacitance * U;
+  energies->field += U * U * (capacitance - state->held_energy - work);
+  energies->capacitance += capacitance;
+}
+
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
   ZpMotion m = zp_state_motion(model, state);
   ZpEnergies energies = {0};
@@ -25,5 +39,6 @@ ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *
   energies.charge = totals.charge;
   energies.field = totals.charge * state->U + totals.potential;
   energies.capacitance = ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  if (model->field_solved) add_beyond_plates(model, state, &energies);
   return energies;
 }

@@ -27,10 +27,12 @@ bool zp_eval_create(const ZpModel *model, ZpEval *e) {
   e->memory = zp_calloc(1, carve(model, e, NULL));
   if (!e->memory) return false;
   carve(model, e, e->memory);
-  return true;
+  return !model->field_solved ||
+         zp_surplus_create(&model->cross_section, &model->plates, model->field_scale, &e->surplus);
 }
 
 void zp_eval_destroy(ZpEval *e) {
+  zp_surplus_destroy(&e->surplus);
   zp_free(e->memory);
   e->memory = NULL;
 }
@@ -71,15 +73,24 @@ static void bezier_forces(const ZpModel *model, const ZpState *state, const doub
   zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, &e->plates);
 }
 
+/* U^2 F added to the attraction by the plates law. */
+static void add_beyond_plates(const ZpModel *model, const double *F, double U, ZpEval *e) {
+  for (size_t j = 0; j < model->count; j++) {
+    e->plates.Fx[j] += U * U * F[j];
+    e->plates.Fy[j] += U * U * F[model->stride + j];
+  }
+}
+
 /* Attraction of the ribbons into e->plates; 0 where there is none. */
 static void electric_forces(const ZpModel *model, const ZpState *state, const double *q, ZpEval *e) {
   const ZpActuatorDef *def = &model->def;
   if (def->electro.surface == ZP_SURFACE_POLYLINE)
     zp_plates_polyline(&model->plates, q, q + model->stride, state->U, &e->plates);
   else if (def->electro.refresh_period > 0)
-    memcpy(e->plates.Fy, state->data + 4 * model->stride, model->stride * sizeof(double));
+    memcpy(e->plates.Fy, state->data + 5 * model->stride, model->stride * sizeof(double));
   else
     bezier_forces(model, state, q, e);
+  if (model->field_solved) add_beyond_plates(model, state->data + 4 * model->stride, state->U, e);
 }
 
 /* What adds up on the nodes, all [stride]. L and R are the same array, s places apart. */
@@ -160,11 +171,16 @@ void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *e, double 
   add_forces(stride, &forces, a, a + stride);
 }
 
+bool zp_eval_solve_field(const ZpModel *model, const double *q, double U, ZpEval *e) {
+  return !model->field_solved || zp_surplus_solve(&e->surplus, q, U) == ZP_FIELD_SOLVED;
+}
+
 void zp_eval_static_forces(const ZpModel *model, const double *q, double U, ZpEval *e, double *force) {
   size_t s = model->s, stride = model->stride;
   const double *Rx = e->edges.Rx, *Ry = e->edges.Ry, *Lx = Rx - s, *Ly = Ry - s;
   mechanics(model, q, e);
   if (model->field) zp_plates_polyline(&model->plates, q, q + stride, U, &e->plates);
+  if (model->field_solved) add_beyond_plates(model, e->surplus.F, U, e);
   for (size_t j = 0; j < model->count; j++) {
     force[j] = Lx[j] - Rx[j] + e->plates.Fx[j];
     force[stride + j] = Ly[j] - Ry[j] + e->plates.Fy[j] - model->weight[j];
@@ -177,17 +193,43 @@ void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipStat
   zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
 }
 
+/* Has any gap, with what stands for its insulators, changed by more than this share since the last refresh? */
+static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
+  const double *y = state->data + model->stride, *then = state->data + 7 * model->stride;
+  for (size_t i = 0; i < model->nodes; i++) {
+    double gap = y[2 * i] - y[2 * i + 1], before = then[2 * i] - then[2 * i + 1];
+    if (fabs(gap - before) > share * (before + model->plates.d)) return true;
+  }
+  return false;
+}
+
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
-  double period = model->def.electro.refresh_period;
-  return period > 0 && !(state->t - state->refreshed < period);
+  const ZpActuatorDef *def = &model->def;
+  if (model->field_solved) return isnan(state->refreshed) || gaps_changed(model, state, def->electro.refresh_change);
+  return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
+}
+
+/* NAN where the field cannot be solved: the run then ends as diverged. */
+static void refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
+  size_t bytes = 2 * model->stride * sizeof(double);
+  bool solved = zp_eval_solve_field(model, q, state->U, e);
+  memcpy(zp_state_held(model, state), e->surplus.F, bytes);
+  memcpy(zp_state_held_at(model, state), q, bytes);
+  state->held_energy = e->surplus.energy;
+  state->held_charge = e->surplus.charge;
+  if (!solved) zp_state_held(model, state)[0] = NAN;
 }
 
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   double *q = zp_state_q(model, state);
+  state->refreshed = state->t;
+  if (model->field_solved) {
+    refresh_beyond_plates(model, state, q, e);
+    return;
+  }
   mechanics(model, q, e);
   bezier_forces(model, state, q, e);
-  memcpy(zp_state_held(model, state), e->plates.Fy, model->stride * sizeof(double));
-  state->refreshed = state->t;
+  memcpy(zp_state_held(model, state) + model->stride, e->plates.Fy, model->stride * sizeof(double));
 }
 
 static double ratio_bound(double length, double speed) {

@@ -3,6 +3,7 @@
 #define ZP_ACTUATOR_EVAL_H
 
 #include "actuator/model.h"
+#include "electro/surplus.h"
 
 /* What both mechanics say of their edges; [-s .. edges + s) where the mechanics has it so. */
 typedef struct ZpEdges {
@@ -14,6 +15,7 @@ typedef struct ZpEval {
   ZpRodEval rod;
   ZpEdges edges; /* of the one in use */
   ZpPlatesEval plates;
+  ZpSurplus surplus;       /* where the field is solved */
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
   ZpBezierSurface surface; /* for the free stations; made anew when the front moves */
@@ -36,13 +38,18 @@ void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *eval, doub
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
-/* (positions, voltage) => forces at rest [2 stride], N: mechanics, weight, attraction on the polyline. */
+/* (positions, voltage) => forces at rest [2 stride], N: mechanics, weight, attraction on the polyline, and what
+ * the solved field has beyond it where it was solved last. */
 void zp_eval_static_forces(const ZpModel *model, const double *q, double voltage, ZpEval *eval, double *force);
+
+/* Solve the field at these positions and voltage, where the model does; false if it cannot be. */
+bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, ZpEval *eval);
 
 /* Stiffness of the mechanics at the last positions, as zp_rod_stiffness; `tension` NULL: the present one. */
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
 
-/* Should a held electric force be found anew at this state? And do so, into the state. */
+/* Should a held electric force be found anew at this state? And do so, into the state. What a solved field has
+ * beyond plates is due when a gap with its insulators has changed by more than electro.refresh_change. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
 

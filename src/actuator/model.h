@@ -11,6 +11,7 @@
 #include <zipact/model.h>
 
 #include "contact/zip.h"
+#include "electro/field.h"
 #include "electro/surface.h"
 #include "ribbon/massspring.h"
 #include "ribbon/rod.h"
@@ -26,6 +27,7 @@ struct ZpModel {
   size_t s, nodes, count; /* ribbons, N, s N */
   size_t stride;          /* count, rounded up */
   bool field;             /* there are electrodes that attract each other */
+  bool field_solved;      /* in two dimensions, beyond the plates law */
   bool flat;              /* one ribbon below a flat electrode */
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
   double L, l;            /* flexible length, element, m */
@@ -34,6 +36,8 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpRodParams rod;
   ZpPlatesParams plates;
+  ZpFieldParams cross_section;
+  double field_scale;   /* force_scale * voltage_share^2 */
   ZpMasses masses;      /* true masses */
   ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */
   double pseudo_mass;   /* kg, in units of the pseudo-time step */
@@ -59,7 +63,9 @@ typedef struct ZpState {
   double drag_loss;    /* per part, J */
   double contact_loss; /* per part, J */
   double refreshed;    /* time of the last refresh of a held electric force, s; NAN: due now */
-  double data[];       /* q [2 stride], v [2 stride], held attraction [stride], N */
+  double held_energy;  /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
+  double held_charge;  /* and charge, C/V */
+  double data[];       /* q [2 stride], v [2 stride], held force [2 stride], and where it was found [2 stride] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -82,9 +88,14 @@ static inline ZpMotion zp_state_motion(const ZpModel *model, const ZpState *stat
   return (ZpMotion){q, q + model->stride, v, v + model->stride};
 }
 
-/* The attraction that is held between refreshes, as in ZpPlatesEval.Fy. */
+/* The force that is held between refreshes, all x, then all y: N, or of a solved field N/V^2 beyond plates. */
 static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
   return state->data + 4 * model->stride;
+}
+
+/* The coordinates at which it was found. */
+static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
+  return state->data + 6 * model->stride;
 }
 
 size_t zp_state_size(const ZpModel *model);

@@ -300,6 +300,26 @@ static const char *word_of(const char *key, int choice) {
   return zp_key(zp_key_find(key))->choices[choice].word;
 }
 
+/* What electro.model field asks of other keys. */
+static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.model = field: goes with actuator.kind electro_ribbon only; use plates, which are right "
+                   "within 1 %% where a gap opens slowly");
+  if (def->electro.surface != ZP_SURFACE_POLYLINE)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: goes with electro.surface polyline only");
+  if (def->insulator.thickness == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "insulator.thickness = 0 m: with electro.model field faces that touch need an insulator between "
+                   "the metals");
+  if (def->study == ZP_STUDY_MODES && def->modes.voltage > 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
+        def->modes.voltage);
+  return ZP_OK;
+}
+
 static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
@@ -337,10 +357,12 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
       "electro.insulator_offset = 0 m: the plates law that study profile compares with has no bound at the clip");
 }
 
-/* What is asked of one study only. */
+/* What is asked of one model or one study only. */
 static ZpStatus check_study(const ZpActuatorDef *def, ZpError *err) {
-  if (def->electro.model == ZP_ELECTRO_FIELD && def->study != ZP_STUDY_PROFILE)
-    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: goes with study profile only");
+  if (def->electro.model == ZP_ELECTRO_FIELD) {
+    ZpStatus status = check_field(def, err);
+    if (status != ZP_OK) return status;
+  }
   if (def->study == ZP_STUDY_PROFILE) return check_profile(def, err);
   return def->study == ZP_STUDY_ISOMETRIC ? check_isometric(def, err) : ZP_OK;
 }

@@ -224,8 +224,8 @@ static Point face_at(const ZpFaces *faces, const ZpFieldColumn *c, size_t r) {
 
 /* The eight points in which a column crosses the surfaces. Faces that overlap are laid on each other. */
 static void cross(const ZpField *f, Point upper, Point lower, Point at[SURFACES]) {
-  double t = f->params.t, outer = t + f->params.b, gap = upper.y - lower.y;
-  double apart = gap > 0 ? gap + least_gap : least_gap, middle = 0.5 * (upper.y + lower.y);
+  double t = f->params.t, outer = t + f->params.b;
+  double apart = fmax(upper.y - lower.y, least_gap), middle = 0.5 * (upper.y + lower.y);
   double low = middle - 0.5 * apart, high = middle + 0.5 * apart;
   const double height[SURFACES] = {-far_away, low - outer, low - t, low, high, high + t, high + outer, far_away};
   for (size_t s = 0; s < SURFACES; s++)
@@ -267,32 +267,45 @@ static Point column_force(const ZpField *f, size_t i, size_t r) {
   return (Point){F.x * f->params.w, F.y * f->params.w};
 }
 
-static void find_forces(ZpField *f) {
-  size_t pairs = 2 * f->params.stations;
-  zp_grid_forces(&f->grid, 0);
-  memset(f->Fx, 0, pairs * sizeof *f->Fx);
-  memset(f->Fy, 0, pairs * sizeof *f->Fy);
-  for (size_t i = 0; i < f->grid.nx; i++) {
-    const ZpFieldColumn *c = &f->column[i];
-    for (size_t r = 0; r < 2; r++) {
-      Point F = column_force(f, i, r);
-      size_t k = 2 * c->station + r;
-      f->Fx[k] += (1 - c->share) * F.x;
-      f->Fy[k] += (1 - c->share) * F.y;
-      f->Fx[k + 2] += c->share * F.x;
-      f->Fy[k + 2] += c->share * F.y;
-    }
+/* The clip holds both ribbons: what acts on either there acts on both alike. */
+static void hand_on_clip(ZpField *f, Point upper, Point lower) {
+  for (size_t r = 0; r < 2; r++) {
+    f->Fx[r] += 0.5 * (upper.x + lower.x);
+    f->Fy[r] += 0.5 * (upper.y + lower.y);
   }
 }
 
+static void hand_on(ZpField *f, const ZpFieldColumn *c, size_t r, Point F) {
+  size_t k = 2 * c->station + r;
+  f->Fx[k] += (1 - c->share) * F.x;
+  f->Fy[k] += (1 - c->share) * F.y;
+  f->Fx[k + 2] += c->share * F.x;
+  f->Fy[k + 2] += c->share * F.y;
+}
+
+/* Elements left of the first station belong to the clip, all others to the ribbons. */
+static void find_forces(ZpField *f) {
+  size_t pairs = 2 * f->params.stations, clip = f->first / 2;
+  memset(f->Fx, 0, pairs * sizeof *f->Fx);
+  memset(f->Fy, 0, pairs * sizeof *f->Fy);
+  zp_grid_forces(&f->grid, 0, clip);
+  for (size_t i = 0; i <= f->first; i++)
+    hand_on_clip(f, column_force(f, i, 0), column_force(f, i, 1));
+  zp_grid_forces(&f->grid, clip, f->grid.columns);
+  for (size_t i = f->first; i < f->grid.nx; i++)
+    for (size_t r = 0; r < 2; r++)
+      hand_on(f, &f->column[i], r, column_force(f, i, r));
+}
+
+/* Without what the clip's closed part has by the plates law. */
 static void find_energy(ZpField *f) {
   const ZpGrid *g = &f->grid;
   const ZpFieldParams *p = &f->params;
-  double energy = 0, d = p->t > 0 ? 2 * p->t * p->eps_m / p->eps_i : least_gap;
+  double energy = 0, h = 2 * p->t * p->eps_m / p->eps_i + least_gap;
   for (size_t c = 0; c < g->columns; c++)
     for (size_t r = 0; r < g->rows; r++)
       energy += zp_grid_energy(g, c, r);
-  f->energy = p->w * (energy - 0.5 * ZP_EPS0 * p->eps_m * p->clip / (d + least_gap));
+  f->energy = p->w * (energy - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
 }
 
 ZpFieldEnd zp_field_solve(ZpField *f, const ZpFaces *faces) {
@@ -367,7 +380,7 @@ void zp_field_profile(ZpField *f) {
     traction_at(f, &lower_back, i, &back_l, &unused, &unused);
     traction_at(f, &upper_back, i, &back_u, &unused, &unused);
     f->profile[k] = (ZpFieldProfile){.x = 0.5 * (f->grid.x[low] + f->grid.x[high]),
-                                     .gap = f->grid.y[high] - f->grid.y[low] - least_gap,
+                                     .gap = f->grid.y[high] - f->grid.y[low],
                                      .upper = -p->w * (Wu + back_u),
                                      .lower = p->w * (Wl + back_l),
                                      .E = fmax(El, Eu),
@@ -405,7 +418,7 @@ ZpFieldTotals zp_field_totals(ZpField *f) {
   integrate(f, f->last, f->grid.nx - 1, &totals.upper_platform, &totals.lower_platform);
   for (size_t k = 0; k < f->profiles; k++)
     totals.E = fmax(totals.E, f->profile[k].E);
-  zp_grid_forces(&f->grid, f->first / 2);
+  zp_grid_forces(&f->grid, f->first / 2, f->grid.columns);
   for (size_t i = f->first; i < f->grid.nx; i++) {
     totals.upper_work -= f->params.w * body_force(f, i, 0);
     totals.lower_work += f->params.w * body_force(f, i, 1);

@@ -71,8 +71,8 @@ typedef struct ZpField {
   ZpFieldRow *row;       /* [grid.ny] where a row lies between the surfaces */
   size_t first, last;    /* columns of the first and the last station; the platform's follow */
   /* results, at 1 V */
-  double *Fx, *Fy;         /* [2 stations], upper and lower of each: derivative of the energy, N, eq. (14.5) */
-  double energy;           /* of the field right of the clip, J, eq. (14.4) */
+  double *Fx, *Fy;         /* [2 stations], upper and lower of each: derivative of the energy, N, eq. (14.3) */
+  double energy;           /* of the field right of the clip, J, eq. (14.4); 2 energy is the capacitance, F */
   ZpFieldProfile *profile; /* [profiles] from the first station to the mirror plane */
   size_t profiles;
   void *memory;
@@ -82,8 +82,7 @@ typedef struct ZpField {
 bool zp_field_create(const ZpFieldParams *params, ZpField *field);
 void zp_field_destroy(ZpField *field);
 
-/* Is this a geometry that can be solved as it stands? zp_field_solve itself lays faces that overlap on each other
- * and goes on with the force they then have, as the plates law does. */
+/* Is this a geometry that can be solved as it stands? zp_field_solve itself lays faces that overlap on each other. */
 ZpFieldEnd zp_field_check(const ZpFieldParams *params, const ZpFaces *faces);
 
 /* Solve at this shape => energy, forces on the stations. */

@@ -1,4 +1,4 @@
-/* Letters of docs/theory.md, section 14:
+/* Letters of docs/theory.md, section 14, eq. (14.2):
  *   N     shape functions of an element, products of the quadratic Lagrange polynomials in xi and eta
  *   J     Jacobian of its map from [-1, 1]^2, m
  *   w     weight of an integration point times det J, m^2
@@ -259,13 +259,13 @@ static void element_forces(ZpGrid *g, const Reference *ref, const Element *e, do
   }
 }
 
-void zp_grid_forces(ZpGrid *g, size_t first) {
+void zp_grid_forces(ZpGrid *g, size_t first, size_t end) {
   Reference ref;
   Element e;
   reference(&ref);
   memset(g->Fx, 0, g->nx * g->ny * sizeof *g->Fx);
   memset(g->Fy, 0, g->nx * g->ny * sizeof *g->Fy);
-  for (size_t c = first; c < g->columns; c++)
+  for (size_t c = first; c < end; c++)
     for (size_t r = 0; r < g->rows; r++) {
       double eps = g->eps[c * g->rows + r];
       if (!(eps > 0)) continue;

@@ -40,12 +40,12 @@ typedef enum ZpGridEnd {
 /* (x, y, eps, phi of the conductors) => phi of all nodes. */
 ZpGridEnd zp_grid_solve(ZpGrid *grid);
 
-/* Energy of element (c, r) at the last solution, J/m, eq. (14.3). */
+/* Energy of element (c, r) at the last solution, J/m, eq. (14.2). */
 double zp_grid_energy(const ZpGrid *grid, size_t c, size_t r);
 
-/* Derivative of the energy of element columns from `first` on at held potentials by the position of each node
- * => Fx, Fy, eq. (14.4). */
-void zp_grid_forces(ZpGrid *grid, size_t first);
+/* Derivative of the energy of element columns first .. end - 1 at held potentials by the position of each node
+ * => Fx, Fy, eq. (14.2). */
+void zp_grid_forces(ZpGrid *grid, size_t first, size_t end);
 
 /* grad phi at (xi, eta) in [-1, 1]^2 of element (c, r), V/m. */
 void zp_grid_gradient(const ZpGrid *grid, size_t c, size_t r, double xi, double eta, double gradient[2]);

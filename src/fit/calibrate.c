@@ -1,4 +1,4 @@
-/* Study `calibrate`: keys fitted to measured strokes; and which studies need a file of data. */
+/* Study `calibrate`: keys fitted to measured strokes or forces; and which studies need a file of data. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-  ZpColumn column[4];
+  ZpColumn column[4], held[4];              /* of lengths, of forces */
 } Names;
 
 #define ZP_GROUP(group)
@@ -23,7 +23,11 @@ typedef struct Names {
    {{key "_" unit, unit, "what was set"},                                                                              \
     {"measured_m", "m", "stroke or opening in data.file"},                                                             \
     {"fitted_m", "m", "the same from the model with the fitted values; nan: no state of rest"},                        \
-    {"residual_m", "m", "fitted less measured"}}},
+    {"residual_m", "m", "fitted less measured"}},                                                                      \
+   {{key "_" unit, unit, "what was set"},                                                                              \
+    {"measured_N", "N", "force in data.file"},                                                                         \
+    {"fitted_N", "N", "force_N of study isometric with the fitted values; nan: no state of rest"},                     \
+    {"residual_N", "N", "fitted less measured"}}},
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
 #define ZP_INT(path, name, def, min, max, help)               NAMES(#path #name, "1")
@@ -97,7 +101,7 @@ static const ZpColumn over_time[4] = {
 };
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
-  const ZpColumn *columns = fit->x_key < 0 ? over_time : names[fit->x_key].column;
+  const ZpColumn *columns = fit->x_key < 0 ? over_time : fit->held ? names[fit->x_key].held : names[fit->x_key].column;
   result->series = zp_table_create(columns, 4, fit->rows < 2 ? 2 : fit->rows);
   if (!result->series) return false;
   for (size_t i = 0; i < fit->rows; i++)
@@ -118,13 +122,13 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   result->outcome = good ? ZP_CONVERGED : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
   if (good)
-    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g mm rms", fit->rows,
-             fit->n > 0 ? "fitted" : "compared", 1e3 * rms);
+    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms", fit->rows,
+             fit->n > 0 ? "fitted" : "compared", 1e3 * rms, fit->held ? "mN" : "mm");
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "some rows have no state of rest within the bounds");
   report_keys(fit, z, has_J ? J : NULL, square, result);
-  zp_result_add(result, "residual_rms_m", "m", rms);
+  zp_result_add(result, fit->held ? "residual_rms_N" : "residual_rms_m", fit->held ? "N" : "m", rms);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);

@@ -1,4 +1,4 @@
-/* A fit of keys to measured strokes: what is fitted to what. */
+/* A fit of keys to measured strokes or forces: what is fitted to what. */
 #ifndef ZP_FIT_FIT_H
 #define ZP_FIT_FIT_H
 
@@ -21,6 +21,7 @@ typedef struct ZpFit {
   int other_key[ZP_FIT_OTHERS];
   double *other[ZP_FIT_OTHERS]; /* [rows] SI */
   bool opening;                 /* the opening is measured, else the stroke */
+  bool held;                    /* neither: the force of study isometric */
   size_t rows;
   double *x, *y; /* [rows] SI */
   int evaluations;
@@ -32,6 +33,10 @@ typedef struct ZpFit {
 /* Read and check all that `def` says of the fit. To be closed whatever the status. */
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
 void zp_fit_close(ZpFit *fit);
+
+/* The definition of row `row` with the fitted keys at z, and the voltage that the row sets, 0 if none. False if a
+ * value is out of its key's range. */
+bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage);
 
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);

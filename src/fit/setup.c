@@ -150,12 +150,33 @@ static ZpStatus read_others(ZpFit *fit, const ZpData *data, int x, int y, ZpErro
   return status;
 }
 
+/* Rows of held platforms must be possible ones. */
+static ZpStatus check_held(const ZpFit *fit, const ZpData *data, ZpError *err) {
+  double start[ZP_FIT_MOST], voltage;
+  for (int k = 0; k < ZP_FIT_MOST; k++)
+    start[k] = 1;
+  for (size_t i = 0; fit->held && i < fit->rows; i++) {
+    ZpActuatorDef def;
+    ZpError reason = {ZP_OK, ""};
+    if (!zp_fit_row(fit, start, i, &def, &voltage)) continue; /* read_column has said it */
+    if (zp_def_check(&def, &reason) != ZP_OK)
+      return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, data->line[i + 1], reason.message);
+  }
+  return ZP_OK;
+}
+
 static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err) {
   double factor, divisor;
   const char *name = data->cell[column];
+  bool by_load = fit->x_key < 0 || fit->x_key == zp_key_find("load.mass");
   fit->opening = zp_data_unit(name, "opening", "m", &factor, &divisor);
-  if (!fit->opening && !zp_data_unit(name, "stroke", "m", &factor, &divisor))
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: not stroke or opening with a unit of length", name);
+  fit->held = !fit->opening && !by_load && zp_data_unit(name, "force", "N", &factor, &divisor);
+  if (!fit->opening && !fit->held && !zp_data_unit(name, "stroke", "m", &factor, &divisor))
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "calibrate.y: column %.60s: not stroke or opening with a unit of length, nor force against voltage or "
+        "another key",
+        name);
   if (fit->opening && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   ZpStatus status = ZP_OK;
@@ -163,7 +184,7 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
     status = zp_data_number(data, i, (size_t)column, &fit->y[i], err);
     fit->y[i] = fit->y[i] * factor / divisor;
   }
-  return status;
+  return status == ZP_OK ? check_held(fit, data, err) : status;
 }
 
 static bool is_length(const char *name) {

@@ -55,17 +55,36 @@ static ZpModel *build(ZpFit *fit, const ZpActuatorDef *def) {
   return model;
 }
 
-/* What the model gives for row `row`, m; NAN where it finds no state of rest. */
+bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage) {
+  int drive = zp_key_find("drive.voltage");
+  bool set = set_fitted(fit, z, def) && zp_def_set(def, fit->x_key, fit->x[row], NULL) == ZP_OK;
+  *voltage = fit->x_key == drive ? fit->x[row] : 0;
+  for (int k = 0; k < fit->others && set; k++) {
+    set = zp_def_set(def, fit->other_key[k], fit->other[k][row], NULL) == ZP_OK;
+    if (fit->other_key[k] == drive) *voltage = fit->other[k][row];
+  }
+  if (fit->held) def->study = ZP_STUDY_ISOMETRIC;
+  return set;
+}
+
+/* The force of study isometric, N; NAN where it finds none. */
+static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
+  ZpResult *result = NULL;
+  def->output.samples = 10; /* of the way there only the end is asked for */
+  def->output.shapes = 2;
+  ZpStatus status = zp_study_run(def, NULL, &result, NULL);
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  double value = result ? zp_result_get(result, "force_N") : NAN;
+  zp_result_destroy(result);
+  return value;
+}
+
+/* What the model gives for row `row`, m or N; NAN where it finds no state of rest. */
 static double predict_rest(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
-  double voltage = 0;
-  int drive = zp_key_find("drive.voltage");
-  bool set = set_fitted(fit, z, &def) && zp_def_set(&def, fit->x_key, fit->x[row], NULL) == ZP_OK;
-  if (fit->x_key == drive) voltage = fit->x[row];
-  for (int k = 0; k < fit->others && set; k++) {
-    set = zp_def_set(&def, fit->other_key[k], fit->other[k][row], NULL) == ZP_OK;
-    if (fit->other_key[k] == drive) voltage = fit->other[k][row];
-  }
+  double voltage;
+  bool set = zp_fit_row(fit, z, row, &def, &voltage);
+  if (set && fit->held) return predict_force(fit, &def);
   def.study = ZP_STUDY_STATIONARY;
   ZpModel *model = set ? build(fit, &def) : NULL;
   double value = model ? measure(fit, model, voltage) : NAN;

@@ -5,24 +5,37 @@
 #include "io/plot.h"
 #include "io/units.h"
 
+/* Lengths or forces. */
+static bool is_force(const ZpTable *table) {
+  return strcmp(table->column[1].name, "measured_N") == 0;
+}
+
+static double measured(const ZpTable *table, size_t row) {
+  return zp_table_get(table, row, is_force(table) ? "measured_N" : "measured_m");
+}
+
+static double computed(const ZpTable *table, size_t row) {
+  return zp_table_get(table, row, is_force(table) ? "fitted_N" : "fitted_m");
+}
+
 static bool has_fit(const ZpPlot *plot) {
   if (plot->study != ZP_STUDY_CALIBRATE) return false;
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = plot->report->result[run]->series;
     for (size_t row = 0; table && row < table->rows; row++)
-      if (isfinite(zp_table_get(table, row, "fitted_m"))) return true;
+      if (isfinite(computed(table, row))) return true;
   }
   return false;
 }
 
 static void data_fit(const ZpPlot *plot, FILE *file) {
-  fputs("# x measured_m fitted_m\n", file);
+  fputs("# x measured fitted\n", file);
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = plot->report->result[run]->series;
     for (size_t row = 0; table && row < table->rows; row++) {
       zp_plot_put(file, table->value[row * table->columns], ' ');
-      zp_plot_put(file, zp_table_get(table, row, "measured_m"), ' ');
-      zp_plot_put(file, zp_table_get(table, row, "fitted_m"), '\n');
+      zp_plot_put(file, measured(table, row), ' ');
+      zp_plot_put(file, computed(table, row), '\n');
     }
   }
 }
@@ -58,16 +71,17 @@ static bool spans_decades(const ZpTable *table, const char *name) {
 
 /* Axes from 0, or logarithmic where linear ones would hide most points in a corner. */
 static const char *axes(const ZpTable *table) {
-  if (spans_decades(table, table->column[0].name) && spans_decades(table, "measured_m"))
+  if (spans_decades(table, table->column[0].name) && spans_decades(table, table->column[1].name))
     return "set logscale xy\nset offsets graph 0.1, graph 0.1, graph 0.1, graph 0.1\n";
   return "set autoscale noextend\nset yrange [0:*]\nset offsets graph 0.04, graph 0.04, graph 0.06, 0\n";
 }
 
 static void script_fit(const ZpPlot *plot, FILE *file) {
   const ZpTable *table = plot->report->result[0]->series;
-  const char *const lengths[] = {"measured_m", "fitted_m", NULL};
+  const bool force = is_force(table);
+  const char *const shown[] = {table->column[1].name, table->column[2].name, NULL};
   char label[128];
-  const ZpPlotUnit length = zp_plot_table_unit(table, lengths, "m");
+  const ZpPlotUnit y = zp_plot_table_unit(table, shown, force ? "N" : "m");
   const ZpPlotUnit x = unit_of_x(&table->column[0], label, sizeof label);
   ZpActuatorDef def;
   bool resolved = zp_scenario_def(plot->report->scenario, 0, &def, NULL) == ZP_OK;
@@ -76,11 +90,11 @@ static void script_fit(const ZpPlot *plot, FILE *file) {
   fputs("set xlabel ", file);
   zp_plot_text(file, label);
   fprintf(file,
-          "\nset ylabel 'stroke or opening / %s' offset 0.5\n%s"
+          "\nset ylabel '%s / %s' offset 0.5\n%s"
           "plot 'fit.dat' using ($1*%g):($2*%g) with points pt 6 ps 1.2 lw 1.5 lc rgb '%s' title 'measured', \\\n"
           "     'fit.dat' using ($1*%g):($3*%g) with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title '%s'\n",
-          length.text, axes(table), x.factor, length.factor, zp_plot_colour(0), x.factor, length.factor,
-          zp_plot_colour(1), fitted ? "fitted" : "computed");
+          force ? "force" : "stroke or opening", y.text, axes(table), x.factor, y.factor, zp_plot_colour(0), x.factor,
+          y.factor, zp_plot_colour(1), fitted ? "fitted" : "computed");
 }
 
 const ZpPicture zp_fit_pictures[] = {

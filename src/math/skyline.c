@@ -69,8 +69,8 @@ static inline double *column(const ZpSkylineBlock *block, size_t j) {
   return block->a + (j - block->first) * LANES;
 }
 
-/* COLUMNS columns c of a block, less `count` columns p of it times those of the rows q that bear the numbers of
- * the columns c. Here the time goes: each sum is its own, so it may stay in a register. */
+/* COLUMNS columns c of a block, less `count` columns p of it times the same columns of the rows q, which are the
+ * rows that cross c on the diagonal. Here the time goes. */
 static inline void subtract(size_t count, const double *restrict p, const double *restrict q, double *restrict c) {
   double s0[LANES], s1[LANES], s2[LANES], s3[LANES];
   ZP_SIMD
@@ -100,7 +100,7 @@ static inline void subtract(size_t count, const double *restrict p, const double
   }
 }
 
-/* What then is left of c, solved with the triangle t that the rows q have there. */
+/* What is left of c, solved with the triangle t of the rows q. */
 static inline void divide(const double *restrict t, double *restrict c) {
   const double *t0 = t, *t1 = t + LANES, *t2 = t + 2 * LANES, *t3 = t + 3 * LANES;
   ZP_SIMD
@@ -116,14 +116,14 @@ static inline void divide(const double *restrict t, double *restrict c) {
   }
 }
 
-/* The same where c meets the diagonal, in row `row` of the block; what is above becomes 0. */
+/* The same where c meets the diagonal, in row `row` of the block. Rows above it get numbers that nothing uses. */
 static inline bool factor_triangle(size_t row, double *c) {
   for (size_t j = 0; j < COLUMNS; j++) {
     double *l = c + j * LANES, pivot = l[row + j];
     if (!(pivot > 0) || !isfinite(pivot)) return false;
     double inverse = 1 / sqrt(pivot);
     for (size_t r = 0; r < LANES; r++)
-      l[r] = r < row + j ? 0 : l[r] * inverse;
+      l[r] *= inverse;
     for (size_t m = j + 1; m < COLUMNS; m++)
       for (size_t r = 0; r < LANES; r++)
         c[m * LANES + r] -= l[r] * l[row + m];

@@ -174,7 +174,8 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   s->contact_acts = false;
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
-  if (!zp_newton_good(info.end)) info = hold_step_by_step(s, opening, work);
+  bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
+  if (folded || !zp_newton_good(info.end)) info = hold_step_by_step(s, opening, work);
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
   ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
@@ -224,12 +225,13 @@ static ZpPlatesTotals totals(const ZpStatics *s) {
 }
 
 double zp_statics_charge(const ZpStatics *s) {
-  return s->model->parts * totals(s).charge;
+  return s->model->parts * (totals(s).charge + s->eval.surplus.charge * s->U);
 }
 
 double zp_statics_capacitance(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
-  return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap;
+  return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap +
+         2 * s->model->parts * s->eval.surplus.energy;
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
@@ -493,8 +495,13 @@ static void move(void *self, const double *step, double fraction) {
     lay_one(s);
 }
 
+static bool refresh(void *self) {
+  ZpStatics *s = self;
+  return s->U == 0 || zp_eval_solve_field(s->model, s->q, s->U, &s->eval);
+}
+
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
-  return (ZpStaticSystem){s->n, s, residual, stiffness, length, move};
+  return (ZpStaticSystem){s->n, s, residual, stiffness, length, move, s->model->field_solved ? refresh : NULL};
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */

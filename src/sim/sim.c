@@ -70,6 +70,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     return zp_fail_memory(err);
   }
   state->U = model->def.drive.voltage;
+  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   start_energy_account(sim);
   *out = sim;
   return ZP_OK;

@@ -66,19 +66,30 @@ bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, do
   return find_direction(b) > 0;
 }
 
+static bool refresh(const ZpStaticSystem *rest) {
+  return !rest->refresh || rest->refresh(rest->self);
+}
+
 /* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, -1: failed. */
 static int correct(ZpBranch *b, double s, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
-  for (int k = 0; k <= MOST_CORRECTIONS; k++) {
+  bool fresh = refresh(rest);
+  if (!fresh) return -1;
+  for (int k = 0; k <= MOST_CORRECTIONS;) {
     double left = rest->residual(rest->self, b->newton.r);
     sys->position(rest->self, b->q);
     double gone = (sys->get(rest->self) - m_start) / sys->m_scale * b->direction_m;
     for (size_t i = 0; i < n; i++)
       gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
     if (!isfinite(left)) return -1;
-    if (left < b->tolerance && fabs(s - gone) < 1e-3 * s) return k;
+    if (left < b->tolerance && fabs(s - gone) < 1e-3 * s) {
+      if (fresh) return k;
+      fresh = refresh(rest);
+      if (!fresh) return -1;
+      continue;
+    }
     rest->stiffness(rest->self, &b->newton.K);
     sys->sensitivity(rest->self, b->b);
     if (!zp_band_factor(&b->newton.K, NULL)) return -1;
@@ -93,6 +104,8 @@ static int correct(ZpBranch *b, double s, double m_start) {
     if (!(length < 1) || !(fabs(dm) < 0.2 * sys->m_scale)) return -1;
     rest->move(rest->self, b->a, 1);
     sys->set(rest->self, sys->get(rest->self) + dm);
+    fresh = !rest->refresh;
+    k++;
   }
   return -1;
 }

@@ -16,7 +16,8 @@ ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most,
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   double least = INFINITY;
   int stalled = 0;
-  for (;; info.iterations++) {
+  bool fresh = !system->refresh;
+  for (;;) {
     info.residual = system->residual(system->self, work->r);
     info.end = ZP_NEWTON_SLOW;
     if (info.residual < tolerance) info.end = ZP_NEWTON_CONVERGED;
@@ -24,6 +25,13 @@ ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most,
     stalled = info.residual < 0.5 * least ? 0 : stalled + 1;
     least = fmin(least, info.residual);
     if (stalled >= 3 && info.residual < 100 * tolerance) info.end = ZP_NEWTON_FLOOR;
+    if (zp_newton_good(info.end) && !fresh) {
+      fresh = system->refresh(system->self);
+      least = INFINITY;
+      stalled = 0;
+      if (fresh) continue;
+      info.end = ZP_NEWTON_DIVERGED;
+    }
     if (info.end != ZP_NEWTON_SLOW || info.iterations == most) return info;
     system->stiffness(system->self, &work->K);
     if (!zp_band_factor(&work->K, NULL)) {
@@ -33,5 +41,7 @@ ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most,
     zp_band_solve(&work->K, work->r);
     double length = system->length(system->self, work->r);
     system->move(system->self, work->r, length > 1 ? 1 / length : 1);
+    fresh = !system->refresh;
+    info.iterations++;
   }
 }

@@ -19,6 +19,9 @@ typedef struct ZpStaticSystem {
   double (*length)(void *self, const double *step);
   /* Move the present point by fraction * step. */
   void (*move)(void *self, const double *step, double fraction);
+  /* Find anew, at the present point, what is dear and what the residual holds while a point moves; false if it cannot
+   * be found. NULL where nothing is held. An equilibrium is one with nothing out of date. */
+  bool (*refresh)(void *self);
 } ZpStaticSystem;
 
 /* By which test an iteration ended. */
@@ -26,7 +29,7 @@ typedef enum ZpNewtonEnd {
   ZP_NEWTON_CONVERGED, /* residual below tolerance */
   ZP_NEWTON_FLOOR,     /* residual stays where rounding leaves it, below 100 tolerances */
   ZP_NEWTON_SINGULAR,  /* stiffness without inverse */
-  ZP_NEWTON_DIVERGED,  /* residual not finite */
+  ZP_NEWTON_DIVERGED,  /* residual not finite, or what it holds cannot be found */
   ZP_NEWTON_SLOW       /* most iterations done */
 } ZpNewtonEnd;
 

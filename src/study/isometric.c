@@ -4,13 +4,15 @@
  * The state at a voltage is the first one there on the branch of equilibria that starts from the unpowered shape.
  * While that branch rises, this is the state that a slowly rising voltage leads to. Where it turns back (a limit
  * point), the state jumps; the branch is followed through the turn until it is stable and above the voltage of the
- * turn again: there the jump lands. Theory, section 13. */
+ * turn again: there the jump lands. Where the branch never comes there, the state is let go at the turn and lands where
+ * slow motion against a resistance ends. Theory, section 13. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
 #include "rest/statics.h"
+#include "solve/descend.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -40,6 +42,7 @@ typedef struct Holder {
   void *memory;
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
   bool rising;         /* before the last step */
+  void *edge;          /* before the last turn */
   double *line_force;
   double unpowered; /* holds the platform without voltage, N, whole actuator */
   double highest;   /* voltage that the branch has come to, V */
@@ -63,6 +66,7 @@ static bool allocate(Holder *h) {
     }
     zp_branch_carve(&h->branch, &h->system, h->statics.bandwidth, &carver);
     h->before = zp_carve(&carver, h->system.save_size / sizeof(double));
+    h->edge = zp_carve(&carver, h->system.save_size / sizeof(double));
     h->near = zp_carve(&carver, h->system.save_size / sizeof(double));
     h->line_force = zp_carve(&carver, h->model->nodes);
   }
@@ -115,6 +119,7 @@ static void pass(Holder *h, bool jumped) {
 /* After a step of the branch: where has it come to? */
 static void look_at(Holder *h, double direction, bool *turned) {
   if (direction > 0 && h->branch.direction_m < 0) {
+    if (!*turned) memcpy(h->edge, h->before, h->system.save_size);
     *turned = true;
     h->highest = fmax(h->highest, zp_branch_limit(&h->branch));
   }
@@ -123,30 +128,54 @@ static void look_at(Holder *h, double direction, bool *turned) {
   *turned = false;
 }
 
-/* Follow the branch until it has come to drive.voltage within its last step. => false if it is lost on the way, or
- * does not come there. */
-static bool follow(Holder *h) {
+/* How following the branch ends. */
+typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
+
+/* Follow the branch until it has come to drive.voltage within its last step. */
+static End follow(Holder *h) {
   double top = h->model->def.drive.voltage;
   ZpStatics *s = &h->statics;
   bool turned = false;
-  if (!zp_branch_start(&h->branch, true, first_step, longest_step, 2 * zp_statics_tolerance(s))) return false;
+  if (!zp_branch_start(&h->branch, true, first_step, longest_step, 2 * zp_statics_tolerance(s))) return LOST;
   for (int k = 0; k < MOST_POINTS; k++) {
     double direction = h->branch.direction_m;
     h->rising = direction > 0;
     h->system.save(s, h->before);
-    if (!zp_branch_advance(&h->branch) || s->U < 0) return false;
+    if (!zp_branch_advance(&h->branch) || s->U < 0) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
       h->system.save(s, h->near);
       if (s->U < top) memcpy(h->near, h->before, h->system.save_size); /* come there and turned back within this step */
-      return true;
+      return ARRIVED;
     }
     record(h, s->U == h->highest, false);
-    if (!asked_to_stop(h)) continue;
-    h->outcome = ZP_INTERRUPTED;
-    return true;
+    if (asked_to_stop(h)) return INTERRUPTED;
   }
-  return false;
+  return LOST;
+}
+
+/* Let go at the last turn, just above its voltage. */
+static bool fall(Holder *h) {
+  static const double above = 1e-3, longest = 4e-3; /* 2 mrad: overlaps of faces stay below what insulates them */
+  enum { MOST = 20000 };
+  ZpStatics *s = &h->statics;
+  ZpStaticSystem system = zp_statics_system(s);
+  h->system.restore(s, h->edge);
+  s->U = fmin((1 + above) * h->highest, h->model->def.drive.voltage);
+  ZpNewtonInfo info = zp_descend(&system, longest, zp_statics_tolerance(s), MOST, &h->branch.newton);
+  if (!zp_newton_good(info.end)) return false;
+  pass(h, true);
+  record(h, true, false);
+  return true;
+}
+
+/* Raise the voltage over all turns. */
+static End rise(Holder *h) {
+  enum { MOST = 100 };
+  End end = follow(h);
+  for (int k = 0; k < MOST && end == TURNED_FOR_GOOD && fall(h); k++)
+    end = follow(h);
+  return end;
 }
 
 /* The state at drive.voltage from the present point near it. */
@@ -209,11 +238,11 @@ static void warn(Holder *h) {
   ZpResult *r = h->result;
   zp_result_warn_insulator(r, h->model);
   if (h->jumps > 0)
-    zp_result_warn(
-        r,
-        "%d jumps on the way up, the largest by %.3g N: so the front passes nodes where the wedge is shorter "
-        "than an element; more mesh.nodes show whether they are real",
-        h->jumps, h->leap);
+    zp_result_warn(r,
+                   "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
+                   "front passes nodes "
+                   "so: more mesh.nodes show whether they are real",
+                   h->jumps, h->leap);
   if (h->others > 0)
     zp_result_warn(
         r,
@@ -240,8 +269,9 @@ static void describe(Holder *h) {
 
 /* From the unpowered state to the one at drive.voltage. */
 static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
-  if (!follow(h)) h->outcome = ZP_BRANCH_LOST;
-  if (h->outcome != ZP_CONVERGED) return;
+  End end = rise(h);
+  if (end != ARRIVED) h->outcome = end == INTERRUPTED ? ZP_INTERRUPTED : ZP_BRANCH_LOST;
+  if (end != ARRIVED) return;
   double taken = h->branch.taken;
   count_others(h);
   h->system.restore(&h->statics, h->near);

@@ -34,9 +34,6 @@ static const ZpColumn columns[COLUMNS] = {
  * within 2e-4 at 60 mm. */
 enum { STATIONS = 121 };
 
-/* How long the closed clip is, m. What it is ends up in no force: its field decays within some gaps. */
-static const double clip_length = 5e-3;
-
 /* Gaps below this are none, m. */
 static const double rounding = 1e-15;
 
@@ -52,8 +49,8 @@ typedef struct Profiler {
   const ZpModel *model;
   ZpResult *result;
   double U;
-  ZpPlatesParams set, free;           /* the law as set; without cap */
-  ZpPlatesParams true_set, true_free; /* the same of the right law, by which the cap of the field goes */
+  bool by_field;                   /* electro.model */
+  ZpPlatesParams set, free, right; /* the plates law as set; without cap; the right one, without cap */
   ZpFieldParams params;
   ZpField field;
   ZpFieldTotals totals;
@@ -67,30 +64,12 @@ typedef struct Profiler {
 
 /* -- setting up ------------------------------------------------------------------------------------ */
 
-static ZpFieldParams field_params(const ZpModel *model) {
-  const ZpActuatorDef *def = &model->def;
-  return (ZpFieldParams){.stations = STATIONS,
-                         .columns = 1,
-                         .w = def->ribbon.width,
-                         .b = def->ribbon.thickness,
-                         .t = def->insulator.thickness,
-                         .eps_m = def->medium.permittivity,
-                         .eps_i = def->insulator.permittivity,
-                         .clip = clip_length,
-                         .platform = def->platform.length / 2,
-                         .electrode = def->platform.electrode,
-                         .mesh = zp_field_mesh()};
-}
-
 static void find_laws(Profiler *p) {
   const ZpActuatorDef *def = &p->model->def;
-  p->set = p->free = p->true_set = p->model->plates;
-  p->free.h_per_volt = 0;
-  p->true_set.k = 0.5 * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  p->true_set.d = 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
-  p->true_set.h_per_volt = def->electro.breakdown_cap ? 1 / def->medium.breakdown_field : 0;
-  p->true_free = p->true_set;
-  p->true_free.h_per_volt = 0;
+  p->set = p->free = p->right = p->model->plates;
+  p->free.h_per_volt = p->right.h_per_volt = 0;
+  p->right.k = 0.5 * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
+  p->right.d = 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
 }
 
 static size_t carve(Profiler *p, void *block) {
@@ -106,7 +85,9 @@ static size_t carve(Profiler *p, void *block) {
 }
 
 static bool allocate(Profiler *p) {
-  p->params = field_params(p->model);
+  p->params = p->model->cross_section;
+  p->params.stations = STATIONS;
+  p->params.columns = 1;
   if (!zp_field_create(&p->params, &p->field)) return false;
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return false;
@@ -150,19 +131,10 @@ static bool find_shape(Profiler *p, bool *found) {
 
 /* -- the profile ----------------------------------------------------------------------------------- */
 
-static bool by_field(const Profiler *p) {
-  return p->model->def.electro.model == ZP_ELECTRO_FIELD;
-}
-
-/* The law whose cap acts. */
-static const ZpPlatesParams *law_of(const Profiler *p) {
-  return by_field(p) ? &p->true_set : &p->set;
-}
-
 static void fill_row(const Profiler *p, size_t k, double *row) {
   const ZpFieldProfile *at = &p->field.profile[k];
   double U = p->U, mean = 0.5 * (at->upper + at->lower), unit = zp_plates_law(&p->free, 1, at->gap).W;
-  const ZpPlatesParams *law = law_of(p);
+  ZpPlatesLaw law = zp_plates_law(&p->set, U, at->gap);
   row[X] = at->x;
   row[GAP] = fabs(at->gap) > rounding ? at->gap : 0;
   row[PLATES] = unit * U * U;
@@ -170,11 +142,10 @@ static void fill_row(const Profiler *p, size_t k, double *row) {
   row[UPPER] = at->upper * U * U;
   row[LOWER] = at->lower * U * U;
   row[RATIO] = unit > 0 ? mean / unit : (double)NAN;
-  row[FORCE] = zp_plates_law(law, U, at->gap).W;
-  if (by_field(p)) row[FORCE] += row[FIELD] - zp_plates_law(&p->true_free, U, at->gap).W;
   row[LIQUID] = at->E * U;
   row[INSULATOR] = at->E_insulator * U;
-  row[CAPPED] = at->gap + law->d < law->h_per_volt * U;
+  row[CAPPED] = at->gap + p->set.d < p->set.h_per_volt * U;
+  row[FORCE] = p->by_field && !row[CAPPED] ? p->model->field_scale * row[FIELD] : law.W;
 }
 
 /* Simpson's rule over rows from .. to, an even number of intervals. */
@@ -214,7 +185,7 @@ static double capped_mean(const Profiler *p, const ZpPlatesParams *law, const Ro
 /* Integral of FORCE over rows from .. to. Where some is capped: of the capped law in fine steps, and of what the model
  * differs by from the law, which is smooth. */
 static double limited_force(const Profiler *p, size_t from, size_t to) {
-  const ZpPlatesParams *law = law_of(p);
+  const ZpPlatesParams *law = &p->set;
   double sum = 0;
   for (size_t k = from; k + 2 <= to; k += 2) {
     const Row *r = p->row + k;
@@ -231,8 +202,7 @@ static double limited_force(const Profiler *p, size_t from, size_t to) {
 
 /* Length of the flexible part where breakdown limits the force; gaps are straight within a fine step. */
 static double capped_length(const Profiler *p) {
-  const ZpPlatesParams *law = law_of(p);
-  double limit = law->h_per_volt * p->U - law->d, length = 0;
+  double limit = p->set.h_per_volt * p->U - p->set.d, length = 0;
   for (size_t k = 0; k + 2 <= p->last; k += 2) {
     const Row *r = p->row + k;
     double step = (r[2][X] - r[0][X]) / FINER;
@@ -283,12 +253,12 @@ static void summarize(const Profiler *p) {
   ZpResult *r = p->result;
   const ZpFieldTotals *t = &p->totals;
   size_t end = p->rows - 1;
-  double U2 = p->U * p->U;
+  double U2 = p->U * p->U, plates = integrate(p, PLATES, 0, p->last), field = integrate(p, FIELD, 0, p->last);
   zp_result_add(r, "force_N", "N", limited_force(p, 0, p->last));
   zp_result_add(r, "platform_force_N", "N", limited_force(p, p->last, end));
-  zp_result_add(r, "force_uncapped_N", "N", integrate(p, by_field(p) ? FIELD : PLATES, 0, p->last));
-  zp_result_add(r, "plates_force_N", "N", integrate(p, PLATES, 0, p->last));
-  zp_result_add(r, "field_force_N", "N", integrate(p, FIELD, 0, p->last));
+  zp_result_add(r, "force_uncapped_N", "N", p->by_field ? p->model->field_scale * field : plates);
+  zp_result_add(r, "plates_force_N", "N", plates);
+  zp_result_add(r, "field_force_N", "N", field);
   zp_result_add(r, "virtual_work_force_N", "N", 0.5 * (t->upper_work + t->lower_work) * U2);
   zp_result_add(r, "virtual_work_difference", "1", difference(p));
   zp_result_add(r, "scale_factor", "1", field_over(p, &p->free));
@@ -314,7 +284,7 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
 static void warn(const Profiler *p) {
   const ZpActuatorDef *def = &p->model->def;
   double insulator = largest(p, INSULATOR), liquid = largest(p, LIQUID), off = difference(p);
-  double local = field_over(p, &p->true_free) - 1;
+  double local = field_over(p, &p->right) - 1;
   if (insulator > def->insulator.breakdown_field)
     zp_result_warn(p->result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
                    insulator / 1e6, def->insulator.breakdown_field / 1e6);
@@ -437,15 +407,18 @@ static ZpStatus run(Profiler *p, ZpError *err) {
   return end == ZP_FIELD_SOLVED ? report(p, err) : refuse(p, end, err);
 }
 
-/* As in study isometric, what hangs there does not count. */
+/* As in study isometric, what hangs there does not count. The model is that of plates: the shape has no voltage, and
+ * the field is solved here. */
 ZpStatus zp_study_profile(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
   (void)hooks; /* a matter of milliseconds */
   ZpActuatorDef bare = *def;
   bare.load.mass = 0;
+  bare.electro.model = ZP_ELECTRO_PLATES;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Profiler p = {.model = model, .result = result, .U = def->drive.voltage};
+  Profiler p = {
+      .model = model, .result = result, .U = def->drive.voltage, .by_field = def->electro.model == ZP_ELECTRO_FIELD};
   status = run(&p, err);
   zp_free(p.memory);
   zp_field_destroy(&p.field);

@@ -1,0 +1,35 @@
+/* What the solved field has beyond the plates law, on the nodes of two ribbons. The plates law follows the ribbons at
+ * every step; this is small and varies slowly, so it may be held for a while. Where the breakdown cap holds the force,
+ * nothing is added: both are taken with no gap below that at which it sets in, eq. (14.7). Per U^2: without
+ * cap it does not depend on U. */
+#ifndef ZP_ELECTRO_SURPLUS_H
+#define ZP_ELECTRO_SURPLUS_H
+
+#include "electro/field.h"
+#include "electro/plates.h"
+
+typedef struct ZpSurplus {
+  ZpField field;
+  ZpPlatesParams plates; /* without cap */
+  ZpPlatesEval eval;
+  double scale;      /* on the field's force and energy, as in the plates law */
+  double h_per_volt; /* of the cap, as in ZpPlatesParams */
+  double U;          /* V, and */
+  double *q;         /* [2 stride] where it was solved: x, then y, of interleaved upper and lower nodes; NAN: nowhere */
+  double *floored;   /* [2 stride] that with no gap below where the cap sets in */
+  double *F;         /* [2 stride] field less plates, force on each node in that order, N/V^2; 0 at first */
+  double energy;     /* the same of the co-energies, J/V^2: F is its gradient */
+  double charge;     /* the same of the charges, C/V */
+  int solutions;     /* how often the field was solved */
+  void *memory;
+} ZpSurplus;
+
+/* False if there is no memory. */
+bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale, ZpSurplus *surplus);
+void zp_surplus_destroy(ZpSurplus *surplus);
+
+/* (coordinates as q, voltage) => F, energy, charge. Where the field cannot be solved they stay. Costs nothing where it
+ * was solved last. Without voltage: as at 1 V, where nothing is capped. */
+ZpFieldEnd zp_surplus_solve(ZpSurplus *surplus, const double *q, double voltage);
+
+#endif

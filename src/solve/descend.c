@@ -1,0 +1,52 @@
+/* Letters: K stiffness, r forces left, c resistance per coordinate. */
+#include "solve/descend.h"
+
+#include <math.h>
+
+static double largest_diagonal(const ZpBand *K) {
+  double largest = 0;
+  for (size_t i = 0; i < K->n; i++)
+    largest = fmax(largest, fabs(*zp_band_at(K, i, i)));
+  return largest;
+}
+
+/* K + c with a c that makes it positive, which it is without if *c comes to 0. => false if none does */
+static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewtonWork *work) {
+  for (int k = 0; k < 100; k++) {
+    system->stiffness(system->self, &work->K);
+    for (size_t i = 0; i < work->K.n; i++)
+      *zp_band_at(&work->K, i, i) += *c;
+    if (zp_band_negative_pivots(&work->K, work->LDL) == 0) return true;
+    *c = fmax(4 * *c, least);
+  }
+  return false;
+}
+
+ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work) {
+  static const double at_first = 1e-6, least = 1e-14; /* of the stiffest: slow; below, nothing is changed by it */
+  ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
+  double c = 0, stiffest = 0;
+  for (; info.iterations < most; info.iterations++) {
+    info.residual = system->residual(system->self, work->r);
+    info.end = ZP_NEWTON_DIVERGED;
+    if (!isfinite(info.residual)) return info;
+    if (info.iterations == 0) {
+      system->stiffness(system->self, &work->K);
+      stiffest = largest_diagonal(&work->K);
+      c = at_first * stiffest;
+    }
+    info.end = ZP_NEWTON_SINGULAR;
+    if (c < least * stiffest) c = 0;
+    if (!resist(system, least * stiffest, &c, work)) return info;
+    info.end = ZP_NEWTON_CONVERGED;
+    if (c == 0 && info.residual < tolerance) return info;
+    info.end = ZP_NEWTON_SINGULAR;
+    if (!zp_band_factor(&work->K, NULL)) return info;
+    zp_band_solve(&work->K, work->r);
+    double length = system->length(system->self, work->r) / longest;
+    system->move(system->self, work->r, length > 1 ? 1 / length : 1);
+    c *= length > 1 ? 2 : 0.5;
+  }
+  info.end = ZP_NEWTON_SLOW;
+  return info;
+}
