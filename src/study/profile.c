@@ -144,8 +144,9 @@ static void fill_row(const Profiler *p, size_t k, double *row) {
   row[RATIO] = unit > 0 ? mean / unit : (double)NAN;
   row[LIQUID] = at->E * U;
   row[INSULATOR] = at->E_insulator * U;
-  row[CAPPED] = at->gap + p->set.d < p->set.h_per_volt * U;
-  row[FORCE] = p->by_field && !row[CAPPED] ? p->model->field_scale * row[FIELD] : law.W;
+  bool capped = at->gap + p->set.d < p->set.h_per_volt * U;
+  row[CAPPED] = capped;
+  row[FORCE] = p->by_field && !capped ? p->model->field_scale * row[FIELD] : law.W;
 }
 
 /* Simpson's rule over rows from .. to, an even number of intervals. */
