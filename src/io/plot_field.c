@@ -42,7 +42,7 @@ static void script_profile(const ZpPlot *plot, FILE *file) {
   fputc('\n', file);
   zp_plot_lower_panel(file, RIGHT, label);
   fputs(
-      "unset key\nset autoscale y\nset offsets 0, 0, graph 0.08, graph 0.05\nset ylabel 'field / plates' offset 0.5\n",
+      "unset key\nset autoscale y\nset offsets 0, 0, graph 0.08, graph 0.05\nset ylabel 'field / plates' offset 2.2\n",
       file);
   curve(file, "plot ", x, "ratio", 1, "lw 2.5 lc rgb '#0072b2'", "");
   fputs("\nunset multiplot\n", file);
