@@ -48,6 +48,7 @@ typedef enum ZpStepLimit {
   ZP_LIMIT_STABILITY, /* the stiffest spring */
   ZP_LIMIT_DRAG,      /* first bound of eq. (9) of the paper */
   ZP_LIMIT_EVENT,     /* a pair meets inside the step */
+  ZP_LIMIT_ERROR,     /* implicit: the local error, or what converges */
   ZP_LIMIT_END,       /* the end of the run */
   ZP_LIMIT_COUNT
 } ZpStepLimit;
@@ -61,6 +62,9 @@ typedef struct ZpRunInfo {
   char message[256];               /* one sentence for people */
   int64_t steps;                   /* taken */
   int64_t limited[ZP_LIMIT_COUNT]; /* how many of them each bound set */
+  int64_t rejected;                /* implicit: steps thrown away for their local error, */
+  int64_t failures;                /* and because Newton's method found no end */
+  int64_t iterations;              /* implicit: of Newton's method */
   double smallest_bound[3];        /* of eq. (9): drag, axial, shear; s; over the recorded rows */
   double simulated_time;           /* s */
   double wall_time;                /* of the stepping, s; NAN without a clock */

@@ -309,5 +309,5 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + 8 * model->stride * sizeof(double);
+  return sizeof(ZpState) + 12 * model->stride * sizeof(double);
 }

@@ -55,19 +55,23 @@ typedef struct ZpState {
   double t; /* s */
   double U; /* held input: potential difference, V */
   ZpZipState zip;
-  bool was_open;       /* has the opening been above 1 % of the hanging one? */
-  double zip_time;     /* s; NAN until zipped */
-  double opening0;     /* of the hanging equilibrium, m */
-  double base_charge;  /* per part, at the last voltage step, C */
-  double base_energy;  /* per part: kinetic + stored without field at the start, J */
-  double base_field;   /* per part: field energy at the last voltage step, J */
-  double work;         /* per part: of the source up to the last voltage step, J */
-  double drag_loss;    /* per part, J */
-  double contact_loss; /* per part, J */
-  double refreshed;    /* time of the last refresh of a held electric force, s; NAN: due now */
-  double held_energy;  /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
-  double held_charge;  /* and charge, C/V */
-  double data[];       /* q [2 stride], v [2 stride], held force [2 stride], and where it was found [2 stride] */
+  bool was_open;        /* has the opening been above 1 % of the hanging one? */
+  double zip_time;      /* s; NAN until zipped */
+  double opening0;      /* of the hanging equilibrium, m */
+  double base_charge;   /* per part, at the last voltage step, C */
+  double base_energy;   /* per part: kinetic + stored without field at the start, J */
+  double base_field;    /* per part: field energy at the last voltage step, J */
+  double work;          /* per part: of the source up to the last voltage step, J */
+  double drag_loss;     /* per part, J */
+  double contact_loss;  /* per part, J */
+  double internal_loss; /* per part: of internal damping, J */
+  double last_step;     /* implicit: length of the last step, s; 0: there is none */
+  double next_step;     /* and of the next one to try */
+  double refreshed;     /* time of the last refresh of a held electric force, s; NAN: due now */
+  double held_energy;   /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
+  double held_charge;   /* and charge, C/V */
+  double data[];        /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
+                           mean velocity and acceleration of the last implicit step [4 stride] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -98,6 +102,15 @@ static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
 /* The coordinates at which it was found. */
 static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
   return state->data + 6 * model->stride;
+}
+
+/* Mean velocity and mean acceleration over the last implicit step. */
+static inline double *zp_state_mean_v(const ZpModel *model, ZpState *state) {
+  return state->data + 8 * model->stride;
+}
+
+static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
+  return state->data + 10 * model->stride;
 }
 
 size_t zp_state_size(const ZpModel *model);

@@ -376,8 +376,29 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
       "electro.insulator_offset = 0 m: the plates law that study profile compares with has no bound at the clip");
 }
 
+/* What the integrators ask of mechanics and contact. */
+static ZpStatus check_motion(const ZpActuatorDef *def, ZpError *err) {
+  bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  if (implicit && def->ribbon.model != ZP_RIBBON_ROD)
+    return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = implicit: goes with ribbon.model rod only");
+  if (implicit && def->electro.surface != ZP_SURFACE_POLYLINE)
+    return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = implicit: goes with electro.surface polyline only");
+  if (two && implicit != (def->contact.model == ZP_CONTACT_UNILATERAL))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "contact.model = %s: unilateral goes with solver.integrator implicit, sequential with explicit",
+                   word_of("contact.model", (int)def->contact.model));
+  if (!implicit && def->damping.internal > 0)
+    return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: goes with solver.integrator implicit only",
+                   def->damping.internal);
+  return ZP_OK;
+}
+
 /* What is asked of one model or one study only. */
 static ZpStatus check_study(const ZpActuatorDef *def, ZpError *err) {
+  if (def->study == ZP_STUDY_ACTUATE) {
+    ZpStatus status = check_motion(def, err);
+    if (status != ZP_OK) return status;
+  }
   if (def->electro.model == ZP_ELECTRO_FIELD) {
     ZpStatus status = check_field(def, err);
     if (status != ZP_OK) return status;
@@ -408,10 +429,8 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
                    "force has no bound");
   bool actuates = def->study == ZP_STUDY_ACTUATE;
-  if (def->actuator.kind == ZP_KIND_FLANGE && actuates)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "actuator.kind = flange: goes with the studies of rest only; contact.model sequential joins ribbons");
+  if (def->actuator.kind == ZP_KIND_FLANGE && actuates && def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
+    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: in motion goes with solver.integrator implicit only");
   if (def->ribbon.density == 0 && def->insulator.density == 0 && (actuates || def->study == ZP_STUDY_MODES))
     return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a ribbon that moves needs a mass");
   double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;

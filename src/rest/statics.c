@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "rest/assemble.h"
 
 /* Range of contact: far below a micrometre, far above rounding. Under the attraction of closed faces at
  * drive.voltage the gap is 0. */
@@ -29,21 +30,6 @@ static size_t carve(ZpStatics *s, void *block) {
   return carver.used;
 }
 
-/* Number the free coordinates station by station, so that what couples lies in a narrow band; the clip's two
- * nodes share their equations. */
-static void number(ZpStatics *s) {
-  const ZpModel *model = s->model;
-  int next = 0;
-  for (size_t j = 0; j < model->count; j++) {
-    bool joined = model->s == 2 && j == 1;
-    bool free_x = model->masses.x.inverse[j] > 0, free_y = model->masses.y.inverse[j] > 0;
-    s->equation[2 * j] = joined ? s->equation[0] : free_x ? next++ : -1;
-    s->equation[2 * j + 1] = joined ? s->equation[1] : free_y ? next++ : -1;
-  }
-  s->n = (size_t)next;
-  s->bandwidth = 6 * model->s - 1; /* node i meets nodes i - 2 .. i + 2 */
-}
-
 static void lay_straight(ZpStatics *s) {
   const ZpModel *model = s->model;
   memset(s->q, 0, 2 * model->stride * sizeof *s->q);
@@ -63,7 +49,8 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
     return false;
   }
   carve(s, s->memory);
-  number(s);
+  s->n = zp_assemble_number(model, s->equation);
+  s->bandwidth = zp_assemble_bandwidth(model);
   double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
   double weight = model->total_weight / model->L;
   s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight), contact_range,
@@ -317,80 +304,21 @@ static double residual(void *self, double *r) {
 
 /* -- stiffness ------------------------------------------------------------------------------------ */
 
-static void add(const ZpStatics *s, ZpBand *K, size_t row, size_t column, double value) {
-  int i = s->equation[row], j = s->equation[column];
-  if (i >= 0 && j >= 0) *zp_band_at(K, (size_t)i, (size_t)j) += value;
-}
-
-/* A 2 x 2 block d(force on a)/d(position of b), sign turned. */
-static void add_block(const ZpStatics *s, ZpBand *K, size_t a, size_t b, const double D[4], double sign) {
-  add(s, K, 2 * a, 2 * b, sign * D[0]);
-  add(s, K, 2 * a, 2 * b + 1, sign * D[1]);
-  add(s, K, 2 * a + 1, 2 * b, sign * D[2]);
-  add(s, K, 2 * a + 1, 2 * b + 1, sign * D[3]);
-}
-
-/* Edge j (nodes j, j + s) feels edge k (nodes k, k + s): the force R_j acts on its right node, -R_j on its left. */
-static void add_mechanics(const ZpStatics *s, ZpBand *K) {
-  const ZpModel *model = s->model;
-  ptrdiff_t step = (ptrdiff_t)model->s, edges = (ptrdiff_t)(model->count - model->s);
-  zp_eval_stiffness(model, &s->eval, s->tension, s->D);
-  for (ptrdiff_t j = 0; j < edges; j++)
-    for (ptrdiff_t m = 0; m < 3; m++) {
-      ptrdiff_t k = j + (m - 1) * step;
-      if (k < 0 || k >= edges) continue;
-      size_t left = (size_t)j, right = (size_t)(j + step), from = (size_t)k, to = (size_t)(k + step);
-      const double *D = s->D[3 * j + m];
-      add_block(s, K, right, to, D, 1);
-      add_block(s, K, right, from, D, -1);
-      add_block(s, K, left, to, D, -1);
-      add_block(s, K, left, from, D, 1);
-    }
-}
-
-/* Second derivative by the gaps of stations i and k: gap = y upper - y lower. */
-static void add_gaps(const ZpStatics *s, ZpBand *K, size_t i, size_t k, double value) {
-  size_t ribbons = s->model->s;
-  for (size_t a = 0; a < ribbons; a++)
-    for (size_t b = 0; b < ribbons; b++)
-      add(s, K, 2 * (ribbons * i + a) + 1, 2 * (ribbons * k + b) + 1, a == b ? value : -value);
-}
-
-/* Second derivative by the mean x-length of element i and the gap of station k, both orders. */
-static void add_along(const ZpStatics *s, ZpBand *K, size_t i, size_t k, double value) {
-  size_t ribbons = s->model->s;
-  for (size_t a = 0; a < 2 * ribbons; a++) /* nodes of station i, then of i + 1 */
-    for (size_t b = 0; b < ribbons; b++) {
-      size_t x = 2 * (ribbons * i + a), y = 2 * (ribbons * k + b) + 1;
-      double rises = ribbons == 2 && b == 0 ? 1 : -1; /* how the gap goes with this y */
-      double sign = (a < ribbons ? -1 : 1) * rises / (double)ribbons;
-      add(s, K, x, y, sign * value);
-      add(s, K, y, x, sign * value);
-    }
-}
-
-static void add_stations(const ZpStatics *s, ZpBand *K) {
-  for (size_t i = 0; i < s->model->nodes; i++) {
-    add_gaps(s, K, i, i, s->own[i]);
-    if (i + 1 == s->model->nodes) break;
-    add_gaps(s, K, i, i + 1, s->next[i]);
-    add_gaps(s, K, i + 1, i, s->next[i]);
-  }
+static void add_mechanics(ZpStatics *s, ZpBand *K) {
+  zp_eval_stiffness(s->model, &s->eval, s->tension, s->D);
+  zp_assemble_edges(s->model, s->equation, (const double(*)[4])s->D, K);
 }
 
 static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
   if (s->contact_acts) {
     zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, s->own, s->next);
-    add_stations(s, K);
+    zp_assemble_stations(model, s->equation, s->own, s->next, K);
   }
   if (s->U == 0) return;
   zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, s->own, s->next, s->along0, s->along1);
-  add_stations(s, K);
-  for (size_t i = 0; i + 1 < model->nodes; i++) {
-    add_along(s, K, i, i, s->along0[i]);
-    add_along(s, K, i, i + 1, s->along1[i]);
-  }
+  zp_assemble_stations(model, s->equation, s->own, s->next, K);
+  zp_assemble_along(model, s->equation, s->along0, s->along1, K);
 }
 
 static void stiffness(void *self, ZpBand *K) {

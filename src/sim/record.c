@@ -70,8 +70,10 @@ void zp_sim_fill_row(ZpSim *sim) {
   row[SIGNAL_gravity_energy] = parts * e.gravity;
   row[SIGNAL_field_energy] = parts * e.field;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
+  row[SIGNAL_internal_loss] = parts * state->internal_loss;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
-  row[SIGNAL_energy_imbalance] = parts * (work - field - stored - state->drag_loss - state->contact_loss);
+  row[SIGNAL_energy_imbalance] =
+      parts * (work - field - stored - state->drag_loss - state->internal_loss - state->contact_loss);
   sim->row_time = state->t;
   sim->row_charge = e.charge;
 }

@@ -19,7 +19,7 @@ bool zp_outcome_good(ZpOutcome outcome) {
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
-  static const char *const names[] = {"time_step", "stability", "drag", "event", "end"};
+  static const char *const names[] = {"time_step", "stability", "drag", "event", "error", "end"};
   return names[limit];
 }
 
@@ -34,6 +34,8 @@ static bool allocate(ZpSim *sim) {
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
+  bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
+  if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
   return zp_eval_create(model, &sim->eval) && sim->state && sim->a && sim->relax_work && sim->row && sim->line_force;
 }
 
@@ -78,6 +80,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
 
 void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
+  zp_dynamics_destroy(&sim->dynamics);
   zp_eval_destroy(&sim->eval);
   zp_free(sim->state);
   zp_free(sim->a);
@@ -163,7 +166,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit) {
   return limit == ZP_EXPLICIT_END ? ZP_LIMIT_END : sim->bound;
 }
 
-static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
+static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   ZpExplicitSystem system = {2 * model->stride, sim, accelerate, model->field ? next_event : NULL};
@@ -181,6 +184,47 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
     state->zip = sim->opened;
   state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U > 0 && reached_zip(model, state)) state->zip_time = state->t;
+}
+
+/* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
+static ZpZipState touching(const ZpModel *model, const double *gap) {
+  static const double touch = 5e-7; /* m, as in contact at rest */
+  ZpZipState zip = {0, false};
+  while (zip.front + 1 < model->nodes && gap[zip.front + 1] < touch)
+    zip.front++;
+  zip.platform = zip.front + 1 == model->nodes;
+  return zip;
+}
+
+/* When within the step that has just been taken the opening fell to 1 %: on the straight line between its ends. */
+static double zipped_at(const ZpModel *model, const ZpState *state, double before, double taken) {
+  double now = opening(model, state), limit = 0.01 * state->opening0;
+  return before > limit ? state->t - taken * (limit - now) / (before - now) : state->t;
+}
+
+static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  double left = end_time - state->t, before = model->s == 2 ? opening(model, state) : 0;
+  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
+  double taken = zp_dynamics_step(&sim->dynamics, state, left);
+  sim->stuck = !(taken > 0);
+  if (sim->stuck) return;
+  state->t = taken == left ? end_time : state->t + taken;
+  info->steps++;
+  info->limited[taken == left ? ZP_LIMIT_END : sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR]++;
+  if (model->s < 2) return;
+  state->zip = touching(model, sim->dynamics.plates1.gap);
+  state->was_open |= is_open(model, state);
+  if (isnan(state->zip_time) && state->U > 0 && reached_zip(model, state))
+    state->zip_time = zipped_at(model, state, before, taken);
+}
+
+static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
+  if (sim->model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT)
+    implicit_step(sim, end_time, info);
+  else
+    explicit_step(sim, end_time, info);
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -221,6 +265,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
     step(sim, end_time, info);
+    if (sim->stuck) return ZP_DIVERGED;
     bool sample = recording && state->t >= next_sample;
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
       if (diverged(model, state)) return ZP_DIVERGED;
@@ -255,8 +300,11 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              sim->settle_residual, (long long)sim->settle_steps);
     break;
   case ZP_DIVERGED:
-    snprintf(text, size, "diverged before %g s; what was recorded until then is kept; try a smaller solver.time_step",
-             t);
+    if (sim->stuck)
+      snprintf(text, size, "no time step converges at %g s, however short; what was recorded until then is kept", t);
+    else
+      snprintf(text, size, "diverged before %g s; what was recorded until then is kept; try a smaller solver.time_step",
+               t);
     break;
   case ZP_STEP_LIMIT:
     snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps", t, sim->model->def.solver.max_steps);
@@ -273,6 +321,7 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
                     .settle_residual = sim->settle_residual,
                     .smallest_bound = {INFINITY, INFINITY, INFINITY}};
   bool clock = hooks && hooks->clock;
+  ZpImplicitCounts before = sim->dynamics.stepper.counts;
   double start_time = sim->state->t, start_clock = clock ? hooks->clock(hooks->user) : NAN;
   info.outcome = sim->settled;
   if (info.outcome == ZP_REACHED_END) {
@@ -281,6 +330,10 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
   info.simulated_time = sim->state->t - start_time;
+  const ZpImplicitCounts *counts = &sim->dynamics.stepper.counts;
+  info.rejected = counts->rejected - before.rejected;
+  info.failures = counts->failures - before.failures;
+  info.iterations = counts->iterations - before.iterations;
   describe(sim, &info);
   if (out) *out = info;
   return info.outcome;

@@ -5,6 +5,7 @@
 #include <zipact/sim.h>
 
 #include "actuator/eval.h"
+#include "rest/dynamics.h"
 #include "solve/explicit.h"
 
 struct ZpSim {
@@ -21,6 +22,8 @@ struct ZpSim {
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
+  ZpDynamics dynamics; /* integrator implicit */
+  bool stuck;          /* it found no step */
   /* of the step under way */
   ZpStepLimit bound; /* what set the largest step allowed */
   size_t met;        /* pair that meets inside it */

@@ -39,14 +39,17 @@ static void summarize_actuator(const ZpSim *sim, const ZpModel *model, ZpResult 
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
   static const char *const limited[ZP_LIMIT_COUNT] = {"steps_limited_by_time_step", "steps_limited_by_stability",
-                                                      "steps_limited_by_drag", "steps_limited_by_event",
-                                                      "steps_limited_by_end"};
+                                                      "steps_limited_by_drag",      "steps_limited_by_event",
+                                                      "steps_limited_by_error",     "steps_limited_by_end"};
   static const char *const bound[3] = {"smallest_drag_bound_s", "smallest_axial_bound_s", "smallest_shear_bound_s"};
   zp_result_add(result, "steps", "count", (double)info->steps);
   zp_result_add(result, "mean_time_step_s", "s", info->steps ? info->simulated_time / (double)info->steps : NAN);
   zp_result_add(result, "simulated_time_s", "s", info->simulated_time);
   for (int k = 0; k < ZP_LIMIT_COUNT; k++)
     zp_result_add(result, limited[k], "count", (double)info->limited[k]);
+  zp_result_add(result, "steps_rejected", "count", (double)info->rejected);
+  zp_result_add(result, "newton_failures", "count", (double)info->failures);
+  zp_result_add(result, "newton_iterations", "count", (double)info->iterations);
   for (int k = 0; k < 3; k++)
     zp_result_add(result, bound[k], "s", isfinite(info->smallest_bound[k]) ? info->smallest_bound[k] : NAN);
   zp_result_add(result, "settle_steps", "count", (double)info->settle_steps);

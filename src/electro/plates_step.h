@@ -1,0 +1,22 @@
+/* The attraction by the plates law over a time step at one voltage: forces that do exactly the work by which its
+ * potential changes from one end of the step to the other. docs/theory.md, section 18. */
+#ifndef ZP_ELECTRO_PLATES_STEP_H
+#define ZP_ELECTRO_PLATES_STEP_H
+
+#include "electro/plates.h"
+
+/* Written by zp_plates_step; places of forces as in ZpPlatesEval. */
+typedef struct ZpPlatesStep {
+  double *Fx, *Fy;    /* [stride] N */
+  double *own, *next; /* [N], [N-1] derivative by the end's gaps: of a station's own force, with the next, N/m */
+  double *along0,
+      *along1; /* [N-1] by an element's x-length at the end and the gap of its left and right station, N/m */
+} ZpPlatesStep;
+
+void zp_plates_step_carve(const ZpPlatesParams *params, ZpPlatesStep *step, ZpCarver *carver);
+
+/* (gaps and dx at both ends of the step, voltage) => all of `step`. */
+void zp_plates_step(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double voltage,
+                    ZpPlatesStep *step);
+
+#endif

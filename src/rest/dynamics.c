@@ -1,0 +1,277 @@
+#include "rest/dynamics.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "rest/assemble.h"
+
+static size_t carve(ZpDynamics *d, void *block) {
+  const ZpModel *model = d->model;
+  size_t stride = model->stride, all = 2 * model->count;
+  ZpCarver carver = {block, 0};
+  ZpRodEval *evals[] = {&d->rod0, &d->rod1};
+  for (size_t k = 0; k < 2; k++)
+    zp_rod_carve(&model->rod, evals[k], &carver);
+  zp_rod_step_carve(&model->rod, &d->rod, &carver);
+  zp_plates_carve(&model->plates, &d->plates0, &carver);
+  zp_plates_carve(&model->plates, &d->plates1, &carver);
+  zp_plates_step_carve(&model->plates, &d->plates, &carver);
+  zp_implicit_carve(&d->stepper, &d->system, &carver);
+  double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
+  for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
+    *of_equations[k] = zp_carve(&carver, all);
+  double **of_nodes[] = {&d->start, &d->end, &d->force};
+  for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
+    *of_nodes[k] = zp_carve(&carver, 2 * stride);
+  d->push = zp_carve(&carver, model->nodes);
+  d->pressed = zp_carve(&carver, model->nodes);
+  d->equation = (int *)(void *)zp_carve(&carver, model->count);
+  d->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
+  return carver.used;
+}
+
+/* Coordinate k (2 j: x of node j, 2 j + 1: its y) in arrays over nodes. */
+static size_t place(const ZpDynamics *d, size_t k) {
+  return k / 2 + (k % 2) * d->model->stride;
+}
+
+static void gather(const ZpDynamics *d, const double *nodes, double *equations) {
+  for (size_t k = 0; k < 2 * d->model->count; k++)
+    if (d->equation[k] >= 0) equations[d->equation[k]] = nodes[place(d, k)];
+}
+
+static void scatter(const ZpDynamics *d, const double *equations, double *nodes) {
+  for (size_t k = 0; k < 2 * d->model->count; k++)
+    if (d->equation[k] >= 0) nodes[place(d, k)] = equations[d->equation[k]];
+}
+
+/* -- the system ----------------------------------------------------------------------------------- */
+
+static double internal_damping(const ZpDynamics *d) {
+  return d->model->def.damping.internal / d->h;
+}
+
+static void begin(void *self, const double *q0) {
+  ZpDynamics *d = self;
+  const ZpModel *model = d->model;
+  scatter(d, q0, d->start);
+  memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
+  zp_rod_eval(&model->rod, d->start, d->start + model->stride, &d->rod0);
+  if (model->field) zp_plates_gaps(&model->plates, d->start, d->start + model->stride, &d->plates0);
+}
+
+static void add_mechanics(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  size_t s = model->s, stride = model->stride;
+  double *Fx = d->force, *Fy = Fx + stride;
+  zp_rod_eval(&model->rod, d->end, d->end + stride, &d->rod1);
+  zp_rod_step(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod);
+  for (size_t j = 0; j < model->count; j++)
+    Fy[j] -= model->weight[j];
+  for (size_t j = 0; j + s < model->count; j++) {
+    Fx[j] -= d->rod.Rx[j];
+    Fy[j] -= d->rod.Ry[j];
+    Fx[j + s] += d->rod.Rx[j];
+    Fy[j + s] += d->rod.Ry[j];
+  }
+}
+
+/* Attraction, and faces that push each other apart: up on the upper ribbon, down on the lower or only one. */
+static void add_faces(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  size_t s = model->s, stride = model->stride;
+  double *Fx = d->force, *Fy = Fx + stride, U2 = d->U * d->U;
+  zp_plates_gaps(&model->plates, d->end, d->end + stride, &d->plates1);
+  zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U, &d->plates);
+  zp_stop_push(&d->stop, d->plates1.gap, d->push, d->pressed);
+  for (size_t j = 0; j < model->count; j++) {
+    Fx[j] += d->plates.Fx[j];
+    Fy[j] += d->plates.Fy[j];
+  }
+  for (size_t k = 0; d->beyond && k < 2 * stride; k++)
+    d->force[k] += U2 * d->beyond[k];
+  for (size_t i = 0; i < model->nodes; i++) {
+    size_t lower = s * i + s - 1;
+    Fy[lower] -= d->push[i];
+    if (s == 2) Fy[lower - 1] += d->push[i];
+  }
+}
+
+/* The paper's drag, -c |w| w on each particle at its mean velocity. */
+static void add_drag(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  size_t stride = model->stride;
+  double c = model->def.damping.drag;
+  d->drag_loss = 0;
+  if (!(c > 0)) return;
+  for (size_t j = 0; j < model->count; j++) {
+    double x = (d->end[j] - d->start[j]) / d->h, y = (d->end[stride + j] - d->start[stride + j]) / d->h;
+    double speed = sqrt(x * x + y * y);
+    d->force[j] -= c * speed * x;
+    d->force[stride + j] -= c * speed * y;
+    d->drag_loss += c * speed * speed * speed * d->h;
+  }
+}
+
+static void force(void *self, const double *q1, double h, double *f) {
+  ZpDynamics *d = self;
+  const ZpModel *model = d->model;
+  d->h = h;
+  scatter(d, q1, d->end);
+  memset(d->force, 0, 2 * model->stride * sizeof *d->force);
+  add_mechanics(d);
+  if (model->field) add_faces(d);
+  add_drag(d);
+  memset(f, 0, d->system.n * sizeof *f);
+  for (size_t k = 0; k < 2 * model->count; k++)
+    if (d->equation[k] >= 0) f[d->equation[k]] += d->force[place(d, k)];
+}
+
+/* Drag at its present speed: its change with direction is left out. */
+static void add_drag_tangent(const ZpDynamics *d, ZpBand *A) {
+  const ZpModel *model = d->model;
+  size_t stride = model->stride;
+  for (size_t k = 0; k < 2 * model->count; k++) {
+    if (d->equation[k] < 0) continue;
+    size_t j = k / 2, i = (size_t)d->equation[k];
+    double x = d->end[j] - d->start[j], y = d->end[stride + j] - d->start[stride + j];
+    *zp_band_at(A, i, i) += 2 * model->def.damping.drag * sqrt(x * x + y * y) / (d->h * d->h);
+  }
+}
+
+static void tangent(void *self, ZpBand *A) {
+  ZpDynamics *d = self;
+  const ZpModel *model = d->model;
+  zp_band_clear(A);
+  zp_rod_step_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->D);
+  zp_assemble_edges(model, d->equation, (const double(*)[4])d->D, A);
+  if (model->def.damping.drag > 0) add_drag_tangent(d, A);
+  if (!model->field) return;
+  for (size_t i = 0; i < model->nodes; i++)
+    d->plates.own[i] += d->pressed[i];
+  zp_assemble_stations(model, d->equation, d->plates.own, d->plates.next, A);
+  zp_assemble_along(model, d->equation, d->plates.along0, d->plates.along1, A);
+}
+
+/* -- faces that meet ------------------------------------------------------------------------------ */
+
+/* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. */
+typedef struct Pair {
+  int upper, lower;
+  double upper_share; /* of the pair's mass */
+  double reduced;     /* mass of their relative motion, kg */
+} Pair;
+
+static Pair pair_of(const ZpDynamics *d, size_t i) {
+  size_t s = d->model->s, lower = s * i + s - 1;
+  Pair pair = {s == 2 ? d->equation[2 * lower - 1] : -1, d->equation[2 * lower + 1], 1, 0};
+  if (pair.lower < 0) return pair;
+  pair.reduced = d->mass[pair.lower];
+  if (pair.upper < 0) return pair;
+  double upper = d->mass[pair.upper], both = upper + d->mass[pair.lower];
+  pair.upper_share = upper / both;
+  pair.reduced = upper * d->mass[pair.lower] / both;
+  return pair;
+}
+
+/* Faces that would pass through each other meet where their common centre of mass is. */
+static void guess(void *self, double *q1) {
+  ZpDynamics *d = self;
+  const ZpModel *model = d->model;
+  const double *y = d->start + model->stride;
+  for (size_t i = 1; i < model->nodes; i++) {
+    Pair pair = pair_of(d, i);
+    if (pair.lower < 0) continue;
+    double held = model->s == 2 ? y[2 * i] : model->plates.flat_height;
+    double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
+    if (!(overlap > 0)) continue;
+    q1[pair.lower] -= overlap * (pair.upper >= 0 ? pair.upper_share : 1);
+    if (pair.upper >= 0) q1[pair.upper] += overlap * (1 - pair.upper_share);
+  }
+}
+
+/* Faces that press on each other move as one; what they lose is counted. */
+static void impact(void *self, double *v1) {
+  ZpDynamics *d = self;
+  d->impact_loss = 0;
+  for (size_t i = 1; i < d->model->nodes; i++) {
+    if (!(d->pressed[i] > 0)) continue;
+    Pair pair = pair_of(d, i);
+    if (pair.lower < 0) continue;
+    double upper = pair.upper >= 0 ? v1[pair.upper] : 0, apart = upper - v1[pair.lower];
+    d->impact_loss += 0.5 * pair.reduced * apart * apart;
+    v1[pair.lower] += apart * (pair.upper >= 0 ? pair.upper_share : 1);
+    if (pair.upper >= 0) v1[pair.upper] = v1[pair.lower];
+    /* what it pressed on its way is lost with it */
+    d->impact_loss -= d->push[i] * (d->plates1.gap[i] - d->plates0.gap[i]);
+  }
+}
+
+/* -- creation and step ---------------------------------------------------------------------------- */
+
+static ZpStopParams stop_of(const ZpModel *model) {
+  static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
+  static const double thinnest = 10e-6; /* m */
+  const ZpActuatorDef *def = &model->def;
+  double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
+  double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
+  return (ZpStopParams){model->nodes, model->l, E * def->ribbon.width / layers,
+                        model->s == 2 ? def->platform.length / 2 : 0};
+}
+
+bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
+  memset(d, 0, sizeof *d);
+  d->model = model;
+  d->system = (ZpImplicitSystem){.n = 2 * model->count,
+                                 .bandwidth = zp_assemble_bandwidth(model),
+                                 .self = d,
+                                 .begin = begin,
+                                 .force = force,
+                                 .tangent = tangent,
+                                 .guess = model->field ? guess : NULL,
+                                 .impact = model->field ? impact : NULL};
+  d->memory = zp_calloc(1, carve(d, NULL));
+  if (!d->memory) return false;
+  carve(d, d->memory);
+  d->system.n = d->stepper.A.n = zp_assemble_number(model, d->equation);
+  d->system.mass = d->mass;
+  for (size_t k = 0; k < 2 * model->count; k++)
+    if (d->equation[k] >= 0) d->mass[d->equation[k]] += model->mass[k / 2];
+  d->stop = stop_of(model);
+  const ZpActuatorDef *def = &model->def;
+  d->stepper.accuracy = 0.2 * def->solver.tolerance * model->L;
+  d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
+  return true;
+}
+
+void zp_dynamics_destroy(ZpDynamics *d) {
+  zp_free(d->memory);
+  d->memory = NULL;
+}
+
+double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
+  const ZpModel *model = d->model;
+  double *q = zp_state_q(model, state), *v = zp_state_v(model, state), *w = zp_state_mean_v(model, state),
+         *a = zp_state_mean_a(model, state);
+  d->U = state->U;
+  d->beyond = model->field_solved ? zp_state_held(model, state) : NULL;
+  memcpy(d->start, q, 2 * model->stride * sizeof *q);
+  gather(d, q, d->q);
+  gather(d, v, d->v);
+  gather(d, w, d->history.w);
+  gather(d, a, d->history.a);
+  d->history.last = state->last_step;
+  d->history.next = state->next_step;
+  double taken = zp_implicit_step(&d->stepper, longest, d->q, d->v, &d->history);
+  if (!(taken > 0)) return 0;
+  scatter(d, d->q, q);
+  scatter(d, d->v, v);
+  scatter(d, d->history.w, w);
+  scatter(d, d->history.a, a);
+  state->last_step = d->history.last;
+  state->next_step = d->history.next;
+  state->drag_loss += d->drag_loss;
+  state->internal_loss += d->rod.loss;
+  if (model->field) state->contact_loss += d->impact_loss;
+  return taken;
+}

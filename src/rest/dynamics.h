@@ -1,0 +1,42 @@
+/* An actuator in motion as a system for solve/implicit.h: mean forces over a step that do exactly the work by which the
+ * energies of ribbons and plates change, unilateral contact, damping. docs/theory.md, section 18. */
+#ifndef ZP_REST_DYNAMICS_H
+#define ZP_REST_DYNAMICS_H
+
+#include "actuator/model.h"
+#include "contact/stop.h"
+#include "electro/plates_step.h"
+#include "ribbon/rod_step.h"
+#include "solve/implicit.h"
+
+typedef struct ZpDynamics {
+  const ZpModel *model;
+  ZpImplicitSystem system;
+  ZpImplicit stepper;
+  ZpStopParams stop;
+  ZpRodEval rod0, rod1; /* at the step's start and at its end */
+  ZpRodStep rod;
+  ZpPlatesEval plates0, plates1;
+  ZpPlatesStep plates;
+  ZpImplicitHistory history;
+  int *equation;                 /* [2 count] */
+  double *mass, *q, *v;          /* [n] by equations */
+  double *start, *end;           /* [2 stride] coordinates of nodes */
+  double *force;                 /* [2 stride] N */
+  double *push, *pressed;        /* [N] contact: force N, stiffness N/m; 0 where open */
+  double (*D)[4];                /* [3 edges] stiffness of the ribbons */
+  const double *beyond;          /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
+  double U, h;                   /* of the step under way */
+  double drag_loss, impact_loss; /* over it, J */
+  void *memory;
+} ZpDynamics;
+
+/* False if there is no memory. */
+bool zp_dynamics_create(const ZpModel *model, ZpDynamics *dynamics);
+void zp_dynamics_destroy(ZpDynamics *dynamics);
+
+/* One step of at most `longest`, s, from the state => the state at its end, its losses added up, but for its time. =>
+ * the step's length; 0 if none was found: the state is then as it was. */
+double zp_dynamics_step(ZpDynamics *dynamics, ZpState *state, double longest);
+
+#endif

@@ -1,0 +1,31 @@
+/* The rod over a time step: forces that do exactly the work by which its energy changes from one end of the step to
+ * the other, whatever the step, and Kelvin-Voigt damping in the same form. docs/theory.md, section 18. */
+#ifndef ZP_RIBBON_ROD_STEP_H
+#define ZP_RIBBON_ROD_STEP_H
+
+#include "ribbon/rod.h"
+
+/* Written by zp_rod_step. */
+typedef struct ZpRodStep {
+  double *tx, *ty;   /* edges: mean of both ends' edges over the mean of their lengths */
+  double *gx, *gy;   /* edges: what times the change of the edge is its rotation, 1/m */
+  double *turn;      /* edges: rotation from start to end, rad */
+  double *T;         /* edges: tension over the step, N */
+  double *M;         /* joints: moment over the step, N m */
+  double *stiffness; /* joints: dM/dphi, N m */
+  double *Rx, *Ry;   /* edges: force on the right node, N, as in ZpRodEval */
+  double loss;       /* of internal damping over the step, J */
+} ZpRodStep;
+
+void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);
+
+/* (evals at both ends of the step, internal damping time over the step's length) => all of `step`. */
+void zp_rod_step(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
+                 ZpRodStep *step);
+
+/* Derivative by the end's edges at the last zp_rod_step, in the form of zp_rod_stiffness, symmetric: what makes the
+ * exact one unsymmetric, a quarter of the step's rotation times the stretching stiffness, is left out. */
+void zp_rod_step_stiffness(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
+                           const ZpRodStep *step, double (*D)[4]);
+
+#endif

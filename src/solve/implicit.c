@@ -1,0 +1,116 @@
+/* Letters: q position, w mean velocity of a step, a its mean acceleration 2 (w - v0) / h; h its length. */
+#include "solve/implicit.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double first_step = 1e-6;     /* s */
+static const double shortest_step = 1e-12; /* s */
+static const double newton_share = 1e-3;   /* of the accuracy: what the iteration may leave */
+static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
+enum { MOST_ITERATIONS = 20, PATIENCE = 10 };
+
+void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
+  s->system = system;
+  s->q = zp_carve(carver, system->n);
+  s->r = zp_carve(carver, system->n);
+  zp_band_carve(&s->A, system->n, system->bandwidth, system->bandwidth, carver);
+}
+
+static double rms(const double *x, size_t n) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    sum += x[i] * x[i];
+  return sqrt(sum / (double)n);
+}
+
+/* As if the ribbon moved on as in the last step: its mean velocity has none of the fast modes that v alternates with.
+ */
+static void predict(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
+  const double *w = history->last > 0 ? history->w : v;
+  for (size_t i = 0; i < s->system->n; i++)
+    s->q[i] = q[i] + h * w[i];
+  if (s->system->guess) s->system->guess(s->system->self, s->q);
+}
+
+/* f - M a of (18.1) => r, and the Jacobian factored. */
+static bool linearise(ZpImplicit *s, double h, const double *q, const double *v) {
+  const ZpImplicitSystem *system = s->system;
+  system->force(system->self, s->q, h, s->r);
+  system->tangent(system->self, &s->A);
+  for (size_t i = 0; i < system->n; i++) {
+    double inertia = 2 * system->mass[i] / (h * h);
+    s->r[i] -= inertia * (s->q[i] - q[i] - h * v[i]);
+    *zp_band_at(&s->A, i, i) += inertia;
+  }
+  return zp_band_factor(&s->A, NULL);
+}
+
+static bool converge(ZpImplicit *s, double h, const double *q, const double *v) {
+  double before = INFINITY;
+  for (int k = 0; k < MOST_ITERATIONS; k++) {
+    if (!linearise(s, h, q, v)) return false;
+    zp_band_solve(&s->A, s->r);
+    for (size_t i = 0; i < s->system->n; i++)
+      s->q[i] += s->r[i];
+    s->counts.iterations++;
+    double size = rms(s->r, s->system->n);
+    if (!isfinite(size) || (k >= PATIENCE && size > before)) return false;
+    if (size < newton_share * s->accuracy) return true;
+    before = size;
+  }
+  return false;
+}
+
+/* Local error over the accuracy asked for, from the change of acceleration since the last step; what is too fast for
+ * the step is filtered out of it by the iteration's matrix. */
+static double local_error(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
+  size_t n = s->system->n;
+  if (!(history->last > 0)) return 0;
+  for (size_t i = 0; i < n; i++) {
+    double a = 2 * (s->q[i] - q[i] - h * v[i]) / (h * h);
+    s->r[i] = s->system->mass[i] * (a - history->a[i]) * h / (3 * (h + history->last));
+  }
+  zp_band_solve(&s->A, s->r);
+  return rms(s->r, n) / s->accuracy;
+}
+
+static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHistory *history) {
+  size_t n = s->system->n;
+  for (size_t i = 0; i < n; i++) {
+    double w = (s->q[i] - q[i]) / h;
+    history->w[i] = w;
+    history->a[i] = 2 * (w - v[i]) / h;
+    v[i] = 2 * w - v[i];
+  }
+  memcpy(q, s->q, n * sizeof *q);
+  history->last = h;
+  s->counts.steps++;
+  if (s->system->impact) s->system->impact(s->system->self, v);
+}
+
+double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
+  double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
+  bool cut = longest < try;
+  s->system->begin(s->system->self, q);
+  for (double h = cut ? longest : try; h > shortest_step;) {
+    predict(s, h, q, v, history);
+    if (!converge(s, h, q, v)) {
+      s->counts.failures++;
+      h *= 0.25;
+      cut = false;
+      continue;
+    }
+    double error = local_error(s, h, q, v, history), growth = safety / cbrt(fmax(error, 1e-6));
+    if (error > 1.5 && !(s->fixed > 0)) {
+      s->counts.rejected++;
+      h *= fmax(growth, sharpest_cut);
+      cut = false;
+      continue;
+    }
+    accept(s, h, q, v, history);
+    if (!cut || growth < 1) history->next = h * fmin(growth, fastest_growth);
+    return h;
+  }
+  return 0;
+}
