@@ -113,3 +113,41 @@ int zp_band_negative_pivots(const ZpBand *band, double *work) {
   }
   return negative;
 }
+
+bool zp_band_factor_symmetric(ZpBand *band) {
+  size_t n = band->n;
+  for (size_t k = 0; k < n; k++) {
+    size_t last = least(k + band->upper, n - 1);
+    double *restrict row_k = zp_band_at(band, k, k);
+    if (row_k[0] == 0 || !isfinite(row_k[0])) return false;
+    double inverse = 1 / row_k[0];
+    for (size_t i = k + 1; i <= last; i++) {
+      double *restrict row_i = zp_band_at(band, i, i);
+      double factor = row_k[i - k] * inverse;
+      const double *restrict rest = row_k + (i - k);
+      for (size_t j = 0; j <= last - i; j++)
+        row_i[j] -= factor * rest[j];
+    }
+    for (size_t i = 1; i <= last - k; i++)
+      row_k[i] *= inverse;
+  }
+  return true;
+}
+
+void zp_band_solve_symmetric(const ZpBand *band, double *b) {
+  size_t n = band->n;
+  for (size_t k = 0; k < n; k++) {
+    const double *row = zp_band_at(band, k, k);
+    size_t last = least(k + band->upper, n - 1);
+    for (size_t i = k + 1; i <= last; i++)
+      b[i] -= row[i - k] * b[k];
+  }
+  for (size_t k = n; k-- > 0;) {
+    const double *row = zp_band_at(band, k, k);
+    size_t last = least(k + band->upper, n - 1);
+    double sum = b[k] / row[0];
+    for (size_t i = k + 1; i <= last; i++)
+      sum -= row[i - k] * b[i];
+    b[k] = sum;
+  }
+}

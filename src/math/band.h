@@ -36,6 +36,13 @@ bool zp_band_factor(ZpBand *band, bool *negative);
 /* Solve with the factors: b => x, in place. */
 void zp_band_solve(const ZpBand *band, double *b);
 
+/* A symmetric matrix of which only the upper triangle is kept (lower == 0): U' D U in place, without pivoting, so for
+ * matrices that are definite or nearly so. False if a pivot is 0 or not finite. */
+bool zp_band_factor_symmetric(ZpBand *band);
+
+/* Solve with those factors: b => x, in place. */
+void zp_band_solve_symmetric(const ZpBand *band, double *b);
+
 /* L D L' of a symmetric matrix (lower == upper) without pivoting, on a copy `work` [n (lower + 1)]. => how
  * many pivots are negative, which is how many eigenvalues are; -1 if a pivot is 0 or not finite. */
 int zp_band_negative_pivots(const ZpBand *band, double *work);

@@ -15,7 +15,7 @@ size_t zp_assemble_bandwidth(const ZpModel *model) {
   return 6 * model->s - 1;
 }
 
-/* Where to, for the functions below. */
+/* Where to, for the functions below. Of a symmetric matrix only the upper triangle is kept. */
 typedef struct Place {
   const int *equation;
   ZpBand *K;
@@ -23,7 +23,7 @@ typedef struct Place {
 
 static void add(const Place *to, size_t row, size_t column, double value) {
   int i = to->equation[row], j = to->equation[column];
-  if (i >= 0 && j >= 0) *zp_band_at(to->K, (size_t)i, (size_t)j) += value;
+  if (i >= 0 && j >= 0 && (j >= i || to->K->lower > 0)) *zp_band_at(to->K, (size_t)i, (size_t)j) += value;
 }
 
 /* A 2 x 2 block d(force on a)/d(position of b), sign turned. */

@@ -174,8 +174,10 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   return pair;
 }
 
-/* Faces that would pass through each other meet where their common centre of mass is. */
+/* Faces that would pass through each other, and those that press on each other already, meet where their common
+ * centre of mass is, just so far inside each other that the first iteration counts them as in touch. */
 static void guess(void *self, double *q1) {
+  static const double inside = 1e-13; /* m */
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   const double *y = d->start + model->stride;
@@ -184,7 +186,8 @@ static void guess(void *self, double *q1) {
     if (pair.lower < 0) continue;
     double held = model->s == 2 ? y[2 * i] : model->plates.flat_height;
     double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
-    if (!(overlap > 0)) continue;
+    if (!(overlap > 0) && !(d->plates0.gap[i] < 0)) continue;
+    overlap -= inside;
     q1[pair.lower] -= overlap * (pair.upper >= 0 ? pair.upper_share : 1);
     if (pair.upper >= 0) q1[pair.upper] += overlap * (1 - pair.upper_share);
   }

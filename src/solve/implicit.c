@@ -6,15 +6,15 @@
 
 static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-12; /* s */
-static const double newton_share = 1e-3;   /* of the accuracy: what the iteration may leave */
+static const double newton_share = 2e-3;   /* of the accuracy: what the iteration may leave */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
-enum { MOST_ITERATIONS = 20, PATIENCE = 10 };
+enum { MOST_ITERATIONS = 14, PATIENCE = 6, EASY = 5, HARD = 8 };
 
 void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
   s->system = system;
   s->q = zp_carve(carver, system->n);
   s->r = zp_carve(carver, system->n);
-  zp_band_carve(&s->A, system->n, system->bandwidth, system->bandwidth, carver);
+  zp_band_carve(&s->A, system->n, 0, system->bandwidth, carver);
 }
 
 static double rms(const double *x, size_t n) {
@@ -43,23 +43,24 @@ static bool linearise(ZpImplicit *s, double h, const double *q, const double *v)
     s->r[i] -= inertia * (s->q[i] - q[i] - h * v[i]);
     *zp_band_at(&s->A, i, i) += inertia;
   }
-  return zp_band_factor(&s->A, NULL);
+  return zp_band_factor_symmetric(&s->A);
 }
 
-static bool converge(ZpImplicit *s, double h, const double *q, const double *v) {
-  double before = INFINITY;
+/* => iterations that it took; 0: it found no end. */
+static int converge(ZpImplicit *s, double h, const double *q, const double *v) {
+  double least = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
-    if (!linearise(s, h, q, v)) return false;
-    zp_band_solve(&s->A, s->r);
+    if (!linearise(s, h, q, v)) return 0;
+    zp_band_solve_symmetric(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
     double size = rms(s->r, s->system->n);
-    if (!isfinite(size) || (k >= PATIENCE && size > before)) return false;
-    if (size < newton_share * s->accuracy) return true;
-    before = size;
+    if (!isfinite(size) || (k >= PATIENCE && size > least)) return 0;
+    if (size < newton_share * s->accuracy) return k + 1;
+    least = fmin(least, size);
   }
-  return false;
+  return 0;
 }
 
 /* Local error over the accuracy asked for, from the change of acceleration since the last step; what is too fast for
@@ -71,7 +72,7 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
     double a = 2 * (s->q[i] - q[i] - h * v[i]) / (h * h);
     s->r[i] = s->system->mass[i] * (a - history->a[i]) * h / (3 * (h + history->last));
   }
-  zp_band_solve(&s->A, s->r);
+  zp_band_solve_symmetric(&s->A, s->r);
   return rms(s->r, n) / s->accuracy;
 }
 
@@ -95,9 +96,10 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
   s->system->begin(s->system->self, q);
   for (double h = cut ? longest : try; h > shortest_step;) {
     predict(s, h, q, v, history);
-    if (!converge(s, h, q, v)) {
+    int iterations = converge(s, h, q, v);
+    if (iterations == 0) {
       s->counts.failures++;
-      h *= 0.25;
+      h *= 0.5;
       cut = false;
       continue;
     }
@@ -109,7 +111,8 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
       continue;
     }
     accept(s, h, q, v, history);
-    if (!cut || growth < 1) history->next = h * fmin(growth, fastest_growth);
+    double ease = iterations <= EASY ? fastest_growth : iterations <= HARD ? 1 : 0.8;
+    if (!cut || growth < 1) history->next = h * fmin(growth, ease);
     return h;
   }
   return 0;

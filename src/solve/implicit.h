@@ -19,7 +19,7 @@ typedef struct ZpImplicitSystem {
   void (*begin)(void *self, const double *q0);
   /* Mean force over a step of h that ends at q1 => f [n], not finite where there is none. */
   void (*force)(void *self, const double *q1, double h, double *f);
-  /* -df/dq1 at the last force => A. */
+  /* -df/dq1 at the last force => A, symmetric, upper triangle. */
   void (*tangent)(void *self, ZpBand *A);
   /* Make a first guess of the step's end one that can be: nothing passes through anything. May be NULL. */
   void (*guess)(void *self, double *q1);
