@@ -31,11 +31,7 @@ static double solve_at(ZpField *f, const ZpEdgeParams *p, double g) {
                lower[STATIONS] = {-half, -half, -half};
   ZpFaces faces = {x, upper, x, lower, 1};
   if (zp_field_solve(f, &faces) != ZP_FIELD_SOLVED) return NAN;
-  double energy = 0;
-  for (size_t c = 0; c < f->grid.columns; c++)
-    for (size_t r = 0; r < f->grid.rows; r++)
-      energy += zp_grid_energy(&f->grid, c, r);
-  return 2 * MIRRORED * energy;
+  return 2 * MIRRORED * zp_grid_energy(&f->grid);
 }
 
 bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t count, const double *gap, double *C) {

@@ -299,13 +299,9 @@ static void find_forces(ZpField *f) {
 
 /* Without what the clip's closed part has by the plates law. */
 static void find_energy(ZpField *f) {
-  const ZpGrid *g = &f->grid;
   const ZpFieldParams *p = &f->params;
-  double energy = 0, h = 2 * p->t * p->eps_m / p->eps_i + least_gap;
-  for (size_t c = 0; c < g->columns; c++)
-    for (size_t r = 0; r < g->rows; r++)
-      energy += zp_grid_energy(g, c, r);
-  f->energy = p->w * (energy - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
+  double h = 2 * p->t * p->eps_m / p->eps_i + least_gap;
+  f->energy = p->w * (zp_grid_energy(&f->grid) - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
 }
 
 ZpFieldEnd zp_field_solve(ZpField *f, const ZpFaces *faces) {

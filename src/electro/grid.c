@@ -126,12 +126,14 @@ typedef struct Reference {
   double by_xi[POINTS][NODES], by_eta[POINTS][NODES], weight[POINTS];
 } Reference;
 
-static void reference(Reference *e) {
+static Reference reference(void) {
+  Reference e = {0};
   for (size_t p = 0; p < 3; p++)
     for (size_t q = 0; q < 3; q++) {
-      slopes(lobatto_at[p], gauss_at[q], e->by_xi[3 * p + q], e->by_eta[3 * p + q]);
-      e->weight[3 * p + q] = lobatto_weight[p] * gauss_weight[q];
+      slopes(lobatto_at[p], gauss_at[q], e.by_xi[3 * p + q], e.by_eta[3 * p + q]);
+      e.weight[3 * p + q] = lobatto_weight[p] * gauss_weight[q];
     }
+  return e;
 }
 
 /* What an element is at its integration points. */
@@ -202,10 +204,9 @@ static void add(ZpGrid *g, size_t a, size_t b, double k) {
 }
 
 static bool assemble(ZpGrid *g) {
-  Reference ref;
+  Reference ref = reference();
   Element e;
   double k[NODES][NODES];
-  reference(&ref);
   zp_skyline_clear(&g->K);
   memset(g->rhs, 0, g->K.n * sizeof *g->rhs);
   for (size_t c = 0; c < g->columns; c++)
@@ -230,19 +231,29 @@ ZpGridEnd zp_grid_solve(ZpGrid *g) {
   return ZP_GRID_SOLVED;
 }
 
-double zp_grid_energy(const ZpGrid *g, size_t c, size_t r) {
-  Reference ref;
-  Element e;
-  double Nx[NODES], Ny[NODES], E[2], energy = 0, eps = g->eps[c * g->rows + r];
-  if (!(eps > 0)) return 0;
-  reference(&ref);
-  gather(g, c, r, &e);
+/* Integral of |grad phi|^2 / 2 over an element. */
+static double element_energy(const Reference *ref, const Element *e) {
+  double Nx[NODES], Ny[NODES], E[2], energy = 0;
   for (size_t p = 0; p < POINTS; p++) {
-    double w = ref.weight[p] * map(&e, ref.by_xi[p], ref.by_eta[p], Nx, Ny);
-    gradient(&e, Nx, Ny, E);
+    double w = ref->weight[p] * map(e, ref->by_xi[p], ref->by_eta[p], Nx, Ny);
+    gradient(e, Nx, Ny, E);
     energy += 0.5 * w * (E[0] * E[0] + E[1] * E[1]);
   }
-  return ZP_EPS0 * eps * energy;
+  return energy;
+}
+
+double zp_grid_energy(const ZpGrid *g) {
+  Reference ref = reference();
+  Element e;
+  double energy = 0;
+  for (size_t c = 0; c < g->columns; c++)
+    for (size_t r = 0; r < g->rows; r++) {
+      double eps = g->eps[c * g->rows + r];
+      if (!(eps > 0)) continue;
+      gather(g, c, r, &e);
+      energy += ZP_EPS0 * eps * element_energy(&ref, &e);
+    }
+  return energy;
 }
 
 static void element_forces(ZpGrid *g, const Reference *ref, const Element *e, double eps) {
@@ -260,9 +271,8 @@ static void element_forces(ZpGrid *g, const Reference *ref, const Element *e, do
 }
 
 void zp_grid_forces(ZpGrid *g, size_t first, size_t end) {
-  Reference ref;
+  Reference ref = reference();
   Element e;
-  reference(&ref);
   memset(g->Fx, 0, g->nx * g->ny * sizeof *g->Fx);
   memset(g->Fy, 0, g->nx * g->ny * sizeof *g->Fy);
   for (size_t c = first; c < end; c++)

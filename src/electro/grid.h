@@ -40,8 +40,8 @@ typedef enum ZpGridEnd {
 /* (x, y, eps, phi of the conductors) => phi of all nodes. */
 ZpGridEnd zp_grid_solve(ZpGrid *grid);
 
-/* Energy of element (c, r) at the last solution, J/m, eq. (14.2). */
-double zp_grid_energy(const ZpGrid *grid, size_t c, size_t r);
+/* Energy of all elements at the last solution, J/m, eq. (14.2). */
+double zp_grid_energy(const ZpGrid *grid);
 
 /* Derivative of the energy of element columns first .. end - 1 at held potentials by the position of each node
  * => Fx, Fy, eq. (14.2). */

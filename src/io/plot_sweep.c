@@ -328,7 +328,7 @@ static double force(const ZpPlot *plot, size_t run) {
 
 /* An index per curve. */
 static void data_forces(const ZpPlot *plot, FILE *file) {
-  size_t chosen[LEGEND], curves = choose_curves(plot, chosen);
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
   fprintf(file, "# %s force_N; an index per curve\n", zp_key(x_key(plot))->name);
   for (size_t k = 0; k < curves; k++) {
     for (size_t run = chosen[k]; run < plot->report->count && (run == chosen[k] || !begins_curve(plot, run)); run++) {
@@ -352,7 +352,7 @@ static size_t curves_of_a_style(const ZpPlot *plot, const size_t *chosen, size_t
 }
 
 static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
-  size_t chosen[LEGEND], curves = choose_curves(plot, chosen), alike = curves_of_a_style(plot, chosen, curves);
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen), alike = curves_of_a_style(plot, chosen, curves);
   for (size_t k = 0; k < curves; k++) {
     char name[256];
     double shade = alike > 1 ? (double)(k % alike) / (double)(alike - 1) : 0.3;
