@@ -20,7 +20,7 @@ static const double gauss_at[GAUSS] = {0.11270166537925831, 0.5, 0.8872983346207
 static const double gauss_weight[GAUSS] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 double zp_plates_least_h(const ZpPlatesParams *p, double U) {
-  double h_c = p->h_per_volt * U;
+  double h_c = p->h_per_volt * fabs(U);
   return h_c > p->h_least ? h_c : p->h_least;
 }
 
