@@ -111,10 +111,11 @@ static void jump_to(ZpSim *sim, double voltage) {
   book_work(sim, state->U);
   double before = zp_eval_energies(sim->model, state, &sim->eval).field;
   state->U = voltage;
+  state->refreshed = NAN;
+  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
   ZpEnergies after = zp_eval_energies(sim->model, state, &sim->eval);
   state->base_charge = sim->row_charge = after.charge;
   state->base_field += after.field - before; /* charging at once is outside the balance */
-  state->refreshed = NAN;
 }
 
 static double next_corner(const ZpSim *sim) {
