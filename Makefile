@@ -32,6 +32,7 @@ bench: $(BUILD)/zipact
 
 docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
+	scripts/make-factor-page.sh $(BUILD)/zipact
 
 format:
 	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] tests/*.[ch]

@@ -49,6 +49,8 @@ static ZpStatus run_one(Batch *batch, Progress *progress, ZpError *err) {
   if (batch->count > 1) { /* a sweep reports no shapes: keep its memory to the series */
     zp_shapes_destroy(result->shapes);
     result->shapes = NULL;
+    zp_field_map_destroy(result->map);
+    result->map = NULL;
   }
   batch->result[batch->done++] = result;
   batch->interrupted = result->outcome == ZP_INTERRUPTED;
@@ -94,6 +96,9 @@ static void print_answers(const ZpResult *result) {
       {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", "pull-in", 1e-3, "kV"},
       {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", "release", 1e-3, "kV"},
       {ZP_STUDY_ISOMETRIC, "force_N", "force", 1, "N"},
+      {ZP_STUDY_PROFILE, "force_N", "force", 1, "N"},
+      {ZP_STUDY_PROFILE, "scale_factor", "field over plates", 1, ""},
+      {ZP_STUDY_PROFILE, "paper_factor", "by the paper's bookkeeping", 1, ""},
       {ZP_STUDY_ISOMETRIC, "zipped_length_m", "zipped", 1e3, "mm"},
       {ZP_STUDY_MODES, "frequency_1_Hz", "frequency", 1, "Hz"},
   };

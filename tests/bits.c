@@ -162,6 +162,14 @@ static void print_kernels(void) {
   }
 }
 
+/* With the law of the lateral edges, which takes a field solved. */
+static void print_edges(void) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = 21;
+  def.electro.edges = true;
+  print_accelerations("edges", &def, 12);
+}
+
 /* A ragged skyline, its factor and solutions. */
 static void print_skyline(void) {
   enum { N = 75 };
@@ -191,6 +199,7 @@ static void print_skyline(void) {
 
 int main(void) {
   print_kernels();
+  print_edges();
   print_skyline();
   print_studies();
   return 0;

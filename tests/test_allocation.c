@@ -231,6 +231,16 @@ static ZpStatus create_driven_model(ZpError *err, bool *whole) {
   return status;
 }
 
+static ZpStatus create_model_with_edges(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  def.electro.edges = true;
+  ZpModel *model = NULL;
+  ZpStatus status = zp_model_create(&def, &model, err);
+  *whole = (model != NULL) == (status == ZP_OK);
+  zp_model_destroy(model);
+  return status;
+}
+
 static ZpModel *shared_model; /* made while no one watches */
 
 static ZpStatus create_sim(ZpError *err, bool *whole) {
@@ -262,14 +272,28 @@ static ZpStatus run_isometric(ZpError *err, bool *whole) {
   return status;
 }
 
+static ZpStatus run_profile(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  ZpResult *result = NULL;
+  def.study = ZP_STUDY_PROFILE;
+  def.profile.paper_factor = true;
+  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  *whole = (result != NULL) == (status == ZP_OK);
+  if (result) *whole = result->outcome == ZP_CONVERGED && result->series && result->shapes && result->map;
+  zp_result_destroy(result);
+  return status;
+}
+
 START_TEST(core_survives_every_failure) {
   ZpActuatorDef def = short_def();
   ck_assert_int_eq(zp_model_create(&def, &shared_model, NULL), ZP_OK);
   /* the counts: a model is a struct and a block, a simulation a struct and at least state and work space */
   ck_assert_int_ge(fail_each("zp_model_create", create_model, false), 2);
   ck_assert_int_ge(fail_each("zp_model_create_driven", create_driven_model, false), 2);
+  ck_assert_int_ge(fail_each("zp_model_create with edges", create_model_with_edges, false), 6); /* a field more */
   ck_assert_int_ge(fail_each("zp_sim_create", create_sim, false), 3);
   ck_assert_int_ge(fail_each("zp_study_run", run_study, false), 8);
+  ck_assert_int_ge(fail_each("zp_study_run of profile", run_profile, false), 20);
   ck_assert_int_ge(fail_each("study isometric", run_isometric, false), 8);
   zp_model_destroy(shared_model);
 }
@@ -698,6 +722,10 @@ START_TEST(reports_survive_every_failure) {
   fail_each_report("zp_report_write", "mesh: {nodes: 5}\n"
                                       "solver: {tolerance: 1e-1, end_time: 100 us}\n"
                                       "output: {samples: 10, shapes: 3}\n");
+  fail_each_report("zp_report_write of a profile",
+                   "study: profile\n" /* without voltage: no pictures, which take long */
+                   "drive: {voltage: 0 V}\n"
+                   "profile: {shape: cubic}\n");
   fail_each_report("zp_report_write of a sweep", "mesh: {nodes: 5}\n"
                                                  "solver: {tolerance: 1e-1, end_time: 100 us}\n"
                                                  "drive: {voltage: [0 V, 1 kV]}\n"

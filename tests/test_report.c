@@ -583,6 +583,9 @@ START_TEST(files_of_rest) {
   check_files("i", (const char *const[]){"table.csv", "plots/force.svg", "plots/charge.svg", "plots/zipped_length.svg",
                                          "plots/shapes.svg", "plots/animation.gif", NULL});
   ck_assert(!exists("i/plots/stroke.svg") && !exists("e/plots/force.svg"));
+  write_study("p", "profile", NULL);
+  check_files("p", (const char *const[]){"table.csv", "shapes.pvd", "field.vts", "plots/profile.svg", "plots/field.svg",
+                                         "plots/field_tip.svg", NULL});
   write_study("m", "modes", NULL);
   check_files("m", (const char *const[]){"table.csv", "shapes.pvd", "plots/modes.svg", NULL});
   ck_assert(!exists("m/plots/stroke.svg") && !exists("s/plots/stroke.svg") && !exists("s/plots/modes.svg"));
@@ -600,6 +603,9 @@ START_TEST(sweeps_of_rest) {
   write_study("i", "isometric", "isometric.separation=[1 mm, 2 mm]");
   check_files("i", (const char *const[]){"table.csv", "plots/forces.svg", NULL});
   ck_assert(!exists("i/plots/force.svg"));
+  write_study("p", "profile", "isometric.separation=[1 mm, 2 mm]");
+  check_files("p", (const char *const[]){"table.csv", "plots/factors.svg", "plots/forces.svg", NULL});
+  ck_assert(!exists("p/plots/profile.svg") && !exists("p/field.vts"));
   ck_assert(!exists("s/plots/shape.svg") && !exists("e/plots/stroke.svg") && !exists("m/plots/modes.svg"));
 }
 END_TEST
@@ -619,9 +625,32 @@ static void check_numbers(const char *name) {
   }
 }
 
+/* The SVG holds the picture of the field itself; field.vts has the bytes that its head promises. */
+START_TEST(field_of_a_profile) {
+  static const char begin[] = "<AppendedData encoding=\"raw\">\n_", end[] = "\n  </AppendedData>\n</VTKFile>\n";
+  size_t size;
+  unsigned rows, columns;
+  write_study("p", "profile", NULL);
+  char *svg = read_whole(in_base("p/plots/field.svg"), &size);
+  ck_assert_uint_lt(size, 1000000);
+  ck_assert_ptr_nonnull(strstr(svg, "data:image/png;base64,"));
+  free(svg);
+  char *vts = read_whole(in_base("p/field.vts"), &size);
+  const char *extent = strstr(vts, "WholeExtent"), *bytes = strstr(vts, begin);
+  ck_assert(extent && bytes);
+  ck_assert_int_eq(sscanf(extent, "WholeExtent=\"0 %u 0 %u 0 0\"", &rows, &columns), 2);
+  size_t nodes = (rows + 1) * (columns + 1), cells = rows * columns;
+  size_t written = size - (size_t)(bytes - vts) - strlen(begin) - strlen(end);
+  ck_assert_uint_eq(written, sizeof(double) * (4 + 4 * nodes + 2 * cells)); /* four arrays, each after its length */
+  free(vts);
+  write_study("p", "stationary", NULL); /* over it */
+  ck_assert(!exists("p/field.vts") && !exists("p/plots/field.svg"));
+}
+END_TEST
+
 START_TEST(rest_is_the_same_each_time) {
-  const char *const study[] = {"equilibrium", "stationary", "modes", "isometric"};
-  for (size_t i = 0; i < 4; i++) {
+  const char *const study[] = {"equilibrium", "stationary", "modes", "isometric", "profile"};
+  for (size_t i = 0; i < 5; i++) {
     write_study("a", study[i], NULL); /* over what the study before left there */
     write_study(study[i], study[i], NULL);
     same_files("a", study[i]);
@@ -810,6 +839,7 @@ static Suite *suite_of_report(void) {
                                files_of_rest,
                                sweeps_of_rest,
                                rest_is_the_same_each_time,
+                               field_of_a_profile,
                                frequencies_are_an_array,
                                no_pull_in_is_null,
                                folder_that_cannot_be,

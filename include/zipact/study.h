@@ -19,6 +19,21 @@ typedef struct ZpScalar {
 #define ZP_MAX_SCALARS  64
 #define ZP_MAX_WARNINGS 8
 
+/* The electric field around the ribbons, on a grid that follows them: node (i, j) is at [i * ny + j], i along the
+ * ribbons, j upwards; cell (i, j) between the nodes (i, j) and (i + 1, j + 1) is at [i * (ny - 1) + j]. */
+typedef struct ZpFieldMap {
+  size_t nx, ny;        /* of nodes */
+  double *x, *y;        /* [nx ny] m */
+  double *potential;    /* [nx ny] V */
+  double *strength;     /* [(nx - 1) (ny - 1)] of the field in the middle of a cell, V/m */
+  double *permittivity; /* [(nx - 1) (ny - 1)] relative, of a cell; 0 in metal */
+  void *memory;
+} ZpFieldMap;
+
+/* NULL if there is no memory. */
+ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
+void zp_field_map_destroy(ZpFieldMap *map);
+
 /* What a study found. */
 typedef struct ZpResult {
   ZpStudy study;
@@ -30,6 +45,7 @@ typedef struct ZpResult {
   size_t scalars;
   ZpTable *series;  /* the study's table; NULL if it has none */
   ZpShapes *shapes; /* NULL if it has none */
+  ZpFieldMap *map;  /* NULL if it has none */
 } ZpResult;
 
 /* Run def->study. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and

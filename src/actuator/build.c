@@ -266,6 +266,20 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
   model->waveform = zp_waveform_of(&model->def, &copy);
 }
 
+/* What the lateral edges add, up to more than ribbons that hang straight down part. */
+static ZpStatus make_edges(ZpModel *model, ZpError *err) {
+  static const double halves = 2.5; /* of the flexible length */
+  const ZpActuatorDef *def = &model->def;
+  if (!model->field || !def->electro.edges) return ZP_OK;
+  ZpEdgeParams params = {.w = def->ribbon.width,
+                         .b = def->ribbon.thickness,
+                         .t = def->insulator.thickness,
+                         .eps_m = def->medium.permittivity,
+                         .eps_i = def->insulator.permittivity};
+  model->plates.edges = &model->edge_law;
+  return zp_edges_make(&params, halves * model->L, &model->edge_law, err);
+}
+
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
   return zp_model_create_driven(def, NULL, out, err);
 }
@@ -282,9 +296,10 @@ ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *ta
   derive(model);
   Arrays arrays;
   model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
-  if (!model->memory) {
+  status = model->memory ? make_edges(model, err) : zp_fail_memory(err);
+  if (status != ZP_OK) {
     zp_model_destroy(model);
-    return zp_fail_memory(err);
+    return status;
   }
   carve(model, rows, model->memory, &arrays);
   fill_waveform(model, table, &arrays);

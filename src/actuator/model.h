@@ -12,6 +12,7 @@
 
 #include "contact/zip.h"
 #include "drive/waveform.h"
+#include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/surface.h"
 #include "ribbon/massspring.h"
@@ -37,6 +38,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpRodParams rod;
   ZpPlatesParams plates;
+  ZpEdgeLaw edge_law; /* of plates, where electro.edges */
   ZpFieldParams cross_section;
   ZpWaveform waveform;
   double field_scale;   /* force_scale * voltage_share^2 */

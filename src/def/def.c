@@ -296,6 +296,10 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   return apply_assignments(def, list, count, err);
 }
 
+static const char *word_of(const char *key, int choice) {
+  return zp_key(zp_key_find(key))->choices[choice].word;
+}
+
 /* What electro.model field asks of other keys. */
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
@@ -354,18 +358,74 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
   return kind == ZP_WAVEFORM_SQUARE ? check_square(def, err) : ZP_OK;
 }
 
+/* What electro.edges asks of other keys. */
+static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
+  if (def->actuator.kind == ZP_KIND_FLANGE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges: goes with actuator.kind electro_ribbon, two strips of one width; how wide the flat "
+                   "electrode of a flange is, is not said");
+  if (def->electro.surface != ZP_SURFACE_POLYLINE)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.edges: goes with electro.surface polyline only");
+  if (def->insulator.thickness == 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "insulator.thickness = 0 m: with electro.edges faces that touch need an insulator between the metals");
+  return ZP_OK;
+}
+
 static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study isometric holds the platform of actuator.kind electro_ribbon",
-                   zp_key(zp_key_find("actuator.kind"))->choices[def->actuator.kind].word);
+    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = %s: study %s holds the platform of actuator.kind electro_ribbon",
+                   word_of("actuator.kind", (int)def->actuator.kind), word_of("study", (int)def->study));
   double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
   if (separation > longest)
     return zp_fail(err, ZP_BAD_INPUT,
                    "isometric.separation = %g m: out of reach; at most %g of ribbon.length - platform.length, %g m",
                    separation, most, longest);
   return ZP_OK;
+}
+
+static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
+  if (def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges = true: study profile compares forces in the plane of the ribbons, which know no "
+                   "edges; the other studies have them");
+  static const double thinnest = 1e-6; /* m: then that nanometre counts 0.2 % of the force */
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = %s: study profile looks at the two ribbons of actuator.kind electro_ribbon",
+                   word_of("actuator.kind", (int)def->actuator.kind));
+  if (def->insulator.thickness == 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
+        "the field has no bound there");
+  if (def->insulator.thickness < thinnest)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "insulator.thickness = %g m: study profile needs %g m at least, for the field's grid keeps closed faces a "
+        "nanometre apart",
+        def->insulator.thickness, thinnest);
+  if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
+    return def->profile.shape == ZP_PROFILE_HELD ? check_isometric(def, err) : ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "electro.insulator_offset = 0 m: the plates law that study profile compares with has no bound at the clip");
+}
+
+/* What is asked of one model or one study only. */
+static ZpStatus check_study(const ZpActuatorDef *def, ZpError *err) {
+  if (def->electro.model == ZP_ELECTRO_FIELD) {
+    ZpStatus status = check_field(def, err);
+    if (status != ZP_OK) return status;
+  }
+  if (def->electro.edges) {
+    ZpStatus status = check_edges(def, err);
+    if (status != ZP_OK) return status;
+  }
+  if (def->study == ZP_STUDY_PROFILE) return check_profile(def, err);
+  return def->study == ZP_STUDY_ISOMETRIC ? check_isometric(def, err) : ZP_OK;
 }
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
@@ -411,7 +471,5 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
                    def->electro.refresh_period);
   ZpStatus status = check_drive(def, err);
-  if (status == ZP_OK && def->electro.model == ZP_ELECTRO_FIELD) status = check_field(def, err);
-  if (status != ZP_OK) return status;
-  return def->study == ZP_STUDY_ISOMETRIC ? check_isometric(def, err) : ZP_OK;
+  return status == ZP_OK ? check_study(def, err) : status;
 }

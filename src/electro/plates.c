@@ -4,7 +4,8 @@
  *   W   attraction per length, N/m                  P   its potential per length, J/m
  *   K   k U^2, so that W = K / h^2 above h_c, N m
  * Below h_c the surface charge stays, and with it W: W = K / h_c^2, P = -K / h_c (2 - h / h_c). Both
- * branches are one formula with h* = max(h, h_c).
+ * branches are one formula with h* = max(h, h_c). Lateral edges add e / w to 1 / h, section 16; in the code `e` is
+ * that e / w, m^-1.
  */
 #include "electro/plates.h"
 
@@ -12,6 +13,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "electro/edges.h"
 
 /* Points per element. Error of the force on the paper's wedges up to 4 mm, measured (test_electro): 3e-6,
  * 1e-8, 3e-9 at N = 21, 61, 130 without cap; its kink makes it 2e-3, 6e-5, 3e-5. */
@@ -24,10 +26,28 @@ double zp_plates_least_h(const ZpPlatesParams *p, double U) {
   return h_c > p->h_least ? h_c : p->h_least;
 }
 
+/* The gap from which the edges' law goes on straight to where there is a cap below h_c, or beyond its ends. */
+static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
+  double least = h_c - p->d > 0 ? h_c - p->d : 0, bounded = gap > least ? gap : least;
+  return bounded < p->edges->largest ? bounded : p->edges->largest;
+}
+
+/* Eqs. (16.3) to (16.5). Where the cap acts its gap goes with the voltage, and the charge with that. */
+static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPlatesLaw *law) {
+  double K = p->k * U * U, cap = p->h_per_volt * fabs(U) - p->d, at = edge_gap(p, zp_plates_least_h(p, U), gap);
+  ZpEdgeValue v = zp_edges_value(p->edges, at);
+  law->W -= K * v.slope;
+  law->P -= K * (v.e + v.slope * (gap - at));
+  law->q += 2 * p->k * U * (v.e + v.slope * (gap - at));
+  if (cap > 0 && gap < cap && cap < p->edges->largest) law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
+}
+
 ZpPlatesLaw zp_plates_law(const ZpPlatesParams *p, double U, double gap) {
   double h = gap + p->d, h_c = zp_plates_least_h(p, U), K = p->k * U * U;
   double inverse = 1 / (h > h_c ? h : h_c);
-  return (ZpPlatesLaw){.W = K * inverse * inverse, .P = -K * inverse * (2 - h * inverse), .q = 2 * p->k * U * inverse};
+  ZpPlatesLaw law = {.W = K * inverse * inverse, .P = -K * inverse * (2 - h * inverse), .q = 2 * p->k * U * inverse};
+  if (p->edges) add_edges_to_law(p, U, gap, &law);
+  return law;
 }
 
 void zp_plates_carve(const ZpPlatesParams *p, ZpPlatesEval *e, ZpCarver *carver) {
@@ -91,6 +111,59 @@ ZP_KERNEL static void elements(const ZpPlatesParams *p, double K, double h_c, Zp
   }
 }
 
+/* e and e' at some gaps within the ends of the law. */
+static inline void edge_lanes(const ZpEdgeLaw *law, const double *restrict at, double *restrict e,
+                              double *restrict e1) {
+  ZP_SIMD
+  for (int l = 0; l < ZP_LANES; l++) {
+    double s = sqrt(at[l] + law->d), sum = s + law->s0, inverse = 1 / (s * sum);
+    double z = law->stretch * (s - law->s0) * s * inverse, z1 = law->stretch * law->s0 * s * inverse * inverse;
+    double p = law->p[ZP_EDGE_TERMS - 1], p1 = 0;
+    for (int k = ZP_EDGE_TERMS - 1; k-- > 0;) {
+      p1 = p1 * z + p;
+      p = p * z + law->p[k];
+    }
+    e[l] = p;
+    e1[l] = p1 * z1;
+  }
+}
+
+/* What the edges add to each element: a pass of its own, so that without them nothing is slower. */
+ZP_KERNEL static void add_edges(const ZpPlatesParams *p, double K, double h_c, ZpPlatesEval *out) {
+  size_t elements = p->nodes - 1;
+  double least = h_c - p->d > 0 ? h_c - p->d : 0, most = p->edges->largest;
+  for (size_t block = 0; block < elements; block += ZP_LANES) {
+    size_t count = elements - block < ZP_LANES ? elements - block : ZP_LANES;
+    double from[ZP_LANES] = {0}, rise[ZP_LANES] = {0}, left[ZP_LANES] = {0}, right[ZP_LANES] = {0},
+           potential[ZP_LANES] = {0}, g[ZP_LANES], at[ZP_LANES], e[ZP_LANES], e1[ZP_LANES];
+    for (size_t l = 0; l < count; l++) {
+      from[l] = out->gap[block + l];
+      rise[l] = out->gap[block + l + 1] - from[l];
+    }
+    for (int q = 0; q < GAUSS; q++) {
+      ZP_SIMD
+      for (int l = 0; l < ZP_LANES; l++) {
+        g[l] = from[l] + rise[l] * gauss_at[q];
+        double bounded = g[l] > least ? g[l] : least;
+        at[l] = bounded < most ? bounded : most;
+      }
+      edge_lanes(p->edges, at, e, e1);
+      ZP_SIMD
+      for (int l = 0; l < ZP_LANES; l++) {
+        double W = -gauss_weight[q] * K * e1[l];
+        left[l] += W * (1 - gauss_at[q]);
+        right[l] += W * gauss_at[q];
+        potential[l] += W * (g[l] - at[l]) - gauss_weight[q] * K * e[l];
+      }
+    }
+    for (size_t l = 0; l < count; l++) {
+      out->A[block + l] += left[l] * out->dx[block + l];
+      out->B[block + l] += right[l] * out->dx[block + l];
+      out->P[block + l] += potential[l];
+    }
+  }
+}
+
 /* Attraction `closing` and pull along x on both nodes of station i. */
 static inline void act(ZpPlatesEval *e, size_t i, double along, double closing) {
   e->Fx[2 * i] = e->Fx[2 * i + 1] = along;
@@ -125,6 +198,7 @@ void zp_plates_polyline(const ZpPlatesParams *p, const double *x, const double *
   size_t last = p->nodes - 1;
   zp_plates_gaps(p, x, y, e);
   elements(p, p->k * U * U, zp_plates_least_h(p, U), e);
+  if (p->edges) add_edges(p, p->k * U * U, zp_plates_least_h(p, U), e);
   if (p->flat) {
     stations_below_flat(p, e);
     return;
@@ -135,8 +209,10 @@ void zp_plates_polyline(const ZpPlatesParams *p, const double *x, const double *
 }
 
 /* dW/dg: the force of a capped piece does not change with its gap. */
-static double slope(double K, double h_c, double h) {
-  return h > h_c ? -2 * K / (h * h * h) : 0;
+static double slope(const ZpPlatesParams *p, double K, double h_c, double gap) {
+  double h = gap + p->d, sum = h > h_c ? -2 * K / (h * h * h) : 0;
+  if (p->edges && edge_gap(p, h_c, gap) == gap) sum -= K * zp_edges_value(p->edges, gap).bend;
+  return sum;
 }
 
 void zp_plates_stiffness(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, double *own, double *next,
@@ -147,8 +223,8 @@ void zp_plates_stiffness(const ZpPlatesParams *p, const ZpPlatesEval *e, double 
   for (size_t i = 0; i < last; i++) {
     next[i] = 0;
     for (int q = 0; q < GAUSS; q++) {
-      double h = e->gap[i] + p->d + (e->gap[i + 1] - e->gap[i]) * gauss_at[q], right = gauss_at[q], left = 1 - right;
-      double c = gauss_weight[q] * e->dx[i] * slope(K, h_c, h);
+      double gap = e->gap[i] + (e->gap[i + 1] - e->gap[i]) * gauss_at[q], right = gauss_at[q], left = 1 - right;
+      double c = gauss_weight[q] * e->dx[i] * slope(p, K, h_c, gap);
       own[i] += c * left * left;
       own[i + 1] += c * right * right;
       next[i] += c * left * right;
@@ -156,16 +232,24 @@ void zp_plates_stiffness(const ZpPlatesParams *p, const ZpPlatesEval *e, double 
     along0[i] = e->A[i] / e->dx[i];
     along1[i] = e->B[i] / e->dx[i];
   }
-  own[last] += p->flat_length * slope(K, h_c, e->gap[last] + p->d);
+  own[last] += p->flat_length * slope(p, K, h_c, e->gap[last]);
+}
+
+/* Capacitance per length over eps0 eps_m w. */
+static double inverse_gap(const ZpPlatesParams *p, double gap) {
+  double h = gap + p->d, inverse = 1 / (h > p->h_least ? h : p->h_least);
+  if (!p->edges) return inverse;
+  double at = edge_gap(p, p->h_least, gap);
+  ZpEdgeValue v = zp_edges_value(p->edges, at);
+  return inverse + v.e + v.slope * (gap - at);
 }
 
 static void add_piece(const ZpPlatesParams *p, double U, double gap, double length, ZpPlatesTotals *totals) {
   ZpPlatesLaw law = zp_plates_law(p, U, gap);
-  double h = gap + p->d;
   totals->force += law.W * length;
   totals->potential += law.P * length;
   totals->charge += law.q * length;
-  totals->inverse_gap += length / (h > p->h_least ? h : p->h_least);
+  totals->inverse_gap += length * inverse_gap(p, gap);
 }
 
 ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {

@@ -1,5 +1,6 @@
 /* The parallel-plates law: attraction of two insulated electrodes per length, as if each piece were a
- * plane capacitor of liquid and two insulators in series; and its sum over a polyline of nodes.
+ * plane capacitor of liquid and two insulators in series, with or without what its lateral edges add; and its sum over
+ * a polyline of nodes.
  *
  * Stations are pairs of nodes that face each other. All forces are of one modelled half.
  */
@@ -25,6 +26,8 @@ typedef struct ZpPlatesParams {
   bool flat;                /* one ribbon below a flat electrode instead of two that face each other */
   double flat_height;       /* y of that electrode's face, m */
   double flat_length;       /* of the platform's electrode, at the gap of the last station, m; 0 without */
+
+  const struct ZpEdgeLaw *edges; /* what lateral edges add, edges.h; NULL without */
 } ZpPlatesParams;
 
 /* Written by zp_plates_polyline. */
@@ -67,7 +70,7 @@ typedef struct ZpPlatesTotals {
   double force;       /* sum of W, N */
   double potential;   /* sum of P, J */
   double charge;      /* sum of q, C */
-  double inverse_gap; /* sum of length / (g + d): capacitance over eps0 eps_m w */
+  double inverse_gap; /* sum of length / (g + d), with edges: capacitance over eps0 eps_m w */
 } ZpPlatesTotals;
 ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage);
 

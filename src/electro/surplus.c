@@ -17,6 +17,7 @@ bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates,
   s->plates = *plates;
   s->plates.h_per_volt = 0;
   s->h_per_volt = plates->h_per_volt;
+  s->plates.edges = NULL; /* the field solved is that of the strips' middle: edges stay in the plates law beside it */
   s->scale = scale;
   s->memory = zp_calloc(1, carve(s, NULL));
   if (!s->memory || !zp_field_create(field, &s->field)) {

@@ -4,6 +4,7 @@
  *   one run:  /series/COLUMN         one dataset per column of the table
  *             /shapes/...            time, voltage, zipped [frame]; x, y [frame][ribbon][node];
  *                                    gap, line_force [frame][node]
+ *             /field/...             x, y, potential [i][j] of nodes; strength, permittivity of the cells between
  *             /summary/SCALAR        what does not follow from wall time
  *   a sweep:  /table/COLUMN          as table.csv, one value per run
  *             /runs/0000/series, shapes, summary of each run
@@ -178,6 +179,20 @@ static void put_shapes(Store *store, hid_t parent, const ZpShapes *shapes, ZpStu
   H5Gclose(group);
 }
 
+static void put_map(Store *store, hid_t parent, const ZpFieldMap *map) {
+  if (!map) return;
+  hid_t group = open_group(store, parent, "field");
+  const hsize_t nodes[] = {map->nx, map->ny}, cells[] = {map->nx - 1, map->ny - 1};
+  put_reals(store, group, &(Meaning){"x", "m", "place of a node, from the clip's edge; [i][j], i along the ribbons"}, 2,
+            nodes, map->x);
+  put_reals(store, group, &(Meaning){"y", "m", "place of a node, upwards; [i][j]"}, 2, nodes, map->y);
+  put_reals(store, group, &(Meaning){"potential", "V", "of a node; [i][j]"}, 2, nodes, map->potential);
+  put_reals(store, group, &(Meaning){"strength", "V/m", "of the field in a cell; [i][j]"}, 2, cells, map->strength);
+  put_reals(store, group, &(Meaning){"permittivity", "1", "relative, of a cell, 0 in metal; [i][j]"}, 2, cells,
+            map->permittivity);
+  H5Gclose(group);
+}
+
 static void put_summary(Store *store, hid_t parent, const ZpResult *result) {
   hid_t group = open_group(store, parent, "summary");
   put_attribute(store, group, "outcome", zp_outcome_name(result->outcome));
@@ -192,6 +207,7 @@ static void put_summary(Store *store, hid_t parent, const ZpResult *result) {
 static void put_run(Store *store, hid_t parent, const ZpResult *result) {
   put_series(store, parent, result->series);
   put_shapes(store, parent, result->shapes, result->study);
+  put_map(store, parent, result->map);
   put_summary(store, parent, result);
 }
 

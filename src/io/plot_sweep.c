@@ -1,6 +1,6 @@
 /* Pictures of a sweep: contraction.svg, all runs over time, and what a study asks for against the list key that
- * varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg; forces.svg, a curve for each value of the
- * others. */
+ * varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg, factors.svg; forces.svg, a curve for each
+ * value of the others. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -160,9 +160,9 @@ static double key_value(const ZpPlot *plot, size_t run) {
 /* What is drawn against the key: one or two numbers of the summary. */
 typedef struct Answer {
   ZpStudy study;
-  const char *picture, *title, *axis, *unit;
-  const char *scalar[2], *legend[2]; /* the second may be NULL */
-  const char *count;                 /* how many points there are, after "3 of 5 runs " */
+  const char *picture, *title, *axis, *unit; /* no unit: a pure number */
+  const char *scalar[2], *legend[2];         /* the second may be NULL */
+  const char *count;                         /* how many points there are, after "3 of 5 runs " */
 } Answer;
 
 static const Answer answers[] = {
@@ -177,6 +177,14 @@ static const Answer answers[] = {
      {"pull-in", "release"},
      "pull in"},
     {ZP_STUDY_ISOMETRIC, "forces", "Force", "force", "N", {"force_N", NULL}, {NULL, NULL}, "are drawn"},
+    {ZP_STUDY_PROFILE,
+     "factors",
+     "Electric force, field over plates law",
+     "factor",
+     NULL,
+     {"scale_factor", "paper_factor"},
+     {"law as set", "paper's books"},
+     "are drawn"},
     {ZP_STUDY_MODES,
      "frequencies",
      "Lowest frequency about the loaded equilibrium",
@@ -224,6 +232,10 @@ static bool has_voltages(const ZpPlot *plot) {
   return has_answer(plot, ZP_STUDY_EQUILIBRIUM);
 }
 
+static bool has_factors(const ZpPlot *plot) {
+  return has_answer(plot, ZP_STUDY_PROFILE);
+}
+
 static bool has_frequencies(const ZpPlot *plot) {
   return has_answer(plot, ZP_STUDY_MODES);
 }
@@ -259,7 +271,7 @@ static void plot_answer(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
     fprintf(file, "%s'%s.dat' using ($1*%g):($%zu*%g) with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' ",
             first ? "plot " : ", \\\n     ", a->picture, factor, i + 2, unit.factor, i ? 5 : 7, zp_plot_colour(i));
     if (a->legend[i])
-      fprintf(file, "title '%s'", a->legend[i]);
+      fprintf(file, "title \"%s\"", a->legend[i]);
     else
       fputs("notitle", file);
     first = false;
@@ -274,7 +286,7 @@ static void script_answer(const ZpPlot *plot, FILE *file) {
   double largest = 0;
   for (size_t i = 0; i < 2 * plot->report->count; i++)
     largest = fmax(largest, fabs(answer(plot, i / 2, i % 2)));
-  ZpPlotUnit unit = zp_plot_unit(largest, a->unit);
+  ZpPlotUnit unit = a->unit ? zp_plot_unit(largest, a->unit) : (ZpPlotUnit){.factor = 1};
   snprintf(more, sizeof more, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
   snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
   zp_plot_head(plot, file, a->picture, a->title, a->scalar[1] ? 0.82 : 0.96);
@@ -285,9 +297,9 @@ static void script_answer(const ZpPlot *plot, FILE *file) {
   fputs("set xlabel ", file);
   zp_plot_text(file, label);
   fprintf(file,
-          "\nset ylabel '%s / %s' offset 0.5\nset autoscale x noextend\nset yrange [0:*]\n"
+          "\nset ylabel '%s%s%s' offset 0.5\nset autoscale x noextend\nset yrange [0:*]\n"
           "set offsets graph 0.03, graph 0.03, graph 0.05, 0\n",
-          a->axis, unit.text);
+          a->axis, a->unit ? " / " : "", unit.text);
   plot_answer(plot, file, unit);
 }
 
@@ -307,7 +319,11 @@ static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
 }
 
 static bool has_forces(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_ISOMETRIC);
+  return has_answer(plot, ZP_STUDY_ISOMETRIC) || has_answer(plot, ZP_STUDY_PROFILE);
+}
+
+static double force(const ZpPlot *plot, size_t run) {
+  return zp_result_get(plot->report->result[run], "force_N");
 }
 
 /* An index per curve. */
@@ -317,7 +333,7 @@ static void data_forces(const ZpPlot *plot, FILE *file) {
   for (size_t k = 0; k < curves; k++) {
     for (size_t run = chosen[k]; run < plot->report->count && (run == chosen[k] || !begins_curve(plot, run)); run++) {
       zp_plot_put(file, key_value(plot, run), ' ');
-      zp_plot_put(file, answer(plot, run, 0), '\n');
+      zp_plot_put(file, force(plot, run), '\n');
     }
     fputs("\n\n", file);
   }
@@ -357,11 +373,14 @@ static void script_forces(const ZpPlot *plot, FILE *file) {
   double largest = 0;
   zp_scenario_lists(plot->report->scenario, &keys);
   for (size_t i = 0; i < plot->report->count; i++)
-    if (isfinite(answer(plot, i, 0))) largest = fmax(largest, fabs(answer(plot, i, 0)));
+    if (isfinite(force(plot, i))) largest = fmax(largest, fabs(force(plot, i)));
   ZpPlotUnit unit = zp_plot_unit(largest, "N");
   char label[128];
   snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
-  zp_plot_head(plot, file, "forces", "Force on the held platform", keys > 1 ? RIGHT : 0.96);
+  zp_plot_head(plot, file, "forces",
+               plot->study == ZP_STUDY_PROFILE ? "Electric force on a ribbon of one half"
+                                               : "Force on the held platform",
+               keys > 1 ? RIGHT : 0.96);
   if (keys > 1) legend_title(plot, file, 1);
   fputs("set xlabel ", file);
   zp_plot_text(file, label);
@@ -378,6 +397,7 @@ const ZpPicture zp_sweep_pictures[] = {
     {"strokes", "svg", has_strokes, script_answer, data_answer},
     {"voltages", "svg", has_voltages, script_answer, data_answer},
     {"forces", "svg", has_forces, script_forces, data_forces},
+    {"factors", "svg", has_factors, script_answer, data_answer},
     {"frequencies", "svg", has_frequencies, script_answer, data_answer},
     {0},
 };

@@ -26,8 +26,8 @@ typedef struct Drawing {
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
 
-static const ZpPicture *const tables[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures,
-                                          zp_path_pictures,   zp_rest_pictures,  zp_fit_pictures};
+static const ZpPicture *const tables[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures, zp_path_pictures,
+                                          zp_rest_pictures,   zp_fit_pictures,   zp_field_pictures};
 
 #define TABLES (sizeof tables / sizeof tables[0])
 
@@ -129,15 +129,19 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
   if (status != ZP_OK) return status;
   plot->study = report->result[0]->study;
-  const bool isometric = plot->study == ZP_STUDY_ISOMETRIC, up_to = plot->study == ZP_STUDY_EQUILIBRIUM || isometric;
+  const bool isometric = plot->study == ZP_STUDY_ISOMETRIC, profile = plot->study == ZP_STUDY_PROFILE;
+  const bool up_to = plot->study == ZP_STUDY_EQUILIBRIUM || isometric;
   if (isometric)
     add_key(plot, "isometric.separation", "held at ");
+  else if (profile)
+    add_key(plot, "isometric.separation", "opening ");
   else if (plot->study != ZP_STUDY_CALIBRATE)
     add_key(plot, "load.mass", "load ");
   const bool electric = plot->def.actuator.kind != ZP_KIND_RIBBON;
-  if (up_to && electric) add_key(plot, "drive.voltage", plot->single ? "up to " : "");
+  if ((up_to || profile) && electric) add_key(plot, "drive.voltage", up_to && plot->single ? "up to " : "");
   if (plot->study == ZP_STUDY_ACTUATE && electric) add_drive(plot);
-  add_key(plot, "mesh.nodes", "N = ");
+  if (profile) add_key(plot, "profile.shape", "shape ");
+  if (!profile || plot->def.profile.shape == ZP_PROFILE_HELD) add_key(plot, "mesh.nodes", "N = ");
   add_key(plot, "preset", "preset ");
   return ZP_OK;
 }

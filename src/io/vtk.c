@@ -1,4 +1,4 @@
-/* shapes.pvd and shapes/shape_NNNN.vtp: the film of one run for ParaView.
+/* For ParaView: shapes.pvd and shapes/shape_NNNN.vtp, the film of one run; field.vts, its electric field.
  *
  * Each .vtp is the PolyData of one frame: a polyline per ribbon, the gap and the attraction at its nodes.
  * Numbers follow the XML as raw bytes, each array after its length, so nothing is rounded. */
@@ -162,6 +162,49 @@ static ZpStatus write_shapes(const ZpReport *report, const ZpShapes *shapes, con
   return status == ZP_OK ? write_collection(report, shapes, err) : status;
 }
 
+/* -- the field ------------------------------------------------------------------------------------- */
+
+static void put_array(FILE *file, const double *value, size_t count) {
+  put_length(file, count * sizeof(double));
+  fwrite(value, sizeof *value, count, file);
+}
+
+/* VTK's first index is the one that runs fastest: ours across the ribbons. */
+static void write_map(FILE *file, const ZpFieldMap *map) {
+  Layout l = {.points = map->nx * map->ny};
+  size_t cells = (map->nx - 1) * (map->ny - 1);
+  fprintf(file,
+          "<?xml version=\"1.0\"?>\n"
+          "<VTKFile type=\"StructuredGrid\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME
+          "\" header_type=\"UInt64\">\n"
+          "  <StructuredGrid WholeExtent=\"0 %zu 0 %zu 0 0\">\n    <Piece Extent=\"0 %zu 0 %zu 0 0\">\n      "
+          "<PointData>\n",
+          map->ny - 1, map->nx - 1, map->ny - 1, map->nx - 1);
+  declare(file, &l, "Float64", "potential", 1, l.points * sizeof(double));
+  fputs("      </PointData>\n      <CellData>\n", file);
+  declare(file, &l, "Float64", "field_strength", 1, cells * sizeof(double));
+  declare(file, &l, "Float64", "permittivity", 1, cells * sizeof(double));
+  fputs("      </CellData>\n      <Points>\n", file);
+  declare(file, &l, "Float64", "Points", 3, 3 * l.points * sizeof(double));
+  fputs("      </Points>\n    </Piece>\n  </StructuredGrid>\n  <AppendedData encoding=\"raw\">\n_", file);
+  put_array(file, map->potential, l.points);
+  put_array(file, map->strength, cells);
+  put_array(file, map->permittivity, cells);
+  put_length(file, 3 * l.points * sizeof(double));
+  for (size_t k = 0; k < l.points; k++)
+    fwrite((const double[]){map->x[k], map->y[k], 0}, sizeof(double), 3, file);
+  fputs("\n  </AppendedData>\n</VTKFile>\n", file);
+}
+
+static ZpStatus write_field(const ZpReport *report, const ZpFieldMap *map, ZpError *err) {
+  ZpAtomic out;
+  if (!map) return zp_remove_file(report->directory, "field.vts", err);
+  ZpStatus status = zp_atomic_open(&out, report->directory, "field.vts", err);
+  if (status != ZP_OK) return status;
+  write_map(out.file, map);
+  return zp_atomic_commit(&out, err);
+}
+
 ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
   const ZpResult *single = zp_report_single(report);
   const ZpShapes *shapes = single && single->shapes && single->shapes->frames > 0 ? single->shapes : NULL;
@@ -169,5 +212,5 @@ ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
   if (!folder) return zp_fail_memory(err);
   ZpStatus status = write_shapes(report, shapes, folder, err);
   free(folder);
-  return status;
+  return status == ZP_OK ? write_field(report, single ? single->map : NULL, err) : status;
 }

@@ -22,6 +22,9 @@ ZpStatus zp_study_isometric(const ZpActuatorDef *def, const ZpHooks *hooks, ZpRe
 /* Frequencies and mode shapes about the loaded equilibrium. */
 ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
 
+/* Electric force along the ribbons of one shape, by plates and by the field. */
+ZpStatus zp_study_profile(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+
 /* Append a number to the summary; one that follows from wall time; a sentence of warning. */
 void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);

@@ -32,6 +32,9 @@ ZpStatus zp_study_run_driven(const ZpActuatorDef *def, const ZpDriveTable *table
   case ZP_STUDY_ISOMETRIC:
     status = zp_study_isometric(def, hooks, result, err);
     break;
+  case ZP_STUDY_PROFILE:
+    status = zp_study_profile(def, hooks, result, err);
+    break;
   case ZP_STUDY_CALIBRATE: /* needs a file */
     status = zp_fail(err, ZP_BAD_INPUT, "study = calibrate: run by zp_data_study_run of zipact/calibrate.h");
     break;
@@ -51,7 +54,38 @@ void zp_result_destroy(ZpResult *result) {
   if (!result) return;
   zp_table_destroy(result->series);
   zp_shapes_destroy(result->shapes);
+  zp_field_map_destroy(result->map);
   zp_free(result);
+}
+
+static size_t carve_map(ZpFieldMap *map, void *block) {
+  ZpCarver carver = {block, 0};
+  size_t cells = (map->nx - 1) * (map->ny - 1);
+  double **of_nodes[] = {&map->x, &map->y, &map->potential}, **of_cells[] = {&map->strength, &map->permittivity};
+  for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
+    *of_nodes[k] = zp_carve(&carver, map->nx * map->ny);
+  for (size_t k = 0; k < sizeof of_cells / sizeof of_cells[0]; k++)
+    *of_cells[k] = zp_carve(&carver, cells);
+  return carver.used;
+}
+
+ZpFieldMap *zp_field_map_create(size_t nx, size_t ny) {
+  ZpFieldMap *map = zp_calloc(1, sizeof *map);
+  if (!map) return NULL;
+  *map = (ZpFieldMap){.nx = nx, .ny = ny};
+  map->memory = zp_calloc(1, carve_map(map, NULL));
+  if (!map->memory) {
+    zp_free(map);
+    return NULL;
+  }
+  carve_map(map, map->memory);
+  return map;
+}
+
+void zp_field_map_destroy(ZpFieldMap *map) {
+  if (!map) return;
+  zp_free(map->memory);
+  zp_free(map);
 }
 
 double zp_result_get(const ZpResult *result, const char *name) {

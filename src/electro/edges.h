@@ -1,0 +1,48 @@
+/* What the field beyond the lateral edges of two strips that face each other adds to the plates law. Per length of
+ * the strips the capacitance depends on their gap alone where that changes slowly; the field of the cross-section
+ * across the strips is solved at some gaps once, and a smooth law goes through them, docs/theory.md section 16. */
+#ifndef ZP_ELECTRO_EDGES_H
+#define ZP_ELECTRO_EDGES_H
+
+#include "base/fail.h"
+#include "electro/field.h"
+
+/* Two parallel strips, an insulator on each of their facing sides, in liquid. */
+typedef struct ZpEdgeParams {
+  double w;            /* width, m */
+  double b, t;         /* thickness of metal and of insulator, m; t > 0 */
+  double eps_m, eps_i; /* relative permittivity of liquid and insulator */
+} ZpEdgeParams;
+
+/* The mesh on which the law is solved; about 1e-4 of the capacitance while strips are close, 6e-4 at a third of their
+ * width. */
+ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *params);
+
+/* Capacitance per length of the whole cross-section at gaps of 0 and more, F/m. False if there is no memory. NAN where
+ * there is no solution. */
+bool zp_edges_capacitance(const ZpEdgeParams *params, const ZpFieldMesh *mesh, size_t count, const double *gap,
+                          double *capacitance);
+
+enum { ZP_EDGE_TERMS = 18 };
+
+/* e(g) / w with e = C' / (eps0 eps_m) - w / (g + d), a polynomial in z(g), eqs. (16.1), (16.2). Beyond its ends it
+ * goes on straight. */
+typedef struct ZpEdgeLaw {
+  double largest;          /* it holds for gaps 0 .. largest, m */
+  double d;                /* liquid thickness that stands for both insulators, m */
+  double s0;               /* square root of the middle of g + d, m^0.5 */
+  double stretch;          /* so that z is in [-1, 1] */
+  double p[ZP_EDGE_TERMS]; /* coefficients of z^k, 1/m */
+  double error;            /* estimate of what it misses between the solutions, as a share of C' */
+} ZpEdgeLaw;
+
+/* => law. Says why if it cannot be. */
+ZpStatus zp_edges_make(const ZpEdgeParams *params, double largest, ZpEdgeLaw *law, ZpError *err);
+
+/* e / w and its derivatives by the gap, at a gap within the ends of the law. */
+typedef struct ZpEdgeValue {
+  double e, slope, bend; /* 1/m, 1/m^2, 1/m^3 */
+} ZpEdgeValue;
+ZpEdgeValue zp_edges_value(const ZpEdgeLaw *law, double gap);
+
+#endif

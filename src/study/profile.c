@@ -1,0 +1,428 @@
+/* Study `profile`: the electric force along the ribbons of one shape, by the plates law and by the field in the plane
+ * of the ribbons. Theory, section 15.
+ *
+ * Both are taken at the same columns of the field's grid and integrated by the same rule (Simpson's): then their ratio
+ * holds the two laws only, not two quadratures. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "electro/field.h"
+#include "rest/statics.h"
+#include "study/bookkeeping.h"
+#include "study/faces.h"
+#include "study/studies.h"
+
+/* A row per column of the grid from the clip's edge on. */
+enum { X, GAP, PLATES, FIELD, UPPER, LOWER, RATIO, FORCE, LIQUID, INSULATOR, CAPPED, COLUMNS };
+static const ZpColumn columns[COLUMNS] = {
+    {"x_m", "m", "from the clip's edge"},
+    {"gap_m", "m", "distance of the faces"},
+    {"plates_N_per_m", "N/m", "attraction per length by the plates law as set, without breakdown cap"},
+    {"field_N_per_m", "N/m", "the same by the field, mean of both ribbons"},
+    {"field_upper_N_per_m", "N/m", "of the upper ribbon"},
+    {"field_lower_N_per_m", "N/m", "of the lower ribbon"},
+    {"ratio", "1", "field over plates"},
+    {"force_N_per_m", "N/m", "attraction per length as electro.model and electro.breakdown_cap say"},
+    {"medium_field_V_per_m", "V/m", "field in the liquid at the faces, before any cap"},
+    {"insulator_field_V_per_m", "V/m", "field in the insulators"},
+    {"capped", "1", "1: breakdown limits the force, 0: it does not"},
+};
+
+/* Stations along the flexible part: forces then lie within 1e-5 of those on twice as many for openings up to 17 mm,
+ * within 2e-4 at 60 mm. */
+enum { STATIONS = 121 };
+
+/* Gaps below this are none, m. */
+static const double rounding = 1e-15;
+
+/* The two ways to find the force from the field should not differ by more than this. */
+static const double agreement = 5e-3;
+
+/* By how much the field may differ from the right plates law before that is said. */
+static const double valid = 0.02;
+
+typedef double Row[COLUMNS];
+
+typedef struct Profiler {
+  const ZpModel *model;
+  ZpResult *result;
+  double U;
+  bool by_field;                   /* electro.model */
+  ZpPlatesParams set, free, right; /* the plates law as set; without cap; the right one, without cap */
+  ZpFieldParams params;
+  ZpField field;
+  ZpFieldTotals totals;
+  ZpStations stations;
+  ZpFaces faces;
+  Row *row;           /* [rows] */
+  size_t last, rows;  /* row of the platform's edge; rows up to the mirror plane, or to the edge of a bare platform */
+  double *gap, *line; /* [stations] for the shape */
+  void *memory;
+} Profiler;
+
+/* -- setting up ------------------------------------------------------------------------------------ */
+
+static void find_laws(Profiler *p) {
+  const ZpActuatorDef *def = &p->model->def;
+  p->set = p->free = p->right = p->model->plates;
+  p->free.h_per_volt = p->right.h_per_volt = 0;
+  p->right.k = 0.5 * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
+  p->right.d = 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
+}
+
+static size_t carve(Profiler *p, void *block) {
+  ZpCarver carver = {block, 0};
+  size_t n = STATIONS;
+  p->stations = (ZpStations){n, NULL, NULL};
+  p->stations.x = zp_carve(&carver, 2 * n);
+  p->stations.y = zp_carve(&carver, 2 * n);
+  p->gap = zp_carve(&carver, n);
+  p->line = zp_carve(&carver, n);
+  p->row = (void *)zp_carve(&carver, p->field.profiles * COLUMNS);
+  return carver.used;
+}
+
+static bool allocate(Profiler *p) {
+  p->params = p->model->cross_section;
+  p->params.stations = STATIONS;
+  p->params.columns = 1;
+  if (!zp_field_create(&p->params, &p->field)) return false;
+  p->memory = zp_calloc(1, carve(p, NULL));
+  if (!p->memory) return false;
+  carve(p, p->memory);
+  const double *x = p->stations.x, *y = p->stations.y;
+  p->faces = (ZpFaces){x, y, x + 1, y + 1, 2};
+  p->last = p->field.last - p->field.first;
+  p->rows = p->params.electrode ? p->field.profiles : p->last + 1;
+  return true;
+}
+
+/* -- the shape ------------------------------------------------------------------------------------- */
+
+/* The unpowered shape. *found tells whether there is one; false if there is no memory. */
+static bool hold(Profiler *p, bool *found) {
+  const ZpModel *model = p->model;
+  ZpStatics statics;
+  ZpNewtonWork newton;
+  ZpCarver carver = {NULL, 0};
+  if (!zp_statics_create(model, &statics)) return false;
+  zp_newton_carve(&newton, statics.n, statics.bandwidth, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  if (memory) {
+    carver = (ZpCarver){memory, 0};
+    zp_newton_carve(&newton, statics.n, statics.bandwidth, &carver);
+    ZpNewtonInfo info = zp_statics_hold(&statics, model->def.isometric.separation, &newton);
+    *found = zp_newton_good(info.end);
+    zp_faces_smooth(model->nodes, statics.q, statics.q + model->stride, &p->stations);
+  }
+  zp_free(memory);
+  zp_statics_destroy(&statics);
+  return memory != NULL;
+}
+
+static bool find_shape(Profiler *p, bool *found) {
+  if (p->model->def.profile.shape == ZP_PROFILE_HELD) return hold(p, found);
+  zp_faces_cubic(p->model->L, p->model->def.isometric.separation, &p->stations);
+  *found = true;
+  return true;
+}
+
+/* -- the profile ----------------------------------------------------------------------------------- */
+
+static void fill_row(const Profiler *p, size_t k, double *row) {
+  const ZpFieldProfile *at = &p->field.profile[k];
+  double U = p->U, mean = 0.5 * (at->upper + at->lower), unit = zp_plates_law(&p->free, 1, at->gap).W;
+  ZpPlatesLaw law = zp_plates_law(&p->set, U, at->gap);
+  row[X] = at->x;
+  row[GAP] = fabs(at->gap) > rounding ? at->gap : 0;
+  row[PLATES] = unit * U * U;
+  row[FIELD] = mean * U * U;
+  row[UPPER] = at->upper * U * U;
+  row[LOWER] = at->lower * U * U;
+  row[RATIO] = unit > 0 ? mean / unit : (double)NAN;
+  row[LIQUID] = at->E * U;
+  row[INSULATOR] = at->E_insulator * U;
+  bool capped = at->gap + p->set.d < p->set.h_per_volt * U;
+  row[CAPPED] = capped;
+  row[FORCE] = p->by_field && !capped ? p->model->field_scale * row[FIELD] : law.W;
+}
+
+/* Simpson's rule over rows from .. to, an even number of intervals. */
+static double integrate(const Profiler *p, int column, size_t from, size_t to) {
+  double sum = 0;
+  for (size_t k = from; k + 2 <= to; k += 2) {
+    const Row *r = p->row + k;
+    sum += (r[2][X] - r[0][X]) / 6 * (r[0][column] + 4 * r[1][column] + r[2][column]);
+  }
+  return sum;
+}
+
+static double largest(const Profiler *p, int column) {
+  double most = 0;
+  for (size_t k = 0; k < p->rows; k++)
+    most = fmax(most, p->row[k][column]);
+  return most;
+}
+
+/* The cap's kink wants finer steps than the field does: this many for two intervals. */
+enum { FINER = 64 };
+
+/* Gap at `part` (0 .. 1) of the parabola through three rows. */
+static double gap_within(const Row *r, double part) {
+  double u = 2 * part - 1;
+  return 0.5 * u * (u - 1) * r[0][GAP] + (1 - u * u) * r[1][GAP] + 0.5 * u * (u + 1) * r[2][GAP];
+}
+
+/* Mean of the capped law along the parabola through three rows, N/m. */
+static double capped_mean(const Profiler *p, const ZpPlatesParams *law, const Row *r) {
+  double sum = 0;
+  for (int i = 0; i <= FINER; i++)
+    sum += (i % 2 ? 4 : i == 0 || i == FINER ? 1 : 2) * zp_plates_law(law, p->U, gap_within(r, (double)i / FINER)).W;
+  return sum / (3 * FINER);
+}
+
+/* Integral of FORCE over rows from .. to. Where some is capped: of the capped law in fine steps, and of what the model
+ * differs by from the law, which is smooth. */
+static double limited_force(const Profiler *p, size_t from, size_t to) {
+  const ZpPlatesParams *law = &p->set;
+  double sum = 0;
+  for (size_t k = from; k + 2 <= to; k += 2) {
+    const Row *r = p->row + k;
+    double part = r[0][FORCE] + 4 * r[1][FORCE] + r[2][FORCE];
+    if (r[0][CAPPED] + r[1][CAPPED] + r[2][CAPPED] > 0) {
+      part += 6 * capped_mean(p, law, r);
+      part -= zp_plates_law(law, p->U, r[0][GAP]).W + 4 * zp_plates_law(law, p->U, r[1][GAP]).W +
+              zp_plates_law(law, p->U, r[2][GAP]).W;
+    }
+    sum += (r[2][X] - r[0][X]) / 6 * part;
+  }
+  return sum;
+}
+
+/* Length of the flexible part where breakdown limits the force; gaps are straight within a fine step. */
+static double capped_length(const Profiler *p) {
+  double limit = p->set.h_per_volt * p->U - p->set.d, length = 0;
+  for (size_t k = 0; k + 2 <= p->last; k += 2) {
+    const Row *r = p->row + k;
+    double step = (r[2][X] - r[0][X]) / FINER;
+    for (int i = 0; i < FINER; i++) {
+      double a = gap_within(r, (double)i / FINER) - limit, b = gap_within(r, (i + 1.0) / FINER) - limit;
+      double low = fmin(a, b), high = fmax(a, b);
+      length += high < 0 ? step : low < 0 ? step * low / (low - high) : 0;
+    }
+  }
+  return length;
+}
+
+/* -- results --------------------------------------------------------------------------------------- */
+
+static void record(Profiler *p) {
+  for (size_t k = 0; k < p->rows; k++)
+    zp_table_offer(p->result->series, p->row[k]);
+  for (size_t k = 0; k < STATIONS; k++) {
+    p->gap[k] = p->row[k][GAP];
+    p->line[k] = p->row[k][FORCE];
+  }
+  ZpShape shape = {
+      .time = 0, .voltage = p->U, .x = p->stations.x, .y = p->stations.y, .gap = p->gap, .line_force = p->line};
+  zp_shapes_offer(p->result->shapes, &shape);
+}
+
+/* Total force on one ribbon by virtual work over that by traction, less 1; of 1 V. */
+static double difference(const Profiler *p) {
+  const ZpFieldTotals *t = &p->totals;
+  double traction = t->upper + t->lower;
+  if (p->params.electrode) traction += t->upper_platform + t->lower_platform;
+  return (t->upper_work + t->lower_work) / traction - 1;
+}
+
+/* Total force on the flexible part, field over a plates law without cap; the voltage cancels. */
+static double field_over(const Profiler *p, const ZpPlatesParams *law) {
+  double plates = 0;
+  for (size_t k = 0; k + 2 <= p->last; k += 2) {
+    const ZpFieldProfile *at = p->field.profile + k;
+    plates += (at[2].x - at[0].x) / 6 *
+              (zp_plates_law(law, 1, at[0].gap).W + 4 * zp_plates_law(law, 1, at[1].gap).W +
+               zp_plates_law(law, 1, at[2].gap).W);
+  }
+  return plates > 0 ? 0.5 * (p->totals.upper + p->totals.lower) / plates : (double)NAN;
+}
+
+static void summarize(const Profiler *p) {
+  ZpResult *r = p->result;
+  const ZpFieldTotals *t = &p->totals;
+  size_t end = p->rows - 1;
+  double U2 = p->U * p->U, plates = integrate(p, PLATES, 0, p->last), field = integrate(p, FIELD, 0, p->last);
+  zp_result_add(r, "force_N", "N", limited_force(p, 0, p->last));
+  zp_result_add(r, "platform_force_N", "N", limited_force(p, p->last, end));
+  zp_result_add(r, "force_uncapped_N", "N", p->by_field ? p->model->field_scale * field : plates);
+  zp_result_add(r, "plates_force_N", "N", plates);
+  zp_result_add(r, "field_force_N", "N", field);
+  zp_result_add(r, "virtual_work_force_N", "N", 0.5 * (t->upper_work + t->lower_work) * U2);
+  zp_result_add(r, "virtual_work_difference", "1", difference(p));
+  zp_result_add(r, "scale_factor", "1", field_over(p, &p->free));
+  zp_result_add(r, "max_field_V_per_m", "V/m", largest(p, LIQUID));
+  zp_result_add(r, "insulator_field_V_per_m", "V/m", largest(p, INSULATOR));
+  zp_result_add(r, "capped_length_m", "m", capped_length(p));
+  zp_result_add(r, "capacitance_F", "F", 2 * p->model->parts * p->field.energy);
+  zp_result_add(r, "equations", "count", (double)p->field.grid.K.n);
+}
+
+static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
+  ZpPaperFactor factor;
+  ZpResult *r = p->result;
+  if (!zp_paper_factor(&p->params, &p->faces, &factor)) return zp_fail_memory(err);
+  zp_result_add(r, "paper_factor", "1", zp_paper_factor_product(&factor));
+  zp_result_add(r, "paper_factor_voltage", "1", factor.voltage);
+  zp_result_add(r, "paper_factor_half", "1", factor.half);
+  zp_result_add(r, "paper_factor_tape", "1", factor.tape);
+  zp_result_add(r, "paper_factor_gap", "1", factor.gap);
+  return ZP_OK;
+}
+
+static void warn(const Profiler *p) {
+  const ZpActuatorDef *def = &p->model->def;
+  double insulator = largest(p, INSULATOR), liquid = largest(p, LIQUID), off = difference(p);
+  double local = field_over(p, &p->right) - 1;
+  if (insulator > def->insulator.breakdown_field)
+    zp_result_warn(p->result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
+                   insulator / 1e6, def->insulator.breakdown_field / 1e6);
+  if (!def->electro.breakdown_cap && liquid > def->medium.breakdown_field)
+    zp_result_warn(p->result,
+                   "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
+                   "electro.breakdown_cap is false: the force is not limited",
+                   liquid / 1e6, def->medium.breakdown_field / 1e6);
+  if (fabs(local) > valid)
+    zp_result_warn(
+        p->result,
+        "the field pulls with %.3g times what any local plates law gives: the faces are too steep or too far "
+        "apart for it",
+        1 + local);
+  if (fabs(off) > agreement)
+    zp_result_warn(p->result,
+                   "force by traction and by virtual work differ by %.2g %%: too steep a wedge for the field's grid",
+                   100 * fabs(off));
+}
+
+/* -- the map --------------------------------------------------------------------------------------- */
+
+/* Nodes of the grid that the map shows: not what is far away. */
+typedef struct Window {
+  size_t left, right, bottom, top; /* ends included */
+} Window;
+
+static Window window_of(const Profiler *p) {
+  const ZpGrid *g = &p->field.grid;
+  const double *y = g->y + p->field.first * g->ny, opening = p->model->def.isometric.separation;
+  double margin = fmax(0.25 * p->model->L, 0.65 * opening) + p->params.t + p->params.b;
+  double middle = y[g->ny / 2], edge = -p->params.clip - margin;
+  Window w = {0, g->nx - 1, 0, g->ny - 1};
+  while (w.left + 1 < p->field.first && g->x[(w.left + 1) * g->ny + g->ny / 2] < edge)
+    w.left++;
+  while (y[w.bottom + 1] < middle - margin)
+    w.bottom++;
+  while (y[w.top - 1] > middle + margin)
+    w.top--;
+  return w;
+}
+
+static void fill_cell(const Profiler *p, size_t i, size_t j, double *strength, double *permittivity) {
+  const ZpGrid *g = &p->field.grid;
+  double E[2] = {0, 0};
+  *permittivity = g->eps[i / 2 * g->rows + j / 2];
+  if (*permittivity > 0) zp_grid_gradient(g, i / 2, j / 2, i % 2 ? 0.5 : -0.5, j % 2 ? 0.5 : -0.5, E);
+  *strength = p->U * sqrt(E[0] * E[0] + E[1] * E[1]);
+}
+
+static bool make_map(const Profiler *p) {
+  const ZpGrid *g = &p->field.grid;
+  Window w = window_of(p);
+  size_t nx = w.right - w.left + 1, ny = w.top - w.bottom + 1;
+  ZpFieldMap *map = p->result->map = zp_field_map_create(nx, ny);
+  if (!map) return false;
+  for (size_t i = 0; i < nx; i++)
+    for (size_t j = 0; j < ny; j++) {
+      size_t from = (w.left + i) * g->ny + w.bottom + j, cell = i * (ny - 1) + j;
+      map->x[i * ny + j] = g->x[from];
+      map->y[i * ny + j] = g->y[from];
+      map->potential[i * ny + j] = p->U * g->phi[from];
+      if (i + 1 < nx && j + 1 < ny)
+        fill_cell(p, w.left + i, w.bottom + j, &map->strength[cell], &map->permittivity[cell]);
+    }
+  return true;
+}
+
+/* -- the study ------------------------------------------------------------------------------------- */
+
+/* Bad geometry is the input's fault: key, value and unit of what made it. */
+static ZpStatus refuse(const Profiler *p, ZpFieldEnd end, ZpError *err) {
+  return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: %s (ribbon.thickness = %g m)",
+                 p->model->def.isometric.separation, zp_field_words(end), p->params.b);
+}
+
+/* => how the field ended; once solved, profile and totals. */
+static ZpFieldEnd solve(Profiler *p) {
+  ZpFieldEnd end = zp_field_check(&p->params, &p->faces);
+  if (end == ZP_FIELD_SOLVED) end = zp_field_solve(&p->field, &p->faces);
+  if (end != ZP_FIELD_SOLVED) return end;
+  zp_field_profile(&p->field);
+  p->totals = zp_field_totals(&p->field);
+  for (size_t k = 0; k < p->rows; k++)
+    fill_row(p, k, p->row[k]);
+  return end;
+}
+
+static ZpStatus report(Profiler *p, ZpError *err) {
+  ZpResult *r = p->result;
+  record(p);
+  summarize(p);
+  warn(p);
+  r->outcome = ZP_CONVERGED;
+  snprintf(r->message, sizeof r->message,
+           "%g V attract a ribbon of one half with %.4g N; by the field without cap %.4g N", p->U,
+           zp_result_get(r, "force_N"), zp_result_get(r, "field_force_N"));
+  if (!make_map(p)) return zp_fail_memory(err);
+  return p->model->def.profile.paper_factor ? keep_the_papers_books(p, err) : ZP_OK;
+}
+
+static ZpStatus end_badly(const Profiler *p, ZpOutcome outcome, const char *why) {
+  p->result->outcome = outcome;
+  snprintf(p->result->message, sizeof p->result->message, "%s at isometric.separation = %g m", why,
+           p->model->def.isometric.separation);
+  return ZP_OK;
+}
+
+static ZpStatus run(Profiler *p, ZpError *err) {
+  ZpResult *r = p->result;
+  bool found = false;
+  if (!allocate(p)) return zp_fail_memory(err);
+  r->series = zp_table_create(columns, COLUMNS, p->rows + 1);
+  r->shapes = zp_shapes_create(2, STATIONS, 2);
+  if (!r->series || !r->shapes || !find_shape(p, &found)) return zp_fail_memory(err);
+  find_laws(p);
+  if (!found) return end_badly(p, ZP_NOT_SETTLED, "no equilibrium without voltage found");
+  ZpFieldEnd end = solve(p);
+  if (end == ZP_FIELD_SINGULAR) return end_badly(p, ZP_DIVERGED, zp_field_words(end));
+  return end == ZP_FIELD_SOLVED ? report(p, err) : refuse(p, end, err);
+}
+
+/* As in study isometric, what hangs there does not count. The model is that of plates: the shape has no voltage, and
+ * the field is solved here. */
+ZpStatus zp_study_profile(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  (void)hooks; /* a matter of milliseconds */
+  ZpActuatorDef bare = *def;
+  bare.load.mass = 0;
+  bare.electro.model = ZP_ELECTRO_PLATES;
+  ZpModel *model;
+  ZpStatus status = zp_model_create(&bare, &model, err);
+  if (status != ZP_OK) return status;
+  Profiler p = {
+      .model = model, .result = result, .U = def->drive.voltage, .by_field = def->electro.model == ZP_ELECTRO_FIELD};
+  status = run(&p, err);
+  zp_free(p.memory);
+  zp_field_destroy(&p.field);
+  zp_model_destroy(model);
+  return status;
+}
