@@ -368,6 +368,7 @@ END_TEST
 /* Only the size of the voltage attracts; the charge has its sign. */
 START_TEST(sign_of_the_voltage) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 2e-3);
+  def.electro.edges = _i;
   const double t[] = {0, 1}, plus[] = {9e3, 9e3}, minus[] = {-9e3, -9e3};
   double stroke[2], charge[2], work[2];
   for (int i = 0; i < 2; i++) {
@@ -561,7 +562,7 @@ int main(void) {
   tcase_add_test(runs, set_by_hand_counts);
   tcase_add_test(runs, restart_inside_a_ramp);
   tcase_add_test(runs, field_follows_the_cap);
-  tcase_add_test(runs, sign_of_the_voltage);
+  tcase_add_loop_test(runs, sign_of_the_voltage, 0, 2);
   tcase_add_test(runs, only_a_constant_drive_stops);
   tcase_add_test(inputs, refused);
   tcase_add_test(inputs, core_asks_for_the_table);
