@@ -79,6 +79,10 @@ static ZpActuatorDef preset_def(ZpPreset preset) {
 static void print_studies(void) {
   ZpActuatorDef def = default_def();
   print_study("default", &def);
+  def.drive.waveform = ZP_WAVEFORM_SINE;
+  def.drive.frequency = 77;
+  print_study("sine", &def);
+  def = default_def();
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.drive.voltage = 0;
   print_study("straight", &def);

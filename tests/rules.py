@@ -42,6 +42,7 @@ PUBLIC = {
     "choices.def": "def",
     "keys.def": "def",
     "presets.def": "def",
+    "drive.h": "drive",
     "model.h": "actuator",
     "sim.h": "sim",
     "signals.def": "sim",

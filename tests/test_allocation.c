@@ -21,6 +21,7 @@
 #include <check.h>
 #include <jansson.h>
 
+#include <zipact/calibrate.h>
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
@@ -219,6 +220,17 @@ static ZpStatus create_model(ZpError *err, bool *whole) {
   return status;
 }
 
+static ZpStatus create_driven_model(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  def.drive.waveform = ZP_WAVEFORM_TABLE;
+  ZpDriveTable table = {2, (const double[]){0, 1}, (const double[]){100, 200}};
+  ZpModel *model = NULL;
+  ZpStatus status = zp_model_create_driven(&def, &table, &model, err);
+  *whole = (model != NULL) == (status == ZP_OK);
+  zp_model_destroy(model);
+  return status;
+}
+
 static ZpStatus create_model_with_edges(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
   def.electro.edges = true;
@@ -277,6 +289,7 @@ START_TEST(core_survives_every_failure) {
   ck_assert_int_eq(zp_model_create(&def, &shared_model, NULL), ZP_OK);
   /* the counts: a model is a struct and a block, a simulation a struct and at least state and work space */
   ck_assert_int_ge(fail_each("zp_model_create", create_model, false), 2);
+  ck_assert_int_ge(fail_each("zp_model_create_driven", create_driven_model, false), 2);
   ck_assert_int_ge(fail_each("zp_model_create with edges", create_model_with_edges, false), 6); /* a field more */
   ck_assert_int_ge(fail_each("zp_sim_create", create_sim, false), 3);
   ck_assert_int_ge(fail_each("zp_study_run", run_study, false), 8);
@@ -463,6 +476,31 @@ static ZpStatus parse_value(ZpError *err, bool *whole) {
   *whole = status != ZP_OK || value == 50e-6;
   return status;
 }
+
+static bool from_file;
+
+/* Study actuate driven by a table from the scenario or from a file. */
+static ZpStatus run_by_table(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  ZpResult *result = NULL;
+  def.drive.waveform = ZP_WAVEFORM_TABLE;
+  strcpy(from_file ? def.drive.file : def.drive.table, from_file ? "memory.csv" : "0 = 0, 10 us = 100 V");
+  ZpStatus status = zp_data_study_run(&def, NULL, &result, err);
+  *whole = (result != NULL) == (status == ZP_OK);
+  if (result) *whole = result->outcome == ZP_REACHED_END && zp_table_get(result->series, 1, "voltage_V") > 0;
+  zp_result_destroy(result);
+  return status;
+}
+
+START_TEST(table_survives_every_failure) {
+  FILE *file = fopen("memory.csv", "w");
+  ck_assert(file && fputs("time_us,voltage_V\n0,0\n10,100\n", file) >= 0 && fclose(file) == 0);
+  from_file = false;
+  ck_assert_int_ge(fail_each("drive.table", run_by_table, false), 10);
+  from_file = true;
+  ck_assert_int_ge(fail_each("drive.file", run_by_table, false), 13);
+}
+END_TEST
 
 /* -- texts: what is written under failures is what is written without ---------------------------------- */
 
@@ -710,6 +748,7 @@ int main(void) {
   tcase_add_test(core, steps_allocate_nothing);
   tcase_add_test(core, zipping_allocates_nothing);
   tcase_add_test(core, bezier_steps_allocate_nothing);
+  tcase_add_test(files, table_survives_every_failure);
   tcase_add_test(files, scenarios_survive_every_failure);
   tcase_add_test(files, writers_survive_every_failure);
   tcase_add_test(files, reports_survive_every_failure);

@@ -112,7 +112,9 @@ static ZpOutcome run_and_check(const ZpActuatorDef *def, const char *what) {
   double start = cpu_seconds();
   ZpActuatorDef bounded = *def;
   if (def->mesh.nodes > 200 && def->solver.max_steps > 20000) bounded.solver.max_steps = 20000; /* 0.3 s */
-  ZpStatus status = zp_study_run(&bounded, NULL, &result, &err);
+  const ZpDriveTable table = {3, (const double[]){0, 5e-5, 5e-5}, (const double[]){-1e6, 1e6, 0}};
+  bool by_table = def->drive.waveform == ZP_WAVEFORM_TABLE;
+  ZpStatus status = zp_study_run_driven(&bounded, by_table ? &table : NULL, NULL, &result, &err);
   double seconds = cpu_seconds() - start;
   ck_assert_msg(status == ZP_OK, "%s: %s", what, err.message);
   ck_assert_msg(seconds < most_seconds, "%s: took %g s", what, seconds);
@@ -141,6 +143,10 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;
   if (strcmp(key, "electro.switch_offset") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
   if (strcmp(key, "electro.refresh_period") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
+  if (strcmp(key, "drive.waveform") == 0 && value == ZP_WAVEFORM_RAMP) def->drive.rise_time = 5e-5;
+  if (strcmp(key, "drive.rise_time") == 0 && value > 0) def->drive.waveform = ZP_WAVEFORM_RAMP;
+  if (strcmp(key, "drive.offset") == 0 || strcmp(key, "drive.frequency") == 0) def->drive.waveform = ZP_WAVEFORM_SINE;
+  if (strcmp(key, "drive.duty") == 0) def->drive.waveform = ZP_WAVEFORM_SQUARE;
 }
 
 static void run_at(int index, double value) {

@@ -1,5 +1,5 @@
-/* Studies with a file of data: calibrate fits keys to measured strokes, stationary is compared with a reference
- * curve. Part of the io library; needs NLopt. */
+/* Studies with data: calibrate fits keys to measured strokes, stationary is compared with a reference curve,
+ * actuate follows a table of voltages. Part of the io library; needs NLopt. */
 #ifndef ZIPACT_CALIBRATE_H
 #define ZIPACT_CALIBRATE_H
 
@@ -9,12 +9,12 @@
 extern "C" {
 #endif
 
-/* Read what data.file and the keys of group calibrate name, if def->study uses them, and check it.
- * ZP_BAD_INPUT names file, line, column and text, or the key. */
+/* Read what data.file, drive.table, drive.file and the keys of group calibrate name, if def->study uses them, and check
+ * it. ZP_BAD_INPUT names file, line, column and text, or the key. */
 ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err);
 
-/* As zp_study_run, for every study: also calibrate, and stationary with area_error_m2 where there is a
- * data.file. */
+/* As zp_study_run, for every study: also calibrate, stationary with area_error_m2 where there is a data.file, and
+ * actuate with drive.waveform table. */
 ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
 
 #ifdef __cplusplus

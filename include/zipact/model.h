@@ -3,6 +3,7 @@
 #define ZIPACT_MODEL_H
 
 #include <zipact/def.h>
+#include <zipact/drive.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,6 +14,10 @@ typedef struct ZpModel ZpModel;
 /* Check `def` and build a model of it. On success *model is new and the caller's; else it is NULL and
  * `err` says why (ZP_BAD_INPUT, or ZP_MACHINE if there is no memory). */
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err);
+
+/* The same, driven by the rows of `table`, which are copied; drive.waveform must be `table`. NULL: as
+ * zp_model_create. ZP_BAD_INPUT as zp_drive_table_fault says. */
+ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **model, ZpError *err);
 
 /* Free a model; NULL is allowed. Nothing that uses it may live longer. */
 void zp_model_destroy(ZpModel *model);
@@ -32,7 +37,7 @@ typedef struct ZpModelInfo {
   double axial_spring;           /* K_D, N/m */
   double shear_coefficient;      /* K_S, N/m */
   double insulator_offset;       /* d, m */
-  double closed_line_force;      /* attraction per length of closed faces at drive.voltage, N/m */
+  double closed_line_force;      /* attraction per length of closed faces at the highest voltage, N/m */
   double closed_insulator_field; /* field in the insulator there, V/m */
   double stable_time_step;       /* largest explicit step that is surely stable, s */
 } ZpModelInfo;

@@ -47,7 +47,7 @@ typedef enum ZpStepLimit {
   ZP_LIMIT_TIME_STEP, /* solver.time_step */
   ZP_LIMIT_STABILITY, /* the stiffest spring */
   ZP_LIMIT_DRAG,      /* first bound of eq. (9) of the paper */
-  ZP_LIMIT_EVENT,     /* a pair meets inside the step */
+  ZP_LIMIT_EVENT,     /* a pair meets inside the step, or a corner of the waveform ends it */
   ZP_LIMIT_ERROR,     /* implicit: the local error, or what converges */
   ZP_LIMIT_END,       /* the end of the run */
   ZP_LIMIT_COUNT
@@ -72,9 +72,11 @@ typedef struct ZpRunInfo {
   double settle_residual;          /* largest force left there over all weight */
 } ZpRunInfo;
 
-/* A new simulation at its initial state, at t = 0, the voltage on. `model` must outlive it. Finds the
+/* A new simulation at its initial state, at t = 0, the voltage that of the
+ * waveform there. `model` must outlive it. Finds the
  * hanging equilibrium first, as the start and as the reference of contraction; if it is not found, the
- * next zp_sim_run says so and does nothing else. `hooks` may be NULL. */
+ * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT if drive.waveform is table and the
+ * model was made without one. */
 ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
 void zp_sim_destroy(ZpSim *sim);
 
@@ -85,7 +87,8 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 /* Run until `end_time` (s), or until zipped where `stop_when_zipped`. `hooks` and `info` may be NULL. */
 ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info);
 
-/* Change the potential difference from now on. ZP_BAD_INPUT if it is out of the range of drive.voltage. */
+/* Change the potential difference from now on; drive.waveform does not count any more. ZP_BAD_INPUT if it is out of the
+ * range of drive.voltage. */
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. */

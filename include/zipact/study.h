@@ -51,6 +51,12 @@ typedef struct ZpResult {
 /* Run def->study. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and
  * `err` says why. `hooks` may be NULL. */
 ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
+
+/* The same, study actuate driven by the rows of `table` (NULL: none), as zp_model_create_driven. */
+ZpStatus zp_study_run_driven(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks,
+                             ZpResult **result, ZpError *err);
+
+/* Free a result; NULL is allowed. */
 void zp_result_destroy(ZpResult *result);
 
 /* The scalar called `name`, NAN if there is none. */

@@ -4,6 +4,7 @@
 #define ZIPACT_ZIPACT_H
 
 #include <zipact/def.h>
+#include <zipact/drive.h>
 #include <zipact/error.h>
 #include <zipact/model.h>
 #include <zipact/sim.h>

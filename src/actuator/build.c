@@ -131,9 +131,10 @@ static Node node_of(const ZpModel *model, size_t j) {
 typedef struct Arrays {
   double *rod_l, *rod_S, *rod_B, *rod_k0; /* ZpRodParams */
   double *weight, *mass, *pseudo, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
+  double *time, *voltage; /* ZpDriveTable */
 } Arrays;
 
-static size_t carve(const ZpModel *model, void *block, Arrays *a) {
+static size_t carve(const ZpModel *model, size_t rows, void *block, Arrays *a) {
   ZpCarver carver = {block, 0};
   double **of_nodes[] = {&a->rod_l,  &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight, &a->mass,
                          &a->pseudo, &a->x1,    &a->y1,    &a->px1,    &a->py1};
@@ -142,6 +143,8 @@ static size_t carve(const ZpModel *model, void *block, Arrays *a) {
     *of_nodes[k] = zp_carve(&carver, model->stride);
   for (size_t k = 0; k < sizeof of_pairs / sizeof of_pairs[0]; k++)
     *of_pairs[k] = zp_carve(&carver, model->nodes);
+  a->time = zp_carve(&carver, rows);
+  a->voltage = zp_carve(&carver, rows);
   return carver.used;
 }
 
@@ -244,6 +247,25 @@ static void derive(ZpModel *model) {
   model->stable_step = 0.8 * 2 / frequency_bound(model);
 }
 
+static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err) {
+  size_t row;
+  if (!table) return ZP_OK;
+  if (def->drive.waveform != ZP_WAVEFORM_TABLE)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform: a table was given; it goes with drive.waveform table");
+  const char *fault = zp_drive_table_fault(table, &row);
+  return fault ? zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: row %zu: %s", row + 1, fault) : ZP_OK;
+}
+
+static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) {
+  size_t bytes = table ? table->rows * sizeof *a->time : 0;
+  if (bytes) {
+    memcpy(a->time, table->time, bytes);
+    memcpy(a->voltage, table->voltage, bytes);
+  }
+  ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage};
+  model->waveform = zp_waveform_of(&model->def, &copy);
+}
+
 /* What the lateral edges add, up to more than ribbons that hang straight down part. */
 static ZpStatus make_edges(ZpModel *model, ZpError *err) {
   static const double halves = 2.5; /* of the flexible length */
@@ -259,21 +281,28 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
 }
 
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
+  return zp_model_create_driven(def, NULL, out, err);
+}
+
+ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
+  if (status == ZP_OK) status = check_table(def, table, err);
   if (status != ZP_OK) return status;
+  size_t rows = table ? table->rows : 0;
   ZpModel *model = zp_calloc(1, sizeof *model);
   if (!model) return zp_fail_memory(err);
   model->def = *def;
   derive(model);
   Arrays arrays;
-  model->memory = zp_calloc(1, carve(model, NULL, &arrays));
+  model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
   status = model->memory ? make_edges(model, err) : zp_fail_memory(err);
   if (status != ZP_OK) {
     zp_model_destroy(model);
     return status;
   }
-  carve(model, model->memory, &arrays);
+  carve(model, rows, model->memory, &arrays);
+  fill_waveform(model, table, &arrays);
   fill_rod(model, &arrays);
   fill_masses(model, &arrays);
   *out = model;
@@ -292,7 +321,7 @@ const ZpActuatorDef *zp_model_def(const ZpModel *model) {
 
 ZpModelInfo zp_model_info(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double metal_to_metal = 2 * def->insulator.thickness;
+  double metal_to_metal = 2 * def->insulator.thickness, highest = zp_waveform_largest(&model->waveform);
   return (ZpModelInfo){.ribbons = (int)model->s,
                        .nodes = (int)model->nodes,
                        .flexible_length = model->L,
@@ -303,8 +332,8 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
                        .axial_spring = model->spring.K_D,
                        .shear_coefficient = model->spring.K_S,
                        .insulator_offset = model->plates.d,
-                       .closed_line_force = zp_plates_law(&model->plates, def->drive.voltage, 0).W,
-                       .closed_insulator_field = metal_to_metal > 0 ? def->drive.voltage / metal_to_metal : 0,
+                       .closed_line_force = zp_plates_law(&model->plates, highest, 0).W,
+                       .closed_insulator_field = metal_to_metal > 0 ? highest / metal_to_metal : 0,
                        .stable_time_step = model->stable_step};
 }
 

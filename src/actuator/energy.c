@@ -15,6 +15,25 @@ static void add_beyond_plates(const ZpModel *model, const ZpState *state, ZpEner
   energies->capacitance += capacitance;
 }
 
+/* The electric part. */
+static void add_field(const ZpModel *model, const ZpState *state, ZpEval *e, ZpEnergies *energies) {
+  ZpMotion m = zp_state_motion(model, state);
+  const ZpActuatorDef *def = &model->def;
+  zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
+  ZpPlatesTotals totals = zp_plates_totals(&model->plates, &e->plates, state->U);
+  energies->force = totals.force;
+  energies->charge = totals.charge;
+  energies->field = totals.charge * state->U + totals.potential;
+  energies->capacitance = ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  if (model->field_solved) add_beyond_plates(model, state, energies);
+}
+
+double zp_eval_charge(const ZpModel *model, const ZpState *state, ZpEval *e) {
+  ZpEnergies energies = {0};
+  if (model->field) add_field(model, state, e, &energies);
+  return energies.charge;
+}
+
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
   ZpMotion m = zp_state_motion(model, state);
   ZpEnergies energies = {0};
@@ -31,14 +50,6 @@ ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *
     energies.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
     energies.gravity += model->weight[j] * m.y[j];
   }
-  if (!model->field) return energies;
-  zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
-  ZpPlatesTotals totals = zp_plates_totals(&model->plates, &e->plates, state->U);
-  const ZpActuatorDef *def = &model->def;
-  energies.force = totals.force;
-  energies.charge = totals.charge;
-  energies.field = totals.charge * state->U + totals.potential;
-  energies.capacitance = ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
-  if (model->field_solved) add_beyond_plates(model, state, &energies);
+  if (model->field) add_field(model, state, e, &energies);
   return energies;
 }

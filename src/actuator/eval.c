@@ -203,9 +203,17 @@ static bool gaps_changed(const ZpModel *model, const ZpState *state, double shar
   return false;
 }
 
+/* A gap with its insulators stands for no less than where breakdown sets in: has that changed as much? */
+static bool cap_changed(const ZpModel *model, const ZpState *state, double share) {
+  double d = model->plates.d, before = fmax(d, zp_plates_least_h(&model->plates, state->held_U));
+  return fabs(fmax(d, zp_plates_least_h(&model->plates, state->U)) - before) > share * before;
+}
+
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
   const ZpActuatorDef *def = &model->def;
-  if (model->field_solved) return isnan(state->refreshed) || gaps_changed(model, state, def->electro.refresh_change);
+  double share = def->electro.refresh_change;
+  if (model->field_solved)
+    return isnan(state->refreshed) || cap_changed(model, state, share) || gaps_changed(model, state, share);
   return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
 }
 
@@ -215,6 +223,7 @@ static void refresh_beyond_plates(const ZpModel *model, ZpState *state, const do
   bool solved = zp_eval_solve_field(model, q, state->U, e);
   memcpy(zp_state_held(model, state), e->surplus.F, bytes);
   memcpy(zp_state_held_at(model, state), q, bytes);
+  state->held_U = state->U;
   state->held_energy = e->surplus.energy;
   state->held_charge = e->surplus.charge;
   if (!solved) zp_state_held(model, state)[0] = NAN;

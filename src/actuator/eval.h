@@ -49,7 +49,8 @@ bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, 
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
 
 /* Should a held electric force be found anew at this state? And do so, into the state. What a solved field has
- * beyond plates is due when a gap with its insulators has changed by more than electro.refresh_change. */
+ * beyond plates is due when a gap with its insulators, or the one where breakdown sets in, has changed by more than
+ * electro.refresh_change. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
 
@@ -70,5 +71,8 @@ typedef struct ZpEnergies {
   double force, charge, capacitance;       /* N, C, F */
 } ZpEnergies;
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *eval);
+
+/* Their charge alone, C. */
+double zp_eval_charge(const ZpModel *model, const ZpState *state, ZpEval *eval);
 
 #endif

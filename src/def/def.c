@@ -320,6 +320,44 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+static ZpStatus check_square(const ZpActuatorDef *def, ZpError *err) {
+  double shorter = fmin(def->drive.duty, 1 - def->drive.duty) / def->drive.frequency;
+  if (def->drive.rise_time <= shorter) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "drive.rise_time = %g s: longer than the shorter part of the square wave, %g s (drive.duty over "
+                 "drive.frequency)",
+                 def->drive.rise_time, shorter);
+}
+
+/* A key that the waveform does not use must not be given: it would be a mistake in the one or the other. */
+static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
+  static const struct {
+    const char *key, *goes_with;
+    bool used[ZpWaveformKind_COUNT];
+  } of[] = {{"drive.offset", "ramp, sine or square", {0, 1, 1, 1, 0}},
+            {"drive.rise_time", "ramp or square", {0, 1, 0, 1, 0}},
+            {"drive.frequency", "sine or square", {0, 0, 1, 1, 0}},
+            {"drive.duty", "square", {0, 0, 0, 1, 0}},
+            {"drive.table", "table", {0, 0, 0, 0, 1}},
+            {"drive.file", "table", {0, 0, 0, 0, 1}}};
+  ZpWaveformKind kind = def->drive.waveform;
+  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+    int key = zp_key_find(of[i].key);
+    const char *text = zp_def_text(def, key);
+    bool given = text ? *text != 0 : zp_def_get(def, key) != keys[key].def;
+    if (given && !of[i].used[kind])
+      return zp_fail(err, ZP_BAD_INPUT, "%s: goes with drive.waveform %s, which is %s", of[i].key, of[i].goes_with,
+                     words_of_ZpWaveformKind[kind].word);
+  }
+  if (*def->drive.table && *def->drive.file)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.table: there is a drive.file, too; give one of them");
+  if (kind == ZP_WAVEFORM_TABLE && def->study == ZP_STUDY_CALIBRATE)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: goes with study actuate, not with calibrate");
+  if (kind == ZP_WAVEFORM_RAMP && def->drive.rise_time == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.rise_time = 0 s: a ramp takes time; give one, or drive.waveform step");
+  return kind == ZP_WAVEFORM_SQUARE ? check_square(def, err) : ZP_OK;
+}
+
 /* What electro.edges asks of other keys. */
 static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_FLANGE)
@@ -451,5 +489,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.refresh_period > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
                    def->electro.refresh_period);
-  return check_study(def, err);
+  ZpStatus status = check_drive(def, err);
+  return status == ZP_OK ? check_study(def, err) : status;
 }

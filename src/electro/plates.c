@@ -22,7 +22,7 @@ static const double gauss_at[GAUSS] = {0.11270166537925831, 0.5, 0.8872983346207
 static const double gauss_weight[GAUSS] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 double zp_plates_least_h(const ZpPlatesParams *p, double U) {
-  double h_c = p->h_per_volt * U;
+  double h_c = p->h_per_volt * fabs(U);
   return h_c > p->h_least ? h_c : p->h_least;
 }
 
@@ -34,7 +34,7 @@ static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
 
 /* Eqs. (16.3) to (16.5). Where the cap acts its gap goes with the voltage, and the charge with that. */
 static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPlatesLaw *law) {
-  double K = p->k * U * U, cap = p->h_per_volt * U - p->d, at = edge_gap(p, zp_plates_least_h(p, U), gap);
+  double K = p->k * U * U, cap = p->h_per_volt * fabs(U) - p->d, at = edge_gap(p, zp_plates_least_h(p, U), gap);
   ZpEdgeValue v = zp_edges_value(p->edges, at);
   law->W -= K * v.slope;
   law->P -= K * (v.e + v.slope * (gap - at));

@@ -4,6 +4,7 @@
  */
 #include "electro/surface.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/kernel.h"
@@ -119,7 +120,7 @@ void zp_surface_bezier(const ZpPlatesParams *p, const ZpBezierSurface *surface, 
   double gap[4], slope[3];
   fit(&surface->fit, x, y, front, end, direction, gap, slope);
   /* h_switched: where the authors' switch believes breakdown to be; h_on: where that is in truth */
-  double h_switched = p->h_switch_per_volt * U, h_on = h_switched > 0 ? h_switched - p->switch_offset + p->d : 0;
+  double h_switched = p->h_switch_per_volt * fabs(U), h_on = h_switched > 0 ? h_switched - p->switch_offset + p->d : 0;
   Law law = {p->d, p->k * U * U, zp_plates_least_h(p, U), h_on, h_switched};
   size_t count = end - front, padded = zp_round_up(count);
   intervals(count, padded, gap, slope, law, surface->t0, surface->t1, surface->closing);

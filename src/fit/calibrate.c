@@ -6,6 +6,7 @@
 #include "base/fail.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
+#include "io/drive_table.h"
 #include "study/studies.h"
 
 /* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
@@ -154,6 +155,10 @@ static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResu
   return status;
 }
 
+static bool is_driven_by_table(const ZpActuatorDef *def) {
+  return def->study == ZP_STUDY_ACTUATE && def->drive.waveform == ZP_WAVEFORM_TABLE;
+}
+
 ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   if (def->study == ZP_STUDY_CALIBRATE) {
@@ -164,7 +169,20 @@ ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
     ZpReference reference;
     status = zp_reference_read(def->data.file, &reference, err);
     zp_reference_free(&reference);
+  } else if (is_driven_by_table(def)) {
+    ZpDriveRows rows;
+    status = zp_drive_rows_read(def, &rows, err);
+    zp_drive_rows_free(&rows);
   }
+  return status;
+}
+
+static ZpStatus run_driven(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
+  ZpDriveRows rows;
+  ZpStatus status = zp_drive_rows_read(def, &rows, err);
+  ZpDriveTable table = zp_drive_rows_table(&rows);
+  if (status == ZP_OK) status = zp_study_run_driven(def, &table, hooks, result, err);
+  zp_drive_rows_free(&rows);
   return status;
 }
 
@@ -173,6 +191,7 @@ ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpRes
   ZpStatus status = zp_def_check(def, err);
   if (status != ZP_OK) return status;
   if (def->study == ZP_STUDY_CALIBRATE) return calibrate(def, hooks, result, err);
+  if (is_driven_by_table(def)) return run_driven(def, hooks, result, err);
   if (def->study != ZP_STUDY_STATIONARY || *def->data.file == 0) return zp_study_run(def, hooks, result, err);
   ZpReference reference;
   status = zp_reference_read(def->data.file, &reference, err);

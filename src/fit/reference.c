@@ -46,7 +46,7 @@ static ZpStatus take(const ZpData *data, ZpReference *reference, ZpError *err) {
 ZpStatus zp_reference_read(const char *path, ZpReference *reference, ZpError *err) {
   ZpData data;
   *reference = (ZpReference){0};
-  ZpStatus status = zp_data_read(path, &data, err);
+  ZpStatus status = zp_data_read("data.file", path, &data, err);
   if (status == ZP_OK) status = take(&data, reference, err);
   zp_data_destroy(&data);
   return status;

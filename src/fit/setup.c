@@ -230,7 +230,7 @@ ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
   ZpStatus status = read_keys(fit, err);
   if (status != ZP_OK) return status;
   ZpData data;
-  status = zp_data_read(def->data.file, &data, err);
+  status = zp_data_read("data.file", def->data.file, &data, err);
   if (status == ZP_OK) status = read_data(fit, &data, err);
   zp_data_destroy(&data);
   return status;

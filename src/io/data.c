@@ -23,20 +23,20 @@ void zp_data_destroy(ZpData *data) {
   *data = (ZpData){0};
 }
 
-static ZpStatus read_text(const char *path, char **text, ZpError *err) {
+static ZpStatus read_text(const char *key, const char *path, char **text, ZpError *err) {
   FILE *file = fopen(path, "rb");
   if (!file)
     return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE,
-                   "data.file: %.300s: cannot be opened: %s", path, strerror(errno));
+                   "%s: %.300s: cannot be opened: %s", key, path, strerror(errno));
   *text = malloc(LARGEST_FILE + 1);
   size_t size = *text ? fread(*text, 1, LARGEST_FILE, file) : 0;
   bool failed = ferror(file) != 0;
   fclose(file); /* nothing was written */
   if (!*text) return zp_fail_memory(err);
   (*text)[size] = 0;
-  if (failed) return zp_fail(err, ZP_MACHINE, "data.file: %.300s: cannot be read: %s", path, strerror(errno));
-  if (size == LARGEST_FILE) return zp_fail(err, ZP_BAD_INPUT, "data.file: %.300s: longer than 16 MB", path);
-  if (strlen(*text) != size) return zp_fail(err, ZP_BAD_INPUT, "data.file: %.300s: not a text", path);
+  if (failed) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read: %s", key, path, strerror(errno));
+  if (size == LARGEST_FILE) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: longer than 16 MB", key, path);
+  if (strlen(*text) != size) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: not a text", key, path);
   return ZP_OK;
 }
 
@@ -95,21 +95,22 @@ static ZpStatus cut(ZpData *data, ZpError *err) {
     if (!data->cell) {
       data->columns = count_char(line, ',') + 1;
       if (data->columns > 1000)
-        return zp_fail(err, ZP_BAD_INPUT, "data.file: %.300s: more than 1000 columns", data->path);
+        return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: more than 1000 columns", data->key, data->path);
       data->cell = calloc(lines * data->columns, sizeof *data->cell);
       if (!data->cell) return zp_fail_memory(err);
     }
     status = take_line(data, line, number, &rows, err);
   }
   if (status == ZP_OK && rows == 0)
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: %.300s: empty; needs a row of names and rows of numbers", data->path);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: empty; needs a row of names and rows of numbers", data->key,
+                   data->path);
   if (status == ZP_OK) data->rows = rows - 1;
   return status;
 }
 
-ZpStatus zp_data_read(const char *path, ZpData *data, ZpError *err) {
-  *data = (ZpData){.path = path};
-  ZpStatus status = read_text(path, &data->text, err);
+ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
+  *data = (ZpData){.key = key, .path = path};
+  ZpStatus status = read_text(key, path, &data->text, err);
   return status == ZP_OK ? cut(data, err) : status;
 }
 

@@ -10,6 +10,7 @@
 /* A CSV file as read: a header row with names, then rows of cells. Empty lines and lines that start with # do not
  * count. */
 typedef struct ZpData {
+  const char *key; /* that names the file, for messages */
   const char *path;
   size_t columns, rows;
   char *text;  /* the file, cut into cells */
@@ -17,8 +18,8 @@ typedef struct ZpData {
   int *line;   /* [1 + rows] from 1 */
 } ZpData;
 
-/* (path, which must outlive the data) => data, to be destroyed whatever the status. */
-ZpStatus zp_data_read(const char *path, ZpData *data, ZpError *err);
+/* (key that names the file, its path; both must outlive the data) => data, to be destroyed whatever the status. */
+ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err);
 void zp_data_destroy(ZpData *data);
 
 /* Place of the column called `name`, -1 if there is none. */

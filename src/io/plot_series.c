@@ -1,4 +1,4 @@
-/* Pictures of one run over time: stroke.svg, zipped_length.svg, energies.svg, electric.svg. */
+/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, energies.svg, electric.svg. */
 #include <math.h>
 #include <string.h>
 
@@ -107,6 +107,30 @@ static void script_zipped_length(const ZpPlot *plot, FILE *file) {
   plot_columns(plot, file, time, length, "zipped length", curve, 1);
 }
 
+/* Only of a voltage that changes. */
+static bool has_voltage(const ZpPlot *plot) {
+  if (!is_film(plot) || is_ribbon(plot) || !zp_plot_has(series(plot), "opening_m")) return false;
+  for (size_t i = 1; i < series(plot)->rows; i++)
+    if (zp_table_get(series(plot), i, "voltage_V") != zp_table_get(series(plot), 0, "voltage_V")) return true;
+  return false;
+}
+
+static void script_voltage(const ZpPlot *plot, FILE *file) {
+  const char *const voltages[][2] = {{"voltage_V", "voltage"}}, *const openings[][2] = {{"opening_m", "opening"}};
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit voltage = zp_plot_table_unit(series(plot), (const char *const[]){"voltage_V", NULL}, "V");
+  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"opening_m", NULL}, "m");
+  zp_plot_head(plot, file, "voltage", "Voltage and opening over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  fputs("set yrange [*<0:0<*]\n", file);
+  zp_plot_upper_panel(file);
+  plot_columns(plot, file, time, voltage, "voltage", voltages, 1);
+  lower_panel(file, time);
+  plot_columns(plot, file, time, length, "opening", openings, 1);
+  fputs("unset multiplot\n", file);
+}
+
 static bool has_energies(const ZpPlot *plot) {
   return is_film(plot) && zp_plot_has(series(plot), "kinetic_energy_J");
 }
@@ -171,6 +195,7 @@ static void script_electric(const ZpPlot *plot, FILE *file) {
 const ZpPicture zp_series_pictures[] = {
     {"stroke", "svg", has_stroke, script_stroke, NULL},
     {"zipped_length", "svg", has_zipped_length, script_zipped_length, NULL},
+    {"voltage", "svg", has_voltage, script_voltage, NULL},
     {"energies", "svg", has_energies, script_energies, NULL},
     {"electric", "svg", has_electric, script_electric, NULL},
     {0},

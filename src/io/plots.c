@@ -111,6 +111,17 @@ static void add_key(ZpPlot *plot, const char *name, const char *before) {
   snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%s%s%s", used ? ", " : "", before, value);
 }
 
+/* "8 kV", "ramp to 8 kV"; of a table only that it is one. */
+static void add_drive(ZpPlot *plot) {
+  static const char *const before[ZpWaveformKind_COUNT] = {"", "ramp to ", "sine to ", "square wave to ", NULL};
+  const char *words = before[plot->def.drive.waveform];
+  size_t used = strlen(plot->subtitle);
+  if (words)
+    add_key(plot, "drive.voltage", words);
+  else
+    snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%stable of voltages", used ? ", " : "");
+}
+
 /* (report) => what there is to draw; of a report without runs, nothing. */
 static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   *plot = (ZpPlot){.report = report, .single = zp_report_single(report)};
@@ -126,8 +137,9 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
     add_key(plot, "isometric.separation", "opening ");
   else if (plot->study != ZP_STUDY_CALIBRATE)
     add_key(plot, "load.mass", "load ");
-  if ((up_to || profile || plot->study == ZP_STUDY_ACTUATE) && plot->def.actuator.kind != ZP_KIND_RIBBON)
-    add_key(plot, "drive.voltage", up_to && plot->single ? "up to " : "");
+  const bool electric = plot->def.actuator.kind != ZP_KIND_RIBBON;
+  if ((up_to || profile) && electric) add_key(plot, "drive.voltage", up_to && plot->single ? "up to " : "");
+  if (plot->study == ZP_STUDY_ACTUATE && electric) add_drive(plot);
   if (profile) add_key(plot, "profile.shape", "shape ");
   if (!profile || plot->def.profile.shape == ZP_PROFILE_HELD) add_key(plot, "mesh.nodes", "N = ");
   add_key(plot, "preset", "preset ");

@@ -209,7 +209,7 @@ static char *absolute_path(const ZpSource *source, const char *path) {
 }
 
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  bool is_path = strcmp(zp_key(key)->name, "data.file") == 0;
+  bool is_path = strcmp(zp_key(key)->name, "data.file") == 0 || strcmp(zp_key(key)->name, "drive.file") == 0;
   Slot slot = {calloc(1, sizeof(double)), 1, false,
                is_path ? absolute_path(reader->source, item->word) : strdup(item->word)};
   ZpActuatorDef scratch;

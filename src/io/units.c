@@ -39,6 +39,7 @@ static const struct {
     {"N/m", "a force per length"},
     {"V", "a voltage"},
     {"s", "a time"},
+    {"Hz", "a frequency"},
     {"N", "a force"},
     {"N s2/m2", "a drag coefficient"},
 };

@@ -113,10 +113,17 @@ static void add_drag(ZpDynamics *d) {
   }
 }
 
+/* The voltage in the middle of the step: what the user holds, or the waveform's. */
+static double mean_voltage(const ZpDynamics *d) {
+  const ZpState *state = d->state;
+  return state->by_hand ? state->U : zp_waveform_voltage(&d->model->waveform, state->t + 0.5 * d->h);
+}
+
 static void force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   d->h = h;
+  d->U = mean_voltage(d);
   scatter(d, q1, d->end);
   memset(d->force, 0, 2 * model->stride * sizeof *d->force);
   add_mechanics(d);
@@ -256,7 +263,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
   const ZpModel *model = d->model;
   double *q = zp_state_q(model, state), *v = zp_state_v(model, state), *w = zp_state_mean_v(model, state),
          *a = zp_state_mean_a(model, state);
-  d->U = state->U;
+  d->state = state;
   d->beyond = model->field_solved ? zp_state_held(model, state) : NULL;
   memcpy(d->start, q, 2 * model->stride * sizeof *q);
   gather(d, q, d->q);

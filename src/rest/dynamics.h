@@ -26,7 +26,8 @@ typedef struct ZpDynamics {
   double *push, *pressed;        /* [N] contact: force N, stiffness N/m; 0 where open */
   double (*D)[4];                /* [3 edges] stiffness of the ribbons */
   const double *beyond;          /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
-  double U, h;                   /* of the step under way */
+  const ZpState *state;          /* at the start of the step under way */
+  double U, h;                   /* of that step: voltage in its middle, V; length, s */
   double drag_loss, impact_loss; /* over it, J */
   void *memory;
 } ZpDynamics;

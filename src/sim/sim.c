@@ -57,6 +57,8 @@ static void start_energy_account(ZpSim *sim) {
 
 ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
   *out = NULL;
+  if (model->def.drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: the model has none; zp_model_create_driven takes it");
   ZpSim *sim = zp_calloc(1, sizeof *sim);
   if (!sim) return zp_fail_memory(err);
   sim->model = model;
@@ -71,7 +73,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
   }
-  state->U = model->def.drive.voltage;
+  state->U = zp_waveform_voltage(&model->waveform, 0);
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   start_energy_account(sim);
   *out = sim;
@@ -93,6 +95,45 @@ void zp_sim_destroy(ZpSim *sim) {
 void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
   sim->series = series;
   sim->shapes = shapes;
+}
+
+/* -- the voltage ----------------------------------------------------------------------------------- */
+
+/* Voltage and charge have moved on to where they are now: the source's work meanwhile, eq. (17.2). */
+static void book_work(ZpSim *sim, double voltage) {
+  ZpState *state = sim->state;
+  double mean = 0.5 * (state->U + voltage);
+  state->U = voltage;
+  double charge = zp_eval_charge(sim->model, state, &sim->eval);
+  state->work += mean * (charge - state->base_charge);
+  state->base_charge = charge;
+}
+
+static void jump_to(ZpSim *sim, double voltage) {
+  ZpState *state = sim->state;
+  book_work(sim, state->U);
+  double before = zp_eval_energies(sim->model, state, &sim->eval).field;
+  state->U = voltage;
+  state->refreshed = NAN;
+  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
+  ZpEnergies after = zp_eval_energies(sim->model, state, &sim->eval);
+  state->base_charge = sim->row_charge = after.charge;
+  state->base_field += after.field - before; /* charging at once is outside the balance */
+}
+
+static double next_corner(const ZpSim *sim) {
+  return sim->state->by_hand ? INFINITY : zp_waveform_next_corner(&sim->model->waveform, sim->state->t);
+}
+
+/* The voltage at the time that a step has reached. A corner closes the account: behind it the voltage may stay,
+ * and then nothing is booked. */
+static void follow_waveform(ZpSim *sim, bool corner) {
+  const ZpWaveform *waveform = &sim->model->waveform;
+  ZpState *state = sim->state;
+  if (state->by_hand) return;
+  double reached = zp_waveform_voltage_before(waveform, state->t), now = zp_waveform_voltage(waveform, state->t);
+  if (corner || reached != state->U) book_work(sim, reached);
+  if (now != reached) jump_to(sim, now);
 }
 
 /* -- one step ------------------------------------------------------------------------------------- */
@@ -161,8 +202,8 @@ static bool closed(const ZpModel *model, const ZpState *state) {
   return state->zip.platform || zp_state_motion(model, state).vy[model->count - 1] <= 0;
 }
 
-static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit) {
-  if (limit == ZP_EXPLICIT_EVENT) return ZP_LIMIT_EVENT;
+static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner) {
+  if (limit == ZP_EXPLICIT_EVENT || corner) return ZP_LIMIT_EVENT;
   return limit == ZP_EXPLICIT_END ? ZP_LIMIT_END : sim->bound;
 }
 
@@ -171,19 +212,21 @@ static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   ZpState *state = sim->state;
   ZpExplicitSystem system = {2 * model->stride, sim, accelerate, model->field ? next_event : NULL};
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
+  double corner = next_corner(sim), stop = fmin(end_time, corner);
   ZpExplicitStep taken =
-      zp_explicit_step(&system, end_time - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
-  state->t = taken.limit == ZP_EXPLICIT_END ? end_time : state->t + taken.dt;
+      zp_explicit_step(&system, stop - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
+  state->t = taken.limit == ZP_EXPLICIT_END ? stop : state->t + taken.dt;
   state->drag_loss += sim->eval.drag_power * taken.dt;
   info->steps++;
-  info->limited[limit_of(sim, taken.limit)]++;
+  info->limited[limit_of(sim, taken.limit, state->t >= corner)]++;
+  follow_waveform(sim, state->t >= corner);
   if (!model->field) return;
   if (taken.limit == ZP_EXPLICIT_EVENT)
     meet(sim);
   else
     state->zip = sim->opened;
   state->was_open |= is_open(model, state);
-  if (isnan(state->zip_time) && state->U > 0 && reached_zip(model, state)) state->zip_time = state->t;
+  if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state)) state->zip_time = state->t;
 }
 
 /* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
@@ -202,21 +245,29 @@ static double zipped_at(const ZpModel *model, const ZpState *state, double befor
   return before > limit ? state->t - taken * (limit - now) / (before - now) : state->t;
 }
 
+static ZpStepLimit implicit_limit(const ZpSim *sim, bool corner, bool end) {
+  if (corner) return ZP_LIMIT_EVENT;
+  if (end) return ZP_LIMIT_END;
+  return sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
+}
+
 static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  double left = end_time - state->t, before = model->s == 2 ? opening(model, state) : 0;
+  double corner = next_corner(sim), stop = fmin(end_time, corner), left = stop - state->t;
+  double before = model->s == 2 ? opening(model, state) : 0;
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   double taken = zp_dynamics_step(&sim->dynamics, state, left);
   sim->stuck = !(taken > 0);
   if (sim->stuck) return;
-  state->t = taken == left ? end_time : state->t + taken;
+  state->t = taken == left ? stop : state->t + taken;
   info->steps++;
-  info->limited[taken == left ? ZP_LIMIT_END : sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR]++;
+  info->limited[implicit_limit(sim, state->t >= corner, state->t >= end_time)]++;
+  follow_waveform(sim, state->t >= corner);
   if (model->s < 2) return;
   state->zip = touching(model, sim->dynamics.plates1.gap);
   state->was_open |= is_open(model, state);
-  if (isnan(state->zip_time) && state->U > 0 && reached_zip(model, state))
+  if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state))
     state->zip_time = zipped_at(model, state, before, taken);
 }
 
@@ -238,10 +289,11 @@ static bool diverged(const ZpModel *model, const ZpState *state) {
   return false;
 }
 
-/* Fine enough for a fast zip; the records thin themselves where a run is long. */
+/* Fine enough for a fast zip and for a wave; the records thin themselves where a run is long. */
 static double sampling_interval(const ZpModel *model) {
   static const double finest = 1e-4; /* s */
-  return fmin(finest, model->def.solver.end_time / model->def.output.samples);
+  double least = fmin(finest, zp_waveform_period(&model->waveform) / 40);
+  return fmin(least, model->def.solver.end_time / model->def.output.samples);
 }
 
 static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
@@ -345,14 +397,8 @@ ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
   ZpActuatorDef scratch = sim->model->def;
   ZpStatus status = zp_def_set(&scratch, zp_key_find("drive.voltage"), voltage, err);
   if (status != ZP_OK) return status;
-  ZpState *state = sim->state;
-  ZpEnergies before = zp_eval_energies(sim->model, state, &sim->eval);
-  state->work += state->U * (before.charge - state->base_charge);
-  state->U = voltage;
-  ZpEnergies after = zp_eval_energies(sim->model, state, &sim->eval);
-  state->base_charge = sim->row_charge = after.charge;
-  state->base_field += after.field - before.field; /* charging at once is outside the balance */
-  state->refreshed = NAN;
+  sim->state->by_hand = true;
+  jump_to(sim, voltage);
   return ZP_OK;
 }
 

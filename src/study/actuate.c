@@ -1,8 +1,10 @@
-/* Study `actuate`: the voltage goes on at t = 0; how the actuator moves, and when it has zipped. */
+/* Study `actuate`: the voltage goes on at t = 0, or as its waveform says; how the actuator moves, and when it has
+ * zipped. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "actuator/model.h"
 #include "base/fail.h"
 #include "study/studies.h"
 
@@ -12,9 +14,12 @@ static double at_end(const ZpSim *sim, const ZpResult *result, const char *signa
   return sound ? zp_sim_get(sim, signal) : NAN;
 }
 
-/* |imbalance| over the work of the source: the measure of how well energy balances. */
+/* |imbalance| over the work of the source, where it takes some back over the most that it had given: the measure of
+ * how well energy balances. */
 static double energy_error(const ZpSim *sim, const ZpResult *result) {
   double work = at_end(sim, result, "electric_work");
+  for (size_t i = 0; i < result->series->rows; i++)
+    work = fmax(work, zp_table_get(result->series, i, "electric_work_J"));
   return work > 0 ? fabs(at_end(sim, result, "energy_imbalance")) / work : NAN;
 }
 
@@ -86,16 +91,17 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
   if (status != ZP_OK) return status;
   zp_sim_record(sim, result->series, result->shapes);
   ZpRunInfo info;
-  zp_sim_run(sim, def->solver.end_time, true, hooks, &info);
+  zp_sim_run(sim, def->solver.end_time, zp_waveform_is_constant(&model->waveform), hooks, &info);
   summarize(sim, model, &info, result);
   warn(model, def, result);
   zp_sim_destroy(sim);
   return ZP_OK;
 }
 
-ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks, ZpResult *result,
+                          ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(def, &model, err);
+  ZpStatus status = zp_model_create_driven(def, table, &model, err);
   if (status != ZP_OK) return status;
   status = run(model, hooks, result, err);
   zp_model_destroy(model);

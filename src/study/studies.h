@@ -6,8 +6,9 @@
 
 #include "base/memory.h"
 
-/* Voltage on at t = 0, motion until closed or end_time. */
-ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
+/* Motion under a voltage: constant from t = 0 on until closed, any other until end_time. */
+ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks, ZpResult *result,
+                          ZpError *err);
 
 /* The loaded shape at rest, no voltage. */
 ZpStatus zp_study_stationary(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
@@ -29,7 +30,7 @@ void zp_result_add(ZpResult *result, const char *name, const char *unit, double 
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 __attribute__((format(printf, 2, 3))) void zp_result_warn(ZpResult *result, const char *format, ...);
 
-/* Warn where closed faces' insulator would break down at drive.voltage. */
+/* Warn where closed faces' insulator would break down at the highest voltage. */
 void zp_result_warn_insulator(ZpResult *result, const ZpModel *model);
 
 #endif

@@ -8,6 +8,11 @@
 #include "study/studies.h"
 
 ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
+  return zp_study_run_driven(def, NULL, hooks, out, err);
+}
+
+ZpStatus zp_study_run_driven(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks, ZpResult **out,
+                             ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
   if (status != ZP_OK) return status;
@@ -35,7 +40,7 @@ ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *
     break;
   case ZP_STUDY_ACTUATE:
   case ZpStudy_COUNT:
-    status = zp_study_actuate(def, hooks, result, err);
+    status = zp_study_actuate(def, table, hooks, result, err);
     break;
   }
   if (status == ZP_OK)

@@ -1,0 +1,26 @@
+/* A voltage of the user's own over time, for drive.waveform table. */
+#ifndef ZIPACT_DRIVE_H
+#define ZIPACT_DRIVE_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Rows of times and voltages. Between two rows the voltage goes straight, before the first and after the last it is
+ * theirs. Two rows at one time are a jump. */
+typedef struct ZpDriveTable {
+  size_t rows;           /* two or more */
+  const double *time;    /* [rows] s, from 0 on; never falls */
+  const double *voltage; /* [rows] V */
+} ZpDriveTable;
+
+/* What is wrong with a table, in half a sentence, and in which row (from 0); NULL if nothing is. */
+const char *zp_drive_table_fault(const ZpDriveTable *table, size_t *row);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,180 @@
+/* Waveforms. Letters of docs/theory.md, section 17:
+ *   U  voltage, V       U_0  drive.offset, V       f  frequency, Hz       T  rise_time, s       D  duty
+ */
+#include "drive/waveform.h"
+
+#include <math.h>
+#include <stdint.h>
+
+typedef struct Knot {
+  double t, U;
+} Knot;
+
+ZpWaveform zp_waveform_of(const ZpActuatorDef *def, const ZpDriveTable *table) {
+  return (ZpWaveform){.kind = def->drive.waveform,
+                      .offset = def->drive.offset,
+                      .voltage = def->drive.voltage,
+                      .rise_time = def->drive.rise_time,
+                      .frequency = def->drive.frequency,
+                      .duty = def->drive.duty,
+                      .table = table ? *table : (ZpDriveTable){0}};
+}
+
+/* -- knots ---------------------------------------------------------------------------------------- */
+
+enum { PER_CYCLE = 4 }; /* knots of a square wave */
+
+static int64_t knots(const ZpWaveform *w) {
+  switch (w->kind) {
+  case ZP_WAVEFORM_RAMP:
+    return 2;
+  case ZP_WAVEFORM_SQUARE:
+    return INT64_MAX;
+  case ZP_WAVEFORM_TABLE:
+    return (int64_t)w->table.rows;
+  case ZP_WAVEFORM_STEP:
+  case ZP_WAVEFORM_SINE:
+  case ZpWaveformKind_COUNT:
+    break;
+  }
+  return 0;
+}
+
+/* One cycle goes up within the rise time, stays, goes down in as much, stays. */
+static Knot square_knot(const ZpWaveform *w, int64_t i) {
+  int64_t place = i % PER_CYCLE;
+  double cycle = (double)(i / PER_CYCLE), start = place < 2 ? cycle : cycle + w->duty;
+  bool after = place % 2 == 1, high = place == 1 || place == 2;
+  return (Knot){start / w->frequency + (after ? w->rise_time : 0), high ? w->voltage : w->offset};
+}
+
+static Knot knot(const ZpWaveform *w, int64_t i) {
+  if (w->kind == ZP_WAVEFORM_SQUARE) return square_knot(w, i);
+  if (w->kind == ZP_WAVEFORM_TABLE) return (Knot){w->table.time[i], w->table.voltage[i]};
+  return i == 0 ? (Knot){0, w->offset} : (Knot){w->rise_time, w->voltage};
+}
+
+static bool is_past(const ZpWaveform *w, int64_t i, double t, bool or_at) {
+  double at = knot(w, i).t;
+  return at < t || (or_at && at == t);
+}
+
+/* The last knot before t, `or_at` it; -1 if there is none. */
+static int64_t last_knot(const ZpWaveform *w, double t, bool or_at) {
+  if (w->kind == ZP_WAVEFORM_SQUARE) { /* what rounding may do to the cycle's number is looked at */
+    int64_t i = PER_CYCLE * ((int64_t)(t * w->frequency) + 2) - 1;
+    while (i >= 0 && !is_past(w, i, t, or_at))
+      i--;
+    return i;
+  }
+  int64_t below = -1, above = knots(w);
+  while (above - below > 1) {
+    int64_t middle = below + (above - below) / 2;
+    if (is_past(w, middle, t, or_at))
+      below = middle;
+    else
+      above = middle;
+  }
+  return below;
+}
+
+/* Voltage at t on the straight piece behind knot i. */
+static double on_piece(const ZpWaveform *w, int64_t i, double t) {
+  if (i < 0) return knot(w, 0).U;
+  Knot from = knot(w, i);
+  if (i + 1 == knots(w)) return from.U;
+  Knot to = knot(w, i + 1);
+  return t == to.t ? to.U : from.U + (to.U - from.U) * ((t - from.t) / (to.t - from.t));
+}
+
+/* -- sine ----------------------------------------------------------------------------------------- */
+
+/* sin(pi p)^2, p >= 0, by its series: of + and x only, so that it has the same bits everywhere. */
+static double sine_squared(double p) {
+  enum { TERMS = 12 }; /* the first left out is below 1e-20 */
+  static const double pi = 3.14159265358979323846;
+  p -= floor(p);
+  double x = pi * (p > 0.5 ? 1 - p : p), sum = 1;
+  for (int k = TERMS; k > 0; k--)
+    sum = 1 - x * x / (2 * k * (2 * k + 1)) * sum;
+  return x * sum * (x * sum);
+}
+
+/* From U_0 up to the voltage and back, first at U_0: eq. (17.1). */
+static double sine(const ZpWaveform *w, double t) {
+  return w->offset + (w->voltage - w->offset) * sine_squared(w->frequency * t);
+}
+
+static double next_extreme(const ZpWaveform *w, double t) {
+  double twice = 2 * w->frequency, half = floor(t * twice);
+  while (half / twice <= t)
+    half++;
+  return half / twice;
+}
+
+/* -- all ------------------------------------------------------------------------------------------ */
+
+static double voltage(const ZpWaveform *w, double t, bool or_at) {
+  if (w->kind == ZP_WAVEFORM_SINE) return sine(w, t);
+  return knots(w) == 0 ? w->voltage : on_piece(w, last_knot(w, t, or_at), t);
+}
+
+double zp_waveform_voltage(const ZpWaveform *w, double t) {
+  return voltage(w, t, true);
+}
+
+double zp_waveform_voltage_before(const ZpWaveform *w, double t) {
+  return voltage(w, t, false);
+}
+
+double zp_waveform_next_corner(const ZpWaveform *w, double t) {
+  if (w->kind == ZP_WAVEFORM_SINE) return next_extreme(w, t);
+  int64_t next = knots(w) == 0 ? 0 : last_knot(w, t, true) + 1;
+  return next < knots(w) ? knot(w, next).t : INFINITY;
+}
+
+/* Lowest and highest voltage. */
+static void bounds(const ZpWaveform *w, double *low, double *high) {
+  bool moves = w->kind != ZP_WAVEFORM_STEP && w->kind != ZP_WAVEFORM_TABLE;
+  double first = moves ? w->offset : w->voltage;
+  *low = fmin(first, w->voltage);
+  *high = fmax(first, w->voltage);
+  for (size_t i = 0; w->kind == ZP_WAVEFORM_TABLE && i < w->table.rows; i++) {
+    *low = i == 0 ? w->table.voltage[0] : fmin(*low, w->table.voltage[i]);
+    *high = i == 0 ? w->table.voltage[0] : fmax(*high, w->table.voltage[i]);
+  }
+}
+
+bool zp_waveform_is_constant(const ZpWaveform *w) {
+  double low, high;
+  bounds(w, &low, &high);
+  return low == high;
+}
+
+double zp_waveform_largest(const ZpWaveform *w) {
+  double low, high;
+  bounds(w, &low, &high);
+  return fmax(fabs(low), fabs(high));
+}
+
+double zp_waveform_period(const ZpWaveform *w) {
+  bool repeats = w->kind == ZP_WAVEFORM_SINE || w->kind == ZP_WAVEFORM_SQUARE;
+  return repeats ? 1 / w->frequency : INFINITY;
+}
+
+/* -- a table from outside ------------------------------------------------------------------------- */
+
+const char *zp_drive_table_fault(const ZpDriveTable *table, size_t *row) {
+  static const double latest = 1e4, largest = 1e6; /* s, V: as solver.end_time and drive.voltage */
+  const double *t = table->time;
+  *row = 0;
+  if (table->rows < 2) return "a table needs two rows or more";
+  for (size_t i = 0; i < table->rows; i++) {
+    *row = i;
+    if (!(t[i] >= 0 && t[i] <= latest)) return "the time is out of range; 0 s to 10000 s";
+    if (!(fabs(table->voltage[i]) <= largest)) return "the voltage is out of range; -1000 kV to 1000 kV";
+    if (i > 0 && t[i] < t[i - 1]) return "the time is before that of the row above; times must be in order";
+    if (i > 1 && t[i] == t[i - 2]) return "a third row at one time; two are a jump";
+  }
+  return NULL;
+}

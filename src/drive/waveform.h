@@ -1,0 +1,43 @@
+/* Voltage over time. Knows nothing of what it drives.
+ *
+ * All waveforms but sine are straight between knots, of which two at one time are a jump. A waveform is const and
+ * has no memory: at any time its voltage follows from the time alone.
+ */
+#ifndef ZP_DRIVE_WAVEFORM_H
+#define ZP_DRIVE_WAVEFORM_H
+
+#include <stdbool.h>
+
+#include <zipact/def.h>
+#include <zipact/drive.h>
+
+typedef struct ZpWaveform {
+  ZpWaveformKind kind;
+  double offset, voltage;            /* V */
+  double rise_time, frequency, duty; /* s, Hz, 1 */
+  ZpDriveTable table;                /* of kind table; without rows: drive.voltage */
+} ZpWaveform;
+
+/* The waveform of the keys; the rows stay the caller's. */
+ZpWaveform zp_waveform_of(const ZpActuatorDef *def, const ZpDriveTable *table);
+
+/* Voltage from time t >= 0 on; at a jump that behind it. */
+double zp_waveform_voltage(const ZpWaveform *w, double t);
+
+/* Voltage up to time t > 0; at a jump that before it. */
+double zp_waveform_voltage_before(const ZpWaveform *w, double t);
+
+/* The next time > t at which the voltage jumps or turns, s; of a sine, that of its next extreme, so that no step
+ * leaves out a wave. INFINITY if there is none. */
+double zp_waveform_next_corner(const ZpWaveform *w, double t);
+
+/* Does the voltage stay as it is at t = 0? */
+bool zp_waveform_is_constant(const ZpWaveform *w);
+
+/* Largest absolute voltage, V. */
+double zp_waveform_largest(const ZpWaveform *w);
+
+/* INFINITY if it does not repeat itself, s. */
+double zp_waveform_period(const ZpWaveform *w);
+
+#endif

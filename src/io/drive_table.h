@@ -1,0 +1,22 @@
+/* Times and voltages of drive.waveform table, from the scenario or a CSV file. */
+#ifndef ZP_IO_DRIVE_TABLE_H
+#define ZP_IO_DRIVE_TABLE_H
+
+#include <zipact/def.h>
+#include <zipact/drive.h>
+
+/* Rows that are owned. */
+typedef struct ZpDriveRows {
+  size_t count;
+  double *time, *voltage;
+} ZpDriveRows;
+
+/* Read drive.table or drive.file and check the rows. To be freed whatever the status. ZP_BAD_INPUT names the row, or
+ * file, line and column, and what is wrong. */
+ZpStatus zp_drive_rows_read(const ZpActuatorDef *def, ZpDriveRows *rows, ZpError *err);
+void zp_drive_rows_free(ZpDriveRows *rows);
+
+/* The rows as the core takes them. */
+ZpDriveTable zp_drive_rows_table(const ZpDriveRows *rows);
+
+#endif

@@ -1,0 +1,574 @@
+/* The voltage over time: values and corners of each waveform, steps that end at corners, work and energy under a
+ * voltage that changes, and how a scenario gives it. */
+#include <unistd.h>
+
+#include <zipact/calibrate.h>
+#include <zipact/io.h>
+
+#include "check_util.h"
+#include "drive/waveform.h"
+#include "sim/sim_internal.h"
+
+/* -- waveforms alone ------------------------------------------------------------------------------- */
+
+static ZpWaveform wave(ZpWaveformKind kind) {
+  return (ZpWaveform){.kind = kind, .offset = 2e3, .voltage = 10e3, .rise_time = 3e-3, .frequency = 7.3, .duty = 0.3};
+}
+
+START_TEST(step_and_ramp) {
+  ZpWaveform step = wave(ZP_WAVEFORM_STEP), ramp = wave(ZP_WAVEFORM_RAMP);
+  ck_assert(zp_waveform_voltage(&step, 0) == 10e3 && zp_waveform_voltage(&step, 5) == 10e3);
+  ck_assert(isinf(zp_waveform_next_corner(&step, 0)) && zp_waveform_is_constant(&step));
+  ck_assert(zp_waveform_voltage(&ramp, 0) == 2e3 && zp_waveform_voltage(&ramp, 3e-3) == 10e3);
+  ck_near(zp_waveform_voltage(&ramp, 0.75e-3), 4e3, 1e-15);
+  ck_assert(zp_waveform_voltage(&ramp, 1) == 10e3 && zp_waveform_voltage_before(&ramp, 3e-3) == 10e3);
+  ck_assert(zp_waveform_next_corner(&ramp, 0) == 3e-3 && isinf(zp_waveform_next_corner(&ramp, 3e-3)));
+  ck_assert(!zp_waveform_is_constant(&ramp) && isinf(zp_waveform_period(&ramp)));
+  ramp.offset = ramp.voltage;
+  ck_assert(zp_waveform_is_constant(&ramp));
+}
+END_TEST
+
+/* Against libm: 1.4e-15 of the amplitude measured, three roundings of the swing. */
+START_TEST(sine_is_a_sine) {
+  ZpWaveform w = wave(ZP_WAVEFORM_SINE);
+  double worst = 0;
+  for (int k = 0; k <= 20000; k++) {
+    double t = k * 1.7e-5, turns = w.frequency * t;
+    double expected = (double)(6e3L - 4e3L * cosl(2 * acosl(-1) * (long double)turns));
+    worst = fmax(worst, fabs(zp_waveform_voltage(&w, t) - expected) / 4e3);
+    ck_assert(zp_waveform_voltage(&w, t) == zp_waveform_voltage_before(&w, t));
+  }
+  printf("sine: off by %.1e of its amplitude\n", worst);
+  ck_below(worst, 3e-15);
+  ck_assert(zp_waveform_voltage(&w, 0) == 2e3);
+  double t = 0;
+  for (int k = 1; k < 1000; k++) { /* its extremes by turns */
+    double next = zp_waveform_next_corner(&w, t);
+    ck_near(next, k / 14.6, 1e-14);
+    ck_assert(next > t);
+    ck_near(zp_waveform_voltage(&w, next), k % 2 ? 10e3 : 2e3, 1e-12);
+    t = next;
+  }
+  ck_near(zp_waveform_period(&w), 1 / 7.3, 1e-15);
+}
+END_TEST
+
+/* From corner to corner through 5000 cycles: each is met once, the voltages on both sides are exact. */
+static void walk_square(double frequency, double duty, double rise_time) {
+  ZpWaveform w = wave(ZP_WAVEFORM_SQUARE);
+  w.frequency = frequency, w.duty = duty, w.rise_time = rise_time;
+  int corners = rise_time > 0 ? 4 : 2;
+  double t = 0;
+  ck_assert(zp_waveform_voltage(&w, 0) == (rise_time > 0 ? w.offset : w.voltage));
+  for (int k = 1; k < 5000 * corners; k++) {
+    int place = k % corners;
+    double next = zp_waveform_next_corner(&w, t), cycle = floor((double)k / corners);
+    double expected = cycle / frequency;
+    if (corners == 2)
+      expected += place * duty / frequency;
+    else
+      expected += (place / 2) * duty / frequency + (place % 2) * rise_time;
+    ck_assert_msg(next > t, "corner %d of %g Hz: %.17g after %.17g", k, frequency, next, t);
+    ck_assert_msg(fabs(next - expected) <= 1e-13 * (expected + 1 / frequency), "corner %d: %.17g, not %.17g", k, next,
+                  expected);
+    bool up = corners == 2 ? place == 0 : place == 1 || place == 2;
+    ck_assert(zp_waveform_voltage(&w, next) == (up ? w.voltage : w.offset));
+    bool was_up = corners == 2 ? place == 1 : up;
+    ck_assert(zp_waveform_voltage_before(&w, next) == (was_up ? w.voltage : w.offset));
+    double middle = zp_waveform_voltage(&w, 0.5 * (t + next));
+    bool flat = corners == 2 || place % 2 == 0;
+    double expected_middle = flat ? zp_waveform_voltage_before(&w, next) : 0.5 * (w.voltage + w.offset);
+    ck_near(middle, expected_middle, 1e-8);
+    t = next;
+  }
+}
+
+START_TEST(square_corners) {
+  walk_square(7.3, 0.3, 0);
+  walk_square(49.999, 1.0 / 3, 0);
+  walk_square(7.3, 0.3, 3e-3);
+  walk_square(1e5, 0.5, 1e-6);
+}
+END_TEST
+
+START_TEST(table_values) {
+  const double t[] = {1e-3, 2e-3, 2e-3, 5e-3, 5e-3}, U[] = {1e3, 3e3, -4e3, -4e3, 0};
+  ZpWaveform w = wave(ZP_WAVEFORM_TABLE);
+  w.table = (ZpDriveTable){5, t, U};
+  const struct {
+    double t, before, behind, corner;
+  } at[] = {{0, 1e3, 1e3, 1e-3},      {1e-3, 1e3, 1e3, 2e-3},    {1.5e-3, 2e3, 2e3, 2e-3}, {2e-3, 3e3, -4e3, 5e-3},
+            {3e-3, -4e3, -4e3, 5e-3}, {5e-3, -4e3, 0, INFINITY}, {1, 0, 0, INFINITY}};
+  for (size_t i = 0; i < LENGTH_OF(at); i++) {
+    ck_near(zp_waveform_voltage_before(&w, at[i].t), at[i].before, 1e-14);
+    ck_near(zp_waveform_voltage(&w, at[i].t), at[i].behind, 1e-14);
+    ck_assert(zp_waveform_next_corner(&w, at[i].t) == at[i].corner);
+  }
+  ck_assert(zp_waveform_largest(&w) == 4e3 && !zp_waveform_is_constant(&w));
+  w.table = (ZpDriveTable){2, t, (const double[]){5, 5}};
+  ck_assert(zp_waveform_is_constant(&w));
+}
+END_TEST
+
+START_TEST(table_faults) {
+  const struct {
+    size_t rows, row;
+    double t[4], U[4];
+    const char *says;
+  } wrong[] = {{1, 0, {0}, {1}, "two rows"},
+               {0, 0, {0}, {1}, "two rows"},
+               {3, 2, {0, 2, 1}, {0, 0, 0}, "in order"},
+               {4, 3, {0, 1, 1, 1}, {0, 1, 2, 3}, "third row"},
+               {2, 0, {-1, 1}, {0, 0}, "time is out of range"},
+               {2, 1, {0, NAN}, {0, 0}, "time is out of range"},
+               {2, 1, {0, 1}, {0, NAN}, "voltage is out of range"},
+               {2, 1, {0, 1}, {0, 2e6}, "voltage is out of range"}};
+  for (size_t i = 0; i < LENGTH_OF(wrong); i++) {
+    size_t row = 99;
+    const char *fault = zp_drive_table_fault(&(ZpDriveTable){wrong[i].rows, wrong[i].t, wrong[i].U}, &row);
+    ck_assert_msg(fault && strstr(fault, wrong[i].says) && row == wrong[i].row, "case %zu: %s, row %zu", i,
+                  fault ? fault : "no fault", row);
+  }
+}
+END_TEST
+
+/* -- a simulation ---------------------------------------------------------------------------------- */
+
+/* N = 11, else the default actuator. */
+static ZpActuatorDef driven(ZpWaveformKind kind, double end_time) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"drive.waveform", kind}, {"solver.end_time", end_time});
+  return def;
+}
+
+static ZpModel *model_with_table(const ZpActuatorDef *def, size_t rows, const double *t, const double *U) {
+  ZpModel *model;
+  ZpError err = {ZP_OK, ""};
+  ZpStatus status = zp_model_create_driven(def, &(ZpDriveTable){rows, t, U}, &model, &err);
+  ck_assert_msg(status == ZP_OK, "%s", err.message);
+  return model;
+}
+
+/* A ribbon alone has no pairs that meet: all events are corners, also where many fall into what would be a step. */
+START_TEST(steps_end_at_corners) {
+  enum { CORNERS = 400 };
+  double t[CORNERS], U[CORNERS];
+  for (int i = 0; i < CORNERS; i++) {
+    t[i] = 1e-4 + (i < CORNERS / 2 ? i * 1e-9 : i * 1.3e-6);
+    U[i] = i % 2 ? 1e3 : 0;
+  }
+  ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
+  def.actuator.kind = ZP_KIND_RIBBON;
+  ZpModel *model = model_with_table(&def, CORNERS, t, U);
+  ZpSim *sim = sim_of(model);
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_sim_run(sim, t[7], false, NULL, &info), ZP_REACHED_END);
+  ck_assert_int_eq(info.limited[ZP_LIMIT_EVENT], 8);
+  ck_assert(sim->state->t == t[7] && sim->state->U == U[7]);
+  ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, &info), ZP_REACHED_END);
+  ck_assert_int_eq(info.limited[ZP_LIMIT_EVENT], CORNERS - 8);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Kinetic energy just after a pulse of 10 kV. */
+static double kick(double length) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
+  const double t[] = {0, 1e-4, 1e-4, 1e-4 + length, 1e-4 + length}, U[] = {0, 0, 10e3, 10e3, 0};
+  ZpModel *model = model_with_table(&def, 5, t, U);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 1e-4 + length, false, NULL, NULL);
+  double kinetic = zp_sim_get(sim, "kinetic_energy");
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return kinetic;
+}
+
+/* A pulse far shorter than a step acts for its own length: speed goes with it. */
+START_TEST(no_pulse_is_missed) {
+  double none = kick(0.5e-12), one = kick(5e-9), two = kick(10e-9);
+  printf("pulses of 0.5 ps, 5 ns, 10 ns: %.3g, %.3g, %.3g J\n", none, one, two);
+  ck_below(none, 1e-3 * one);
+  ck_near(two / one, 4, 1e-3);
+}
+END_TEST
+
+/* |imbalance| and work at the end over the most that the source gave; runs that close nothing. */
+typedef struct Balance {
+  double error, work, most;
+} Balance;
+
+static Balance balance_of(const ZpActuatorDef *def) {
+  ZpModel *model = model_of(def);
+  ZpSim *sim = sim_of(model);
+  Balance b = {0, 0, 0};
+  for (int k = 1; k <= 100; k++) {
+    ck_assert_int_eq(zp_sim_run(sim, def->solver.end_time * k / 100, false, NULL, NULL), ZP_REACHED_END);
+    b.most = fmax(b.most, fabs(zp_sim_get(sim, "electric_work")));
+    b.error = fmax(b.error, fabs(zp_sim_get(sim, "energy_imbalance")));
+  }
+  b.work = zp_sim_get(sim, "electric_work");
+  b.error /= b.most;
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return b;
+}
+
+/* Largest imbalance on the way, of the work, with steps of 0.4 and 0.2 us: step 1.8e-4 and 0.7e-4, ramp 0.9e-5 and
+ * 0.4e-5, sine 0.8e-4 and 0.6e-4, one that changes sign 2.8e-4 and 1.2e-4, square 0.8e-4 and 0.3e-4: the stepping is of
+ * first order, and a voltage that changes adds nothing. */
+START_TEST(energy_balances) {
+  ZpActuatorDef def[5];
+  const char *const name[] = {"step", "ramp", "sine", "sine of both signs", "square"};
+  def[0] = driven(ZP_WAVEFORM_STEP, 30e-3);
+  def[1] = driven(ZP_WAVEFORM_RAMP, 30e-3);
+  def[1].drive.rise_time = 20e-3;
+  def[2] = driven(ZP_WAVEFORM_SINE, 30e-3);
+  def[2].drive.frequency = 60;
+  def[3] = def[2];
+  def[3].drive.offset = -10e3;
+  def[4] = driven(ZP_WAVEFORM_SQUARE, 30e-3);
+  def[4].drive.frequency = 60;
+  def[4].drive.offset = 5e3;
+  def[4].drive.rise_time = 2e-3;
+  for (size_t i = 0; i < LENGTH_OF(def); i++) {
+    def[i].solver.time_step = 0.4e-6;
+    Balance whole = balance_of(&def[i]);
+    def[i].solver.time_step = 0.2e-6;
+    Balance half = balance_of(&def[i]);
+    printf("%s: work %.6g J, most %.6g J, imbalance %.2e of it, half the step %.2e\n", name[i], whole.work, whole.most,
+           whole.error, half.error);
+    ck_below(whole.error, 5e-4);
+    ck_below(half.error, 0.9 * whole.error);
+    ck_near(half.most, whole.most, 1e-3);
+  }
+}
+END_TEST
+
+/* The work of the source is the integral of U dQ over rows at every step, which end at t; jumps apart. */
+START_TEST(work_is_integral_of_U_dQ) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_SINE, 5e-3);
+  def.drive.frequency = 300;
+  def.output.samples = 100000;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpTable *series = zp_table_create(column, columns, 100000);
+  zp_sim_record(sim, series, NULL);
+  ZpRunInfo info;
+  zp_sim_run(sim, def.solver.end_time, false, NULL, &info);
+  ck_assert_uint_ge(series->rows + 3, (size_t)info.steps); /* steps that events cut may share a row */
+  double sum = 0, current = 0;
+  for (size_t i = 1; i < series->rows; i++) {
+    double U = zp_table_get(series, i, "voltage_V"), U0 = zp_table_get(series, i - 1, "voltage_V");
+    double Q = zp_table_get(series, i, "charge_C"), Q0 = zp_table_get(series, i - 1, "charge_C");
+    double t = zp_table_get(series, i, "time_s"), t0 = zp_table_get(series, i - 1, "time_s");
+    sum += U * (Q - Q0) - (U - U0) * (Q - Q0) / 2;
+    current += zp_table_get(series, i, "current_A") * (t - t0);
+  }
+  double last = zp_table_get(series, series->rows - 1, "charge_C"), first = zp_table_get(series, 0, "charge_C");
+  ck_near(zp_sim_get(sim, "electric_work"), sum, 1e-8);
+  ck_near(current, last - first, 1e-10);
+  ck_assert_double_gt(fabs(sum), 1e-6);
+  zp_table_destroy(series);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A ramp that is cut into pieces by corners, or stays in between, does the same work; a jump none. */
+START_TEST(account_closes_at_corners) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 10e-3);
+  const double t[] = {0, 2e-3, 4e-3, 4e-3, 10e-3}, U[] = {0, 6e3, 6e3, 9e3, 7e3};
+  ZpModel *model = model_with_table(&def, 5, t, U);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, nextafter(4e-3, 0), false, NULL, NULL);
+  double before = zp_sim_get(sim, "electric_work"), field = zp_sim_get(sim, "field_energy");
+  zp_sim_run(sim, 4e-3, false, NULL, NULL);
+  ck_near(zp_sim_get(sim, "electric_work"), before, 1e-9);
+  ck_assert_double_gt(zp_sim_get(sim, "field_energy"), 1.5 * field);
+  ck_assert(sim->state->U == 9e3);
+  zp_sim_run(sim, 10e-3, false, NULL, NULL);
+  double error = fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work");
+  printf("ramp, hold, jump, ramp: imbalance %.1e of the work\n", error);
+  ck_below(error, 1e-3); /* 1e-4 measured */
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+START_TEST(set_by_hand_counts) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_SINE, 20e-3);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 5e-3, false, NULL, NULL);
+  ck_near(zp_sim_get(sim, "voltage"), 10e3 * pow(sin(M_PI * 10 * 5e-3), 2), 1e-12);
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 3e3, NULL), ZP_OK);
+  zp_sim_run(sim, 10e-3, false, NULL, NULL);
+  ck_assert(zp_sim_get(sim, "voltage") == 3e3);
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-3 * zp_sim_get(sim, "electric_work"));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Saved inside a ramp, and gone on from there in another simulation: the same bits. */
+START_TEST(restart_inside_a_ramp) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_SQUARE, 20e-3);
+  def.drive.frequency = 100;
+  def.drive.rise_time = 3e-3;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model), *other = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  void *middle = malloc(size), *first = malloc(size), *second = malloc(size);
+  zp_sim_run(sim, 1.5e-3, false, NULL, NULL);
+  ck_near(zp_sim_get(sim, "voltage"), 5e3, 1e-12);
+  zp_sim_save(sim, middle);
+  zp_sim_run(sim, 9e-3, false, NULL, NULL);
+  zp_sim_save(sim, first);
+  ck_assert_int_eq(zp_sim_restore(other, middle, size, NULL), ZP_OK);
+  zp_sim_run(other, 9e-3, false, NULL, NULL);
+  zp_sim_save(other, second);
+  ck_assert_mem_eq(first, second, size);
+  free(middle), free(first), free(second);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The field is due anew when the cap moves with the voltage, and only then. */
+START_TEST(field_follows_the_cap) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_SINE, 1e-3);
+  def.electro.model = ZP_ELECTRO_FIELD;
+  for (int capped = 0; capped < 2; capped++) {
+    def.electro.breakdown_cap = capped;
+    ZpModel *model = model_of(&def);
+    ZpSim *sim = sim_of(model);
+    const struct {
+      double solved_at, now;
+      bool due;
+    } at[] = {{8e3, 8.7e3, false}, {8e3, 8.9e3, true}, {8e3, 7.1e3, true}, {0, 2e3, false},
+              {0, 5e3, true},      {2e3, 1e3, false},  {-8e3, 8e3, false}};
+    for (size_t i = 0; i < LENGTH_OF(at); i++) {
+      sim->state->U = at[i].solved_at;
+      zp_eval_refresh(model, sim->state, &sim->eval);
+      ck_assert(!zp_eval_refresh_due(model, sim->state));
+      sim->state->U = at[i].now;
+      ck_assert_int_eq(zp_eval_refresh_due(model, sim->state), capped && at[i].due);
+    }
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+}
+END_TEST
+
+/* Only the size of the voltage attracts; the charge has its sign. */
+START_TEST(sign_of_the_voltage) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 2e-3);
+  def.electro.edges = _i;
+  const double t[] = {0, 1}, plus[] = {9e3, 9e3}, minus[] = {-9e3, -9e3};
+  double stroke[2], charge[2], work[2];
+  for (int i = 0; i < 2; i++) {
+    ZpModel *model = model_with_table(&def, 2, t, i ? minus : plus);
+    ZpSim *sim = sim_of(model);
+    zp_sim_run(sim, 2e-3, false, NULL, NULL);
+    stroke[i] = zp_sim_get(sim, "stroke");
+    charge[i] = zp_sim_get(sim, "charge");
+    work[i] = zp_sim_get(sim, "electric_work");
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+  ck_assert(stroke[0] == stroke[1] && charge[0] == -charge[1] && work[0] == work[1]);
+}
+END_TEST
+
+/* A constant drive stops when zipped, any other at end_time. */
+START_TEST(only_a_constant_drive_stops) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 90e-3);
+  ZpResult *step, *ramp, *table;
+  ck_assert_int_eq(zp_study_run(&def, NULL, &step, NULL), ZP_OK);
+  def.drive.waveform = ZP_WAVEFORM_RAMP;
+  def.drive.rise_time = 1e-6;
+  ck_assert_int_eq(zp_study_run(&def, NULL, &ramp, NULL), ZP_OK);
+  def = driven(ZP_WAVEFORM_TABLE, 90e-3);
+  ZpDriveTable rows = {2, (const double[]){0, 1}, (const double[]){10e3, 10e3}};
+  ck_assert_int_eq(zp_study_run_driven(&def, &rows, NULL, &table, NULL), ZP_OK);
+  ck_assert_int_eq(step->outcome, ZP_ZIPPED);
+  ck_assert_int_eq(ramp->outcome, ZP_REACHED_END);
+  ck_near(zp_result_get(ramp, "zip_time_s"), zp_result_get(step, "zip_time_s"), 1e-3);
+  ck_assert_int_eq(table->outcome, ZP_ZIPPED);
+  ck_assert(zp_result_get(table, "zip_time_s") == zp_result_get(step, "zip_time_s"));
+  zp_result_destroy(step);
+  zp_result_destroy(ramp);
+  zp_result_destroy(table);
+}
+END_TEST
+
+/* -- from a scenario ------------------------------------------------------------------------------- */
+
+/* The error of a scenario, as the command would print it; "" if it is right. */
+static const char *verdict(const char *text, ZpError *err) {
+  ZpScenario *scenario = zp_scenario_create();
+  ZpActuatorDef def;
+  *err = (ZpError){ZP_OK, ""};
+  ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "s.yaml", err);
+  if (status == ZP_OK) status = zp_scenario_def(scenario, 0, &def, err);
+  if (status == ZP_OK) status = zp_data_check(&def, err);
+  zp_scenario_destroy(scenario);
+  ck_assert_int_eq(status == ZP_OK, *err->message == 0);
+  return err->message;
+}
+
+static void write_text(const char *name, const char *text) {
+  FILE *file = fopen(name, "w");
+  ck_assert(file && fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+static const struct {
+  const char *scenario, *says[3];
+} wrong[] = {
+    {"drive: {waveform: sine, frequency: 0}", {"drive.frequency", "out of range"}},
+    {"drive: {waveform: sine, frequency: 5 ms}", {"drive.frequency", "not a frequency"}},
+    {"drive: {waveform: square, duty: 1.2}", {"drive.duty", "out of range"}},
+    {"drive: {waveform: ramp, rise_time: -1 ms}", {"drive.rise_time", "out of range"}},
+    {"drive: {waveform: ramp}", {"drive.rise_time", "takes time"}},
+    {"drive: {waveform: square, rise_time: 30 ms, frequency: 20 Hz}", {"drive.rise_time", "longer than"}},
+    {"drive: {waveform: triangle}", {"drive.waveform", "did you mean"}},
+    {"drive: {rise_time: 5 ms}", {"drive.rise_time: goes with", "ramp or square", "step"}},
+    {"drive: {waveform: ramp, rise_time: 1 ms, frequency: 5 Hz}", {"drive.frequency: goes with", "ramp"}},
+    {"drive: {table: 0 = 0}", {"drive.table: goes with drive.waveform table"}},
+    {"drive: {file: a.csv}", {"drive.file: goes with drive.waveform table"}},
+    {"drive: {waveform: table}", {"give drive.table or drive.file"}},
+    {"drive: {waveform: table, table: 0 = 0, file: a.csv}", {"drive.table", "one of them"}},
+    {"drive: {waveform: table, table: 0 ms = 1 kV}", {"drive.table: row 1", "two rows"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 ms = 2 kV, 4 ms = 0 V'}", {"drive.table: row 3", "in order"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 m = 2 kV'}", {"row 2", "5 m", "not a time"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 ms = 2 kg'}", {"row 2", "2 kg", "not a voltage"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 ms = nan'}", {"row 2", "nan", "not a number"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 ms'}", {"row 2", "give time = voltage"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV,'}", {"row 2", "give time = voltage"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 ms = 3 ms = 0 V'}", {"row 2", "volt"}},
+    {"drive: {waveform: table, table: '0 ms = 1 kV, 5 ms = 2000 kV'}", {"row 2", "out of range"}},
+    {"drive: {waveform: table, table: '0 = 1, 5 = 2'}\nstudy: calibrate", {"drive.waveform", "calibrate"}},
+    {"drive: {waveform: table, file: nowhere.csv}", {"drive.file", "nowhere.csv", "cannot be opened"}},
+    {"drive: {waveform: table, file: back.csv}", {"back.csv:4", "in order"}},
+    {"drive: {waveform: table, file: word.csv}", {"word.csv:3", "voltage_kV", "text in a number column"}},
+    {"drive: {waveform: table, file: unit.csv}", {"drive.file", "no column time_s"}},
+    {"drive: {waveform: table, file: short.csv}", {"short.csv", "two rows"}},
+    {"drive: {waveform: table, file: bare.csv}", {"bare.csv", "two rows"}},
+};
+
+START_TEST(refused) {
+  ZpError err;
+  write_text("back.csv", "time_ms,voltage_kV\n0,1\n5,2\n4,0\n");
+  write_text("word.csv", "time_ms,voltage_kV\n0,1\n5,nan\n");
+  write_text("unit.csv", "time_mm,voltage_kV\n0,1\n5,2\n");
+  write_text("short.csv", "time_ms,voltage_kV\n0,1\n");
+  write_text("bare.csv", "time_ms,voltage_kV\n");
+  for (size_t i = 0; i < LENGTH_OF(wrong); i++) {
+    verdict(wrong[i].scenario, &err);
+    ck_assert_msg(err.status == ZP_BAD_INPUT, "%s: %s", wrong[i].scenario, err.message);
+    for (size_t k = 0; k < LENGTH_OF(wrong[i].says) && wrong[i].says[k]; k++)
+      ck_assert_msg(strstr(err.message, wrong[i].says[k]), "%s: \"%s\" does not say \"%s\"", wrong[i].scenario,
+                    err.message, wrong[i].says[k]);
+  }
+  ck_assert_str_eq(verdict("drive: {waveform: table, table: '0: 0, 5 ms: 8 kV'}", &err), "");
+  ck_assert_str_eq(verdict("drive: {waveform: square, rise_time: 10 ms, duty: 25 %, frequency: 20 Hz}", &err), "");
+}
+END_TEST
+
+/* The core alone: a table is asked for where there is none, and refused where it is not used. */
+START_TEST(core_asks_for_the_table) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim;
+  ZpError err;
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, &err), ZP_BAD_INPUT);
+  ck_assert(sim == NULL && strstr(err.message, "drive.waveform = table"));
+  zp_model_destroy(model);
+  ZpDriveTable rows = {2, (const double[]){1, 0}, (const double[]){0, 0}};
+  ck_assert_int_eq(zp_model_create_driven(&def, &rows, &model, &err), ZP_BAD_INPUT);
+  ck_assert(strstr(err.message, "row 2") && strstr(err.message, "in order"));
+  def.drive.waveform = ZP_WAVEFORM_STEP;
+  ck_assert_int_eq(zp_model_create_driven(&def, &rows, &model, &err), ZP_BAD_INPUT);
+}
+END_TEST
+
+/* Runs a scenario; its written form must stand for the same. */
+static ZpResult *run_scenario(const char *text) {
+  ZpScenario *scenario = zp_scenario_create(), *again = zp_scenario_create();
+  ZpActuatorDef def, other;
+  ZpError err = {ZP_OK, ""};
+  char *written;
+  size_t size;
+  ck_assert_msg(zp_scenario_parse(scenario, text, strlen(text), "s.yaml", &err) == ZP_OK, "%s", err.message);
+  FILE *file = open_memstream(&written, &size);
+  ck_assert(zp_scenario_write(scenario, file, &err) == ZP_OK && fclose(file) == 0);
+  /* read back from another folder */
+  ck_assert_msg(zp_scenario_parse(again, written, size, "/elsewhere/s.yaml", &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_def(again, 0, &other, &err), ZP_OK);
+  ck_assert_str_eq(def.drive.table, other.drive.table);
+  ck_assert_str_eq(def.drive.file, other.drive.file);
+  ck_assert_int_eq(other.drive.waveform, ZP_WAVEFORM_TABLE);
+  ZpResult *result;
+  ck_assert_msg(zp_data_study_run(&other, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  zp_scenario_destroy(scenario);
+  zp_scenario_destroy(again);
+  free(written);
+  return result;
+}
+
+START_TEST(file_as_text) {
+  write_text("drive.csv", "# recorded\ncurrent,time_ms,voltage_kV\n-,0,0.1\n-,0.7,8.3\n-,1.1,8.3\n-,1.1,0\n");
+  ZpResult *text = run_scenario("mesh.nodes: 11\nsolver.end_time: 2 ms\ndrive: {waveform: table, table: "
+                                "'0 s = 100 V, 700 us = 8.3 kV, 1.1 ms = 8300 V, 0.0011 = 0'}");
+  ZpResult *file = run_scenario("mesh.nodes: 11\nsolver.end_time: 2 ms\ndrive: {waveform: table, file: drive.csv}");
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ck_assert_uint_eq(text->series->rows, file->series->rows);
+  ck_assert_uint_gt(text->series->rows, 100);
+  for (size_t i = 0; i < text->series->rows; i++)
+    for (size_t k = 0; k < columns; k++) {
+      double a = zp_table_get(text->series, i, column[k].name), b = zp_table_get(file->series, i, column[k].name);
+      ck_assert_msg(a == b || (isnan(a) && isnan(b)), "%s, row %zu: %.17g, %.17g", column[k].name, i, a, b);
+    }
+  double error = zp_result_get(text, "energy_error");
+  printf("table: energy error %.1e\n", error);
+  ck_below(error, 1e-3);
+  zp_result_destroy(text);
+  zp_result_destroy(file);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("drive");
+  TCase *waveforms = tcase_create("waveforms"), *runs = tcase_create("runs"), *inputs = tcase_create("inputs");
+  tcase_set_timeout(runs, 300);
+  tcase_set_timeout(inputs, 300);
+  tcase_add_test(waveforms, step_and_ramp);
+  tcase_add_test(waveforms, sine_is_a_sine);
+  tcase_add_test(waveforms, square_corners);
+  tcase_add_test(waveforms, table_values);
+  tcase_add_test(waveforms, table_faults);
+  tcase_add_test(runs, steps_end_at_corners);
+  tcase_add_test(runs, no_pulse_is_missed);
+  tcase_add_test(runs, energy_balances);
+  tcase_add_test(runs, work_is_integral_of_U_dQ);
+  tcase_add_test(runs, account_closes_at_corners);
+  tcase_add_test(runs, set_by_hand_counts);
+  tcase_add_test(runs, restart_inside_a_ramp);
+  tcase_add_test(runs, field_follows_the_cap);
+  tcase_add_loop_test(runs, sign_of_the_voltage, 0, 2);
+  tcase_add_test(runs, only_a_constant_drive_stops);
+  tcase_add_test(inputs, refused);
+  tcase_add_test(inputs, core_asks_for_the_table);
+  tcase_add_test(inputs, file_as_text);
+  suite_add_tcase(suite, waveforms);
+  suite_add_tcase(suite, runs);
+  suite_add_tcase(suite, inputs);
+  return run_suite(suite);
+}
