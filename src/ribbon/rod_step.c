@@ -55,8 +55,10 @@ static void step_joints(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEv
   for (size_t j = 0; j < edge_count(p) + p->ribbons; j++) {
     double k0 = e0->k[j], k1 = e1->k[j], change = k1 - k0, B = p->B[j];
     double slope = sine_over(0.5 * (s->turn[j] - turn_before[j])) * sqrt((1 + 0.25 * k0 * k0) * (1 + 0.25 * k1 * k1));
-    s->M[j] = B * (0.5 * (k0 + k1) - p->k0[j] + damping * change) * slope;
-    s->stiffness[j] = B * (0.5 + damping) * slope * slope;
+    double moment = B * (0.5 * (k0 + k1) - p->k0[j] + damping * change);
+    s->M[j] = moment * slope;
+    /* the slope itself changes by k1 / 4 of it; what it changes with the turn vanishes with the step */
+    s->stiffness[j] = (B * (0.5 + damping) * slope + moment * 0.25 * k1) * slope;
     s->loss += damping * B * change * change;
   }
 }

@@ -92,7 +92,7 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
 
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
-  bool cut = longest < try;
+  bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
   s->system->begin(s->system->self, q);
   for (double h = cut ? longest : try; h > shortest_step;) {
     predict(s, h, q, v, history);
