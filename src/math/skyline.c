@@ -13,7 +13,10 @@
 enum {
   LANES = ZP_LANES,
   TILE = LANES * LANES,
-  COLUMNS = 4 /* found at once: their sums, LANES each, are what the registers of AVX2 hold */
+  COLUMNS = 4,    /* found at once: their sums, LANES each, are what the registers of AVX2 hold */
+  SECOND = LANES, /* where the columns after the first begin */
+  THIRD = 2 * LANES,
+  FOURTH = 3 * LANES
 };
 
 static inline size_t larger(size_t a, size_t b) {
@@ -36,12 +39,13 @@ bool zp_skyline_create(ZpSkyline *s, size_t n, const size_t *first) {
   uint64_t tiles = 0; /* more than a size_t of 32 bits may hold */
   *s = (ZpSkyline){.n = n, .blocks = zp_round_up(n) / LANES};
   s->block = zp_calloc(s->blocks, sizeof *s->block);
-  for (size_t I = 0; s->block && I < s->blocks; I++) {
+  if (!s->block) return false;
+  for (size_t I = 0; I < s->blocks; I++) {
     s->block[I].first = block_first(n, first, I);
     tiles += I + 1 - s->block[I].first / LANES;
   }
   s->tiles = (size_t)tiles;
-  if (s->block && s->tiles == tiles) s->a = zp_calloc(s->tiles, TILE * sizeof *s->a);
+  if (s->tiles == tiles) s->a = zp_calloc(s->tiles, TILE * sizeof *s->a);
   if (!s->a) {
     zp_skyline_destroy(s);
     return false;
@@ -76,9 +80,9 @@ static inline void subtract(size_t count, const double *restrict p, const double
   ZP_SIMD
   for (size_t r = 0; r < LANES; r++) {
     s0[r] = c[r];
-    s1[r] = c[LANES + r];
-    s2[r] = c[2 * LANES + r];
-    s3[r] = c[3 * LANES + r];
+    s1[r] = c[SECOND + r];
+    s2[r] = c[THIRD + r];
+    s3[r] = c[FOURTH + r];
   }
   for (size_t k = 0; k < count; k++, p += LANES, q += LANES) {
     double q0 = q[0], q1 = q[1], q2 = q[2], q3 = q[3];
@@ -94,25 +98,25 @@ static inline void subtract(size_t count, const double *restrict p, const double
   ZP_SIMD
   for (size_t r = 0; r < LANES; r++) {
     c[r] = s0[r];
-    c[LANES + r] = s1[r];
-    c[2 * LANES + r] = s2[r];
-    c[3 * LANES + r] = s3[r];
+    c[SECOND + r] = s1[r];
+    c[THIRD + r] = s2[r];
+    c[FOURTH + r] = s3[r];
   }
 }
 
 /* What is left of c, solved with the triangle t of the rows q. */
 static inline void divide(const double *restrict t, double *restrict c) {
-  const double *t0 = t, *t1 = t + LANES, *t2 = t + 2 * LANES, *t3 = t + 3 * LANES;
+  const double *t0 = t, *t1 = t + SECOND, *t2 = t + THIRD, *t3 = t + FOURTH;
   ZP_SIMD
   for (size_t r = 0; r < LANES; r++) {
     double x0 = c[r] * t0[0];
-    double x1 = (c[LANES + r] - x0 * t0[1]) * t1[1];
-    double x2 = (c[2 * LANES + r] - x0 * t0[2] - x1 * t1[2]) * t2[2];
-    double x3 = (c[3 * LANES + r] - x0 * t0[3] - x1 * t1[3] - x2 * t2[3]) * t3[3];
+    double x1 = (c[SECOND + r] - x0 * t0[1]) * t1[1];
+    double x2 = (c[THIRD + r] - x0 * t0[2] - x1 * t1[2]) * t2[2];
+    double x3 = (c[FOURTH + r] - x0 * t0[3] - x1 * t1[3] - x2 * t2[3]) * t3[3];
     c[r] = x0;
-    c[LANES + r] = x1;
-    c[2 * LANES + r] = x2;
-    c[3 * LANES + r] = x3;
+    c[SECOND + r] = x1;
+    c[THIRD + r] = x2;
+    c[FOURTH + r] = x3;
   }
 }
 
