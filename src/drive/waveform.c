@@ -43,7 +43,7 @@ static int64_t knots(const ZpWaveform *w) {
 /* One cycle goes up within the rise time, stays, goes down in as much, stays. */
 static Knot square_knot(const ZpWaveform *w, int64_t i) {
   int64_t place = i % PER_CYCLE;
-  size_t cycles = i / PER_CYCLE;
+  int64_t cycles = i / PER_CYCLE;
   double cycle = (double)cycles, start = place < 2 ? cycle : cycle + w->duty;
   bool after = place % 2 == 1, high = place == 1 || place == 2;
   return (Knot){start / w->frequency + (after ? w->rise_time : 0), high ? w->voltage : w->offset};
