@@ -372,6 +372,37 @@ START_TEST(steps_allocate_nothing) {
 }
 END_TEST
 
+static ZpActuatorDef implicit_def(void) {
+  ZpActuatorDef def = short_def();
+  def.solver.integrator = ZP_INTEGRATOR_IMPLICIT;
+  def.contact.model = ZP_CONTACT_UNILATERAL;
+  return def;
+}
+
+static ZpStatus run_implicit(ZpError *err, bool *whole) {
+  ZpActuatorDef def = implicit_def();
+  ZpResult *result = NULL;
+  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  *whole = (result != NULL) == (status == ZP_OK);
+  zp_result_destroy(result);
+  return status;
+}
+
+START_TEST(implicit_survives_every_failure) {
+  ck_assert_int_ge(fail_each("zp_study_run, actuate, implicit", run_implicit, false), 10);
+}
+END_TEST
+
+START_TEST(implicit_steps_allocate_nothing) {
+  ZpActuatorDef def = implicit_def();
+  def.drive.voltage = 10e3;
+  def.damping.internal = 1e-5;
+  def.solver.tolerance = 1e-4;
+  def.solver.end_time = 0.2;
+  assert_no_allocation(&def, 0.2, 100); /* zips on the way */
+}
+END_TEST
+
 /* The whole life: sagging, zipping pair after pair, closed. */
 START_TEST(zipping_allocates_nothing) {
   ZpActuatorDef def = short_def();
@@ -746,6 +777,8 @@ int main(void) {
   tcase_add_test(core, tables_survive_every_failure);
   tcase_add_test(core, skyline_survives_every_failure);
   tcase_add_test(core, steps_allocate_nothing);
+  tcase_add_test(core, implicit_survives_every_failure);
+  tcase_add_test(core, implicit_steps_allocate_nothing);
   tcase_add_test(core, zipping_allocates_nothing);
   tcase_add_test(core, bezier_steps_allocate_nothing);
   tcase_add_test(files, table_survives_every_failure);

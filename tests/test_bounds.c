@@ -134,6 +134,12 @@ static ZpOutcome run_and_check(const ZpActuatorDef *def, const char *what) {
 static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
   if (strcmp(key, "ribbon.length") == 0 && value < 0.01) def->platform.length = 0.5 * value;
+  bool unilateral = strcmp(key, "contact.model") == 0 && value == ZP_CONTACT_UNILATERAL;
+  bool implicit = strcmp(key, "solver.integrator") == 0 && value == ZP_INTEGRATOR_IMPLICIT;
+  if (unilateral || implicit || (strcmp(key, "damping.internal") == 0 && value > 0)) {
+    def->contact.model = ZP_CONTACT_UNILATERAL;
+    def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;
+  }
   bool rests = strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_FLANGE;
   if (rests || (strcmp(key, "ribbon.density") == 0 && value == 0)) def->study = ZP_STUDY_STATIONARY;
   if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length") && value > 0) {
@@ -410,6 +416,18 @@ static const char *const combinations[] = {
     "actuator.kind=ribbon actuator.right_end=clamped mesh.nodes=2001 initial.state=straight",
     "actuator.kind=ribbon platform.length=1m insulator.thickness=0 electro.breakdown_cap=false",
     "actuator.kind=ribbon contact.complete_margin=1000",
+    "solver.integrator=implicit contact.model=unilateral drive.voltage=1MV",
+    "solver.integrator=implicit contact.model=unilateral drive.voltage=1MV electro.breakdown_cap=false",
+    "solver.integrator=implicit contact.model=unilateral initial.state=straight",
+    "solver.integrator=implicit contact.model=unilateral mesh.nodes=4 damping.internal=1s",
+    "solver.integrator=implicit contact.model=unilateral load.mass=0 gravity=0 initial.state=straight drive.voltage=0",
+    "solver.integrator=implicit contact.model=unilateral damping.drag=1000000",
+    "solver.integrator=implicit contact.model=unilateral solver.tolerance=1e-9",
+    "solver.integrator=implicit contact.model=unilateral solver.end_time=1e-9s",
+    "solver.integrator=implicit contact.model=unilateral platform.length=0 platform.electrode=false",
+    "solver.integrator=implicit contact.model=unilateral gravity=1000m/s2 load.mass=1000kg",
+    "solver.integrator=implicit actuator.kind=ribbon actuator.right_end=clamped initial.state=straight",
+    "solver.integrator=implicit actuator.kind=flange drive.voltage=1MV",
 };
 
 START_TEST(study_ends_in_combinations) {
@@ -429,6 +447,14 @@ static const struct {
     {"contact.complete_margin=4", "contact.complete_margin"},
     {"electro.switch_offset=1um", "electro.switch_offset"},
     {"electro.refresh_period=1ms", "electro.refresh_period"},
+    {"solver.integrator=implicit", "contact.model"},
+    {"contact.model=unilateral", "contact.model"},
+    {"solver.integrator=implicit contact.model=unilateral ribbon.model=mass_spring", "ribbon.model"},
+    {"solver.integrator=implicit contact.model=unilateral electro.surface=bezier", "electro.surface"},
+    {"solver.integrator=implicit actuator.kind=ribbon ribbon.model=mass_spring", "ribbon.model"},
+    {"damping.internal=1us", "damping.internal"},
+    {"damping.internal=1us actuator.kind=ribbon", "damping.internal"},
+    {"actuator.kind=flange", "solver.integrator"},
 };
 
 START_TEST(contradictions_are_refused) {

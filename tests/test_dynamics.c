@@ -140,7 +140,8 @@ START_TEST(test_rod_turned_as_a_whole) {
 }
 END_TEST
 
-/* Without damping forth and back are one; damping turns round with the motion. Measured: 2e-15. */
+/* Without damping forth and back are one; damping turns round with the motion. Both within 1e-13 of the largest force.
+ */
 START_TEST(test_rod_exchange) {
   uint64_t seed = 7;
   for (int k = 0; k < 50; k++) {
@@ -426,7 +427,7 @@ static double swing(double tolerance) {
 
 /* Let fall from straight, it swings by gravity for 100 periods, energy going from gravity's into motion, bending and
  * back; what is lost is what Newton's method leaves, which goes with the tolerance. Measured: 2.8e-6 of gravity's with
- * 1e-4 and steps of 2 ms, a twelfth of a period; PENDING with 1e-6. */
+ * 1e-4 and steps of 2 ms, a twelfth of a period; 2.1e-9 with 1e-6 and 0.23 ms. */
 START_TEST(test_swing_keeps_energy) {
   ck_below(swing(1e-4), 1e-5);
   ck_below(swing(1e-6), 1e-6);
@@ -476,8 +477,8 @@ static Vibration vibrate(const ZpActuatorDef *def, double guess, int skip, int p
   return (Vibration){periods / (t[1] - t[0]), log(speed[0] / speed[1]) / periods};
 }
 
-/* A small vibration about the hanging shape, sagging PENDING: study modes linearises the same rod. Measured: PENDING.
- */
+/* A small vibration about the hanging shape: study modes linearises the same rod. Measured: off by 2e-5 and 2.6e-5, of
+ * which steps of a 400th of the period make pi^2 / 3 / 400^2 = 2e-5. */
 START_TEST(test_frequency_is_that_of_modes) {
   static const double ends[] = {ZP_END_FREE, ZP_END_GUIDED};
   for (size_t k = 0; k < LENGTH_OF(ends); k++) {
@@ -515,7 +516,9 @@ END_TEST
 /* -- two ribbons ----------------------------------------------------------------------------------- */
 
 typedef struct Zip {
-  double time, energy_error, overlap, contact_loss, contraction;
+  double time;
+  double energy_error; /* largest |imbalance| on the way over all work */
+  double overlap, contact_loss, contraction;
 } Zip;
 
 /* Step by step until it has closed: with max_steps 1, each call takes one. */
@@ -532,9 +535,9 @@ static Zip zip(ZpActuatorDef def) {
     ZpShape shape = zp_sim_shape(sim);
     for (size_t i = 0; i < model->nodes; i++)
       zip.overlap = fmax(zip.overlap, -shape.gap[i]);
-    double work = zp_sim_get(sim, "electric_work");
-    if (work > 1e-6) zip.energy_error = fmax(zip.energy_error, fabs(zp_sim_get(sim, "energy_imbalance")) / work);
+    zip.energy_error = fmax(zip.energy_error, fabs(zp_sim_get(sim, "energy_imbalance")));
   } while (outcome == ZP_STEP_LIMIT);
+  zip.energy_error /= zp_sim_get(sim, "electric_work");
   zip.time = zp_sim_zip_time(sim);
   zip.contact_loss = zp_sim_get(sim, "contact_loss") / zp_sim_get(sim, "electric_work");
   zip.contraction = zp_sim_get(sim, "contraction");
@@ -552,7 +555,8 @@ static void check_zip(const char *name, const Zip *zip) {
   ck_assert_double_gt(zip->contraction, 0.99);
 }
 
-/* The default actuator: times agree between tolerances and between meshes. Measured: PENDING. */
+/* The default actuator: times agree between tolerances and between meshes. Measured: 75.62 ms, with a tolerance of 1e-6
+ * 75.88 ms (0.35 %), at N = 121 75.59 ms (0.03 %); energy within 1.9e-7, 9e-9, 8.5e-7; overlap 0.08, 0.57, 0.31 um. */
 START_TEST(test_zip_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -569,7 +573,8 @@ START_TEST(test_zip_time) {
 }
 END_TEST
 
-/* A long step, drag, a straight start, lateral edges: energy balances, too. Measured: PENDING. */
+/* Steps of one length, lateral edges, drag: energy balances, too. Measured: 75.46 ms; with steps of 0.1 ms 75.53 ms;
+ * edges pull harder, 73.29 ms; drag 124.2 ms; energy within 1.8e-6. */
 START_TEST(test_zip_otherwise) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -590,8 +595,8 @@ START_TEST(test_zip_otherwise) {
 }
 END_TEST
 
-/* The solved field beyond plates is held between its solutions; thick liquid beside thin gaps, plates are the most of
- * it. Measured: PENDING. */
+/* Plates are the most of the solved field; what it has beyond them is held between its solutions, which costs energy.
+ * Measured: 75.63 ms, 0.22 % off plates; energy within 2e-4, a thousand times that of plates. */
 START_TEST(test_zip_by_field) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   double plates = zip(def).time;
@@ -606,31 +611,32 @@ START_TEST(test_zip_by_field) {
 }
 END_TEST
 
-/* Zipped, the voltage off, damped: it opens to where it hung. Measured: PENDING. */
+/* Zipped, the voltage off, damped: it opens to where it hung and stays there, faces never inside each other. Velocities
+ * at the steps' ends keep alternating about means of nothing, as the midpoint rule leaves what is faster than its
+ * steps: 4e-5 of gravity's energy. Measured: off by 2e-5 of the opening or less during the last half second. */
 START_TEST(test_opens_again) {
-  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 2e-3});
+  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 1e-6});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
-  ZpRunInfo info;
-  double hanging = zp_sim_get(sim, "opening"), overlap = 0;
-  ck_assert_int_eq(zp_sim_run(sim, 0.3, true, NULL, NULL), ZP_ZIPPED);
+  double hanging = zp_sim_get(sim, "opening"), overlap = 0, off = 0;
+  ck_assert_int_eq(zp_sim_run(sim, 1, true, NULL, NULL), ZP_ZIPPED);
   ck_assert_int_eq(zp_sim_set_voltage(sim, 0, NULL), ZP_OK);
   double start = zp_sim_get(sim, "time");
   for (int i = 1; i <= 100; i++) {
-    ck_assert_int_eq(zp_sim_run(sim, start + 0.05 * i, false, NULL, &info), ZP_REACHED_END);
+    ck_assert_int_eq(zp_sim_run(sim, start + 0.05 * i, false, NULL, NULL), ZP_REACHED_END);
     ZpShape shape = zp_sim_shape(sim);
     for (size_t k = 0; k < model->nodes; k++)
       overlap = fmax(overlap, -shape.gap[k]);
+    if (i > 90) off = fmax(off, fabs(zp_sim_get(sim, "opening") / hanging - 1));
   }
-  double opening = zp_sim_get(sim, "opening"), gravity = fabs(zp_sim_get(sim, "gravity_energy"));
-  printf("opened again: %.5f mm, hung at %.5f mm (%.1e), moves with %.1e of gravity's energy, overlap %.2g um\n",
-         1e3 * opening, 1e3 * hanging, opening / hanging - 1, zp_sim_get(sim, "kinetic_energy") / gravity,
-         1e6 * overlap);
-  printf("opened again: energy off by %.1e of the work\n",
-         fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work"));
-  ck_near(opening, hanging, 1e-3);
-  ck_below(zp_sim_get(sim, "kinetic_energy"), 1e-9 * gravity);
-  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-4 * zp_sim_get(sim, "electric_work"));
+  double gravity = fabs(zp_sim_get(sim, "gravity_energy")), work = zp_sim_get(sim, "electric_work"),
+         error = fabs(zp_sim_get(sim, "energy_imbalance")) / work;
+  printf(
+      "opened again: within %.1e of %.4f mm, kinetic energy %.1e of gravity's, overlap %.2g um, energy off by %.1e\n",
+      off, 1e3 * hanging, zp_sim_get(sim, "kinetic_energy") / gravity, 1e6 * overlap, error);
+  ck_below(off, 1e-3);
+  ck_below(zp_sim_get(sim, "kinetic_energy"), 1e-3 * gravity);
+  ck_below(error, 1e-4);
   ck_below(overlap, 1e-6);
   ck_assert_double_eq(zp_sim_get(sim, "zipped_length"), 0);
   zp_sim_destroy(sim);
@@ -656,9 +662,10 @@ static double opening_at_rest(const ZpModel *model, double voltage) {
   return opening;
 }
 
-/* Below pull-in, strongly damped: it comes to rest where statics has it. Measured: PENDING. */
+/* Below pull-in, strongly damped: it comes to rest where statics has it. Measured: within 1.2e-6. */
 START_TEST(test_rests_where_statics_does) {
-  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 2e-3}, {"drive.voltage", 3e3});
+  ZpActuatorDef def =
+      DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 1e-6}, {"drive.voltage", 3e3});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   double expected = opening_at_rest(model, 3e3), hanging = zp_sim_get(sim, "opening");
@@ -667,7 +674,7 @@ START_TEST(test_rests_where_statics_does) {
   printf("3 kV: rests at %.6f mm, statics %.6f mm (%.1e), hung at %.4f mm\n", 1e3 * found, 1e3 * expected,
          found / expected - 1, 1e3 * hanging);
   ck_assert_double_gt(hanging, 1.01 * expected);
-  ck_near(found, expected, 1e-4);
+  ck_near(found, expected, 1e-5);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
@@ -703,7 +710,7 @@ START_TEST(test_restart) {
 END_TEST
 
 /* One ribbon under a flat electrode, 2 g at its end: below its pull-in, 1757 V at rest, it hangs; above, it closes and
- * stays. Measured: PENDING. */
+ * stays. Measured: energy off by 1.8e-6 and 2.8e-6 of the work. */
 START_TEST(test_flange) {
   double stroke[2];
   for (int k = 0; k < 2; k++) {

