@@ -149,12 +149,6 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;
   if (strcmp(key, "electro.switch_offset") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
   if (strcmp(key, "electro.refresh_period") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
-  bool implicit = strcmp(key, "solver.integrator") == 0 && value == ZP_INTEGRATOR_IMPLICIT;
-  bool unilateral = strcmp(key, "contact.model") == 0 && value == ZP_CONTACT_UNILATERAL;
-  if (implicit || unilateral || strcmp(key, "damping.internal") == 0) {
-    def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;
-    def->contact.model = ZP_CONTACT_UNILATERAL;
-  }
   if (strcmp(key, "drive.waveform") == 0 && value == ZP_WAVEFORM_RAMP) def->drive.rise_time = 5e-5;
   if (strcmp(key, "drive.rise_time") == 0 && value > 0) def->drive.waveform = ZP_WAVEFORM_RAMP;
   if (strcmp(key, "drive.offset") == 0 || strcmp(key, "drive.frequency") == 0) def->drive.waveform = ZP_WAVEFORM_SINE;
