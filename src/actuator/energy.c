@@ -9,10 +9,10 @@ static void add_beyond_plates(const ZpModel *model, const ZpState *state, ZpEner
     work += held[k] * (q[k] - then[k]);
   for (size_t i = 0; i < model->nodes; i++)
     energies->force += 0.5 * U * U * (held[model->stride + 2 * i + 1] - held[model->stride + 2 * i]);
-  double capacitance = state->held_charge + 2 * work;
-  energies->charge += capacitance * U;
-  energies->field += U * U * (capacitance - state->held_energy - work);
-  energies->capacitance += capacitance;
+  double charge = state->held_charge + 2 * work; /* per volt */
+  energies->charge += charge * U;
+  energies->field += U * U * (charge - state->held_energy - work);
+  energies->capacitance += state->held_capacitance;
 }
 
 /* The electric part. */

@@ -226,6 +226,7 @@ static void refresh_beyond_plates(const ZpModel *model, ZpState *state, const do
   state->held_U = state->U;
   state->held_energy = e->surplus.energy;
   state->held_charge = e->surplus.charge;
+  state->held_capacitance = e->surplus.capacitance;
   if (!solved) zp_state_held(model, state)[0] = NAN;
 }
 

@@ -58,24 +58,25 @@ typedef struct ZpState {
   double U;     /* potential difference, V */
   bool by_hand; /* the user has set it: the waveform does not count any more */
   ZpZipState zip;
-  bool was_open;        /* has the opening been above 1 % of the hanging one? */
-  double zip_time;      /* s; NAN until zipped */
-  double opening0;      /* of the hanging equilibrium, m */
-  double base_charge;   /* per part, when the voltage last changed, C */
-  double base_energy;   /* per part: kinetic + stored without field at the start, J */
-  double base_field;    /* per part: field energy at the start, and what jumps of the voltage added, J */
-  double work;          /* per part: of the source until the voltage last changed, J */
-  double drag_loss;     /* per part, J */
-  double contact_loss;  /* per part, J */
-  double internal_loss; /* per part: of internal damping, J */
-  double last_step;     /* implicit: length of the last step, s; 0: there is none */
-  double next_step;     /* and of the next one to try */
-  double refreshed;     /* time of the last refresh of a held electric force, s; NAN: due now */
-  double held_U;        /* voltage at that refresh, V */
-  double held_energy;   /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
-  double held_charge;   /* and charge, C/V */
-  double data[];        /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
-                           mean velocity and acceleration of the last implicit step [4 stride] */
+  bool was_open;           /* has the opening been above 1 % of the hanging one? */
+  double zip_time;         /* s; NAN until zipped */
+  double opening0;         /* of the hanging equilibrium, m */
+  double base_charge;      /* per part, when the voltage last changed, C */
+  double base_energy;      /* per part: kinetic + stored without field at the start, J */
+  double base_field;       /* per part: field energy at the start, and what jumps of the voltage added, J */
+  double work;             /* per part: of the source until the voltage last changed, J */
+  double drag_loss;        /* per part, J */
+  double contact_loss;     /* per part, J */
+  double internal_loss;    /* per part: of internal damping, J */
+  double last_step;        /* implicit: length of the last step, s; 0: there is none */
+  double next_step;        /* and of the next one to try */
+  double refreshed;        /* time of the last refresh of a held electric force, s; NAN: due now */
+  double held_U;           /* voltage at that refresh, V */
+  double held_energy;      /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
+  double held_charge;      /* and charge, C/V */
+  double held_capacitance; /* and capacitance, F */
+  double data[];           /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
+                              mean velocity and acceleration of the last implicit step [4 stride] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */

@@ -300,6 +300,17 @@ static const char *word_of(const char *key, int choice) {
   return zp_key(zp_key_find(key))->choices[choice].word;
 }
 
+/* m: then the nanometre that the field's grid keeps closed faces apart counts 0.2 % of the force. */
+static const double thinnest = 1e-6;
+
+static ZpStatus refuse_thin(const ZpActuatorDef *def, ZpError *err) {
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "insulator.thickness = %g m: the field needs %g m at least, for its grid keeps closed faces a nanometre "
+      "apart",
+      def->insulator.thickness, thinnest);
+}
+
 /* What electro.model field asks of other keys. */
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
@@ -312,6 +323,7 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: with electro.model field faces that touch need an insulator between "
                    "the metals");
+  if (def->insulator.thickness < thinnest) return refuse_thin(def, err);
   if (def->study == ZP_STUDY_MODES && def->modes.voltage > 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
@@ -391,7 +403,6 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges = true: study profile compares forces in the plane of the ribbons, which know no "
                    "edges; the other studies have them");
-  static const double thinnest = 1e-6; /* m: then that nanometre counts 0.2 % of the force */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "actuator.kind = %s: study profile looks at the two ribbons of actuator.kind electro_ribbon",
@@ -401,12 +412,7 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
         err, ZP_BAD_INPUT,
         "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
         "the field has no bound there");
-  if (def->insulator.thickness < thinnest)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "insulator.thickness = %g m: study profile needs %g m at least, for the field's grid keeps closed faces a "
-        "nanometre apart",
-        def->insulator.thickness, thinnest);
+  if (def->insulator.thickness < thinnest) return refuse_thin(def, err);
   if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
     return def->profile.shape == ZP_PROFILE_HELD ? check_isometric(def, err) : ZP_OK;
   return zp_fail(

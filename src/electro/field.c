@@ -16,9 +16,6 @@
 
 enum { SURFACES = 8, LAYERS = 7, LOWER_METAL = 1, LOWER_INSULATOR = 2, GAP = 3, UPPER_INSULATOR = 4, UPPER_METAL = 5 };
 
-/* Closed faces stay this far apart, m: far below what changes a force, far above rounding. */
-static const double least_gap = 1e-9;
-
 /* The grid ends this far away, m. By then a dipole's field is 1e-8 of what it is a millimetre away. */
 static const double far_away = 10;
 
@@ -35,8 +32,7 @@ struct ZpFieldRow {
 };
 
 ZpFieldMesh zp_field_mesh(void) {
-  return (ZpFieldMesh){
-      .gap = 3, .insulator = 1, .strip = 1, .clip = 8, .platform = 3, .outside = 12, .first = 5e-5, .growth = 2.5};
+  return (ZpFieldMesh){.gap = 3, .insulator = 1, .strip = 1, .clip = 8, .platform = 3, .outside = 12, .first = 5e-5};
 }
 
 const char *zp_field_words(ZpFieldEnd end) {
@@ -198,7 +194,7 @@ ZpFieldEnd zp_field_check(const ZpFieldParams *p, const ZpFaces *faces) {
     size_t k = i * faces->step;
     double gap = faces->upper_y[k] - faces->lower_y[k];
     if (!(gap > -overlap)) return ZP_FIELD_CROSSING;
-    if (gap <= least_gap && p->t == 0) end = ZP_FIELD_BARE;
+    if (gap <= ZP_FIELD_LEAST_GAP && p->t == 0) end = ZP_FIELD_BARE;
     if (i == 0) continue;
     double upper = faces->upper_x[k] - faces->upper_x[k - faces->step],
            lower = faces->lower_x[k] - faces->lower_x[k - faces->step];
@@ -225,7 +221,7 @@ static Point face_at(const ZpFaces *faces, const ZpFieldColumn *c, size_t r) {
 /* The eight points in which a column crosses the surfaces. Faces that overlap are laid on each other. */
 static void cross(const ZpField *f, Point upper, Point lower, Point at[SURFACES]) {
   double t = f->params.t, outer = t + f->params.b;
-  double apart = fmax(upper.y - lower.y, least_gap), middle = 0.5 * (upper.y + lower.y);
+  double apart = fmax(upper.y - lower.y, ZP_FIELD_LEAST_GAP), middle = 0.5 * (upper.y + lower.y);
   double low = middle - 0.5 * apart, high = middle + 0.5 * apart;
   const double height[SURFACES] = {-far_away, low - outer, low - t, low, high, high + t, high + outer, far_away};
   for (size_t s = 0; s < SURFACES; s++)
@@ -300,7 +296,7 @@ static void find_forces(ZpField *f) {
 /* Without what the clip's closed part has by the plates law. */
 static void find_energy(ZpField *f) {
   const ZpFieldParams *p = &f->params;
-  double h = 2 * p->t * p->eps_m / p->eps_i + least_gap;
+  double h = 2 * p->t * p->eps_m / p->eps_i + ZP_FIELD_LEAST_GAP;
   f->energy = p->w * (zp_grid_energy(&f->grid) - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
 }
 

@@ -35,9 +35,10 @@ void zp_surplus_destroy(ZpSurplus *s) {
   s->memory = NULL;
 }
 
-/* The gap below which the cap holds the force, m; faces that overlap are laid on each other anyway. */
+/* The gap below which the cap holds the force, m; at least that of closed faces, so that both laws are taken at the
+ * same. */
 static double least_gap(const ZpSurplus *s) {
-  return fmax(s->U * s->h_per_volt - s->plates.d, 0);
+  return fmax(s->U * s->h_per_volt - s->plates.d, ZP_FIELD_LEAST_GAP);
 }
 
 /* Capped pairs are parted about their middle. The clip is none: it stays closed. */
@@ -61,7 +62,7 @@ static void hold_capped(ZpSurplus *s) {
     opening += Fy[2 * i] - mean;
     Fy[2 * i] = Fy[2 * i + 1] = mean;
   }
-  s->charge = 2 * s->energy + (least > 0 ? s->U * s->h_per_volt * opening : 0);
+  s->charge = 2 * s->energy + (least > ZP_FIELD_LEAST_GAP ? s->U * s->h_per_volt * opening : 0);
 }
 
 static void subtract_plates(ZpSurplus *s) {
@@ -71,7 +72,9 @@ static void subtract_plates(ZpSurplus *s) {
     s->F[k] = s->scale * s->field.Fx[k] - s->eval.Fx[k];
     s->F[stride + k] = s->scale * s->field.Fy[k] - s->eval.Fy[k];
   }
-  s->energy = s->scale * s->field.energy + zp_plates_totals(&s->plates, &s->eval, 1).potential;
+  ZpPlatesTotals plates = zp_plates_totals(&s->plates, &s->eval, 1);
+  s->energy = s->scale * s->field.energy + plates.potential;
+  s->capacitance = 2 * s->field.energy - ZP_EPS0 * s->field.params.eps_m * s->field.params.w * plates.inverse_gap;
 }
 
 ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage) {
@@ -83,7 +86,7 @@ ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage) {
   s->U = U;
   part_capped(s);
   const double *x = s->floored, *y = x + stride;
-  ZpFieldEnd end = zp_field_solve(&s->field, &(ZpFaces){x, y, x + 1, y + 1, 2});
+  ZpFieldEnd end = s->end = zp_field_solve(&s->field, &(ZpFaces){x, y, x + 1, y + 1, 2});
   s->solutions++;
   if (end == ZP_FIELD_SOLVED) {
     subtract_plates(s);

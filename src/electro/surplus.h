@@ -20,7 +20,9 @@ typedef struct ZpSurplus {
   double *F;         /* [2 stride] field less plates, force on each node in that order, N/V^2; 0 at first */
   double energy;     /* the same of the co-energies, J/V^2: F is its gradient */
   double charge;     /* the same of the charges, C/V */
-  int solutions;     /* how often the field was solved */
+  double capacitance; /* of the field less that of plates, without any scale, F */
+  ZpFieldEnd end;     /* how the last solution ended */
+  int solutions;      /* how often the field was solved */
   void *memory;
 } ZpSurplus;
 

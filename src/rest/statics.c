@@ -211,6 +211,11 @@ static ZpPlatesTotals totals(const ZpStatics *s) {
   return s->model->field ? zp_plates_totals(&s->model->plates, &s->eval.plates, s->U) : (ZpPlatesTotals){0, 0, 0, 0};
 }
 
+const char *zp_statics_trouble(const ZpStatics *s) {
+  bool failed = s->model->field_solved && s->eval.surplus.end != ZP_FIELD_SOLVED;
+  return failed ? zp_field_words(s->eval.surplus.end) : NULL;
+}
+
 double zp_statics_charge(const ZpStatics *s) {
   return s->model->parts * (totals(s).charge + s->eval.surplus.charge * s->U);
 }

@@ -71,6 +71,9 @@ double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
 size_t zp_statics_front(const ZpStatics *statics);
 
+/* Why the field could not be solved where it was tried last; NULL if it was, or is not asked for. */
+const char *zp_statics_trouble(const ZpStatics *statics);
+
 /* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */
 double zp_statics_charge(const ZpStatics *statics);
 double zp_statics_capacitance(const ZpStatics *statics);

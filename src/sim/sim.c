@@ -352,7 +352,10 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              sim->settle_residual, (long long)sim->settle_steps);
     break;
   case ZP_DIVERGED:
-    if (sim->stuck)
+    if (sim->eval.surplus.end != ZP_FIELD_SOLVED)
+      snprintf(text, size, "the field could not be solved before %g s: %s; what was recorded until then is kept", t,
+               zp_field_words(sim->eval.surplus.end));
+    else if (sim->stuck)
       snprintf(text, size, "no time step converges at %g s, however short; what was recorded until then is kept", t);
     else
       snprintf(text, size, "diverged before %g s; what was recorded until then is kept; try a smaller solver.time_step",

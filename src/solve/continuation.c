@@ -9,7 +9,7 @@
 
 static const double shortest_step = 1e-9;
 static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
-enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4 };
+enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
 void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
@@ -70,12 +70,14 @@ static bool refresh(const ZpStaticSystem *rest) {
   return !rest->refresh || rest->refresh(rest->self);
 }
 
-/* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, -1: failed. */
+/* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, the most between
+ * two refreshes; -1: failed. */
 static int correct(ZpBranch *b, double s, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
   bool fresh = refresh(rest);
+  int refreshes = 1, effort = 0;
   if (!fresh) return -1;
   for (int k = 0; k <= MOST_CORRECTIONS;) {
     double left = rest->residual(rest->self, b->newton.r);
@@ -85,9 +87,11 @@ static int correct(ZpBranch *b, double s, double m_start) {
       gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
     if (!isfinite(left)) return -1;
     if (left < b->tolerance && fabs(s - gone) < 1e-3 * s) {
-      if (fresh) return k;
-      fresh = refresh(rest);
+      effort = k > effort ? k : effort;
+      if (fresh) return effort;
+      fresh = refreshes++ < MOST_REFRESHES && refresh(rest);
       if (!fresh) return -1;
+      k = 0;
       continue;
     }
     rest->stiffness(rest->self, &b->newton.K);

@@ -166,10 +166,12 @@ static void follow_both(Follower *f, double *pull_in, double *release) {
 static void describe(Follower *f, double pull_in, double release) {
   ZpResult *r = f->result;
   size_t size = sizeof r->message;
+  const char *trouble = zp_statics_trouble(&f->statics);
   if (f->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, size, "no hanging equilibrium found");
   else if (f->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size, "lost the branch at %.4g V; what was found is kept", f->statics.U);
+    snprintf(r->message, size, "lost the branch at %.4g V%s%s; what was found is kept", f->statics.U,
+             trouble ? ": " : "", trouble ? trouble : "");
   else if (isnan(pull_in))
     snprintf(r->message, size, "no pull-in up to %g V", f->model->def.drive.voltage);
   else if (isnan(release))

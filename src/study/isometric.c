@@ -255,14 +255,15 @@ static void describe(Holder *h) {
   ZpResult *r = h->result;
   size_t size = sizeof r->message;
   double top = h->model->def.drive.voltage;
+  const char *trouble = zp_statics_trouble(&h->statics);
   if (h->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, size, "no equilibrium without voltage found at isometric.separation = %g m",
              h->model->def.isometric.separation);
   else if (h->outcome == ZP_INTERRUPTED)
     snprintf(r->message, size, "interrupted at %.4g V", h->statics.U);
   else if (h->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size, "lost the branch at %.4g V, below drive.voltage = %g V; what was found is kept",
-             h->statics.U, top);
+    snprintf(r->message, size, "lost the branch at %.4g V, drive.voltage = %g V%s%s; what was found is kept",
+             h->statics.U, top, trouble ? ": " : "", trouble ? trouble : "");
   else
     snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
 }

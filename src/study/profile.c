@@ -356,12 +356,6 @@ static bool make_map(const Profiler *p) {
 
 /* -- the study ------------------------------------------------------------------------------------- */
 
-/* Bad geometry is the input's fault: key, value and unit of what made it. */
-static ZpStatus refuse(const Profiler *p, ZpFieldEnd end, ZpError *err) {
-  return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: %s (ribbon.thickness = %g m)",
-                 p->model->def.isometric.separation, zp_field_words(end), p->params.b);
-}
-
 /* => how the field ended; once solved, profile and totals. */
 static ZpFieldEnd solve(Profiler *p) {
   ZpFieldEnd end = zp_field_check(&p->params, &p->faces);
@@ -387,6 +381,7 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   return p->model->def.profile.paper_factor ? keep_the_papers_books(p, err) : ZP_OK;
 }
 
+/* A shape that the mechanics found and the grid cannot follow is no wrong input. */
 static ZpStatus end_badly(const Profiler *p, ZpOutcome outcome, const char *why) {
   p->result->outcome = outcome;
   snprintf(p->result->message, sizeof p->result->message, "%s at isometric.separation = %g m", why,
@@ -404,8 +399,7 @@ static ZpStatus run(Profiler *p, ZpError *err) {
   find_laws(p);
   if (!found) return end_badly(p, ZP_NOT_SETTLED, "no equilibrium without voltage found");
   ZpFieldEnd end = solve(p);
-  if (end == ZP_FIELD_SINGULAR) return end_badly(p, ZP_DIVERGED, zp_field_words(end));
-  return end == ZP_FIELD_SOLVED ? report(p, err) : refuse(p, end, err);
+  return end == ZP_FIELD_SOLVED ? report(p, err) : end_badly(p, ZP_DIVERGED, zp_field_words(end));
 }
 
 /* As in study isometric, what hangs there does not count. The model is that of plates: the shape has no voltage, and
