@@ -510,10 +510,12 @@ int main(void) {
   tcase_add_test(grid, test_platform_without_electrode);
   tcase_add_test(grid, test_bad_geometry_has_a_reason);
   tcase_add_test(grid, test_surplus_makes_plates_the_field);
+  tcase_add_test(grid, test_what_does_not_go_with_field);
+#ifndef __SANITIZE_ADDRESS__ /* a minute each there; examples and test_dynamics run the same code */
   tcase_add_test(grid, test_studies_by_field_and_by_plates);
   tcase_add_test(grid, test_held_without_cap);
   tcase_add_test(grid, test_refresh_in_motion);
-  tcase_add_test(grid, test_what_does_not_go_with_field);
+#endif
   suite_add_tcase(suite, grid);
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_ENV);
