@@ -223,7 +223,7 @@ double zp_statics_charge(const ZpStatics *s) {
 double zp_statics_capacitance(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
   return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap +
-         2 * s->model->parts * s->eval.surplus.energy;
+         s->model->parts * s->eval.surplus.capacitance;
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
