@@ -151,7 +151,7 @@ static const double openings[] = {1e-3, 2e-3, 4e-3, 17e-3};
  * finite-element study (126 000 unknowns) has 1.0000, 1.0000, 1.0001, 1.0008, and 1.0001 to 1.004 where one ribbon
  * stays straight. */
 START_TEST(test_wedges_against_the_plates_law) {
-  static const double theirs[] = {1.0000, 1.0000, 1.0001, 1.0008};
+  static const double theirs[] = {1.0000, 1.0000, 1.0001, 1.0008}, apart[] = {1e-4, 1e-4, 1e-4, 4e-4};
   ZpFieldParams p = wedge_params();
   ZpField f;
   Wedge wedge;
@@ -169,8 +169,8 @@ START_TEST(test_wedges_against_the_plates_law) {
       if (straight)
         ck_assert(ratio > 1 && ratio < 1.004);
       else
-        ck_assert_double_eq_tol(ratio, theirs[k], 4e-4); /* measured: 2e-5, 1e-5, 6e-5, 3e-4 */
-      ck_near(work, 1, 2e-4);                            /* 1e-5 to 1.7e-4; asked for: 1e-3 */
+        ck_assert_double_eq_tol(ratio, theirs[k], apart[k]); /* measured: 2e-5, 1e-5, 6e-5, 3e-4 */
+      ck_near(work, 1, 2e-4);                                /* 1e-5 to 1.7e-4; asked for: 1e-3 */
       ck_near(totals.upper, totals.lower, straight ? 1e-4 : 1e-9);
     }
   zp_field_destroy(&f);
@@ -402,7 +402,7 @@ START_TEST(test_surplus_makes_plates_the_field) {
     beyond += eval.surplus.F[model->stride + 2 * i + 1];
   printf("beyond plates: %.1e of the force on the 2 mm wedge\n",
          beyond / plates_force(&model->cross_section, 2e-3, false));
-  ck_assert_double_lt(fabs(beyond), 2e-3 * plates_force(&model->cross_section, 2e-3, false));
+  ck_assert_double_lt(fabs(beyond), 1e-4 * plates_force(&model->cross_section, 2e-3, false));
   free(q);
   zp_eval_destroy(&eval);
   zp_model_destroy(model);
@@ -433,7 +433,7 @@ START_TEST(test_studies_by_field_and_by_plates) {
   for (int k = 0; k < 2; k++) {
     double a = zp_result_get(by_field, names[k]), b = zp_result_get(by_plates, names[k]);
     printf("%s: field %.1f, plates %.1f\n", names[k], a, b);
-    ck_near(a, b, 3e-3); /* 0.07 % */
+    ck_near(a, b, 2e-3); /* 0.14 % and less than 0.001 % */
     ck_assert_double_ne(a, b);
   }
   zp_result_destroy(by_field);
@@ -441,7 +441,7 @@ START_TEST(test_studies_by_field_and_by_plates) {
   field.study = plates.study = ZP_STUDY_ISOMETRIC;
   field.drive.voltage = plates.drive.voltage = 6e3;
   double held = value(field, "force_N");
-  ck_near(held, value(plates, "force_N"), 5e-3);
+  ck_near(held, value(plates, "force_N"), 1e-3);
   ck_assert_double_ne(held, value(plates, "force_N"));
 }
 END_TEST
@@ -455,7 +455,7 @@ START_TEST(test_held_without_cap) {
   plates.electro.model = ZP_ELECTRO_PLATES;
   double held = value(field, "force_N");
   printf("held at 2 mm, 5 kV, no cap: field %.6f N, plates %.6f N\n", held, value(plates, "force_N"));
-  ck_near(held, value(plates, "force_N"), 5e-3);
+  ck_near(held, value(plates, "force_N"), 1e-3);
   field.drive.voltage = 1;
   field.isometric.separation = 4e-3;
   double C = value(field, "capacitance_F");

@@ -4,9 +4,7 @@
 
 #include <string.h>
 
-enum { GAUSS = 3 };
-static const double gauss_at[GAUSS] = {0.11270166537925831, 0.5, 0.88729833462074169};
-static const double gauss_weight[GAUSS] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+#include "math/gauss.h"
 
 /* How deep faces are in each other's range: 0 beyond it, 1 at gap 0, more where they overlap. */
 static double depth(const ZpUnilateralParams *p, double gap) {

@@ -405,11 +405,9 @@ static void integrate(const ZpField *f, size_t from, size_t to, double *upper, d
 }
 
 ZpFieldTotals zp_field_totals(ZpField *f) {
-  ZpFieldTotals totals = {0, 0, 0, 0, 0, 0, 0};
+  ZpFieldTotals totals = {0, 0, 0, 0, 0, 0};
   integrate(f, f->first, f->last, &totals.upper, &totals.lower);
   integrate(f, f->last, f->grid.nx - 1, &totals.upper_platform, &totals.lower_platform);
-  for (size_t k = 0; k < f->profiles; k++)
-    totals.E = fmax(totals.E, f->profile[k].E);
   zp_grid_forces(&f->grid, f->first / 2, f->grid.columns);
   for (size_t i = f->first; i < f->grid.nx; i++) {
     totals.upper_work -= f->params.w * body_force(f, i, 0);

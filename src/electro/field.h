@@ -98,7 +98,6 @@ typedef struct ZpFieldTotals {
   double upper, lower;                   /* by traction, clip's edge to last station, N */
   double upper_platform, lower_platform; /* by traction, last station to mirror plane, N */
   double upper_work, lower_work;         /* clip's edge to mirror plane by virtual work, eq. (14.6), N */
-  double E;                              /* largest in the liquid on the facing surfaces, V/m */
 } ZpFieldTotals;
 
 /* (last solution and profile) => totals. Overwrites grid.Fx and grid.Fy. */

@@ -6,9 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GAUSS = 3 };
-static const double gauss_at[GAUSS] = {0.11270166537925831, 0.5, 0.88729833462074169};
-static const double gauss_weight[GAUSS] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+#include "math/gauss.h"
 
 void zp_plates_step_carve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpCarver *carver) {
   s->Fx = zp_carve(carver, p->stride);

@@ -77,63 +77,20 @@ double zp_statics_tolerance(const ZpStatics *s) {
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
-/* From straight under growing shares of the weight, for what is too far to reach at once. */
-static ZpNewtonInfo hang_step_by_step(ZpStatics *s, ZpNewtonWork *work) {
+/* From straight while *parameter grows to `whole`, by the share `step` at first, for what is too far to reach at once.
+ */
+static ZpNewtonInfo step_by_step(ZpStatics *s, double *parameter, double whole, double step, ZpNewtonWork *work) {
   static const double shortest = 1e-4;
   ZpStaticSystem system = zp_statics_system(s);
   size_t bytes = 2 * s->model->stride * sizeof *s->q;
-  double reached = 0, step = 0.01;
-  ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
-  int iterations = 0;
-  lay_straight(s);
-  memcpy(s->good, s->q, bytes);
-  while (reached < 1 && step > shortest) {
-    s->weight_share = fmin(reached + step, 1);
-    info = zp_newton(&system, zp_statics_tolerance(s), STEP_ITERATIONS, work);
-    iterations += info.iterations;
-    if (zp_newton_good(info.end)) {
-      reached = s->weight_share;
-      step *= 2;
-      memcpy(s->good, s->q, bytes);
-    } else {
-      memcpy(s->q, s->good, bytes);
-      memset(s->tension, 0, s->model->stride * sizeof *s->tension);
-      step *= 0.25;
-    }
-  }
-  s->weight_share = 1;
-  info.iterations = iterations;
-  if (reached < 1) info.end = ZP_NEWTON_SLOW;
-  return info;
-}
-
-ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
-  double tolerance = zp_statics_tolerance(s);
-  s->U = 0;
-  s->contact_acts = false;
-  ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
-  if (!zp_newton_good(info.end)) info = hang_step_by_step(s, work);
-  s->contact_acts = true;
-  if (!zp_newton_good(info.end) || !s->model->field) return info;
-  ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
-  contact.iterations += info.iterations;
-  return contact;
-}
-
-/* From straight through growing openings, for what is too far to reach at once. */
-static ZpNewtonInfo hold_step_by_step(ZpStatics *s, double opening, ZpNewtonWork *work) {
-  static const double shortest = 1e-4;
-  ZpStaticSystem system = zp_statics_system(s);
-  size_t bytes = 2 * s->model->stride * sizeof *s->q;
-  double reached = 0, step = 0.05;
+  double reached = 0;
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   int iterations = 0;
   lay_straight(s);
   memcpy(s->good, s->q, bytes);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
-    s->opening = share * opening;
+    *parameter = share * whole;
     info = zp_newton(&system, zp_statics_tolerance(s), STEP_ITERATIONS, work);
     iterations += info.iterations;
     if (zp_newton_good(info.end)) {
@@ -146,28 +103,42 @@ static ZpNewtonInfo hold_step_by_step(ZpStatics *s, double opening, ZpNewtonWork
       step *= 0.25;
     }
   }
-  s->opening = opening;
+  *parameter = whole;
   info.iterations = iterations;
   if (reached < 1) info.end = ZP_NEWTON_SLOW;
   return info;
 }
 
+/* The equilibrium found without contact, now with it, where there are faces. */
+static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
+  s->contact_acts = true;
+  if (!zp_newton_good(info.end) || !s->model->field) return info;
+  ZpStaticSystem system = zp_statics_system(s);
+  ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  contact.iterations += info.iterations;
+  return contact;
+}
+
+ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  s->U = 0;
+  s->contact_acts = false;
+  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (!zp_newton_good(info.end)) info = step_by_step(s, &s->weight_share, 1, 0.01, work);
+  return let_faces_push(s, info, work);
+}
+
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
-  double tolerance = zp_statics_tolerance(s);
   s->U = 0;
   s->load = 0;
   s->opening = opening;
   s->contact_acts = false;
   lay_straight(s);
-  ZpNewtonInfo info = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
+  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
-  if (folded || !zp_newton_good(info.end)) info = hold_step_by_step(s, opening, work);
-  s->contact_acts = true;
-  if (!zp_newton_good(info.end) || !s->model->field) return info;
-  ZpNewtonInfo contact = zp_newton(&system, tolerance, MOST_ITERATIONS, work);
-  contact.iterations += info.iterations;
-  return contact;
+  if (folded || !zp_newton_good(info.end)) info = step_by_step(s, &s->opening, opening, 0.05, work);
+  return let_faces_push(s, info, work);
 }
 
 bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
