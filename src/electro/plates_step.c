@@ -6,12 +6,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/kernel.h"
 #include "math/gauss.h"
 
 void zp_plates_step_carve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpCarver *carver) {
   s->Fx = zp_carve(carver, p->stride);
   s->Fy = zp_carve(carver, p->stride);
-  double **arrays[] = {&s->own, &s->next, &s->along0, &s->along1};
+  double **arrays[] = {&s->own, &s->next, &s->along0, &s->along1, &s->A, &s->B, &s->P, &s->own_A, &s->own_B};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_carve(carver, p->nodes);
 }
@@ -26,31 +27,14 @@ typedef struct Between {
 
 /* P = -K (2 / h* - h / h*^2). Where both ends are on one side of the cap the quotient has no difference in it:
  * K / (h0 h1) above, K / h_c^2 below. */
-static Between between(double K, double h_c, double h0, double h1) {
-  double b0 = 1 / fmax(h0, h_c), b1 = 1 / fmax(h1, h_c), P0 = -K * b0 * (2 - h0 * b0), P1 = -K * b1 * (2 - h1 * b1);
-  Between law = {.P = 0.5 * (P0 + P1), .W1 = K * b1 * b1};
-  bool open0 = h0 > h_c, open1 = h1 > h_c;
-  if (open0 == open1) {
-    law.W = K * b0 * b1;
-    law.slope = open1 ? -law.W * b1 : 0;
-  } else {
-    law.W = (P1 - P0) / (h1 - h0);
-    law.slope = (law.W1 - law.W) / (h1 - h0);
-  }
-  return law;
-}
-
-/* Force on both nodes of station i. */
-static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along, double closing) {
-  if (p->flat) {
-    s->Fx[i] += 2 * along;
-    s->Fy[i] += closing;
-    return;
-  }
-  s->Fx[2 * i] += along;
-  s->Fx[2 * i + 1] += along;
-  s->Fy[2 * i] -= closing;
-  s->Fy[2 * i + 1] += closing;
+static inline Between between(double K, double h_c, double h0, double h1) {
+  double c0 = h0 > h_c ? h0 : h_c, c1 = h1 > h_c ? h1 : h_c, b0 = 1 / c0, b1 = 1 / c1;
+  double P0 = -K * b0 * (2 - h0 * b0), P1 = -K * b1 * (2 - h1 * b1), W1 = K * b1 * b1;
+  bool open0 = h0 > h_c, open1 = h1 > h_c, across = open0 != open1;
+  double over = 1 / (across ? h1 - h0 : 1), W = K * b0 * b1, slope = open1 ? -W * b1 : 0;
+  W = across ? (P1 - P0) * over : W;
+  slope = across ? (W1 - W) * over : slope;
+  return (Between){W, slope, 0.5 * (P0 + P1), W1};
 }
 
 /* The same of the law with what the strips' lateral edges add, which has no such quotient in closed form. */
@@ -65,47 +49,96 @@ static Between between_with_edges(const ZpPlatesParams *p, double U, double g0, 
   return law;
 }
 
-/* What of the law holds for all elements of a step. */
-typedef struct Law {
-  const ZpPlatesParams *p;
-  double U, K, h_c;
-} Law;
+/* Parts of an element: sums over its Gauss points. */
+typedef struct Parts {
+  double A, B, P, own_A, own_B, next, along0, along1;
+} Parts;
 
-static Between law_between(const Law *law, double g0, double g1) {
-  const ZpPlatesParams *p = law->p;
-  return p->edges ? between_with_edges(p, law->U, g0, g1) : between(law->K, law->h_c, g0 + p->d, g1 + p->d);
+static inline void add_point(Parts *of, Between law, double dx, int q) {
+  double r = gauss_at[q], l = 1 - r, w = gauss_weight[q];
+  of->A += w * l * law.W * dx;
+  of->B += w * r * law.W * dx;
+  of->P += w * law.P;
+  of->own_A += w * dx * l * l * law.slope;
+  of->own_B += w * dx * r * r * law.slope;
+  of->next += w * dx * l * r * law.slope;
+  of->along0 += 0.5 * w * l * law.W1;
+  of->along1 += 0.5 * w * r * law.W1;
 }
 
-static void add_element(const Law *of, const ZpPlatesEval *e0, const ZpPlatesEval *e1, size_t i, ZpPlatesStep *s) {
-  double dx = 0.5 * (e0->dx[i] + e1->dx[i]), left = 0, right = 0, P = 0;
-  s->next[i] = s->along0[i] = s->along1[i] = 0;
-  for (int q = 0; q < GAUSS; q++) {
-    double r = gauss_at[q], l = 1 - r, w = gauss_weight[q];
-    Between law = law_between(of, l * e0->gap[i] + r * e0->gap[i + 1], l * e1->gap[i] + r * e1->gap[i + 1]);
-    left += w * l * law.W;
-    right += w * r * law.W;
-    P += w * law.P;
-    s->own[i] += w * dx * l * l * law.slope;
-    s->next[i] += w * dx * l * r * law.slope;
-    s->own[i + 1] += w * dx * r * r * law.slope;
-    s->along0[i] += 0.5 * w * l * law.W1;
-    s->along1[i] += 0.5 * w * r * law.W1;
+static inline void put(const ZpPlatesStep *s, size_t i, Parts of) {
+  s->A[i] = of.A;
+  s->B[i] = of.B;
+  s->P[i] = of.P;
+  s->own_A[i] = of.own_A;
+  s->own_B[i] = of.own_B;
+  s->next[i] = of.next;
+  s->along0[i] = of.along0;
+  s->along1[i] = of.along1;
+}
+
+ZP_KERNEL static void elements(size_t count, double K, double h_c, double d, const ZpPlatesEval *e0,
+                               const ZpPlatesEval *e1, const ZpPlatesStep *s) {
+  const double *restrict g0 = e0->gap, *restrict g1 = e1->gap, *restrict dx0 = e0->dx, *restrict dx1 = e1->dx;
+  ZpPlatesStep out = *s;
+  ZP_SIMD
+  for (size_t i = 0; i < count; i++) {
+    double dx = 0.5 * (dx0[i] + dx1[i]);
+    Parts parts = {0};
+    for (int q = 0; q < GAUSS; q++) {
+      double r = gauss_at[q], l = 1 - r, h0 = l * g0[i] + r * g0[i + 1] + d, h1 = l * g1[i] + r * g1[i + 1] + d;
+      add_point(&parts, between(K, h_c, h0, h1), dx, q);
+    }
+    put(&out, i, parts);
   }
-  act(of->p, s, i, 0.5 * P, left * dx);
-  act(of->p, s, i + 1, -0.5 * P, right * dx);
+}
+
+static void elements_with_edges(const ZpPlatesParams *p, double U, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
+                                const ZpPlatesStep *s) {
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
+    Parts parts = {0};
+    for (int q = 0; q < GAUSS; q++) {
+      double r = gauss_at[q], l = 1 - r;
+      double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
+      add_point(&parts, between_with_edges(p, U, g0, g1), dx, q);
+    }
+    put(s, i, parts);
+  }
+}
+
+/* Forces on both nodes of station i, or on the one below a flat electrode. */
+static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along, double closing) {
+  if (p->flat) {
+    s->Fx[i] = 2 * along;
+    s->Fy[i] = closing;
+    return;
+  }
+  s->Fx[2 * i] = s->Fx[2 * i + 1] = along;
+  s->Fy[2 * i] = -closing;
+  s->Fy[2 * i + 1] = closing;
+}
+
+static void stations(const ZpPlatesParams *p, ZpPlatesStep *s, Between platform) {
+  size_t last = p->nodes - 1;
+  act(p, s, 0, 0.5 * s->P[0], s->A[0]);
+  s->own[0] = s->own_A[0];
+  for (size_t i = 1; i < last; i++) {
+    act(p, s, i, 0.5 * (s->P[i] - s->P[i - 1]), s->A[i] + s->B[i - 1]);
+    s->own[i] = s->own_A[i] + s->own_B[i - 1];
+  }
+  act(p, s, last, -0.5 * s->P[last - 1], s->B[last - 1] + p->flat_length * platform.W);
+  s->own[last] = s->own_B[last - 1] + p->flat_length * platform.slope;
 }
 
 void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
                     ZpPlatesStep *s) {
-  Law law = {p, U, p->k * U * U, zp_plates_least_h(p, U)};
-  size_t last = p->nodes - 1;
-  memset(s->Fx, 0, p->stride * sizeof *s->Fx);
-  memset(s->Fy, 0, p->stride * sizeof *s->Fy);
-  memset(s->own, 0, p->nodes * sizeof *s->own);
-  for (size_t i = 0; i < last; i++)
-    add_element(&law, e0, e1, i, s);
-  if (!(p->flat_length > 0)) return;
-  Between platform = law_between(&law, e0->gap[last], e1->gap[last]);
-  act(p, s, last, 0, p->flat_length * platform.W);
-  s->own[last] += p->flat_length * platform.slope;
+  double K = p->k * U * U, h_c = zp_plates_least_h(p, U), g0 = e0->gap[p->nodes - 1], g1 = e1->gap[p->nodes - 1];
+  if (p->edges) {
+    elements_with_edges(p, U, e0, e1, s);
+    stations(p, s, between_with_edges(p, U, g0, g1));
+  } else {
+    elements(p->nodes - 1, K, h_c, p->d, e0, e1, s);
+    stations(p, s, between(K, h_c, g0 + p->d, g1 + p->d));
+  }
 }

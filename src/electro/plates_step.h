@@ -7,10 +7,11 @@
 
 /* Written by zp_plates_step; places of forces as in ZpPlatesEval. */
 typedef struct ZpPlatesStep {
-  double *Fx, *Fy;    /* [stride] N */
-  double *own, *next; /* [N], [N-1] derivative by the end's gaps: of a station's own force, with the next, N/m */
-  double *along0,
-      *along1; /* [N-1] by an element's x-length at the end and the gap of its left and right station, N/m */
+  double *Fx, *Fy;         /* [stride] N */
+  double *own, *next;      /* [N], [N-1] derivative by the end's gaps: of a station's force, with the next, N/m */
+  double *along0, *along1; /* [N-1] by an element's x-length and the gap of its left and right station, N/m */
+  double *A, *B, *P;       /* [N-1] parts of the force from the elements, as in ZpPlatesEval */
+  double *own_A, *own_B;   /* [N-1] and of the derivative */
 } ZpPlatesStep;
 
 void zp_plates_step_carve(const ZpPlatesParams *params, ZpPlatesStep *step, ZpCarver *carver);

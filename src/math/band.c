@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/kernel.h"
+
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver) {
   band->n = n;
   band->lower = lower;
@@ -114,40 +116,79 @@ int zp_band_negative_pivots(const ZpBand *band, double *work) {
   return negative;
 }
 
-bool zp_band_factor_symmetric(ZpBand *band) {
-  size_t n = band->n;
+/* -- symmetric: U' D U, row by row ----------------------------------------------------------------- */
+
+/* What row k, scaled to its pivot, takes off the `below` rows that it meets: `width` entries of each, as many as a row
+ * has. A copy of it with zeros behind makes all these loops equally long. */
+static inline void eliminate(double *restrict row_k, size_t width, size_t below, double inverse) {
+  double r[2 * (ZP_BAND_MOST + 1)];
+  for (size_t j = 0; j < width; j++) {
+    r[j] = row_k[j];
+    r[width + j] = 0;
+  }
+  for (size_t i = 1; i <= below; i++) {
+    double factor = r[i] * inverse, *restrict row_i = row_k + i * width;
+    ZP_SIMD
+    for (size_t j = 0; j < width; j++)
+      row_i[j] -= factor * r[i + j];
+    row_k[i] = factor;
+  }
+}
+
+static inline bool factor_rows(ZpBand *band, size_t width) {
+  size_t n = band->n, full = n > width ? n - width : 0; /* rows that meet all that a row can */
   for (size_t k = 0; k < n; k++) {
-    size_t last = least(k + band->upper, n - 1);
-    double *restrict row_k = zp_band_at(band, k, k);
-    if (row_k[0] == 0 || !isfinite(row_k[0])) return false;
-    double inverse = 1 / row_k[0];
-    for (size_t i = k + 1; i <= last; i++) {
-      double *restrict row_i = zp_band_at(band, i, i);
-      double factor = row_k[i - k] * inverse;
-      const double *restrict rest = row_k + (i - k);
-      for (size_t j = 0; j <= last - i; j++)
-        row_i[j] -= factor * rest[j];
-    }
-    for (size_t i = 1; i <= last - k; i++)
-      row_k[i] *= inverse;
+    double *row = band->a + k * width;
+    if (row[0] == 0 || !isfinite(row[0])) return false;
+    eliminate(row, width, k < full ? width - 1 : least(width - 1, n - 1 - k), 1 / row[0]);
   }
   return true;
 }
 
-void zp_band_solve_symmetric(const ZpBand *band, double *b) {
-  size_t n = band->n;
-  for (size_t k = 0; k < n; k++) {
-    const double *row = zp_band_at(band, k, k);
-    size_t last = least(k + band->upper, n - 1);
-    for (size_t i = k + 1; i <= last; i++)
-      b[i] -= row[i - k] * b[k];
-  }
-  for (size_t k = n; k-- > 0;) {
-    const double *row = zp_band_at(band, k, k);
-    size_t last = least(k + band->upper, n - 1);
-    double sum = b[k] / row[0];
-    for (size_t i = k + 1; i <= last; i++)
-      sum -= row[i - k] * b[i];
-    b[k] = sum;
-  }
+static inline void substitute_forward(const double *restrict row, size_t below, double *restrict b) {
+  double known = b[0];
+  ZP_SIMD
+  for (size_t i = 1; i <= below; i++)
+    b[i] -= row[i] * known;
+}
+
+/* In four sums, whatever the processor. */
+static inline void substitute_back(const double *restrict row, size_t below, double *restrict b) {
+  double sum[4] = {0};
+  for (size_t i = 1; i <= below; i++)
+    sum[i % 4] += row[i] * b[i];
+  b[0] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+static inline void solve_rows(const ZpBand *band, size_t width, double *restrict b) {
+  const double *a = band->a;
+  size_t n = band->n, full = n > width ? n - width : 0;
+  for (size_t k = 0; k < full; k++)
+    substitute_forward(a + k * width, width - 1, b + k);
+  for (size_t k = full; k < n; k++)
+    substitute_forward(a + k * width, least(width - 1, n - 1 - k), b + k);
+  for (size_t k = 0; k < n; k++)
+    b[k] /= a[k * width];
+  for (size_t k = n; k-- > full;)
+    substitute_back(a + k * width, least(width - 1, n - 1 - k), b + k);
+  for (size_t k = full; k-- > 0;)
+    substitute_back(a + k * width, width - 1, b + k);
+}
+
+/* The widths of one ribbon and of two are compiled on their own. */
+enum { ONE_RIBBON = 6, TWO_RIBBONS = 12 };
+
+ZP_KERNEL bool zp_band_factor_symmetric(ZpBand *band) {
+  if (band->stride == TWO_RIBBONS) return factor_rows(band, TWO_RIBBONS);
+  if (band->stride == ONE_RIBBON) return factor_rows(band, ONE_RIBBON);
+  return factor_rows(band, band->stride);
+}
+
+ZP_KERNEL void zp_band_solve_symmetric(const ZpBand *band, double *b) {
+  if (band->stride == TWO_RIBBONS)
+    solve_rows(band, TWO_RIBBONS, b);
+  else if (band->stride == ONE_RIBBON)
+    solve_rows(band, ONE_RIBBON, b);
+  else
+    solve_rows(band, band->stride, b);
 }

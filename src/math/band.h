@@ -36,8 +36,10 @@ bool zp_band_factor(ZpBand *band, bool *negative);
 /* Solve with the factors: b => x, in place. */
 void zp_band_solve(const ZpBand *band, double *b);
 
-/* A symmetric matrix of which only the upper triangle is kept (lower == 0): U' D U in place, without pivoting, so for
- * matrices that are definite or nearly so. False if a pivot is 0 or not finite. */
+enum { ZP_BAND_MOST = 15 };
+
+/* A symmetric matrix of which only the upper triangle is kept (lower == 0, upper <= ZP_BAND_MOST): U' D U in place,
+ * without pivoting, so for matrices that are definite or nearly so. False if a pivot is 0 or not finite. */
 bool zp_band_factor_symmetric(ZpBand *band);
 
 /* Solve with those factors: b => x, in place. */

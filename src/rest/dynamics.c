@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "rest/assemble.h"
-
 static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
   size_t stride = model->stride, all = 2 * model->count;
@@ -25,7 +23,6 @@ static size_t carve(ZpDynamics *d, void *block) {
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
   d->push = zp_carve(&carver, model->nodes);
   d->pressed = zp_carve(&carver, model->nodes);
-  d->equation = (int *)(void *)zp_carve(&carver, model->count);
   d->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   return carver.used;
 }
@@ -37,12 +34,12 @@ static size_t place(const ZpDynamics *d, size_t k) {
 
 static void gather(const ZpDynamics *d, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * d->model->count; k++)
-    if (d->equation[k] >= 0) equations[d->equation[k]] = nodes[place(d, k)];
+    if (d->assembly.equation[k] >= 0) equations[d->assembly.equation[k]] = nodes[place(d, k)];
 }
 
 static void scatter(const ZpDynamics *d, const double *equations, double *nodes) {
   for (size_t k = 0; k < 2 * d->model->count; k++)
-    if (d->equation[k] >= 0) nodes[place(d, k)] = equations[d->equation[k]];
+    if (d->assembly.equation[k] >= 0) nodes[place(d, k)] = equations[d->assembly.equation[k]];
 }
 
 /* -- the system ----------------------------------------------------------------------------------- */
@@ -131,7 +128,7 @@ static void force(void *self, const double *q1, double h, double *f) {
   add_drag(d);
   memset(f, 0, d->system.n * sizeof *f);
   for (size_t k = 0; k < 2 * model->count; k++)
-    if (d->equation[k] >= 0) f[d->equation[k]] += d->force[place(d, k)];
+    if (d->assembly.equation[k] >= 0) f[d->assembly.equation[k]] += d->force[place(d, k)];
 }
 
 /* Drag at its present speed: its change with direction is left out. */
@@ -139,8 +136,8 @@ static void add_drag_tangent(const ZpDynamics *d, ZpBand *A) {
   const ZpModel *model = d->model;
   size_t stride = model->stride;
   for (size_t k = 0; k < 2 * model->count; k++) {
-    if (d->equation[k] < 0) continue;
-    size_t j = k / 2, i = (size_t)d->equation[k];
+    if (d->assembly.equation[k] < 0) continue;
+    size_t j = k / 2, i = (size_t)d->assembly.equation[k];
     double x = d->end[j] - d->start[j], y = d->end[stride + j] - d->start[stride + j];
     *zp_band_at(A, i, i) += 2 * model->def.damping.drag * sqrt(x * x + y * y) / (d->h * d->h);
   }
@@ -151,13 +148,14 @@ static void tangent(void *self, ZpBand *A) {
   const ZpModel *model = d->model;
   zp_band_clear(A);
   zp_rod_step_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->D);
-  zp_assemble_edges(model, d->equation, (const double(*)[4])d->D, A);
+  zp_assemble(&d->assembly, ZP_EDGES, d->D[0], A);
   if (model->def.damping.drag > 0) add_drag_tangent(d, A);
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)
     d->plates.own[i] += d->pressed[i];
-  zp_assemble_stations(model, d->equation, d->plates.own, d->plates.next, A);
-  zp_assemble_along(model, d->equation, d->plates.along0, d->plates.along1, A);
+  const double *by_list[] = {d->plates.own, d->plates.next, d->plates.along0, d->plates.along1};
+  for (size_t k = 0; k < 4; k++)
+    zp_assemble(&d->assembly, ZP_OWN + k, by_list[k], A);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */
@@ -171,7 +169,7 @@ typedef struct Pair {
 
 static Pair pair_of(const ZpDynamics *d, size_t i) {
   size_t s = d->model->s, lower = s * i + s - 1;
-  Pair pair = {s == 2 ? d->equation[2 * lower - 1] : -1, d->equation[2 * lower + 1], 1, 0};
+  Pair pair = {s == 2 ? d->assembly.equation[2 * lower - 1] : -1, d->assembly.equation[2 * lower + 1], 1, 0};
   if (pair.lower < 0) return pair;
   pair.reduced = d->mass[pair.lower];
   if (pair.upper < 0) return pair;
@@ -232,8 +230,9 @@ static ZpStopParams stop_of(const ZpModel *model) {
 bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   memset(d, 0, sizeof *d);
   d->model = model;
-  d->system = (ZpImplicitSystem){.n = 2 * model->count,
-                                 .bandwidth = zp_assemble_bandwidth(model),
+  if (!zp_assembly_create(model, true, &d->assembly)) return false;
+  d->system = (ZpImplicitSystem){.n = d->assembly.n,
+                                 .bandwidth = d->assembly.bandwidth,
                                  .self = d,
                                  .begin = begin,
                                  .force = force,
@@ -243,10 +242,9 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   d->memory = zp_calloc(1, carve(d, NULL));
   if (!d->memory) return false;
   carve(d, d->memory);
-  d->system.n = d->stepper.A.n = zp_assemble_number(model, d->equation);
   d->system.mass = d->mass;
   for (size_t k = 0; k < 2 * model->count; k++)
-    if (d->equation[k] >= 0) d->mass[d->equation[k]] += model->mass[k / 2];
+    if (d->assembly.equation[k] >= 0) d->mass[d->assembly.equation[k]] += model->mass[k / 2];
   d->stop = stop_of(model);
   const ZpActuatorDef *def = &model->def;
   d->stepper.accuracy = 0.2 * def->solver.tolerance * model->L;
@@ -255,6 +253,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
 }
 
 void zp_dynamics_destroy(ZpDynamics *d) {
+  zp_assembly_destroy(&d->assembly);
   zp_free(d->memory);
   d->memory = NULL;
 }
@@ -281,7 +280,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
   state->last_step = d->history.last;
   state->next_step = d->history.next;
   state->drag_loss += d->drag_loss;
-  state->internal_loss += d->rod.loss;
+  state->internal_loss += zp_rod_step_loss(&model->rod, &d->rod0, &d->rod1, internal_damping(d));
   if (model->field) state->contact_loss += d->impact_loss;
   return taken;
 }

@@ -6,6 +6,7 @@
 #include "actuator/model.h"
 #include "contact/stop.h"
 #include "electro/plates_step.h"
+#include "rest/assemble.h"
 #include "ribbon/rod_step.h"
 #include "solve/implicit.h"
 
@@ -19,7 +20,7 @@ typedef struct ZpDynamics {
   ZpPlatesEval plates0, plates1;
   ZpPlatesStep plates;
   ZpImplicitHistory history;
-  int *equation;                 /* [2 count] */
+  ZpAssembly assembly;
   double *mass, *q, *v;          /* [n] by equations */
   double *start, *end;           /* [2 stride] coordinates of nodes */
   double *force;                 /* [2 stride] N */

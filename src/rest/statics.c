@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/kernel.h"
-#include "rest/assemble.h"
 
 /* Range of contact: far below a micrometre, far above rounding. Under the attraction of closed faces at
  * drive.voltage the gap is 0. */
@@ -22,7 +21,6 @@ static size_t carve(ZpStatics *s, void *block) {
   s->tension = zp_carve(&carver, stride);
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
-  s->equation = (int *)(void *)zp_carve(&carver, model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
@@ -44,13 +42,11 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   memset(s, 0, sizeof *s);
   s->model = model;
   s->memory = zp_calloc(1, carve(s, NULL));
-  if (!s->memory || !zp_eval_create(model, &s->eval)) {
+  if (!s->memory || !zp_eval_create(model, &s->eval) || !zp_assembly_create(model, false, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }
   carve(s, s->memory);
-  s->n = zp_assemble_number(model, s->equation);
-  s->bandwidth = zp_assemble_bandwidth(model);
   double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
   double weight = model->total_weight / model->L;
   s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight), contact_range,
@@ -65,6 +61,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
 
 void zp_statics_destroy(ZpStatics *s) {
   zp_eval_destroy(&s->eval);
+  zp_assembly_destroy(&s->assembly);
   zp_free(s->memory);
   s->memory = NULL;
 }
@@ -217,7 +214,7 @@ static bool is_held(const ZpStatics *s) {
 }
 
 static size_t platform_row(const ZpStatics *s) {
-  return (size_t)s->equation[2 * (s->model->count - 1) + 1];
+  return (size_t)s->assembly.equation[2 * (s->model->count - 1) + 1];
 }
 
 /* The equation is a force for the tolerance's sake: a stiffness times the way that is left. */
@@ -235,7 +232,7 @@ static void hold_platform(ZpStatics *s, double *r) {
 
 static void hold_row(const ZpStatics *s, ZpBand *K) {
   size_t row = platform_row(s), first = row > K->lower ? row - K->lower : 0;
-  for (size_t j = first; j < s->n && j <= row + K->upper; j++)
+  for (size_t j = first; j < s->assembly.n && j <= row + K->upper; j++)
     *zp_band_at(K, row, j) = 0;
   *zp_band_at(K, row, row) = holding(s);
 }
@@ -243,7 +240,7 @@ static void hold_row(const ZpStatics *s, ZpBand *K) {
 /* Symmetric again, with the same eigenvalues: how the forces on the others go with what does not move. */
 static void hold_column(const ZpStatics *s, ZpBand *K) {
   size_t row = platform_row(s), first = row > K->upper ? row - K->upper : 0;
-  for (size_t i = first; i < s->n && i <= row + K->lower; i++)
+  for (size_t i = first; i < s->assembly.n && i <= row + K->lower; i++)
     if (i != row) *zp_band_at(K, i, row) = 0;
 }
 
@@ -266,14 +263,14 @@ static double residual(void *self, double *r) {
       if (model->s == 2) s->force[stride + lower - 1] += s->push[i];
     }
   }
-  memset(r, 0, s->n * sizeof *r);
+  memset(r, 0, s->assembly.n * sizeof *r);
   for (size_t k = 0; k < 2 * model->count; k++) {
-    int row = s->equation[k];
+    int row = s->assembly.equation[k];
     if (row >= 0) r[row] += s->force[k / 2 + (k % 2) * stride];
   }
   if (is_held(s)) hold_platform(s, r);
   double largest = 0;
-  for (size_t i = 0; i < s->n; i++)
+  for (size_t i = 0; i < s->assembly.n; i++)
     if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
   return largest / s->scale;
 }
@@ -282,19 +279,21 @@ static double residual(void *self, double *r) {
 
 static void add_mechanics(ZpStatics *s, ZpBand *K) {
   zp_eval_stiffness(s->model, &s->eval, s->tension, s->D);
-  zp_assemble_edges(s->model, s->equation, (const double(*)[4])s->D, K);
+  zp_assemble(&s->assembly, ZP_EDGES, s->D[0], K);
 }
 
 static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
   if (s->contact_acts) {
     zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, s->own, s->next);
-    zp_assemble_stations(model, s->equation, s->own, s->next, K);
+    zp_assemble(&s->assembly, ZP_OWN, s->own, K);
+    zp_assemble(&s->assembly, ZP_NEXT, s->next, K);
   }
   if (s->U == 0) return;
   zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, s->own, s->next, s->along0, s->along1);
-  zp_assemble_stations(model, s->equation, s->own, s->next, K);
-  zp_assemble_along(model, s->equation, s->along0, s->along1, K);
+  const double *by_list[] = {s->own, s->next, s->along0, s->along1};
+  for (size_t k = 0; k < 4; k++)
+    zp_assemble(&s->assembly, ZP_OWN + k, by_list[k], K);
 }
 
 static void stiffness(void *self, ZpBand *K) {
@@ -308,7 +307,7 @@ static void stiffness(void *self, ZpBand *K) {
 /* -- moving --------------------------------------------------------------------------------------- */
 
 static double part(const ZpStatics *s, const double *step, size_t k) {
-  return s->equation[k] >= 0 ? step[s->equation[k]] : 0;
+  return s->assembly.equation[k] >= 0 ? step[s->assembly.equation[k]] : 0;
 }
 
 /* Rotation and stretch of edge j under a step. */
@@ -362,7 +361,7 @@ static void lay_one(ZpStatics *s) {
     const double *d = s->moved + c * stride;
     for (size_t j = 0; j < end; j++)
       q[j + 1] = q[j] + d[j];
-    if (s->equation[2 * end + c] >= 0) continue;
+    if (s->assembly.equation[2 * end + c] >= 0) continue;
     double missed = q[end] - last;
     for (size_t j = 1; j <= end; j++)
       q[j] -= missed * (double)j / (double)end;
@@ -405,7 +404,7 @@ static bool refresh(void *self) {
 }
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
-  return (ZpStaticSystem){s->n, s, residual, stiffness, length, move, s->model->field_solved ? refresh : NULL};
+  return (ZpStaticSystem){s->assembly.n, s, residual, stiffness, length, move, s->model->field_solved ? refresh : NULL};
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */
@@ -435,7 +434,7 @@ static void difference(ZpStatics *s, double *parameter, double h, double *r_m) {
   residual(s, s->r_down);
   *parameter = m;
   residual(s, r_m);
-  for (size_t i = 0; i < s->n; i++)
+  for (size_t i = 0; i < s->assembly.n; i++)
     r_m[i] = (s->r_up[i] - s->r_down[i]) / (2 * h);
 }
 
@@ -452,7 +451,7 @@ static void by_load(void *self, double *r_m) {
 static void position(void *self, double *q) {
   const ZpStatics *s = self;
   for (size_t k = 0; k < 2 * s->model->count; k++)
-    if (s->equation[k] >= 0) q[s->equation[k]] = s->q[k / 2 + (k % 2) * s->model->stride];
+    if (s->assembly.equation[k] >= 0) q[s->assembly.equation[k]] = s->q[k / 2 + (k % 2) * s->model->stride];
 }
 
 /* q, tensions, voltage, load. */
@@ -487,7 +486,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .save = save,
                           .restore = restore,
                           .save_size = (3 * model->stride + 2) * sizeof(double),
-                          .q_scale = 0.01 * model->L * sqrt((double)s->n),
+                          .q_scale = 0.01 * model->L * sqrt((double)s->assembly.n),
                           .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(model->def.load.mass, 1e-3)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "actuator/eval.h"
 #include "contact/unilateral.h"
+#include "rest/assemble.h"
 #include "solve/continuation.h"
 
 #include <zipact/table.h>
@@ -20,8 +21,7 @@ typedef struct ZpStatics {
   double opening;      /* at which the lower platform is held, m; NAN: it hangs free */
   double reaction;     /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts;   /* faces push on each other; without, they may pass (to find a start) */
-  int *equation;       /* [2 count] of x and y of node j at 2 j, 2 j + 1; -1 where held */
-  size_t n, bandwidth;
+  ZpAssembly assembly;
   double scale;                                /* force that a residual is relative to, N */
   double (*D)[4];                              /* [3 edges] mechanics' stiffness */
   double *push, *own, *next, *along0, *along1; /* [N] contact and field, by stations */

@@ -7,7 +7,8 @@
 #include "ribbon/rod_step.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "base/kernel.h"
 
 static size_t edge_count(const ZpRodParams *p) {
   return p->ribbons * (p->nodes - 1);
@@ -25,53 +26,105 @@ void zp_rod_step_carve(const ZpRodParams *p, ZpRodStep *s, ZpCarver *carver) {
   }
 }
 
-/* sin(x) / x and x / sin(x)-like quotients near 0. */
-static double sine_over(double x) {
-  return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+/* atan(y) / y for y^2 up to 0.17, to rounding below 0.04: twelve terms of its series. */
+static inline double atan_over(double y2) {
+  double sum = 1.0 / 25;
+  for (int k = 23; k >= 1; k -= 2)
+    sum = 1.0 / k - y2 * sum;
+  return sum;
 }
 
-static void step_edges(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping, ZpRodStep *s) {
-  for (size_t j = 0; j < edge_count(p); j++) {
-    double sx = e0->dpx[j] + e1->dpx[j], sy = e0->dpy[j] + e1->dpy[j];
-    double L0 = e0->dpx[j] * e0->ux[j] + e0->dpy[j] * e0->uy[j], L1 = e1->dpx[j] * e1->ux[j] + e1->dpy[j] * e1->uy[j];
-    double over = 1 / (L0 + L1), change = L1 - L0;
-    double sine = e0->ux[j] * e1->uy[j] - e0->uy[j] * e1->ux[j], cosine = e0->ux[j] * e1->ux[j] + e0->uy[j] * e1->uy[j];
-    double turn = atan2(sine, cosine);
-    double per_area = 0.5 * e0->inverse[j] * e1->inverse[j] * (fabs(sine) > 1e-8 ? turn / sine : 1 / cosine);
-    s->tx[j] = sx * over;
-    s->ty[j] = sy * over;
-    s->turn[j] = turn;
-    s->gx[j] = -per_area * sy;
-    s->gy[j] = per_area * sx;
-    s->T[j] = 0.5 * (e0->T[j] + e1->T[j]) + damping * p->S[j] * change;
-    s->loss += damping * p->S[j] * change * change;
+/* sin(x) / x for |x| up to pi / 2 to rounding, to 1e-11 up to pi. */
+static inline double sine_over(double x) {
+  double x2 = x * x, sum = 1;
+  for (int k = 22; k >= 2; k -= 2)
+    sum = 1 - x2 / (k * (k + 1)) * sum;
+  return sum;
+}
+
+/* An angle over its sine, from both: y is the tangent of an eighth of it. */
+static inline double angle_over_sine(double sine, double cosine) {
+  double t = sine / (1 + cosine), half = 1 + sqrt(1 + t * t), z = t / half, quarter = 1 + sqrt(1 + z * z);
+  double y = z / quarter;
+  return 8 * atan_over(y * y) / (quarter * half * (1 + cosine));
+}
+
+ZP_KERNEL static void step_edges(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
+                                 double damping, const ZpRodStep *s) {
+  const double *restrict x0 = e0->dpx, *restrict y0 = e0->dpy, *restrict x1 = e1->dpx, *restrict y1 = e1->dpy;
+  const double *restrict ux0 = e0->ux, *restrict uy0 = e0->uy, *restrict ux1 = e1->ux, *restrict uy1 = e1->uy;
+  const double *restrict over0 = e0->inverse, *restrict over1 = e1->inverse, *restrict S = p->S, *restrict T0 = e0->T,
+                         *restrict T1 = e1->T;
+  double *restrict tx = s->tx, *restrict ty = s->ty, *restrict turn = s->turn, *restrict gx = s->gx,
+                   *restrict gy = s->gy, *restrict T = s->T;
+  ZP_SIMD
+  for (size_t j = 0; j < padded; j++) {
+    double sx = x0[j] + x1[j], sy = y0[j] + y1[j];
+    double L0 = x0[j] * ux0[j] + y0[j] * uy0[j], L1 = x1[j] * ux1[j] + y1[j] * uy1[j], over = 1 / (L0 + L1);
+    double sine = ux0[j] * uy1[j] - uy0[j] * ux1[j], cosine = ux0[j] * ux1[j] + uy0[j] * uy1[j];
+    double ratio = angle_over_sine(sine, cosine), per_area = 0.5 * over0[j] * over1[j] * ratio;
+    tx[j] = sx * over;
+    ty[j] = sy * over;
+    turn[j] = ratio * sine;
+    gx[j] = -per_area * sy;
+    gy[j] = per_area * sx;
+    T[j] = 0.5 * (T0[j] + T1[j]) + damping * S[j] * (L1 - L0);
   }
+}
+
+/* What lies beyond the last edges, where the kernel over whole lanes has written: held slopes never turn. */
+static void hold_right_ends(const ZpRodParams *p, const ZpRodStep *s) {
   for (size_t j = edge_count(p); j < edge_count(p) + p->ribbons; j++)
     s->turn[j] = s->gx[j] = s->gy[j] = 0;
 }
 
-static void step_joints(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping, ZpRodStep *s) {
-  const double *turn_before = s->turn - p->ribbons;
-  for (size_t j = 0; j < edge_count(p) + p->ribbons; j++) {
-    double k0 = e0->k[j], k1 = e1->k[j], change = k1 - k0, B = p->B[j];
-    double slope = sine_over(0.5 * (s->turn[j] - turn_before[j])) * sqrt((1 + 0.25 * k0 * k0) * (1 + 0.25 * k1 * k1));
-    double moment = B * (0.5 * (k0 + k1) - p->k0[j] + damping * change);
-    s->M[j] = moment * slope;
+ZP_KERNEL static void step_joints(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
+                                  double damping, const ZpRodStep *s) {
+  const double *restrict turn = s->turn, *restrict before = turn - p->ribbons, *restrict k0 = e0->k,
+                         *restrict k1 = e1->k, *restrict B = p->B, *restrict natural = p->k0;
+  double *restrict M = s->M, *restrict stiffness = s->stiffness;
+  ZP_SIMD
+  for (size_t j = 0; j < padded; j++) {
+    double slope =
+        sine_over(0.5 * (turn[j] - before[j])) * sqrt((1 + 0.25 * k0[j] * k0[j]) * (1 + 0.25 * k1[j] * k1[j]));
+    double moment = B[j] * (0.5 * (k0[j] + k1[j]) - natural[j] + damping * (k1[j] - k0[j]));
+    M[j] = moment * slope;
     /* the slope itself changes by k1 / 4 of it; what it changes with the turn vanishes with the step */
-    s->stiffness[j] = (B * (0.5 + damping) * slope + moment * 0.25 * k1) * slope;
-    s->loss += damping * B * change * change;
+    stiffness[j] = (B[j] * (0.5 + damping) * slope + moment * 0.25 * k1[j]) * slope;
+  }
+}
+
+ZP_KERNEL static void edge_forces(const ZpRodParams *p, size_t edges, const ZpRodStep *s) {
+  const double *restrict M = s->M, *restrict next = M + p->ribbons, *restrict T = s->T, *restrict gx = s->gx,
+                         *restrict gy = s->gy, *restrict tx = s->tx, *restrict ty = s->ty;
+  double *restrict Rx = s->Rx, *restrict Ry = s->Ry;
+  ZP_SIMD
+  for (size_t j = 0; j < edges; j++) {
+    double m = M[j] - next[j];
+    Rx[j] = -m * gx[j] - T[j] * tx[j];
+    Ry[j] = -m * gy[j] - T[j] * ty[j];
   }
 }
 
 void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping, ZpRodStep *s) {
-  s->loss = 0;
-  step_edges(p, e0, e1, damping, s);
-  step_joints(p, e0, e1, damping, s);
+  size_t edges = edge_count(p);
+  step_edges(p, zp_round_up(edges), e0, e1, damping, s);
+  hold_right_ends(p, s);
+  step_joints(p, zp_round_up(edges + p->ribbons), e0, e1, damping, s);
+  edge_forces(p, edges, s);
+}
+
+double zp_rod_step_loss(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping) {
+  double sum = 0;
   for (size_t j = 0; j < edge_count(p); j++) {
-    double M = s->M[j] - s->M[j + p->ribbons];
-    s->Rx[j] = -M * s->gx[j] - s->T[j] * s->tx[j];
-    s->Ry[j] = -M * s->gy[j] - s->T[j] * s->ty[j];
+    double stretched = (e1->T[j] - e0->T[j]);
+    sum += stretched * stretched / p->S[j];
   }
+  for (size_t j = 0; j < edge_count(p) + p->ribbons; j++) {
+    double bent = e1->k[j] - e0->k[j];
+    sum += p->B[j] * bent * bent;
+  }
+  return damping * sum;
 }
 
 /* The edge with itself: stretching, bending of both joints, tension, and what moments do as the edge turns. */

@@ -14,7 +14,6 @@ typedef struct ZpRodStep {
   double *M;         /* joints: moment over the step, N m */
   double *stiffness; /* joints: dM/dphi, N m */
   double *Rx, *Ry;   /* edges: force on the right node, N, as in ZpRodEval */
-  double loss;       /* of internal damping over the step, J */
 } ZpRodStep;
 
 void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);
@@ -22,6 +21,9 @@ void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *car
 /* (evals at both ends of the step, internal damping time over the step's length) => all of `step`. */
 void zp_rod_step(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
                  ZpRodStep *step);
+
+/* What internal damping takes over the step, J. */
+double zp_rod_step_loss(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping);
 
 /* Derivative by the end's edges at the last zp_rod_step, in the form of zp_rod_stiffness, symmetric: what makes the
  * exact one unsymmetric, a quarter of the step's rotation times the stretching stiffness, is left out. */

@@ -51,7 +51,7 @@ static bool allocate(Follower *f) {
       carver = (ZpCarver){f->memory, 0};
       if (!f->memory) return false;
     }
-    zp_branch_carve(&f->branch, &f->system, f->statics.bandwidth, &carver);
+    zp_branch_carve(&f->branch, &f->system, f->statics.assembly.bandwidth, &carver);
     f->line_force = zp_carve(&carver, f->model->nodes);
   }
   return true;

@@ -40,7 +40,7 @@ typedef struct Problem {
 
 static bool allocate(Problem *p, const ZpModel *model) {
   if (!zp_statics_create(model, &p->statics)) return false;
-  p->n = p->statics.n;
+  p->n = p->statics.assembly.n;
   p->m = p->n < SUBSPACE ? p->n : SUBSPACE;
   ZpCarver carver = {NULL, 0};
   for (int pass = 0; pass < 2; pass++) {
@@ -49,7 +49,7 @@ static bool allocate(Problem *p, const ZpModel *model) {
       carver = (ZpCarver){p->memory, 0};
       if (!p->memory) return false;
     }
-    zp_newton_carve(&p->newton, p->n, p->statics.bandwidth, &carver);
+    zp_newton_carve(&p->newton, p->n, p->statics.assembly.bandwidth, &carver);
     p->mass = zp_carve(&carver, p->n);
     p->u = zp_carve(&carver, p->m * p->n);
     p->next = zp_carve(&carver, p->m * p->n);
@@ -64,7 +64,7 @@ static bool allocate(Problem *p, const ZpModel *model) {
 static void prepare(Problem *p) {
   const ZpModel *model = p->statics.model;
   for (size_t k = 0; k < 2 * model->count; k++)
-    if (p->statics.equation[k] >= 0) p->mass[p->statics.equation[k]] += model->mass[k / 2];
+    if (p->statics.assembly.equation[k] >= 0) p->mass[p->statics.assembly.equation[k]] += model->mass[k / 2];
   for (size_t j = 0; j < p->m; j++)
     for (size_t i = 0; i < p->n; i++)
       p->u[j * p->n + i] = sin(0.7 * (double)((i + 1) * (j + 1))) + (i % p->m == j);
@@ -141,7 +141,7 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
   double *q = p->statics.q;
   for (size_t k = 0; k < 2 * model->count; k++) {
     size_t place = k / 2 + (k % 2) * model->stride;
-    int row = p->statics.equation[k];
+    int row = p->statics.assembly.equation[k];
     q[place] = p->q[place] + (row >= 0 ? amplitude * p->u[j * p->n + (size_t)row] : 0);
   }
   if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->statics.eval.plates);
