@@ -114,7 +114,8 @@ static ZpOutcome run_and_check(const ZpActuatorDef *def, const char *what) {
   if (def->mesh.nodes > 200 && def->solver.max_steps > 20000) bounded.solver.max_steps = 20000; /* 0.3 s */
   const ZpDriveTable table = {3, (const double[]){0, 5e-5, 5e-5}, (const double[]){-1e6, 1e6, 0}};
   bool by_table = def->drive.waveform == ZP_WAVEFORM_TABLE;
-  ZpStatus status = zp_study_run_driven(&bounded, by_table ? &table : NULL, NULL, &result, &err);
+  ZpStatus status =
+      zp_study_run_with(&bounded, &(ZpStudyInput){.table = by_table ? &table : NULL}, NULL, &result, &err);
   double seconds = cpu_seconds() - start;
   ck_assert_msg(status == ZP_OK, "%s: %s", what, err.message);
   ck_assert_msg(seconds < most_seconds, "%s: took %g s", what, seconds);
