@@ -48,9 +48,18 @@ static void lay_straight(const ZpModel *model, double *q) {
   }
 }
 
-/* A longer run passes through the present state, too. */
+/* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
+static bool diverged(const ZpModel *model, const ZpState *state) {
+  static const double speed_of_sound = 1e4; /* m/s, rounded up */
+  const double *q = state->data, *v = q + 2 * model->stride;
+  for (size_t j = 0; j < 2 * model->stride; j++)
+    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(q[j])) return true;
+  return false;
+}
+
+/* A longer run passes through the present state, too, unless the end of this one has cut a step. */
 static void keep(ZpSim *sim) {
-  memcpy(sim->kept, sim->state, zp_state_size(sim->model));
+  if (!sim->cut && !diverged(sim->model, sim->state)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
 }
 
 /* Energies count from here on. */
@@ -289,15 +298,6 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
 
 /* -- a run ---------------------------------------------------------------------------------------- */
 
-/* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
-static bool diverged(const ZpModel *model, const ZpState *state) {
-  static const double speed_of_sound = 1e4; /* m/s, rounded up */
-  const double *q = state->data, *v = q + 2 * model->stride;
-  for (size_t j = 0; j < 2 * model->stride; j++)
-    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(q[j])) return true;
-  return false;
-}
-
 /* Fine enough for a fast zip and for a wave; the records thin themselves where a run is long. */
 static double sampling_interval(const ZpModel *model) {
   static const double finest = 1e-4; /* s */
@@ -312,12 +312,15 @@ static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
   info->smallest_bound[2] = fmin(info->smallest_bound[2], bounds.shear);
 }
 
-/* May the end of the run cut the next step? A longer run would then not pass through the step's end. */
-static bool may_be_cut(const ZpSim *sim, double end_time) {
-  double longest = sim->model->stable_step;
-  if (sim->model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT)
-    longest = fmax(sim->dynamics.stepper.fixed, sim->state->next_step > 0 ? sim->state->next_step : INFINITY);
-  return end_time - sim->state->t <= 2 * longest;
+/* Before a step that the end of the run may cut: from there on a longer run would take others. */
+static void keep_before_cut(ZpSim *sim, double end_time) {
+  static const double rounding = 1e-5;
+  const ZpModel *model = sim->model;
+  double fixed = sim->dynamics.stepper.fixed, longest = fixed > 0 ? fixed : sim->state->next_step;
+  if (model->def.solver.integrator == ZP_INTEGRATOR_EXPLICIT) longest = model->stable_step;
+  if (sim->cut || end_time - sim->state->t > (1 + rounding) * longest) return;
+  keep(sim);
+  sim->cut = true;
 }
 
 static bool nothing_recorded(const ZpSim *sim) {
@@ -337,13 +340,13 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
-    if (may_be_cut(sim, end_time) && !diverged(model, state)) keep(sim);
+    keep_before_cut(sim, end_time);
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
     bool sample = recording && state->t >= next_sample;
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
       if (diverged(model, state)) return ZP_DIVERGED;
-      if (state->t < end_time) keep(sim);
+      keep(sim);
       if (asked_to_stop(hooks, (state->t - start) / (end_time - start))) return ZP_INTERRUPTED;
     }
     if (sample) {
@@ -402,9 +405,10 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   ZpImplicitCounts before = sim->dynamics.stepper.counts;
   double start_time = sim->state->t, start_clock = clock ? hooks->clock(hooks->user) : NAN;
   info.outcome = sim->settled;
+  sim->cut = false;
   if (info.outcome == ZP_REACHED_END) {
     info.outcome = advance(sim, end_time, stop_when_zipped, hooks, &info);
-    if (info.outcome != ZP_DIVERGED && sim->state->t < end_time) keep(sim);
+    if (info.outcome != ZP_DIVERGED) keep(sim);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
@@ -426,6 +430,7 @@ ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
   if (status != ZP_OK) return status;
   sim->state->by_hand = true;
   jump_to(sim, voltage);
+  sim->cut = false;
   keep(sim);
   return ZP_OK;
 }
@@ -440,6 +445,7 @@ void zp_sim_resume(ZpSim *sim) {
   sim->row_time = state->t;
   sim->row_charge = zp_eval_charge(sim->model, state, &sim->eval);
   if (voltage != state->U) jump_to(sim, voltage);
+  sim->cut = false;
   keep(sim);
 }
 

@@ -12,6 +12,7 @@ struct ZpSim {
   const ZpModel *model;
   ZpState *state;
   ZpState *kept; /* a copy of the last state that a longer run passes through, too; of sound numbers */
+  bool cut;      /* the end of the run has cut a step */
   ZpEval eval;
   double *a;                   /* [2 stride] accelerations, work space of a step */
   double *relax_work;          /* [12 stride] work space of settling */
