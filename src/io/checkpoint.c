@@ -165,25 +165,27 @@ static ZpStatus check_frame(const char *path, const Bytes *all, ZpError *err) {
   return ZP_OK;
 }
 
-/* "ribbon.length = 100 mm" => def; false if this program has no such key or value. */
-static bool take_line(char *line, ZpActuatorDef *def) {
+/* "ribbon.length = 100 mm" => def. ZP_BAD_INPUT if this program has no such key or value. */
+static ZpStatus take_line(char *line, ZpActuatorDef *def, ZpError *err) {
   char *equals = strstr(line, " = ");
-  if (!equals) return false;
+  if (!equals) return zp_fail(err, ZP_BAD_INPUT, "no value");
   *equals = 0;
   double value;
   int key = zp_key_find(line);
-  return key >= 0 && zp_checkpoint_holds(key) && zp_value_read(key, equals + 3, &value, NULL) == ZP_OK &&
-         zp_def_set(def, key, value, NULL) == ZP_OK;
+  if (key < 0 || !zp_checkpoint_holds(key)) return zp_fail(err, ZP_BAD_INPUT, "unknown key");
+  ZpStatus status = zp_value_read(key, equals + 3, &value, err);
+  return status == ZP_OK ? zp_def_set(def, key, value, err) : status;
 }
 
 /* All keys that make a model, and no others. */
-static bool take_keys(char *text, ZpActuatorDef *def) {
+static ZpStatus take_keys(char *text, ZpActuatorDef *def, ZpError *err) {
   int lines = 0, keys = 0;
-  for (char *line = strsep(&text, "\n"); text; line = strsep(&text, "\n"), lines++)
-    if (!take_line(line, def)) return false;
+  ZpStatus status = ZP_OK;
+  for (char *line = strsep(&text, "\n"); text && status == ZP_OK; line = strsep(&text, "\n"), lines++)
+    status = take_line(line, def, err);
   for (int i = 0; i < zp_key_count(); i++)
     keys += zp_checkpoint_holds(i);
-  return lines == keys;
+  return status != ZP_OK || lines == keys ? status : zp_fail(err, ZP_BAD_INPUT, "%d keys, not %d", lines, keys);
 }
 
 static ZpStatus decode(const char *path, const Bytes *all, ZpCheckpoint *checkpoint, ZpError *err) {
@@ -195,10 +197,13 @@ static ZpStatus decode(const char *path, const Bytes *all, ZpCheckpoint *checkpo
   }
   char *text = strndup((const char *)all->byte + HEADER, length);
   if (!text) return zp_fail_memory(err);
-  bool known = take_keys(text, &checkpoint->def);
+  ZpError reason;
+  ZpStatus status = take_keys(text, &checkpoint->def, &reason);
   free(text);
-  return known ? ZP_OK
-               : zp_fail(err, ZP_BAD_INPUT, "%.300s: of a version of zipact with other keys than %s", path, ZP_VERSION);
+  if (status == ZP_BAD_INPUT)
+    return zp_fail(err, status, "%.300s: of a version of zipact with other keys than %s: %.150s", path, ZP_VERSION,
+                   reason.message);
+  return status == ZP_OK ? ZP_OK : zp_fail(err, status, "%s", reason.message);
 }
 
 ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err) {
