@@ -1,8 +1,8 @@
 /* Error against CPU time: the same motion at many tolerances, implicit, and by explicit steps.
  *
- *   precision swing        a cantilever's swing, against cli/swing.def                      => CSV
+ *   precision swing        a cantilever's swing, against the converged one of cli/swing.def => CSV
  *   precision zip          the default actuator's zip, against implicit steps at 1e-7       => CSV
- *   precision reference    the swing, converged                                             => cli/swing.def
+ *   precision reference    the converged swing                                              => cli/swing.def
  */
 #include <math.h>
 #include <stdio.h>
@@ -73,7 +73,7 @@ static int print_case(const Case *c, bool own_reference) {
   return status == ZP_OK ? EXIT_SUCCESS : fail(&err);
 }
 
-/* Twice the nodes changes it by 2e-6 of the swing, a tolerance of 1e-7 by 1e-6. */
+/* Twice the nodes, or a tenth of the tolerance, change it by less than 1e-6 of the swing, root mean square. */
 static int print_reference(int nodes, double tolerance) {
   enum { ROWS = 101 };
   static double row[ROWS][2];

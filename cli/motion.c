@@ -115,8 +115,7 @@ static ZpStatus compare(const ZpModel *model, const Trajectory *reference, Motio
     *err = (ZpError){ZP_MACHINE, "no memory"};
     return ZP_MACHINE;
   }
-  Motion recorded = *motion;
-  ZpStatus status = run(model, film, &recorded, err);
+  ZpStatus status = run(model, film, motion, err);
   if (status == ZP_OK) motion->rms = deviation(film, reference);
   zp_shapes_destroy(film);
   return status;
@@ -131,9 +130,9 @@ ZpStatus motion_measure(const ZpActuatorDef *def, const ZpDriveTable *table, con
   *motion = (Motion){INFINITY, NAN, NAN, NAN};
   ZpStatus status = zp_model_create_driven(def, table, &model, err);
   if (status != ZP_OK) return status;
-  for (int k = 0; k < TRIES && status == ZP_OK && (k == 0 || motion_clock() - start < enough); k++)
+  status = reference ? compare(model, reference, motion, err) : run(model, NULL, motion, err);
+  for (int k = 1; k < TRIES && status == ZP_OK && motion_clock() - start < enough; k++)
     status = run(model, NULL, motion, err);
-  if (status == ZP_OK && reference) status = compare(model, reference, motion, err);
   zp_model_destroy(model);
   motion->cpu = motion_clock() - start;
   return status;

@@ -21,8 +21,8 @@ typedef struct Motion {
 /* CPU time of this process, s. */
 double motion_clock(void);
 
-/* Run to def->solver.end_time, short runs several times of which the quickest counts, and once more to be compared with
- * `reference` (NULL: none). `table` as zp_model_create_driven. */
+/* Run to def->solver.end_time, once to be compared with `reference` (NULL: none), short runs several times: the
+ * quickest counts. `table` as zp_model_create_driven. */
 ZpStatus motion_measure(const ZpActuatorDef *def, const ZpDriveTable *table, const Trajectory *reference,
                         Motion *motion, ZpError *err);
 
