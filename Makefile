@@ -39,7 +39,7 @@ docs: $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
 
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] tests/*.[ch]
+	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch]
 
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)

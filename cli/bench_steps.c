@@ -97,7 +97,7 @@ ZpStatus bench_explicit(int nodes, Row *row, ZpError *err) {
 }
 
 ZpStatus bench_plain(int nodes, Row *row, ZpError *err) {
-  static const long node_steps = 20000000; /* about 0.1 s */
+  static const long node_steps = 6000000; /* below 0.1 s */
   const PaperCost *cost = cost_of(nodes);
   long steps = node_steps / (2L * nodes);
   double l = 0.045 / (nodes - 1), samples[REPEATS], start = motion_clock();

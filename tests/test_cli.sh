@@ -316,6 +316,10 @@ ok "and the same last row" [ "$(tail -1 whole/table.csv | cut -d, -f1-8)" = "$(t
 ok "scenario.yaml has the file's whole path" grep -q "file: .*/cut/checkpoint.zps" rest/scenario.yaml
 zp run rest/scenario.yaml -o rest-again
 ok "and runs again" cmp rest/checkpoint.zps rest-again/checkpoint.zps
+mkdir -p sub
+printf 'initial: {state: checkpoint, file: ../cut/checkpoint.zps}\n' >sub/on.yaml
+zp actuate sub/on.yaml $short --set solver.end_time=4ms -o rest-again
+ok "a scenario names it from its own folder" cmp rest/checkpoint.zps rest-again/checkpoint.zps
 zp actuate $short $from --set 'solver.end_time=[3 ms, 4 ms]' -o cut
 ok "a sweep from it into its own folder" status_is 0
 ok "leaves it there" is_file cut/checkpoint.zps
