@@ -87,6 +87,11 @@ static void print_studies(void) {
   def.drive.voltage = 0;
   print_study("straight", &def);
   def = default_def();
+  def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
+  print_study("explicit", &def);
+  def.contact.model = ZP_CONTACT_SEQUENTIAL;
+  print_study("sequential", &def);
+  def = default_def();
   def.actuator.kind = ZP_KIND_RIBBON;
   def.damping.drag = 0.5;
   print_study("ribbon", &def);
@@ -156,6 +161,8 @@ static void print_kernels(void) {
     def.electro.breakdown_cap = false;
     print_accelerations("polyline, no cap", &def, 12);
     def.electro.surface = ZP_SURFACE_BEZIER;
+    def.contact.model = ZP_CONTACT_SEQUENTIAL;
+    def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
     print_accelerations("bezier", &def, 12);
     def.actuator.kind = ZP_KIND_RIBBON;
     print_accelerations("ribbon", &def, 12);

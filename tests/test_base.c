@@ -308,10 +308,10 @@ START_TEST(test_defaults_are_those_promised) {
       {"electro.voltage_share", 1, NULL},
       {"electro.insulator_offset", NAN, NULL},
       {"electro.breakdown_cap", 1, NULL},
-      {"contact.model", 0, "sequential"},
+      {"contact.model", 0, "unilateral"},
       {"drive.voltage", 10e3, NULL},
       {"damping.drag", 0, NULL},
-      {"solver.integrator", 0, "explicit"},
+      {"solver.integrator", 0, "implicit"},
       {"solver.end_time", 1, NULL},
       {"solver.tolerance", 1e-4, NULL},
       {"solver.time_step", NAN, NULL},
@@ -516,7 +516,19 @@ typedef struct Cross {
   bool right; /* the counterpart that is allowed */
 } Cross;
 
+#define SEQUENTIAL                                                                                                     \
+  {"contact.model", ZP_CONTACT_SEQUENTIAL}, {                                                                          \
+    "solver.integrator", ZP_INTEGRATOR_EXPLICIT                                                                        \
+  }
+
 static const Cross crosses[] = {
+    {{{"electro.surface", ZP_SURFACE_BEZIER}}, "electro.surface", false},
+    {{{"contact.model", ZP_CONTACT_SEQUENTIAL}}, "contact.model", false},
+    {{SEQUENTIAL}, "", true},
+    {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}}, "", true},
+    {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, {"damping.internal", 1e-6}}, "damping.internal", false},
+    {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"damping.internal", 1e-6}}, "damping.internal", false},
+    {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}}, "", true},
     {{{"platform.length", 0.0901}}, "platform.length", false},
     {{{"platform.length", 0.09}}, "", true},
     {{{"platform.length", 0.5}, {"actuator.kind", ZP_KIND_RIBBON}}, "", true},
@@ -527,9 +539,9 @@ static const Cross crosses[] = {
     {{{"contact.complete_margin", 60}}, "contact.complete_margin", false},
     {{{"contact.complete_margin", 59}}, "", true},
     {{{"electro.switch_offset", 1e-4}}, "electro.switch_offset", false},
-    {{{"electro.switch_offset", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}}, "", true},
+    {{{"electro.switch_offset", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}, SEQUENTIAL}, "", true},
     {{{"electro.refresh_period", 1e-4}}, "electro.refresh_period", false},
-    {{{"electro.refresh_period", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}}, "", true},
+    {{{"electro.refresh_period", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}, SEQUENTIAL}, "", true},
 };
 
 START_TEST(test_check_crosses) {

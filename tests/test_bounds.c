@@ -165,8 +165,13 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->ribbon.length = value;
   }
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;
-  if (strcmp(key, "electro.switch_offset") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
-  if (strcmp(key, "electro.refresh_period") == 0) def->electro.surface = ZP_SURFACE_BEZIER;
+  bool of_bezier = strcmp(key, "electro.switch_offset") == 0 || strcmp(key, "electro.refresh_period") == 0;
+  if (of_bezier) def->electro.surface = ZP_SURFACE_BEZIER;
+  if (of_bezier || (strcmp(key, "electro.surface") == 0 && value == ZP_SURFACE_BEZIER) ||
+      (strcmp(key, "contact.model") == 0 && value == ZP_CONTACT_SEQUENTIAL)) {
+    def->contact.model = ZP_CONTACT_SEQUENTIAL;
+    def->solver.integrator = ZP_INTEGRATOR_EXPLICIT;
+  }
   if (strcmp(key, "drive.waveform") == 0 && value == ZP_WAVEFORM_RAMP) def->drive.rise_time = 5e-5;
   if (strcmp(key, "drive.rise_time") == 0 && value > 0) def->drive.waveform = ZP_WAVEFORM_RAMP;
   if (strcmp(key, "drive.offset") == 0 || strcmp(key, "drive.frequency") == 0) def->drive.waveform = ZP_WAVEFORM_SINE;
@@ -367,7 +372,7 @@ static const char *const combinations[] = {
     "insulator.thickness=0",
     "insulator.thickness=0 drive.voltage=1MV",
     "insulator.thickness=0 initial.state=straight",
-    "insulator.thickness=0 electro.surface=bezier",
+    "insulator.thickness=0 electro.surface=bezier contact.model=sequential solver.integrator=explicit",
     "insulator.thickness=0 drive.voltage=0",
     "electro.insulator_offset=0 drive.voltage=1MV",
     "electro.insulator_offset=1cm electro.force_scale=1000 drive.voltage=1MV",
@@ -376,14 +381,15 @@ static const char *const combinations[] = {
     "platform.length=0 platform.electrode=false drive.voltage=1MV",
     "platform.length=90mm",
     "mesh.nodes=4",
-    "mesh.nodes=4 electro.surface=bezier",
+    "mesh.nodes=4 electro.surface=bezier contact.model=sequential solver.integrator=explicit",
     "mesh.nodes=4 initial.state=straight",
     "mesh.nodes=4 drive.voltage=1MV",
     "mesh.nodes=4 contact.complete_margin=2",
     "mesh.nodes=2001",
     "drive.voltage=1MV",
     "drive.voltage=1MV electro.breakdown_cap=false",
-    "drive.voltage=1MV electro.surface=bezier electro.breakdown_cap=false",
+    "drive.voltage=1MV electro.surface=bezier contact.model=sequential solver.integrator=explicit "
+    "electro.breakdown_cap=false",
     "drive.voltage=1MV electro.force_scale=1000 electro.breakdown_cap=false",
     "drive.voltage=1MV medium.breakdown_field=10000MV/m medium.permittivity=10000",
     "drive.voltage=1MV medium.breakdown_field=1000V/m",
@@ -403,10 +409,12 @@ static const char *const combinations[] = {
     "damping.drag=1000000 drive.voltage=1MV",
     "damping.drag=1000000 initial.state=straight",
     "initial.state=straight",
-    "initial.state=straight electro.surface=bezier",
+    "initial.state=straight electro.surface=bezier contact.model=sequential solver.integrator=explicit",
     "initial.state=straight load.mass=0",
-    "initial.state=straight electro.surface=bezier drive.voltage=1MV electro.breakdown_cap=false",
-    "electro.surface=bezier electro.refresh_period=1s electro.switch_offset=0.1m drive.voltage=1MV",
+    "initial.state=straight electro.surface=bezier contact.model=sequential solver.integrator=explicit "
+    "drive.voltage=1MV electro.breakdown_cap=false",
+    "electro.surface=bezier contact.model=sequential solver.integrator=explicit electro.refresh_period=1s "
+    "electro.switch_offset=0.1m drive.voltage=1MV",
     "electro.voltage_share=0",
     "electro.force_scale=0",
     "solver.time_step=1s",
@@ -428,18 +436,23 @@ static const char *const combinations[] = {
     "actuator.kind=ribbon actuator.right_end=clamped mesh.nodes=2001 initial.state=straight",
     "actuator.kind=ribbon platform.length=1m insulator.thickness=0 electro.breakdown_cap=false",
     "actuator.kind=ribbon contact.complete_margin=1000",
-    "solver.integrator=implicit contact.model=unilateral drive.voltage=1MV",
-    "solver.integrator=implicit contact.model=unilateral drive.voltage=1MV electro.breakdown_cap=false",
-    "solver.integrator=implicit contact.model=unilateral initial.state=straight",
-    "solver.integrator=implicit contact.model=unilateral mesh.nodes=4 damping.internal=1s",
-    "solver.integrator=implicit contact.model=unilateral load.mass=0 gravity=0 initial.state=straight drive.voltage=0",
-    "solver.integrator=implicit contact.model=unilateral damping.drag=1000000",
-    "solver.integrator=implicit contact.model=unilateral solver.tolerance=1e-9",
-    "solver.integrator=implicit contact.model=unilateral solver.end_time=1e-9s",
-    "solver.integrator=implicit contact.model=unilateral platform.length=0 platform.electrode=false",
-    "solver.integrator=implicit contact.model=unilateral gravity=1000m/s2 load.mass=1000kg",
-    "solver.integrator=implicit actuator.kind=ribbon actuator.right_end=clamped initial.state=straight",
-    "solver.integrator=implicit actuator.kind=flange drive.voltage=1MV",
+    "drive.voltage=1MV",
+    "drive.voltage=1MV electro.breakdown_cap=false",
+    "initial.state=straight",
+    "mesh.nodes=4 damping.internal=1s",
+    "load.mass=0 gravity=0 initial.state=straight drive.voltage=0",
+    "damping.drag=1000000",
+    "solver.tolerance=1e-9",
+    "solver.end_time=1e-9s",
+    "platform.length=0 platform.electrode=false",
+    "gravity=1000m/s2 load.mass=1000kg",
+    "actuator.kind=ribbon actuator.right_end=clamped initial.state=straight",
+    "actuator.kind=flange drive.voltage=1MV",
+    "solver.integrator=explicit drive.voltage=1MV",
+    "solver.integrator=explicit drive.voltage=1MV contact.model=sequential electro.breakdown_cap=false",
+    "solver.integrator=explicit initial.state=straight contact.model=sequential",
+    "solver.integrator=explicit damping.drag=1000000",
+    "solver.integrator=explicit gravity=1000m/s2 load.mass=1000kg",
 };
 
 START_TEST(study_ends_in_combinations) {
@@ -459,14 +472,13 @@ static const struct {
     {"contact.complete_margin=4", "contact.complete_margin"},
     {"electro.switch_offset=1um", "electro.switch_offset"},
     {"electro.refresh_period=1ms", "electro.refresh_period"},
-    {"solver.integrator=implicit", "contact.model"},
-    {"contact.model=unilateral", "contact.model"},
-    {"solver.integrator=implicit contact.model=unilateral ribbon.model=mass_spring", "ribbon.model"},
-    {"solver.integrator=implicit contact.model=unilateral electro.surface=bezier", "electro.surface"},
-    {"solver.integrator=implicit actuator.kind=ribbon ribbon.model=mass_spring", "ribbon.model"},
-    {"damping.internal=1us", "damping.internal"},
-    {"damping.internal=1us actuator.kind=ribbon", "damping.internal"},
-    {"actuator.kind=flange", "solver.integrator"},
+    {"contact.model=sequential", "contact.model"},
+    {"ribbon.model=mass_spring damping.internal=1us", "damping.internal"},
+    {"electro.surface=bezier", "electro.surface"},
+    {"electro.surface=bezier solver.integrator=explicit", "electro.surface"},
+    {"damping.internal=1us solver.integrator=explicit", "damping.internal"},
+    {"damping.internal=1us actuator.kind=ribbon solver.integrator=explicit", "damping.internal"},
+    {"actuator.kind=flange solver.integrator=explicit", "solver.integrator"},
 };
 
 START_TEST(contradictions_are_refused) {

@@ -491,7 +491,8 @@ static void refused(const Setting *list, size_t count, const char *word) {
           sizeof((const Setting[]){{"electro.edges", 1}, __VA_ARGS__}) / sizeof(Setting), word)
 
 START_TEST(test_refused) {
-  REFUSED("electro.surface", {"electro.surface", ZP_SURFACE_BEZIER});
+  REFUSED("electro.surface", {"electro.surface", ZP_SURFACE_BEZIER}, {"contact.model", ZP_CONTACT_SEQUENTIAL},
+          {"solver.integrator", ZP_INTEGRATOR_EXPLICIT});
   REFUSED("flange", {"actuator.kind", ZP_KIND_FLANGE}, {"study", ZP_STUDY_EQUILIBRIUM});
   REFUSED("insulator.thickness", {"insulator.thickness", 0});
 }

@@ -27,6 +27,12 @@ static double largest(const ZpTable *series, const char *column) {
   return most;
 }
 
+/* Mechanics, contact and time steps as in the paper. */
+#define PAPER_MOTION                                                                                                   \
+  {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"contact.model", ZP_CONTACT_SEQUENTIAL}, {                                 \
+    "solver.integrator", ZP_INTEGRATOR_EXPLICIT                                                                        \
+  }
+
 static Balance balance_of(const ZpActuatorDef *def, double end_time) {
   ZpModel *model = model_of(def);
   ZpSim *sim = sim_of(model);
@@ -50,8 +56,8 @@ static Balance balance_of(const ZpActuatorDef *def, double end_time) {
  * an energy: the error is that of the step, of first order. Measured with auto steps: 8.3e-4 (soft axial
  * springs), 3.7e-5 (stiff), over 0.1 s; ratios of halvings 2.00. */
 START_TEST(test_energy_of_chain) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21},
-                          {"mass_spring.shear_coefficient", 0}, {"drive.voltage", 4e3});
+  ZpActuatorDef def =
+      DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.shear_coefficient", 0}, {"drive.voltage", 4e3});
   Balance stiff = balance_of(&def, 0.1);
   def.mass_spring.axial = ZP_AXIAL_CODE;
   Balance soft = balance_of(&def, 0.1);
@@ -76,14 +82,14 @@ END_TEST
 START_TEST(test_energy_of_zipping) {
   static const int nodes[] = {21, 61};
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
-    ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", nodes[i]});
+    ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", nodes[i]});
     Balance b = balance_of(&def, 0.1);
     printf("zipping 8 g at 10 kV, N = %d: energy error %.2e of %.3g mJ\n", nodes[i], b.error, 1e3 * b.work);
     ck_assert_double_gt(b.contraction, 0.99);
     ck_assert_double_gt(b.contact_loss, 0.1 * b.work); /* the impacts are in the balance */
     ck_below(b.error, 1e-4);
   }
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"solver.time_step", 5e-8});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"solver.time_step", 5e-8});
   double fine = balance_of(&def, 0.1).error;
   printf("the same at N = 21 with 50 ns: %.2e\n", fine);
   ck_below(fine, 1e-5); /* measured 5.6e-6 */
@@ -93,8 +99,7 @@ END_TEST
 /* The Bezier surface's forces are not the gradient of the energy in the account: the balance is off by several
  * percent of the work. Measured: 6 % at N = 21, 17 % at N = 61. */
 START_TEST(test_energy_of_bezier) {
-  ZpActuatorDef def =
-      DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"electro.surface", ZP_SURFACE_BEZIER});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"electro.surface", ZP_SURFACE_BEZIER});
   Balance b = balance_of(&def, 0.1);
   printf("the same with the Bezier surface, N = 21: %.2e\n", b.error);
   ck_assert_double_gt(b.error, 1e-2);
@@ -105,7 +110,7 @@ END_TEST
 /* Free swinging after a small step of voltage, below pull-in: no contact, shear law at moderate angles.
  * Measured 6e-5. */
 START_TEST(test_energy_below_pull_in) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"drive.voltage", 3e3});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"drive.voltage", 3e3});
   Balance b = balance_of(&def, 0.1);
   printf("3 kV, N = 21: energy error %.2e of %.3g uJ\n", b.error, 1e6 * b.work);
   ck_assert_double_eq(b.contact_loss, 0);
@@ -115,7 +120,7 @@ END_TEST
 
 /* Measured 6e-6, with 0.41 of the work lost to drag. */
 START_TEST(test_energy_with_drag) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"damping.drag", 0.1});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"damping.drag", 0.1});
   Balance b = balance_of(&def, 0.1);
   printf("with drag: energy error %.2e, lost to drag %.2f of the work\n", b.error, b.drag_loss / b.work);
   ck_assert_double_gt(b.drag_loss, 0.02 * b.work);
@@ -125,7 +130,7 @@ END_TEST
 
 /* Without voltage there is no field, and the hanging actuator stays where it is. */
 START_TEST(test_no_voltage_no_field) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"drive.voltage", 0});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"drive.voltage", 0});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   double opening = zp_sim_get(sim, "opening");
@@ -145,10 +150,10 @@ END_TEST
 /* -- drag and free fall ---------------------------------------------------------------------------- */
 
 static ZpActuatorDef strand(double shear, double drag) {
-  return DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"actuator.kind", ZP_KIND_RIBBON},
-             {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", 45e-3}, {"mesh.nodes", 21},
-             {"mass_spring.axial", ZP_AXIAL_CODE}, {"mass_spring.shear_coefficient", shear}, {"load.mass", 0},
-             {"damping.drag", drag}, {"initial.state", ZP_INITIAL_STRAIGHT});
+  return DEF(PAPER_MOTION, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
+             {"ribbon.length", 45e-3}, {"mesh.nodes", 21}, {"mass_spring.axial", ZP_AXIAL_CODE},
+             {"mass_spring.shear_coefficient", shear}, {"load.mass", 0}, {"damping.drag", drag},
+             {"initial.state", ZP_INITIAL_STRAIGHT});
 }
 
 static const double mu = 7850 * 12.7e-3 * 50e-6, g = 9.81; /* kg/m, m/s2 */
@@ -250,9 +255,9 @@ static double crossing_frequency(const ZpTable *series, double level) {
 
 /* A ribbon let go from straight swings about its rest in its first mode, mostly. */
 static double frequency(int nodes) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"actuator.kind", ZP_KIND_RIBBON},
-                          {"ribbon.length", 45e-3}, {"ribbon.plane", ZP_PLANE_STRESS}, {"mesh.nodes", nodes},
-                          {"mass_spring.axial", ZP_AXIAL_CODE}, {"load.mass", 0}, {"gravity", 1});
+  ZpActuatorDef def =
+      DEF(PAPER_MOTION, {"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.length", 45e-3}, {"ribbon.plane", ZP_PLANE_STRESS},
+          {"mesh.nodes", nodes}, {"mass_spring.axial", ZP_AXIAL_CODE}, {"load.mass", 0}, {"gravity", 1});
   double rest = settled_value(&def, "stroke");
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.output.samples = 10000;
@@ -332,7 +337,7 @@ static ZpOutcome run_def(const ZpActuatorDef *def, double end, bool stop, const 
 }
 
 START_TEST(test_good_ends) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpRunInfo info;
   check_words(run_def(&def, 10e-3, true, NULL, &info), &info, "end_time", true);
   ck_assert_double_eq(info.simulated_time, 10e-3); /* exactly there */
@@ -349,15 +354,14 @@ END_TEST
 
 START_TEST(test_reasons_of_steps) {
   ZpRunInfo info;
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"solver.time_step", 1e-7});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"solver.time_step", 1e-7});
   run_def(&def, 1e-3, false, NULL, &info);
   ck_assert_int_ge(info.limited[ZP_LIMIT_TIME_STEP], 9999);
   ck_assert_int_eq(info.limited[ZP_LIMIT_STABILITY], 0);
-  def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21},
-            {"solver.time_step", 1}); /* never beyond stability */
+  def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"solver.time_step", 1}); /* never beyond stability */
   run_def(&def, 1e-3, false, NULL, &info);
   ck_assert_int_ge(info.limited[ZP_LIMIT_STABILITY], info.steps - 1);
-  def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"damping.drag", 1e6});
+  def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"damping.drag", 1e6});
   run_def(&def, 1e-3, false, NULL, &info);
   ck_assert_int_gt(info.limited[ZP_LIMIT_DRAG], 0);
   ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_DRAG), "drag");
@@ -366,8 +370,8 @@ END_TEST
 
 /* A limp chain has no stiffness when straight: Newton's method leaves it to damped stepping. */
 START_TEST(test_not_settled) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21},
-                          {"mass_spring.shear_coefficient", 0}, {"solver.max_steps", 100});
+  ZpActuatorDef def =
+      DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.shear_coefficient", 0}, {"solver.max_steps", 100});
   ZpRunInfo info;
   check_words(run_def(&def, 1, false, NULL, &info), &info, "not_settled", false);
   ck_assert_int_eq(info.steps, 0); /* and did nothing else */
@@ -378,8 +382,7 @@ END_TEST
 
 START_TEST(test_step_limit) {
   ZpRunInfo info;
-  ZpActuatorDef def =
-      DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, {"mass_spring.axial", ZP_AXIAL_CODE});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.axial", ZP_AXIAL_CODE});
   run_def(&def, 0, false, NULL, &info);
   int enough = (int)info.settle_steps + 1;
   def.solver.max_steps = enough;
@@ -404,7 +407,7 @@ static bool stop_in_stage(void *user, const char *stage, double fraction) {
 }
 
 START_TEST(test_interrupted) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpRunInfo info;
   Stopper simulating = {.stage = "simulating"};
   ZpHooks hooks = {.user = &simulating, .progress = stop_in_stage};
@@ -424,7 +427,7 @@ static double tick(void *user) {
 }
 
 START_TEST(test_clock) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpRunInfo info;
   double now = 5;
   ZpHooks hooks = {.user = &now, .clock = tick};
@@ -436,7 +439,7 @@ END_TEST
 /* Steps are bounded by stability, so nothing diverges by itself: a state with impossible speeds, and one that is
  * not a number, are told. */
 START_TEST(test_diverged) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   const double poison[] = {1e6, NAN, -INFINITY};
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -459,7 +462,7 @@ END_TEST
 
 /* A wrong voltage is refused and changes nothing. */
 START_TEST(test_set_voltage) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   ZpError err;
@@ -480,7 +483,7 @@ END_TEST
 
 /* A step of the voltage in mid-flight keeps the balance. Measured 4e-4. */
 START_TEST(test_balance_over_voltage_step) {
-  ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21});
+  ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   zp_sim_run(sim, 30e-3, false, NULL, NULL);

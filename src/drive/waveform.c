@@ -158,6 +158,22 @@ double zp_waveform_largest(const ZpWaveform *w) {
   return fmax(fabs(low), fabs(high));
 }
 
+/* V/s just after t; of a sine the largest. */
+static double slope(const ZpWaveform *w, double t) {
+  static const double pi = 3.14159265358979323846;
+  if (w->kind == ZP_WAVEFORM_SINE) return pi * w->frequency * (w->voltage - w->offset);
+  int64_t last = knots(w) == 0 ? -1 : last_knot(w, t, true);
+  if (last < 0 || last + 1 >= knots(w)) return 0;
+  Knot from = knot(w, last), to = knot(w, last + 1);
+  return to.t > from.t ? (to.U - from.U) / (to.t - from.t) : 0;
+}
+
+double zp_waveform_resolution(const ZpWaveform *w, double t) {
+  static const double share = 1.0 / 40;
+  double rate = fabs(slope(w, t));
+  return rate > 0 ? share * zp_waveform_largest(w) / rate : INFINITY;
+}
+
 double zp_waveform_period(const ZpWaveform *w) {
   bool repeats = w->kind == ZP_WAVEFORM_SINE || w->kind == ZP_WAVEFORM_SQUARE;
   return repeats ? 1 / w->frequency : INFINITY;

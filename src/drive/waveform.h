@@ -37,6 +37,10 @@ bool zp_waveform_is_constant(const ZpWaveform *w);
 /* Largest absolute voltage, V. */
 double zp_waveform_largest(const ZpWaveform *w);
 
+/* Time in which the voltage changes by a fortieth of its largest, s: the mean force of a longer step would be off by
+ * more than 10^-3 while it rises. INFINITY where it stays. */
+double zp_waveform_resolution(const ZpWaveform *w, double t);
+
 /* INFINITY if it does not repeat itself, s. */
 double zp_waveform_period(const ZpWaveform *w);
 

@@ -315,13 +315,20 @@ static ZpStepLimit implicit_limit(const ZpSim *sim, bool corner, bool end) {
   return sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
 }
 
+/* No step at all: what a corner is away when rounding or a pulse has put it next to another. */
+static bool nothing_moves(double time) {
+  static const double shortest = 1e-13; /* s: a nanometre at the speed of sound */
+  return time < shortest;
+}
+
 static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  double corner = next_corner(sim), stop = fmin(end_time, corner), left = stop - state->t;
+  double corner = next_corner(sim), stop = fmin(end_time, corner), left = stop - state->t, longest = left;
+  if (!state->by_hand) longest = fmin(left, zp_waveform_resolution(&model->waveform, state->t));
   double before = model->s == 2 ? opening(model, state) : 0;
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
-  double taken = zp_dynamics_step(&sim->dynamics, state, left);
+  double taken = nothing_moves(left) ? left : zp_dynamics_step(&sim->dynamics, state, longest);
   sim->stuck = !(taken > 0);
   if (sim->stuck) return;
   state->t = taken == left ? stop : state->t + taken;

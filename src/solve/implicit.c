@@ -5,7 +5,7 @@
 #include <string.h>
 
 static const double first_step = 1e-6;     /* s */
-static const double shortest_step = 1e-12; /* s */
+static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
 static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
@@ -47,9 +47,10 @@ static bool linearise(ZpImplicit *s, double h, const double *q, const double *v)
   return zp_band_factor_symmetric(&s->A);
 }
 
-/* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`? What is left is
- * foreseen from both; far below the accuracy what does not shrink any more is rounding. */
+/* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`, 0 of the first?
+ * What is left is foreseen from both; far below the accuracy what does not shrink any more is rounding. */
 static bool is_found(double size, double before) {
+  if (before == 0) return size == 0;
   double rate = size / before, left = rate < 0.5 ? 2 * rate * size : size;
   return left < newton_share || (rate > 0.5 && size < rounding_share);
 }
@@ -118,7 +119,7 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
   bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
   s->system->begin(s->system->self, q);
-  for (double h = cut ? longest : try; h > shortest_step;) {
+  for (double h = cut ? longest : try; h >= shortest_step;) {
     predict(s, h, q, v, history);
     int iterations = converge(s, h, q, v);
     if (iterations == 0) {
