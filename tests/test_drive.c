@@ -175,6 +175,7 @@ END_TEST
 /* Kinetic energy just after a pulse of 10 kV. */
 static double kick(double length) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
+  def.damping.internal = 0;
   const double t[] = {0, 1e-4, 1e-4, 1e-4 + length, 1e-4 + length}, U[] = {0, 0, 10e3, 10e3, 0};
   ZpModel *model = model_with_table(&def, 5, t, U);
   ZpSim *sim = sim_of(model);

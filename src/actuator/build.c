@@ -252,6 +252,14 @@ static double internal_damping_of(const ZpActuatorDef *def) {
   return damped ? of_taped_steel : 0;
 }
 
+/* Of faces that press on each other, rad/s: two free nodes, or the lower platform below the held one. */
+static double contact_frequency(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double mu = model->section.mu, half = 0.5 * model->l;
+  double platform = model->stop.stiffness * (half + model->stop.flat_length);
+  return sqrt(fmax(model->stop.stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
+}
+
 static void derive(ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
@@ -275,8 +283,9 @@ static void derive(ZpModel *model) {
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part
    * from step to step pump energy into what is near the limit */
-  bool joins_at_will = model->field && def->contact.model == ZP_CONTACT_UNILATERAL;
-  model->stable_step = (joins_at_will ? 0.3 : 0.8) * 2 / frequency_bound(model);
+  bool joins_at_will = two && def->contact.model == ZP_CONTACT_UNILATERAL;
+  double fastest = frequency_bound(model);
+  model->stable_step = joins_at_will ? 0.5 * 2 / hypot(fastest, contact_frequency(model)) : 0.8 * 2 / fastest;
 }
 
 static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err) {
