@@ -25,6 +25,7 @@ typedef struct ZpSubject {
   const char *place;   /* "Table I" */
   const char *title;   /* what ours is; no commas, since it stands in a CSV */
   const char *unit;
+  const char *source; /* of what is published: "paper", or "program" where its authors' program was run again */
   double (*ours)(const ZpRuns *runs, const ZpPublished *published);
   ZpReasonId reason;                             /* why it may differ */
   double (*slack)(const ZpPublished *published); /* that the printed digits leave; NULL: one of the last digit */

@@ -10,7 +10,7 @@
 #include "io/atomic.h"
 #include "io/html.h"
 
-static const char drag_note[] = "No drag of the liquid that is squeezed out is in any of these times yet: they are no "
+static const char drag_note[] = "No drag of the liquid that is squeezed out is in any zip time here yet: they are no "
                                 "prediction of how fast a real actuator zips.";
 
 static const char style[] =
@@ -19,15 +19,21 @@ static const char style[] =
     "h1{font-size:1.6rem;line-height:1.25}h2{font-size:1.25rem;margin:2.5rem 0 .5rem;border-top:1px solid #ccc;"
     "padding-top:1rem}"
     "p,ul,ol{max-width:46rem}a{color:#0060a0}code{font-size:.9em}"
-    ".tables,.pictures{display:flex;flex-wrap:wrap;gap:1.5rem 2rem;align-items:flex-start}"
-    "figure{margin:0;max-width:100%}figcaption{font-weight:600;margin-bottom:.25rem}"
-    ".pictures figure{flex:1 1 30rem;min-width:0}.pictures svg{width:100%;height:auto;border:1px solid #ddd}"
+    ".tables,.pictures{display:flex;flex-wrap:wrap;gap:1.5rem 2rem;align-items:flex-start;margin:1rem 0}"
+    "figure{margin:0;max-width:100%;overflow-x:auto}figcaption{font-weight:600;margin-bottom:.25rem}"
+    ".pictures figure{flex:1 1 30rem;min-width:0;max-width:50rem}.pictures svg{width:100%;height:auto;border:1px solid "
+    "#ddd}"
     "table{border-collapse:collapse;font-size:.85rem;font-variant-numeric:tabular-nums}"
     "th,td{padding:.1rem .45rem;text-align:right;border-bottom:1px solid #e4e4e4}"
     "thead th{border-bottom:1px solid #888;vertical-align:bottom}"
     "tr.new td{border-top:1px solid #aaa}td.ok{color:#00664a}td.off{color:#a34400}"
     ".note{border-left:4px solid #d55e00;padding:.3rem .8rem;background:#fff6ef}"
-    ".verdict{font-size:1.1rem}math{font-size:1.1em}.formula{overflow-x:auto}"
+    ".verdict{font-size:1.1rem}.left{text-align:left}"
+    ".formula{display:flex;flex-wrap:wrap;align-items:center;gap:.3rem;font:italic 1.1rem Georgia,'Times New "
+    "Roman',serif;"
+    "margin:1rem}.formula sub{font-size:.7em;line-height:0}.formula sup{font-size:.7em;line-height:0}"
+    ".over{display:inline-flex;flex-direction:column;text-align:center}"
+    ".over span:first-child{border-bottom:1px solid;padding:0 .2rem}"
     "@media(max-width:30rem){body{padding:.6rem}th,td{padding:.1rem .25rem}table{font-size:.78rem}}"
     "@media print{body{font-size:10pt;max-width:none;padding:0}h2{break-after:avoid}figure,li{break-inside:avoid}"
     "table{font-size:8pt}a{color:inherit;text-decoration:none}.pictures figure{flex-basis:45%}}";
@@ -47,7 +53,7 @@ static void put_ours(FILE *file, const ZpComparison *c) {
   if (strchr(printed, 'e'))
     snprintf(text, sizeof text, "%.*e", decimals, c->ours);
   else if (fabs(c->ours) < pow(10, 1 - decimals) && c->ours > 1e-9)
-    snprintf(text, sizeof text, "%.1e", c->ours);
+    snprintf(text, sizeof text, "%.2g", c->ours);
   else
     snprintf(text, sizeof text, "%.*f", decimals, c->ours);
   zp_html_number(file, text);
@@ -107,9 +113,9 @@ static const ZpComparison *put_subject(FILE *file, const ZpComparison *first, co
   if (*subject->unit) fputs(" / ", file);
   zp_html_text(file, subject->unit);
   fprintf(file,
-          "</figcaption><table><thead><tr>%s%s<th>paper</th><th>ours</th><th>difference</th><th>why</th></tr></thead>"
+          "</figcaption><table><thead><tr>%s%s<th>%s</th><th>ours</th><th>difference</th><th>why</th></tr></thead>"
           "<tbody>\n",
-          loads ? "<th>load</th>" : "", nodes ? "<th>N</th>" : "");
+          loads ? "<th>load</th>" : "", nodes ? "<th>N</th>" : "", subject->source);
   const ZpComparison *c = first;
   for (; c < end && c->subject == subject; c++)
     put_row(file, c, first, loads);
@@ -176,6 +182,21 @@ static void put_zip_times(FILE *file, const ZpRuns *runs) {
   fputs("</tbody></table></figure></div>\n<p>–: does not close.</p>\n", file);
 }
 
+static void put_openings(FILE *file, const ZpRuns *runs) {
+  static const ZpRunId id[] = {ZP_RUN_FIG_10, ZP_RUN_FIG_10_CODE};
+  fputs("<div class=\"tables\"><figure><figcaption>opening / mm</figcaption><table><thead><tr><th></th><th>at the "
+        "start</th>"
+        "<th>widest</th></tr></thead><tbody>\n",
+        file);
+  for (size_t i = 0; i < 2; i++) {
+    fprintf(file, "<tr><td>%s</td>", i == 0 ? "ours" : "their program, N = 61");
+    put_cell(file, "%.3f", 1e3 * zp_runs_get(runs, id[i], (ZpWhich){.load = NAN}, "start_opening_m"));
+    put_cell(file, "%.3f", 1e3 * zp_runs_get(runs, id[i], (ZpWhich){.load = NAN}, "widest_opening_m"));
+    fputs("</tr>\n", file);
+  }
+  fputs("</tbody></table></figure></div>\n", file);
+}
+
 static void put_causes(FILE *file, const ZpRuns *runs) {
   static const char *const scalar[] = {"scale_factor",      "paper_factor_voltage", "paper_factor_half",
                                        "paper_factor_tape", "paper_factor_gap",     "paper_factor"};
@@ -189,7 +210,7 @@ static void put_causes(FILE *file, const ZpRuns *runs) {
     if (def.drive.voltage > zp_runs_def(runs, ZP_RUN_FACTOR, 0).drive.voltage) break;
     fprintf(file, "<tr><td>%g&nbsp;mm</td>", 1e3 * def.isometric.separation);
     for (size_t k = 0; k < sizeof scalar / sizeof scalar[0]; k++)
-      put_cell(file, "%.4f", zp_result_get(batch->result[i], scalar[k]));
+      put_cell(file, "%.3f", zp_result_get(batch->result[i], scalar[k]));
     fputs("</tr>\n", file);
   }
   fputs("</tbody></table></figure></div>\n", file);
@@ -203,36 +224,31 @@ typedef struct Picture {
 
 typedef struct Section {
   const char *id, *title;
-  const char *text[3]; /* paragraphs */
-  const char *formula; /* MathML */
+  const char *text[3]; /* paragraphs, HTML */
+  const char *formula; /* HTML */
   const char *place;   /* whose comparisons it shows */
   void (*more)(FILE *file, const ZpRuns *runs);
   Picture picture[4];
 } Section;
 
-#define FRACTION(over, under) "<mfrac><mrow>" over "</mrow><mrow>" under "</mrow></mfrac>"
-#define SUB(letter, index)    "<msub><mi>" letter "</mi><mi>" index "</mi></msub>"
-#define SQUARED(what)         "<msup>" what "<mn>2</mn></msup>"
-#define MATH(inside)          "<math display=\"block\">" inside "</math>"
+/* Formulas are made of plain elements: MathML needs a font that not every machine has. */
+#define OVER(above, below)  "<span class=\"over\"><span>" above "</span><span>" below "</span></span>"
+#define SUM_OF_LOADS(share) "M g<sub>0</sub>" share " + q L/2"
 
-static const char shear_formula[] = MATH(
-    SUB("K", "S") "<mo>=</mo>" FRACTION("<mi>E</mi><mi>I</mi>", "<msup><mi>l</mi><mn>3</mn></msup>") FRACTION(
-        "<mi>N</mi><mo>(</mo><mi>N</mi><mo>+</mo><mn>1</mn><mo>)</mo>",
-        "<msup><mrow><mo>(</mo><mi>N</mi><mo>−</mo><mn>1</mn><mo>)</mo></mrow><mn>2</mn></msup>")
-        FRACTION("<mi>M</mi>" SUB("g", "0") "<mo>/</mo><mn>4</mn><mo>+</mo><mi>q</mi><mi>L</mi><mo>/</mo><mn>2</mn>",
-                 "<mi>M</mi>" SUB("g", "0") "<mo>+</mo><mi>q</mi><mi>L</mi><mo>/</mo><mn>2</mn>"));
+static const char shear_formula[] = "K<sub>S</sub> = " OVER("E I", "l<sup>3</sup>")
+    OVER("N (N + 1)", "(N − 1)<sup>2</sup>") OVER(SUM_OF_LOADS("/4"), SUM_OF_LOADS(""));
 
-static const char plates_formula[] =
-    MATH("<mi>W</mi><mo>=</mo>" FRACTION("<mn>1</mn>", "<mn>2</mn>") SUB("ε", "0") SUB("ε", "m") "<mi>w</mi>" FRACTION(
-        SQUARED("<mi>U</mi>"), SQUARED("<mrow><mo>(</mo><mi>g</mi><mo>+</mo><mn>2</mn><mi>t</mi>" SUB(
-                                   "ε", "m") "<mo>/</mo>" SUB("ε", "i") "<mo>)</mo></mrow>")));
+static const char plates_formula[] = "W = " OVER("1", "2") "ε<sub>0</sub> ε<sub>m</sub> w " OVER(
+    "U<sup>2</sup>", "(g + 2 t ε<sub>m</sub>/ε<sub>i</sub>)<sup>2</sup>");
 
 static const Section sections[] = {
     {"table-1",
      "Table I: calibration of the chain",
-     {"K_S is fitted to the stroke that the paper prints for its finite elements, by study calibrate on the chain of "
+     {"K<sub>S</sub> is fitted to the stroke that the paper prints for its finite elements, by study "
+      "<code>calibrate</code> on the chain of "
       "preset "
-      "paper-code, a quarter of the load on it as the authors' program had it. Beside that K_S from theory, without "
+      "<code>paper-code</code>, a quarter of the load on it as the authors' program had it. Beside that K<sub>S</sub> "
+      "from theory, without "
       "any "
       "fit:"},
      shear_formula,
@@ -241,9 +257,11 @@ static const Section sections[] = {
      {{0}}},
     {"table-2",
      "Table II: strokes at rest",
-     {"Preset paper-code with the K_S of the authors' saved states at 61 g; the finite elements converged by preset "
+     {"Preset <code>paper-code</code> with the K<sub>S</sub> of the authors' saved states at 61 g; the finite elements "
+      "converged by preset "
       "paper-fe. "
-      "The same loads on the actuator as the text describes it come from preset paper-text. Errors of the stroke stand "
+      "The same loads on the actuator as the text describes it come from preset <code>paper-text</code>. Errors of the "
+      "stroke stand "
       "beside those to the published reference, then to the converged one."},
      NULL,
      "Table II",
@@ -287,9 +305,11 @@ static const Section sections[] = {
     {"fig-9",
      "Fig. 9: contraction against time",
      {drag_note,
-      "8 g at four voltages. Ours: rod, faces that push and let go, implicit steps. Theirs: preset paper-code at two "
+      "8 g at four voltages. Ours: rod, faces that push and let go, implicit steps. Theirs: preset "
+      "<code>paper-code</code> at two "
       "N, and "
-      "preset paper-text. The paper prints no numbers for its curves; its authors' program, run again from its saved "
+      "preset <code>paper-text</code>. The paper prints no numbers for its curves; its authors' program, run again "
+      "from its saved "
       "states, "
       "gives two, which stand here. The drag of their particles is arbitrary, differs from N to N, and sets the time "
       "(docs/theory.md, section 3.5)."},
@@ -302,10 +322,10 @@ static const Section sections[] = {
       {"runs/fig-9-text/plots/contraction.svg", "The paper's text, N = 21"}}},
     {"fig-10",
      "Fig. 10: profiles in time",
-     {drag_note, "8 g at 10 kV. The paper prints no numbers. Its initial expansion is there in both."},
+     {drag_note, "8 g at 10 kV. The paper prints no numbers. Of the expansion that it sees before the contraction:"},
      NULL,
      NULL,
-     NULL,
+     put_openings,
      {{"runs/fig-10/plots/profiles.svg", "Ours"},
       {"runs/fig-10-code/plots/profiles.svg", "The authors' program, N = 61"}}},
     {"factor",
@@ -316,7 +336,7 @@ static const Section sections[] = {
      NULL,
      "Factor",
      put_causes,
-     {{"runs/factor/plots/factors.svg", "The factor over the voltage"}}},
+     {{"runs/factor/plots/factors.svg", "The factor against the opening"}}},
     {"cost",
      "Section III: constants and cost",
      {"Cost of a simulated second with the authors' chain, the electric force found anew in every step, and as many "
@@ -356,11 +376,9 @@ static void put_section(FILE *file, const ZpPage *page, const Section *section) 
   zp_html_text(file, section->title);
   fputs("</h2>\n", file);
   for (size_t i = 0; i < 3 && section->text[i]; i++) {
-    fputs(section->text[i] == drag_note ? "<p class=\"note\">" : "<p>", file);
-    zp_html_text(file, section->text[i]);
-    fputs("</p>\n", file);
+    fprintf(file, "<p%s>%s</p>\n", section->text[i] == drag_note ? " class=\"note\"" : "", section->text[i]);
   }
-  if (section->formula) fprintf(file, "<div class=\"formula\">%s</div>\n", section->formula);
+  if (section->formula) fprintf(file, "<div class=\"formula\" role=\"math\">%s</div>\n", section->formula);
   if (section->place) put_comparisons(file, page, section->place);
   if (section->more) section->more(file, page->runs);
   if (section->picture[0].path) put_pictures(file, page, section);
@@ -408,8 +426,40 @@ static void put_head(FILE *file, const ZpPage *page) {
   fprintf(file, "<p class=\"note\">%s</p>\n", drag_note);
 }
 
+/* How many of the comparisons of a subject, which begin at `first`, agree. => the first of the next subject. */
+static const ZpComparison *put_overview_row(FILE *file, const ZpComparison *first, const ZpComparison *end) {
+  const ZpComparison *c = first;
+  size_t run = 0, agree = 0;
+  for (; c < end && c->subject == first->subject; c++) {
+    run += isnan(c->ours) ? 0 : 1;
+    agree += c->agrees ? 1 : 0;
+  }
+  const int reason = 'a' + (int)first->subject->reason;
+  fputs("<tr><td class=\"left\">", file);
+  zp_html_text(file, first->subject->place);
+  fputs("</td><td class=\"left\">", file);
+  zp_html_text(file, first->subject->title);
+  fprintf(file, "</td><td class=\"%s\">%zu of %zu</td>", agree < run ? "off" : "ok", agree, run);
+  if (agree < run)
+    fprintf(file, "<td><a href=\"#why-%c\">%c</a></td></tr>\n", reason, reason);
+  else
+    fputs("<td></td></tr>\n", file);
+  return c;
+}
+
+static void put_overview(FILE *file, const ZpPage *page) {
+  const ZpComparison *c = page->comparisons->item, *end = c + page->comparisons->count;
+  fputs("<div class=\"tables\"><figure><figcaption>What agrees</figcaption><table><thead><tr><th class=\"left\">of</th>"
+        "<th class=\"left\">quantity</th><th>agree</th><th>why not</th></tr></thead><tbody>\n",
+        file);
+  while (c < end)
+    c = put_overview_row(file, c, end);
+  fputs("</tbody></table></figure>\n", file);
+}
+
+/* Beside the overview. */
 static void put_contents(FILE *file) {
-  fputs("<nav><ul>\n", file);
+  fputs("<nav><b>Contents</b><ul>\n", file);
   for (size_t i = 0; i < SECTIONS; i++) {
     fprintf(file, "<li><a href=\"#%s\">", sections[i].id);
     zp_html_text(file, sections[i].title);
@@ -417,7 +467,7 @@ static void put_contents(FILE *file) {
   }
   fputs("<li><a href=\"#why\">Why numbers differ</a></li>\n<li><a href=\"#files\">Data, and how to run it "
         "again</a></li>\n"
-        "</ul></nav>\n",
+        "</ul></nav></div>\n",
         file);
 }
 
@@ -450,6 +500,7 @@ static void put_files(FILE *file) {
 
 void zp_page_write(const ZpPage *page, FILE *file) {
   put_head(file, page);
+  put_overview(file, page);
   put_contents(file);
   for (size_t i = 0; i < SECTIONS; i++)
     put_section(file, page, &sections[i]);
