@@ -29,10 +29,10 @@ static const char style[] =
     "tr.new td{border-top:1px solid #aaa}td.ok{color:#00664a}td.off{color:#a34400}"
     ".note{border-left:4px solid #d55e00;padding:.3rem .8rem;background:#fff6ef}"
     ".verdict{font-size:1.1rem}.left{text-align:left}"
-    ".formula{display:flex;flex-wrap:wrap;align-items:center;gap:.3rem;font:italic 1.1rem Georgia,'Times New "
-    "Roman',serif;"
-    "margin:1rem}.formula sub{font-size:.7em;line-height:0}.formula sup{font-size:.7em;line-height:0}"
-    ".over{display:inline-flex;flex-direction:column;text-align:center}"
+    ".formula{font:italic 1.1rem/3 Georgia,'Times New Roman',serif;margin-left:1rem}"
+    ".formula sub,.formula sup{font-size:.7em;line-height:0}"
+    ".over{display:inline-flex;flex-direction:column;text-align:center;vertical-align:middle;line-height:1.4;margin:0 "
+    ".15rem}"
     ".over span:first-child{border-bottom:1px solid;padding:0 .2rem}"
     "@media(max-width:30rem){body{padding:.6rem}th,td{padding:.1rem .25rem}table{font-size:.78rem}}"
     "@media print{body{font-size:10pt;max-width:none;padding:0}h2{break-after:avoid}figure,li{break-inside:avoid}"
@@ -259,7 +259,7 @@ static const Section sections[] = {
      "Table II: strokes at rest",
      {"Preset <code>paper-code</code> with the K<sub>S</sub> of the authors' saved states at 61 g; the finite elements "
       "converged by preset "
-      "paper-fe. "
+      "<code>paper-fe</code>. "
       "The same loads on the actuator as the text describes it come from preset <code>paper-text</code>. Errors of the "
       "stroke stand "
       "beside those to the published reference, then to the converged one."},
@@ -341,7 +341,7 @@ static const Section sections[] = {
      "Section III: constants and cost",
      {"Cost of a simulated second with the authors' chain, the electric force found anew in every step, and as many "
       "steps as "
-      "the paper's mean step makes; wall time of one thread of this machine."},
+      "the paper's mean step makes; time of the processor, one thread of this machine."},
      NULL,
      "Section III",
      NULL,
