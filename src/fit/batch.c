@@ -16,7 +16,7 @@ ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *er
     if (status == ZP_OK) status = zp_data_check(&def, err);
   }
   if (status != ZP_OK) return status;
-  batch->result = calloc(batch->count, sizeof(ZpResult *));
+  batch->result = calloc(batch->count + 1, sizeof(ZpResult *));
   return batch->result ? ZP_OK : zp_fail_memory(err);
 }
 

@@ -275,7 +275,7 @@ ZpStatus zp_compare(const ZpRuns *runs, ZpComparisons *comparisons, ZpError *err
   zp_published_list(&published);
   while (zp_subjects[subjects].title)
     subjects++;
-  *comparisons = (ZpComparisons){.item = calloc(subjects * published, sizeof(ZpComparison))};
+  *comparisons = (ZpComparisons){.item = calloc(subjects * published + 1, sizeof(ZpComparison))};
   if (!comparisons->item) return zp_fail_memory(err);
   for (const ZpSubject *subject = zp_subjects; subject->title; subject++)
     add(subject, runs, comparisons);

@@ -417,7 +417,9 @@ static void put_head(FILE *file, const ZpPage *page) {
       "beside the same from this program, computed in %.1f s.</p>\n"
       "<p class=\"verdict\"><b>%zu</b> comparisons: <b class=\"agree\">%zu</b> agree, <b class=\"differ\">%zu</b> "
       "differ, each for one of the <a href=\"#why\">reasons below</a>.</p>\n"
-      "<p>Two numbers agree (✓) within %g %%, or within one unit of the last digit printed. Differences are "
+      "<p>Two numbers agree (✓) within %g %%, or within one unit of the last digit printed (two for the error of a "
+      "stroke, "
+      "which is a difference). Differences are "
       "ours / paper − 1. A letter in the column <i>why</i> is a reason.</p>\n",
       style, page->wall_time, run, run - off, off, 100 * ZP_AGREEMENT);
   if (run < page->comparisons->count)

@@ -108,9 +108,9 @@ static double read_processor_clock(void *user) {
 }
 
 /* Share of the whole that the runs before `id` take. */
-static double share_before(int id) {
+static double share_before(unsigned id) {
   int before = 0, all = 0;
-  for (int i = 0; i < ZP_RUN_COUNT; i++) {
+  for (unsigned i = 0; i < ZP_RUN_COUNT; i++) {
     before += i < id ? spec[i].weight : 0;
     all += spec[i].weight;
   }
@@ -119,7 +119,7 @@ static double share_before(int id) {
 
 static ZpStatus run_batch(ZpRunId id, ZpRun *run, const ZpHooks *outer, double *wall_time, ZpError *err) {
   ZpStatus status = zp_batch_create(run->scenario, &run->batch, err);
-  Inner inner = {outer, spec[id].name, 0, (share_before((int)id + 1) - share_before(id)) / (double)run->batch.count};
+  Inner inner = {outer, spec[id].name, 0, (share_before(id + 1) - share_before(id)) / (double)run->batch.count};
   ZpHooks hooks = {
       .user = &inner, .progress = on_progress, .clock = id == ZP_RUN_COST ? read_processor_clock : read_clock};
   double start = read_clock(&inner);
