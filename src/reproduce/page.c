@@ -179,7 +179,7 @@ static void put_zip_times(FILE *file, const ZpRuns *runs) {
       put_cell(file, "%.1f", 1e3 * zp_runs_get(runs, id[k], (ZpWhich){.load = NAN, .voltage = voltage}, "zip_time_s"));
     fputs("</tr>\n", file);
   }
-  fputs("</tbody></table></figure></div>\n<p>–: does not close.</p>\n", file);
+  fputs("</tbody></table></figure></div>\n<p>–: not closed when the run ended.</p>\n", file);
 }
 
 static void put_openings(FILE *file, const ZpRuns *runs) {
@@ -305,7 +305,7 @@ static const Section sections[] = {
     {"fig-9",
      "Fig. 9: contraction against time",
      {drag_note,
-      "8 g at four voltages. Ours: rod, faces that push and let go, implicit steps. Theirs: preset "
+      "8 g at four voltages. Ours: rod, 50 µm steel, faces that push and let go, implicit steps. Theirs: preset "
       "<code>paper-code</code> at two "
       "N, and "
       "preset <code>paper-text</code>. The paper prints no numbers for its curves; its authors' program, run again "
@@ -322,7 +322,11 @@ static const Section sections[] = {
       {"runs/fig-9-text/plots/contraction.svg", "The paper's text, N = 21"}}},
     {"fig-10",
      "Fig. 10: profiles in time",
-     {drag_note, "8 g at 10 kV. The paper prints no numbers. Of the expansion that it sees before the contraction:"},
+     {drag_note, "8 g at 10 kV; ours with 50 µm steel as the text has it, their program with 100 µm and a smaller "
+                 "share of the load "
+                 "(<a href=\"#why-a\">a</a>), so it opens less. The paper prints no numbers. Of the expansion that it "
+                 "sees before the "
+                 "contraction:"},
      NULL,
      NULL,
      put_openings,
