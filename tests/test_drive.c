@@ -395,7 +395,7 @@ START_TEST(only_a_constant_drive_stops) {
   ck_assert_int_eq(zp_study_run(&def, NULL, &ramp, NULL), ZP_OK);
   def = driven(ZP_WAVEFORM_TABLE, 90e-3);
   ZpDriveTable rows = {2, (const double[]){0, 1}, (const double[]){10e3, 10e3}};
-  ck_assert_int_eq(zp_study_run_driven(&def, &rows, NULL, &table, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run_with(&def, &(ZpStudyInput){.table = &rows}, NULL, &table, NULL), ZP_OK);
   ck_assert_int_eq(step->outcome, ZP_ZIPPED);
   ck_assert_int_eq(ramp->outcome, ZP_REACHED_END);
   ck_near(zp_result_get(ramp, "zip_time_s"), zp_result_get(step, "zip_time_s"), 1e-3);

@@ -31,12 +31,14 @@ bool zp_batch_open(const ZpBatch *batch) {
   return batch->done < batch->count && !batch->interrupted;
 }
 
-/* A sweep reports no shapes: keep its memory to the series. */
-static void drop_shapes(ZpResult *result) {
+/* A sweep reports no shapes and no checkpoints: keep its memory to the series. */
+static void keep_the_series(ZpResult *result) {
   zp_shapes_destroy(result->shapes);
   result->shapes = NULL;
   zp_field_map_destroy(result->map);
   result->map = NULL;
+  zp_checkpoint_destroy(result->checkpoint);
+  result->checkpoint = NULL;
 }
 
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
@@ -45,7 +47,7 @@ ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
   ZpStatus status = zp_scenario_def(batch->scenario, batch->done, &def, err);
   if (status == ZP_OK) status = zp_data_study_run(&def, hooks, &result, err);
   if (status != ZP_OK) return status;
-  if (batch->count > 1) drop_shapes(result);
+  if (batch->count > 1) keep_the_series(result);
   batch->result[batch->done++] = result;
   batch->interrupted = result->outcome == ZP_INTERRUPTED;
   return ZP_OK;
