@@ -20,6 +20,9 @@ typedef struct Options {
   bool json, yaml, quiet, help;
 } Options;
 
+/* Say something on stderr. */
+void cli_notice(const char *message);
+
 /* Say why and give the exit status. */
 int cli_fail(const ZpError *err);
 
@@ -30,6 +33,7 @@ int cli_flush(int status);
 int cli_study(const char *study, const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);
+int cli_reproduce(const Options *options);
 
 /* Progress on stderr where it is a terminal, and Ctrl-C. `of` runs, this is number `index`. */
 typedef struct Progress {

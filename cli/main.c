@@ -10,6 +10,7 @@ static const char usage[] =
     "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--json] [--quiet]\n"
     "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
     "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
+    "zipact reproduce [-o DIR]           every table and figure of the paper beside ours\n"
     "zipact bench [--json]               speed on this machine\n"
     "zipact --version | --help | STUDY --help\n"
     "\n"
@@ -26,8 +27,12 @@ static const char study_usage[] =
     "Values take units (\"130 um\", \"10 kV\", \"8 g\"); a bare number is SI. `zipact keys` lists the keys.\n"
     "Exit status: 0 done; 1 the numerics ended badly; 2 wrong input; 3 the machine failed; 130 interrupted.\n";
 
+void cli_notice(const char *message) {
+  fprintf(stderr, "zipact: %s\n", message);
+}
+
 int cli_fail(const ZpError *err) {
-  fprintf(stderr, "zipact: %s\n", err->message);
+  cli_notice(err->message);
   return err->status == ZP_MACHINE ? EXIT_MACHINE : EXIT_INPUT;
 }
 
@@ -90,9 +95,9 @@ static int read_options(int argc, char **argv, const char **set, Options *option
   return optind < argc ? fail_usage("one scenario at a time, not also ", argv[optind]) : EXIT_DONE;
 }
 
-static int no_results_options(const char *word, const Options *o) {
+static int no_scenario_options(const char *word, const Options *o) {
   if (o->scenario) return fail_usage("takes no scenario: ", word);
-  if (o->sets || o->directory) return fail_usage("takes neither --set nor -o: ", word);
+  if (o->sets) return fail_usage("takes no --set: ", word);
   return EXIT_DONE;
 }
 
@@ -104,16 +109,17 @@ static int dispatch(const char *word, const Options *o) {
     if (is_run && !o->scenario) return fail_usage("run needs a scenario file", "");
     return cli_study(is_run ? NULL : word, o);
   }
-  bool is_keys = strcmp(word, "keys") == 0, is_bench = strcmp(word, "bench") == 0;
-  if (!is_keys && !is_bench) return fail_usage("no such study or command: ", word);
+  bool is_keys = strcmp(word, "keys") == 0, is_reproduce = strcmp(word, "reproduce") == 0;
+  if (!is_keys && !is_reproduce && strcmp(word, "bench") != 0) return fail_usage("no such study or command: ", word);
   if (o->help) {
     print_help();
     return EXIT_DONE;
   }
-  int status = no_results_options(word, o);
+  int status = no_scenario_options(word, o);
   if (status != EXIT_DONE) return status;
-  if (is_bench && o->yaml) return fail_usage("--yaml goes with keys, not with ", word);
-  return is_keys ? cli_keys(o) : cli_bench(o);
+  if (o->yaml && !is_keys) return fail_usage("--yaml goes with keys, not with ", word);
+  if (o->directory && !is_reproduce) return fail_usage("takes no -o: ", word);
+  return is_keys ? cli_keys(o) : is_reproduce ? cli_reproduce(o) : cli_bench(o);
 }
 
 int main(int argc, char **argv) {

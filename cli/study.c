@@ -1,21 +1,12 @@
 /* zipact STUDY and zipact run: scenario => runs => report. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <zipact/calibrate.h>
+#include <zipact/batch.h>
 
 #include "cli.h"
-
-typedef struct Batch {
-  ZpScenario *scenario;
-  ZpResult **result; /* [count] */
-  size_t count;      /* to run */
-  size_t done;
-  bool interrupted;
-} Batch;
 
 static ZpStatus read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
@@ -27,51 +18,16 @@ static ZpStatus read_scenario(const char *study, const Options *o, ZpScenario *s
   return zp_scenario_set(scenario, assignment, err);
 }
 
-/* Every Def must be right before the first is run: wrong input writes nothing. */
-static ZpStatus check_all(const Batch *batch, ZpError *err) {
-  ZpActuatorDef def;
-  ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < batch->count && status == ZP_OK; i++) {
-    status = zp_scenario_def(batch->scenario, i, &def, err);
-    if (status == ZP_OK) status = zp_data_check(&def, err);
-  }
-  return status;
-}
-
-static ZpStatus run_one(Batch *batch, Progress *progress, ZpError *err) {
-  ZpActuatorDef def;
-  ZpStatus status = zp_scenario_def(batch->scenario, batch->done, &def, err);
-  if (status != ZP_OK) return status;
-  ZpHooks hooks = cli_hooks(progress);
-  ZpResult *result;
-  status = zp_data_study_run(&def, &hooks, &result, err);
-  if (status != ZP_OK) return status;
-  if (batch->count > 1) { /* a sweep reports no shapes: keep its memory to the series */
-    zp_shapes_destroy(result->shapes);
-    result->shapes = NULL;
-    zp_field_map_destroy(result->map);
-    result->map = NULL;
-    zp_checkpoint_destroy(result->checkpoint);
-    result->checkpoint = NULL;
-  }
-  batch->result[batch->done++] = result;
-  batch->interrupted = result->outcome == ZP_INTERRUPTED;
-  return ZP_OK;
-}
-
-static ZpStatus run_all(Batch *batch, const Options *o, ZpError *err) {
+static ZpStatus run_all(ZpBatch *batch, const Options *o, ZpError *err) {
   Progress progress = {.shown = !o->quiet && isatty(STDERR_FILENO), .of = batch->count};
+  ZpHooks hooks = cli_hooks(&progress);
   ZpStatus status = ZP_OK;
-  while (status == ZP_OK && batch->done < batch->count && !batch->interrupted) {
+  while (status == ZP_OK && zp_batch_open(batch)) {
     progress.index = batch->done;
-    status = run_one(batch, &progress, err);
+    status = zp_batch_next(batch, &hooks, err);
   }
   cli_progress_end(&progress);
   return status;
-}
-
-static void notice(const char *message) {
-  fprintf(stderr, "zipact: %s\n", message);
 }
 
 static void print_scalar(const ZpScalar *scalar) {
@@ -112,7 +68,7 @@ static void print_answers(const ZpResult *result) {
 }
 
 /* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
-static void print_row(const Batch *batch, size_t index) {
+static void print_row(const ZpBatch *batch, size_t index) {
   size_t lists;
   const int *list = zp_scenario_lists(batch->scenario, &lists);
   ZpActuatorDef def;
@@ -128,7 +84,7 @@ static void print_row(const Batch *batch, size_t index) {
   printf("\n");
 }
 
-static void print_summary(const Batch *batch, const char *directory) {
+static void print_summary(const ZpBatch *batch, const char *directory) {
   if (batch->count > 1) {
     for (size_t i = 0; i < batch->done; i++)
       print_row(batch, i);
@@ -143,17 +99,15 @@ static void print_summary(const Batch *batch, const char *directory) {
   printf("results: %s/ (summary.json, table.csv, results.h5, plots/)\n", directory);
 }
 
-static int exit_status(const Batch *batch) {
+static int exit_status(const ZpBatch *batch) {
   if (batch->interrupted) return EXIT_INTERRUPTED;
-  for (size_t i = 0; i < batch->done; i++)
-    if (!zp_outcome_good(batch->result[i]->outcome)) return EXIT_NUMERICS;
-  return EXIT_DONE;
+  return zp_batch_good(batch) ? EXIT_DONE : EXIT_NUMERICS;
 }
 
-static int report(const Batch *batch, const Options *o, const char *directory, double wall_time) {
+static int report(const ZpBatch *batch, const Options *o, const char *directory, double wall_time) {
   ZpError err;
   ZpReport report = {directory, batch->scenario, batch->result, batch->done, wall_time};
-  if (zp_report_write(&report, o->quiet ? NULL : notice, &err) != ZP_OK) return cli_fail(&err);
+  if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
   } else if (!o->quiet) {
@@ -162,18 +116,14 @@ static int report(const Batch *batch, const Options *o, const char *directory, d
   return exit_status(batch);
 }
 
-static int run_and_report(Batch *batch, const Options *o) {
+static int run_and_report(ZpBatch *batch, const Options *o) {
   ZpError err;
   ZpActuatorDef def;
-  batch->count = zp_scenario_count(batch->scenario);
-  if (check_all(batch, &err) != ZP_OK) return cli_fail(&err);
   if (zp_scenario_def(batch->scenario, 0, &def, &err) != ZP_OK) return cli_fail(&err);
   char directory[64];
   snprintf(directory, sizeof directory, "out/%s", zp_key(zp_key_find("study"))->choices[def.study].word);
   const char *where = o->directory ? o->directory : directory;
   if (zp_report_prepare(where, &err) != ZP_OK) return cli_fail(&err);
-  batch->result = calloc(batch->count, sizeof *batch->result);
-  if (!batch->result) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   double start = cli_wall_clock(NULL);
   cli_watch_interrupts();
   ZpStatus status = run_all(batch, o, &err);
@@ -184,16 +134,13 @@ static int run_and_report(Batch *batch, const Options *o) {
 
 int cli_study(const char *study, const Options *o) {
   ZpError err;
-  Batch batch = {.scenario = zp_scenario_create()};
-  if (!batch.scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
-  int status = EXIT_INPUT;
-  if (read_scenario(study, o, batch.scenario, &err) == ZP_OK)
-    status = run_and_report(&batch, o);
-  else
-    status = cli_fail(&err);
-  for (size_t i = 0; i < batch.done; i++)
-    zp_result_destroy(batch.result[i]);
-  free(batch.result);
-  zp_scenario_destroy(batch.scenario);
-  return status;
+  ZpBatch batch = {0};
+  ZpScenario *scenario = zp_scenario_create();
+  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
+  ZpStatus status = read_scenario(study, o, scenario, &err);
+  if (status == ZP_OK) status = zp_batch_create(scenario, &batch, &err);
+  int exit_code = status == ZP_OK ? run_and_report(&batch, o) : cli_fail(&err);
+  zp_batch_free(&batch);
+  zp_scenario_destroy(scenario);
+  return exit_code;
 }

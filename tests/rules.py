@@ -29,6 +29,7 @@ MAY_INCLUDE = {
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
     "io": ["base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
+    "reproduce": ["fit", "io", "base"],
     "cli": [],
 }
 
@@ -51,7 +52,11 @@ PUBLIC = {
     "zipact.h": "study",
     "io.h": "io",
     "calibrate.h": "fit",
+    "batch.h": "fit",
+    "reproduce.h": "reproduce",
 }
+
+ABOVE_CORE = ("io", "fit", "reproduce", "cli")  # may use libraries, files and streams
 
 LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
 
@@ -128,7 +133,7 @@ def include_is_right(folder, mark, target):
     """mark is < or a quote, target what stands behind it."""
     if target.startswith("zipact/"):
         header = target[len("zipact/") :]
-        if folder in ("cli", "io", "fit"):
+        if folder in ABOVE_CORE:
             return header in PUBLIC
         wanted = PUBLIC.get(header)
         return wanted is not None and (wanted == folder or wanted in MAY_INCLUDE[folder])
@@ -161,7 +166,7 @@ def rule_core_needs_no_library(repo, files):
     iso = {"assert", "ctype", "errno", "float", "inttypes", "limits", "math", "stdalign", "stdarg", "stdbool", "stddef"}
     iso |= {"stdint", "stdio", "stdlib", "string"}
     for name in files:
-        if folder_of(name) in (None, "io", "fit", "cli") or not name.endswith((".c", ".h")):
+        if folder_of(name) in (None, *ABOVE_CORE) or not name.endswith((".c", ".h")):
             continue
         for number, line in enumerate(read(repo, name).splitlines(), 1):
             found = re.match(r"\s*#\s*include\s*<([^>]+)\.h>", line)
@@ -219,7 +224,7 @@ def rule_public_functions_commented(repo, files):
 
 
 def is_core(name):
-    return folder_of(name) not in (None, "io", "fit", "cli") and name.endswith((".c", ".h"))
+    return folder_of(name) not in (None, *ABOVE_CORE) and name.endswith((".c", ".h"))
 
 
 def rule_core_calls(repo, files):

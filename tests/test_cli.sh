@@ -182,6 +182,9 @@ refused "keys with -o" 'keys' keys -o refused
 refused "keys twice" 'not both' keys --json --yaml
 refused "--yaml of a study" 'yaml' actuate --yaml -o refused
 refused "bench with --set" 'bench' bench --set load.mass=1
+refused "bench with -o" 'no -o.*bench' bench -o refused
+refused "reproduce with a scenario" 'no scenario.*reproduce' reproduce starter.yaml -o refused
+refused "reproduce with --set" 'no --set.*reproduce' reproduce --set load.mass=1 -o refused
 refused "missing file" 'absent.yaml.*No such file' run absent.yaml -o refused
 refused "no =" 'KEY=VALUE' actuate --set load.mass -o refused
 refused "empty value" 'load\.mass.*give a value' actuate --set load.mass= -o refused

@@ -13,7 +13,8 @@ typedef struct ZpPlot {
   const ZpResult *single; /* the only run; NULL for a sweep */
   ZpActuatorDef def;      /* of the first run */
   ZpStudy study;
-  char subtitle[320]; /* under what: load, voltage, N, preset */
+  char subtitle[320];        /* under what: load, voltage, N, preset */
+  const struct ZpRuns *runs; /* what pictures of several reports look at; else NULL */
 } ZpPlot;
 
 /* A picture: NAME.gp makes NAME.EXTENSION, from ../table.csv or from NAME.dat. */
@@ -23,6 +24,18 @@ typedef struct ZpPicture {
   void (*script)(const ZpPlot *plot, FILE *file); /* writes the .gp */
   void (*data)(const ZpPlot *plot, FILE *file);   /* writes the .dat; NULL if there is none */
 } ZpPicture;
+
+/* Where pictures go. */
+typedef struct ZpDrawing {
+  const ZpPlot *plot;
+  const char *folder;                  /* made if needed */
+  void (*notice)(const char *message); /* NULL: silent */
+  bool missing;                        /* there is no gnuplot */
+} ZpDrawing;
+
+/* Remove, then draw the pictures of `tables` that there is something to draw for. A picture that gnuplot cannot draw is
+ * no failure: its script stays and the notice says why. */
+ZpStatus zp_plots_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err);
 
 /* All pictures that any report may have; the last has no name. */
 extern const ZpPicture zp_series_pictures[];

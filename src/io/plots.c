@@ -15,23 +15,10 @@
 #include "io/plot.h"
 #include "io/report.h"
 
-/* How the drawing goes on: where, and whether gnuplot is there at all. */
-typedef struct Drawing {
-  const ZpPlot *plot;
-  const char *folder;
-  void (*notice)(const char *message);
-  bool missing;
-} Drawing;
-
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
 
-static const ZpPicture *const tables[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures, zp_path_pictures,
-                                          zp_rest_pictures,   zp_fit_pictures,   zp_field_pictures};
-
-#define TABLES (sizeof tables / sizeof tables[0])
-
-static void say(const Drawing *drawing, const char *name, const char *reason) {
+static void say(const ZpDrawing *drawing, const char *name, const char *reason) {
   char message[512];
   if (!drawing->notice) return;
   if (drawing->missing)
@@ -54,7 +41,7 @@ static bool is_complete(const char *path, const char *extension) {
   return got > 0 && memmem(tail, got, end, strlen(end)) != NULL;
 }
 
-static ZpStatus write_text(const Drawing *drawing, const ZpPicture *picture, const char *extension,
+static ZpStatus write_text(const ZpDrawing *drawing, const ZpPicture *picture, const char *extension,
                            void (*write)(const ZpPlot *plot, FILE *file), ZpError *err) {
   ZpAtomic out;
   char name[NAME_SIZE];
@@ -66,7 +53,7 @@ static ZpStatus write_text(const Drawing *drawing, const ZpPicture *picture, con
   return zp_atomic_commit(&out, err);
 }
 
-static ZpStatus draw(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+static ZpStatus draw(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   ZpAtomic out;
   char name[NAME_SIZE], script[NAME_SIZE], reason[256];
   snprintf(name, sizeof name, "%s.%s", picture->name, picture->extension);
@@ -82,7 +69,7 @@ static ZpStatus draw(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus remove_picture(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+static ZpStatus remove_picture(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   const char *const extension[] = {"gp", "dat", picture->extension};
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < 3 && status == ZP_OK; i++) {
@@ -93,7 +80,7 @@ static ZpStatus remove_picture(Drawing *drawing, const ZpPicture *picture, ZpErr
   return status;
 }
 
-static ZpStatus make_picture(Drawing *drawing, const ZpPicture *picture, ZpError *err) {
+static ZpStatus make_picture(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   if (!picture->has(drawing->plot)) return ZP_OK;
   ZpStatus status = write_text(drawing, picture, "gp", picture->script, err);
   if (status == ZP_OK) status = write_text(drawing, picture, "dat", picture->data, err);
@@ -146,26 +133,34 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus for_all(Drawing *drawing, ZpStatus (*act)(Drawing *drawing, const ZpPicture *picture, ZpError *err),
-                        ZpError *err) {
+static ZpStatus for_all(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables,
+                        ZpStatus (*act)(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err), ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (size_t t = 0; t < TABLES; t++)
-    for (const ZpPicture *picture = tables[t]; picture->name && status == ZP_OK; picture++)
+  for (size_t t = 0; t < tables; t++)
+    for (const ZpPicture *picture = table[t]; picture->name && status == ZP_OK; picture++)
       status = act(drawing, picture, err);
   return status;
 }
 
+ZpStatus zp_plots_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
+    status = zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", drawing->folder, strerror(errno));
+  /* pictures of different studies may have the same name: remove all before any is made */
+  if (status == ZP_OK) status = for_all(drawing, table, tables, remove_picture, err);
+  if (status == ZP_OK) status = for_all(drawing, table, tables, make_picture, err);
+  return status;
+}
+
 ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
+  static const ZpPicture *const table[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures, zp_path_pictures,
+                                           zp_rest_pictures,   zp_fit_pictures,   zp_field_pictures};
   ZpPlot plot;
   char *folder = zp_path_join(report->directory, "plots");
   if (!folder) return zp_fail_memory(err);
-  Drawing drawing = {.plot = &plot, .folder = folder, .notice = notice};
+  ZpDrawing drawing = {.plot = &plot, .folder = folder, .notice = notice};
   ZpStatus status = look_at(report, &plot, err);
-  if (status == ZP_OK && mkdir(folder, 0777) != 0 && errno != EEXIST)
-    status = zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", folder, strerror(errno));
-  /* pictures of different studies may have the same name: remove all before any is made */
-  if (status == ZP_OK) status = for_all(&drawing, remove_picture, err);
-  if (status == ZP_OK) status = for_all(&drawing, make_picture, err);
+  if (status == ZP_OK) status = zp_plots_draw(&drawing, table, sizeof table / sizeof table[0], err);
   free(folder);
   return status;
 }

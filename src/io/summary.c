@@ -1,9 +1,4 @@
-/* summary.json: what a study found, as one JSON object.
- *
- * jansson makes the tree and writes the strings. The tree is printed here, because jansson writes all 17
- * digits of 0.075 and this file is for people, too: numbers are the shortest that read back the same. */
-#include <jansson.h>
-
+/* summary.json: what a study found, as one JSON object. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,23 +7,8 @@
 #include <zipact/version.h>
 
 #include "base/fail.h"
-#include "io/number.h"
+#include "io/json.h"
 #include "io/report.h"
-
-/* Largest count that a double holds exactly. */
-#define LARGEST_COUNT 9007199254740992.0
-
-/* Steals `value`; true if both it and the place for it could be made. */
-static bool set(json_t *object, const char *name, json_t *value) {
-  return json_object_set_new(object, name, value) == 0;
-}
-
-/* null for what does not exist. JSON knows no infinity either. */
-static json_t *number(double value, const char *unit) {
-  if (!isfinite(value)) return json_null();
-  if (strcmp(unit, "count") == 0 && fabs(value) <= LARGEST_COUNT) return json_integer((json_int_t)value);
-  return json_real(value);
-}
 
 /* frequency_1_Hz, frequency_2_Hz, ...: scalars so that a sweep has columns, but an array in JSON. */
 static bool is_frequency(const ZpResult *result, const ZpScalar *scalar) {
@@ -43,16 +23,17 @@ static bool set_frequencies(json_t *object, const ZpResult *result) {
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
     if (is_frequency(result, scalar))
-      done = json_array_append_new(array, number(scalar->value, scalar->unit)) == 0 && done;
+      done = json_array_append_new(array, zp_json_number(scalar->value, scalar->unit)) == 0 && done;
   }
-  return set(object, "frequencies_Hz", array) && done;
+  return zp_json_set(object, "frequencies_Hz", array) && done;
 }
 
 static bool set_scalars(json_t *object, const ZpResult *result) {
   bool done = result->study != ZP_STUDY_MODES || set_frequencies(object, result);
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (!is_frequency(result, scalar)) done = set(object, scalar->name, number(scalar->value, scalar->unit)) && done;
+    if (!is_frequency(result, scalar))
+      done = zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit)) && done;
   }
   return done;
 }
@@ -74,7 +55,7 @@ static json_t *key_value(int key, double value) {
   if (k->type == ZP_KEY_BOOL) return json_boolean(value != 0);
   if (k->type == ZP_KEY_ENUM) return json_string(zp_key_word(key, value));
   if (k->type == ZP_KEY_REAL_AUTO && isnan(value)) return json_string("auto");
-  return number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
+  return zp_json_number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
 }
 
 /* One run of a sweep. */
@@ -86,12 +67,12 @@ static json_t *row_of(const ZpReport *report, size_t run) {
   json_t *row = json_object(), *warnings = json_array();
   bool done = zp_scenario_def(report->scenario, run, &def, NULL) == ZP_OK;
   for (size_t i = 0; i < keys && done; i++)
-    done = set(row, zp_key(key[i])->name, key_value(key[i], zp_def_get(&def, key[i])));
-  done = done && set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
-  done = done && set(row, "message", json_string(result->message));
+    done = zp_json_set(row, zp_key(key[i])->name, key_value(key[i], zp_def_get(&def, key[i])));
+  done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
+  done = done && zp_json_set(row, "message", json_string(result->message));
   done = done && set_scalars(row, result);
   done = add_warnings(warnings, result) && done;
-  done = set(row, "warnings", warnings) && done;
+  done = zp_json_set(row, "warnings", warnings) && done;
   if (done) return row;
   json_decref(row);
   return NULL;
@@ -102,7 +83,7 @@ static bool set_rows(json_t *object, const ZpReport *report) {
   bool done = true;
   for (size_t i = 0; i < report->count; i++)
     done = json_array_append_new(rows, row_of(report, i)) == 0 && done;
-  return set(object, "rows", rows) && done;
+  return zp_json_set(object, "rows", rows) && done;
 }
 
 /* The run that speaks for all: the first that ended badly, else the first. NULL if there is none. */
@@ -114,77 +95,32 @@ static const ZpResult *spokesman(const ZpReport *report) {
 
 static bool set_outcome(json_t *object, const ZpReport *report) {
   const ZpResult *result = spokesman(report);
-  bool done = set(object, "outcome", json_string(zp_outcome_name(result ? result->outcome : ZP_INTERRUPTED)));
-  done = set(object, "message", json_string(result ? result->message : "interrupted before the first run")) && done;
-  return set(object, "wall_time_s", number(report->wall_time, "s")) && done;
+  bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(result ? result->outcome : ZP_INTERRUPTED)));
+  done = zp_json_set(object, "message", json_string(result ? result->message : "interrupted before the first run")) &&
+         done;
+  return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
 }
 
 static json_t *summary_of(const ZpReport *report) {
   const ZpResult *single = zp_report_single(report);
   json_t *object = json_object(), *warnings = json_array();
-  bool done = set(object, "version", json_string(ZP_VERSION));
-  done = set(object, "study", json_string(zp_report_study(report))) && done;
+  bool done = zp_json_set(object, "version", json_string(ZP_VERSION));
+  done = zp_json_set(object, "study", json_string(zp_report_study(report))) && done;
   done = set_outcome(object, report) && done;
   if (single) done = set_scalars(object, single) && done;
   for (size_t i = 0; i < report->count; i++)
     done = add_warnings(warnings, report->result[i]) && done;
-  done = set(object, "warnings", warnings) && done;
+  done = zp_json_set(object, "warnings", warnings) && done;
   if (zp_report_is_sweep(report)) done = set_rows(object, report) && done;
   if (done) return object;
   json_decref(object);
   return NULL;
 }
 
-/* A real keeps a point or an exponent, so that readers do not take 75.0 for a whole number. */
-static void print_real(FILE *file, double value) {
-  char text[ZP_NUMBER_SIZE];
-  zp_number_print(value, text, sizeof text);
-  fprintf(file, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
-}
-
-static bool print_tree(FILE *file, const json_t *tree, int depth);
-
-static bool print_object(FILE *file, const json_t *object, int depth) {
-  const char *name, *mark = "{";
-  json_t *value;
-  bool done = true;
-  json_object_foreach((json_t *)object, name, value) {
-    fprintf(file, "%s\n%*s\"%s\": ", mark, 2 * depth + 2, "", name);
-    done = print_tree(file, value, depth + 1) && done;
-    mark = ",";
-  }
-  fprintf(file, "\n%*s}", 2 * depth, "");
-  return done;
-}
-
-static bool print_array(FILE *file, const json_t *array, int depth) {
-  bool done = true;
-  for (size_t i = 0; i < json_array_size(array); i++) {
-    fprintf(file, "%s\n%*s", i ? "," : "[", 2 * depth + 2, "");
-    done = print_tree(file, json_array_get(array, i), depth + 1) && done;
-  }
-  fprintf(file, "\n%*s]", 2 * depth, "");
-  return done;
-}
-
-/* Names of members are ours and need no escapes; jansson writes all else but reals. */
-static bool print_tree(FILE *file, const json_t *tree, int depth) {
-  if (json_is_object(tree) && json_object_size(tree) > 0) return print_object(file, tree, depth);
-  if (json_is_array(tree) && json_array_size(tree) > 0) return print_array(file, tree, depth);
-  if (json_is_real(tree))
-    print_real(file, json_real_value(tree));
-  else
-    return json_dumpf(tree, file, JSON_ENCODE_ANY) == 0;
-  return true;
-}
-
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
   json_t *summary = summary_of(report);
   if (!summary) return zp_fail_memory(err);
-  errno = 0;
-  bool done = print_tree(file, summary, 0);
+  ZpStatus status = zp_json_write(summary, file, err);
   json_decref(summary);
-  done = fputc('\n', file) != EOF && done;
-  if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
+  return status;
 }

@@ -1,0 +1,39 @@
+/* The runs of a scenario, one after the other: what the command and `reproduce` do with every scenario. Part of the io
+ * library. */
+#ifndef ZIPACT_BATCH_H
+#define ZIPACT_BATCH_H
+
+#include <zipact/io.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A scenario at work. */
+typedef struct ZpBatch {
+  const ZpScenario *scenario;
+  ZpResult **result; /* [done] */
+  size_t count;      /* to run */
+  size_t done;
+  bool interrupted; /* by a hook: the last result is what was reached */
+} ZpBatch;
+
+/* Check every Def of `scenario`, which must outlive the batch, before the first is run. ZP_BAD_INPUT as zp_scenario_def
+ * and zp_data_check. To be freed whatever the status. */
+ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err);
+void zp_batch_free(ZpBatch *batch);
+
+/* True while there is something to run. */
+bool zp_batch_open(const ZpBatch *batch);
+
+/* Run the next Def. `hooks` may be NULL. The results of a sweep keep their series, not their shapes. */
+ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err);
+
+/* True if every outcome is an answer (zp_outcome_good). */
+bool zp_batch_good(const ZpBatch *batch);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,67 @@
+/* Pieces of HTML. */
+#include "io/html.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void zp_html_text(FILE *file, const char *text) {
+  for (; *text; text++) {
+    if (*text == '&')
+      fputs("&amp;", file);
+    else if (*text == '<')
+      fputs("&lt;", file);
+    else if (*text == '>')
+      fputs("&gt;", file);
+    else if (*text == '"')
+      fputs("&quot;", file);
+    else
+      fputc(*text, file);
+  }
+}
+
+void zp_html_number(FILE *file, const char *text) {
+  const char *exponent = strchr(text, 'e');
+  for (const char *c = text; *c && c != exponent; c++)
+    fputs(*c == '-' ? "−" : (const char[2]){*c, 0}, file);
+  if (exponent) {
+    int power = atoi(exponent + 1);
+    fprintf(file, "·10<sup>%s%d</sup>", power < 0 ? "−" : "", abs(power));
+  }
+}
+
+/* Copy a line; after each mark of an id or of a reference to one comes the prefix. */
+static void put_line(FILE *file, const char *line, const char *prefix) {
+  static const char *const mark[] = {" id='", " id=\"", "href='#", "href=\"#", "url(#"};
+  while (*line) {
+    size_t length = 0;
+    for (size_t i = 0; i < sizeof mark / sizeof mark[0] && length == 0; i++)
+      if (strncmp(line, mark[i], strlen(mark[i])) == 0) length = strlen(mark[i]);
+    if (length > 0)
+      fprintf(file, "%.*s%s-", (int)length, line, prefix);
+    else
+      fputc(*line, file);
+    line += length > 0 ? length : 1;
+  }
+}
+
+bool zp_html_svg(FILE *file, const char *path, const char *prefix, const char *label) {
+  char *line = NULL;
+  size_t size = 0;
+  bool inside = false;
+  FILE *picture = fopen(path, "re");
+  if (!picture) return false;
+  while (getline(&line, &size, picture) >= 0) {
+    if (!inside && strncmp(line, "<svg", 4) == 0) { /* before it comes what only a file of its own has */
+      inside = true;
+      fputs("<svg role=\"img\" aria-label=\"", file);
+      zp_html_text(file, label);
+      fputs("\"", file);
+      put_line(file, line + 4, prefix);
+    } else if (inside && strncmp(line, "<title>", 7) != 0) { /* the title, "Gnuplot", would show as a tooltip */
+      put_line(file, line, prefix);
+    }
+  }
+  free(line);
+  fclose(picture);
+  return inside;
+}

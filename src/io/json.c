@@ -1,0 +1,73 @@
+/* JSON as summaries have it. jansson makes the tree and writes the strings; the rest is printed here. */
+#include "io/json.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "io/number.h"
+
+/* Largest count that a double holds exactly. */
+#define LARGEST_COUNT 9007199254740992.0
+
+bool zp_json_set(json_t *object, const char *name, json_t *value) {
+  return json_object_set_new(object, name, value) == 0;
+}
+
+json_t *zp_json_number(double value, const char *unit) {
+  if (!isfinite(value)) return json_null();
+  if (strcmp(unit, "count") == 0 && fabs(value) <= LARGEST_COUNT) return json_integer((json_int_t)value);
+  return json_real(value);
+}
+
+/* A real keeps a point or an exponent, so that readers do not take 75.0 for a whole number. */
+static void print_real(FILE *file, double value) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(value, text, sizeof text);
+  fprintf(file, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
+}
+
+static bool print_tree(FILE *file, const json_t *tree, int depth);
+
+static bool print_object(FILE *file, const json_t *object, int depth) {
+  const char *name, *mark = "{";
+  json_t *value;
+  bool done = true;
+  json_object_foreach((json_t *)object, name, value) {
+    fprintf(file, "%s\n%*s\"%s\": ", mark, 2 * depth + 2, "", name);
+    done = print_tree(file, value, depth + 1) && done;
+    mark = ",";
+  }
+  fprintf(file, "\n%*s}", 2 * depth, "");
+  return done;
+}
+
+static bool print_array(FILE *file, const json_t *array, int depth) {
+  bool done = true;
+  for (size_t i = 0; i < json_array_size(array); i++) {
+    fprintf(file, "%s\n%*s", i ? "," : "[", 2 * depth + 2, "");
+    done = print_tree(file, json_array_get(array, i), depth + 1) && done;
+  }
+  fprintf(file, "\n%*s]", 2 * depth, "");
+  return done;
+}
+
+/* Names of members are ours and need no escapes; jansson writes all else but reals. */
+static bool print_tree(FILE *file, const json_t *tree, int depth) {
+  if (json_is_object(tree) && json_object_size(tree) > 0) return print_object(file, tree, depth);
+  if (json_is_array(tree) && json_array_size(tree) > 0) return print_array(file, tree, depth);
+  if (json_is_real(tree))
+    print_real(file, json_real_value(tree));
+  else
+    return json_dumpf(tree, file, JSON_ENCODE_ANY) == 0;
+  return true;
+}
+
+ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  bool done = print_tree(file, tree, 0);
+  done = fputc('\n', file) != EOF && done;
+  if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
+}

@@ -1,0 +1,21 @@
+/* JSON as summaries have it: trees made with jansson, printed for people and programs. */
+#ifndef ZP_IO_JSON_H
+#define ZP_IO_JSON_H
+
+#include <jansson.h>
+
+#include <stdbool.h>
+
+#include <zipact/error.h>
+
+/* Steals `value`; true if both it and the place for it could be made. */
+bool zp_json_set(json_t *object, const char *name, json_t *value);
+
+/* A real, a whole number for the unit "count", null for what does not exist; JSON knows no infinity either. */
+json_t *zp_json_number(double value, const char *unit);
+
+/* Write the tree as lines, numbers as the shortest that read back the same (jansson writes all 17 digits of 0.075).
+ * ZP_MACHINE if the file could not be written. */
+ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err);
+
+#endif

@@ -1,0 +1,58 @@
+/* Published numbers beside ours. */
+#ifndef ZP_REPRODUCE_COMPARE_H
+#define ZP_REPRODUCE_COMPARE_H
+
+#include <zipact/reproduce.h>
+
+#include "reproduce/runs.h"
+
+#define ZP_REASON(id, title, section, sentence) id,
+typedef enum ZpReasonId {
+#include "reproduce/reasons.def"
+  ZP_REASON_COUNT
+} ZpReasonId;
+#undef ZP_REASON
+
+typedef struct ZpReason {
+  const char *title, *section, *sentence;
+} ZpReason;
+
+const ZpReason *zp_reason(ZpReasonId id);
+
+/* A quantity that is compared: one table of the page. */
+typedef struct ZpSubject {
+  ZpQuantity quantity; /* what is published */
+  const char *place;   /* "Table I" */
+  const char *title;   /* what ours is; no commas, since it stands in a CSV */
+  const char *unit;
+  const char *source; /* of what is published: "paper", or "program" where its authors' program was run again */
+  double (*ours)(const ZpRuns *runs, const ZpPublished *published);
+  ZpReasonId reason;                             /* why it may differ */
+  double (*slack)(const ZpPublished *published); /* that the printed digits leave; NULL: one of the last digit */
+} ZpSubject;
+
+/* All subjects; the last has no title. */
+extern const ZpSubject zp_subjects[];
+
+/* Ours agrees with what is published within this, relative, or within what the printed digits leave. */
+#define ZP_AGREEMENT 0.005
+
+/* One published number beside ours. */
+typedef struct ZpComparison {
+  const ZpSubject *subject;
+  const ZpPublished *published;
+  double ours;       /* in the unit of the published number; NAN: not run */
+  double difference; /* ours / published - 1 */
+  bool agrees;
+} ZpComparison;
+
+/* All comparisons, subject after subject. */
+typedef struct ZpComparisons {
+  ZpComparison *item; /* [count] */
+  size_t count;
+} ZpComparisons;
+
+/* To be freed (item) whatever the status. */
+ZpStatus zp_compare(const ZpRuns *runs, ZpComparisons *comparisons, ZpError *err);
+
+#endif

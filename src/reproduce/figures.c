@@ -1,0 +1,153 @@
+/* Pictures that show several runs together, drawn as those of any report: NAME.gp and NAME.dat stay beside NAME.svg. */
+#include "reproduce/figures.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "io/atomic.h"
+#include "io/plot.h"
+
+#define RIGHT 0.76
+
+static bool has_run(const ZpPlot *plot, ZpRunId id) {
+  return plot->runs->run[id].batch.done > 0;
+}
+
+static void head(FILE *file, const char *name, const char *title, const char *subtitle) {
+  ZpPlot plot = {.report = NULL};
+  snprintf(plot.subtitle, sizeof plot.subtitle, "%s", subtitle);
+  zp_plot_head(&plot, file, name, title, RIGHT);
+}
+
+/* An index of the .dat file: a row of a table each, columns in SI; two empty lines end it. */
+static void put_table(FILE *file, const ZpTable *table, const char *x, const char *y) {
+  for (size_t row = 0; table && row < table->rows; row++) {
+    zp_plot_put(file, zp_table_get(table, row, x), ' ');
+    zp_plot_put(file, zp_table_get(table, row, y), '\n');
+  }
+  fputs("\n\n", file);
+}
+
+/* -- fig. 6: shapes at rest ------------------------------------------------------------------------- */
+
+static const double loads[] = {40, 60, 80, 100, 150, 200}; /* g, as in Table II */
+enum { LOADS = sizeof loads / sizeof loads[0] };
+
+static bool has_shapes(const ZpPlot *plot) {
+  return has_run(plot, ZP_RUN_FINITE_ELEMENTS) && has_run(plot, ZP_RUN_TABLE_2_61);
+}
+
+/* From the clip on, so that both models lie on each other. */
+static void put_shape(FILE *file, const ZpResult *result) {
+  const ZpTable *table = result ? result->series : NULL;
+  for (size_t row = 0; table && row < table->rows; row++) {
+    zp_plot_put(file, zp_table_get(table, row, "x_m") - zp_table_get(table, 0, "x_m"), ' ');
+    zp_plot_put(file, zp_table_get(table, row, "y_m") - zp_table_get(table, 0, "y_m"), '\n');
+  }
+  fputs("\n\n", file);
+}
+
+static void data_shapes(const ZpPlot *plot, FILE *file) {
+  fputs("# x_m y_m from the clip; for each load an index of the finite elements, then one of the chain\n", file);
+  for (int i = 0; i < LOADS; i++) {
+    const ZpWhich which = {.load = loads[i]};
+    put_shape(file, zp_runs_find(plot->runs, ZP_RUN_FINITE_ELEMENTS, which));
+    put_shape(file, zp_runs_find(plot->runs, ZP_RUN_TABLE_2_61, which));
+  }
+}
+
+static void script_shapes(const ZpPlot *plot, FILE *file) {
+  (void)plot;
+  head(file, "fig-6", "Shapes at rest under six loads", "100 µm steel, K_S calibrated at 61 g");
+  fputs("set xlabel 'x from the clip / mm'\nset ylabel 'y / mm' offset 0.5\nset xrange [0:46]\nplot ", file);
+  for (int i = 0; i < LOADS; i++)
+    fprintf(file,
+            "'fig-6.dat' index %d using ($1*1e3):($2*1e3) with lines lw 2 lc rgb '%s' title '%g g', \\\n"
+            "     '' index %d every 3 using ($1*1e3):($2*1e3) with points pt 7 ps 0.5 lc rgb '%s' notitle, \\\n     ",
+            2 * i, zp_plot_colour((size_t)i), loads[i], 2 * i + 1, zp_plot_colour((size_t)i));
+  fputs("NaN with lines lw 2 lc rgb '#555555' title 'finite elements', \\\n"
+        "     NaN with points pt 7 ps 0.5 lc rgb '#555555' title 'chain, N = 61'\n",
+        file);
+}
+
+/* -- fig. 7: force along a ribbon -------------------------------------------------------------------- */
+
+static bool has_profile(const ZpPlot *plot) {
+  return has_run(plot, ZP_RUN_FIG_7) && has_run(plot, ZP_RUN_FIG_7_PAPER);
+}
+
+static void data_profile(const ZpPlot *plot, FILE *file) {
+  const ZpTable *ours = plot->runs->run[ZP_RUN_FIG_7].batch.result[0]->series;
+  fputs("# x_m N_per_m: the field; the plates law; the plates law as the paper's program has it\n", file);
+  put_table(file, ours, "x_m", "field_N_per_m");
+  put_table(file, ours, "x_m", "plates_N_per_m");
+  put_table(file, plot->runs->run[ZP_RUN_FIG_7_PAPER].batch.result[0]->series, "x_m", "plates_N_per_m");
+}
+
+static void script_profile(const ZpPlot *plot, FILE *file) {
+  const double factor = zp_result_get(plot->runs->run[ZP_RUN_FIG_7].batch.result[0], "paper_factor");
+  head(file, "fig-7", "Electric force along a ribbon", "opening 2 mm, 5 kV, one Bézier curve, no breakdown");
+  fprintf(
+      file,
+      "set xlabel 'x from the clip / mm'\nset ylabel 'force per length / N/m' offset 0.5\n"
+      "set xrange [0:45]\nset yrange [0:*]\n"
+      "plot 'fig-7.dat' index 0 using ($1*1e3):2 with lines lw 5 lc rgb '#56b4e9' title 'field', \\\n"
+      "     '' index 1 using ($1*1e3):2 with lines lw 1.5 dt 2 lc rgb '#000000' title 'plates law', \\\n"
+      "     '' index 2 using ($1*1e3):2 with lines lw 2 lc rgb '#d55e00' title \"the paper's plates\", \\\n"
+      "     '' index 2 using ($1*1e3):($2*%.6g) with lines lw 2 dt 4 lc rgb '#d55e00' title 'the same times %.2f'\n",
+      factor, factor);
+}
+
+/* -- fig. 8: force against separation ---------------------------------------------------------------- */
+
+static bool has_forces(const ZpPlot *plot) {
+  return has_run(plot, ZP_RUN_FIG_8) && has_run(plot, ZP_RUN_FIG_8_PAPER);
+}
+
+/* The runs `from` .. `to` of a sweep over the separation as one index. */
+static void put_forces(FILE *file, const ZpRuns *runs, ZpRunId id, size_t from, size_t to) {
+  const ZpBatch *batch = &runs->run[id].batch;
+  for (size_t i = from; i < to && i < batch->done; i++) {
+    zp_plot_put(file, zp_runs_def(runs, id, i).isometric.separation, ' ');
+    zp_plot_put(file, zp_result_get(batch->result[i], "force_N"), '\n');
+  }
+  fputs("\n\n", file);
+}
+
+static void data_forces(const ZpPlot *plot, FILE *file) {
+  const size_t all = plot->runs->run[ZP_RUN_FIG_8].batch.count;
+  fputs("# separation_m force_N: with breakdown of the liquid; without; as the paper's text has it\n", file);
+  put_forces(file, plot->runs, ZP_RUN_FIG_8, 0, all / 2);
+  put_forces(file, plot->runs, ZP_RUN_FIG_8, all / 2, all);
+  put_forces(file, plot->runs, ZP_RUN_FIG_8_PAPER, 0, all / 2);
+}
+
+static void script_forces(const ZpPlot *plot, FILE *file) {
+  (void)plot;
+  head(file, "fig-8", "Contractile force of a held platform", "6 kV, 50 µm steel");
+  fputs(
+      "set xlabel 'separation / mm'\nset ylabel 'force / N' offset 0.5\nset xrange [0:8]\nset yrange [0:*]\n"
+      "plot 'fig-8.dat' index 0 using ($1*1e3):2 with linespoints lw 2 pt 7 lc rgb '#0072b2' title 'with breakdown', "
+      "\\\n"
+      "     '' index 1 using ($1*1e3):2 with linespoints lw 2 pt 6 lc rgb '#009e73' title 'without', \\\n"
+      "     '' index 2 using ($1*1e3):2 with linespoints lw 2 dt 2 pt 4 lc rgb '#d55e00' title \"the paper's text\"\n",
+      file);
+}
+
+static const ZpPicture pictures[] = {
+    {"fig-6", "svg", has_shapes, script_shapes, data_shapes},
+    {"fig-7", "svg", has_profile, script_profile, data_profile},
+    {"fig-8", "svg", has_forces, script_forces, data_forces},
+    {.name = NULL},
+};
+
+ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, void (*notice)(const char *message), ZpError *err) {
+  char *folder = zp_path_join(directory, "plots");
+  if (!folder) return zp_fail_memory(err);
+  const ZpPlot plot = {.runs = runs};
+  ZpDrawing drawing = {.plot = &plot, .folder = folder, .notice = notice};
+  ZpStatus status = zp_plots_draw(&drawing, (const ZpPicture *const[]){pictures}, 1, err);
+  free(folder);
+  return status;
+}
