@@ -94,6 +94,10 @@ ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. */
 double zp_sim_get(const ZpSim *sim, const char *name);
 
+/* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current counts from the row
+ * before. */
+void zp_sim_read(ZpSim *sim, double *row);
+
 /* Present shape; its pointers are valid until the simulation goes on. */
 ZpShape zp_sim_shape(const ZpSim *sim);
 

@@ -177,6 +177,17 @@ ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
+ZpStatus zp_data_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err) {
+  *model = NULL;
+  if (!is_driven_by_table(def)) return zp_model_create(def, model, err);
+  ZpDriveRows rows;
+  ZpStatus status = zp_drive_rows_read(def, &rows, err);
+  ZpDriveTable table = zp_drive_rows_table(&rows);
+  if (status == ZP_OK) status = zp_model_create_driven(def, &table, model, err);
+  zp_drive_rows_free(&rows);
+  return status;
+}
+
 static ZpStatus run_driven(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
   ZpDriveRows rows;
   ZpStatus status = zp_drive_rows_read(def, &rows, err);
