@@ -68,8 +68,8 @@ typedef struct Definition {
   ZpDriveTable drive; /* rows of arrays that drive it; 0 rows: as def says */
 } Definition;
 
-/* One Definition per row of a scenario file: scenario(path, list of "KEY=VALUE"). */
-PyObject *read_scenario(PyObject *module, PyObject *args);
+/* One Definition per run of a scenario file. */
+PyObject *read_scenario(PyObject *module, PyObject *path);
 
 /* Takes `result` over. */
 PyObject *result_new(State *state, ZpResult *result);

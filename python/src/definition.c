@@ -85,7 +85,8 @@ static int set_text(const State *state, ZpActuatorDef *def, int key, PyObject *v
   return -1;
 }
 
-/* Numbers of the dictionary `values` => assignments; how many, or -1. */
+/* Numbers of the dictionary `values` => assignments; how many, or -1. Values may run code of their own when they are
+ * asked for their text: nobody else has this dictionary. */
 static Py_ssize_t assignments(const State *state, PyObject *values, ZpAssignment *list) {
   Py_ssize_t place = 0, used = 0;
   PyObject *name, *value;
@@ -168,10 +169,9 @@ static PyObject *definition_new(PyTypeObject *type, PyObject *args, PyObject *kw
   Definition *self = (Definition *)((allocfunc)PyType_GetSlot(type, Py_tp_alloc))(type, 0);
   if (!self) return NULL;
   self->state = state;
-  if (resolve(state, values, &self->def) || (drive && take_drive(self, drive))) {
-    Py_DECREF(self);
-    return NULL;
-  }
+  PyObject *own = PyDict_Copy(values);
+  if (!own || resolve(state, own, &self->def) || (drive && take_drive(self, drive))) Py_CLEAR(self);
+  Py_XDECREF(own);
   return (PyObject *)self;
 }
 
@@ -202,22 +202,9 @@ static PyObject *definitions_of(State *state, const ZpScenario *scenario) {
   return list;
 }
 
-static int set_all(const State *state, ZpScenario *scenario, PyObject *list) {
-  for (Py_ssize_t i = 0; i < PyList_Size(list); i++) {
-    const char *assignment = text_of(state, PyList_GetItem(list, i), "KEY=VALUE");
-    ZpError err;
-    if (!assignment) return -1;
-    if (zp_scenario_set(scenario, assignment, &err) == ZP_OK) continue;
-    raise_error(state, &err);
-    return -1;
-  }
-  return 0;
-}
-
-PyObject *read_scenario(PyObject *module, PyObject *args) {
+PyObject *read_scenario(PyObject *module, PyObject *name) {
   State *state = PyModule_GetState(module);
-  PyObject *name, *sets, *list = NULL;
-  if (!PyArg_ParseTuple(args, "UO!", &name, &PyList_Type, &sets)) return NULL;
+  PyObject *list = NULL;
   const char *path = text_of(state, name, "path");
   if (!path) return NULL;
   ZpScenario *scenario = zp_scenario_create();
@@ -226,7 +213,7 @@ PyObject *read_scenario(PyObject *module, PyObject *args) {
     PyErr_NoMemory();
   else if (zp_scenario_read(scenario, path, &err) != ZP_OK)
     raise_error(state, &err);
-  else if (set_all(state, scenario, sets) == 0)
+  else
     list = definitions_of(state, scenario);
   zp_scenario_destroy(scenario);
   return list;

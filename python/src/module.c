@@ -174,7 +174,7 @@ static int module_clear(PyObject *module) {
 static PyMethodDef methods[] = {
     {"keys", keys, METH_NOARGS, "(name, kind, unit, default, min, max, help, choices) of each key."},
     {"signals", signals, METH_NOARGS, "(name, unit, help) of each signal of a simulation."},
-    {"read_scenario", read_scenario, METH_VARARGS, "read_scenario(path, [\"KEY=VALUE\"]): one Definition per run."},
+    {"read_scenario", read_scenario, METH_O, "One Definition per run of a scenario file."},
     {NULL, NULL, 0, NULL},
 };
 static PyModuleDef_Slot slots[] = {

@@ -157,10 +157,11 @@ static PyObject *simulation_step(PyObject *object, PyObject *const *args, Py_ssi
   Simulation *self = (Simulation *)object;
   PyObject *found[2] = {NULL, NULL};
   double dt, voltage = NAN;
-  if (refuse_busy(self) || step_arguments(self->state, args, count, names, found)) return NULL;
+  if (step_arguments(self->state, args, count, names, found)) return NULL;
   if (quantity_of(self->state, self->end_time_key, "dt", found[0], &dt)) return NULL;
   if (found[1] && found[1] != Py_None && quantity_of(self->state, self->voltage_key, "voltage", found[1], &voltage))
     return NULL;
+  if (refuse_busy(self)) return NULL; /* not before: to become a number, dt may have run code of its own */
   if (!self->ended) return step(self, dt, voltage);
   PyErr_SetString(self->state->numerics_error, "the simulation has diverged; restore a state to go on");
   return NULL;

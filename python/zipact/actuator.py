@@ -40,6 +40,8 @@ FILES = ("data.file", "drive.file")  # as in a scenario, they are kept absolute
 
 def key_name(keyword: str) -> str:
     """load__mass => load.mass"""
+    if not isinstance(keyword, str):
+        raise _zipact.InputError(f"{keyword!r}: not the name of a key")
     return keyword.replace("__", ".")
 
 
@@ -114,8 +116,16 @@ class Actuator(Mapping[str, Any]):
             return self.replace(study=study).run(progress=progress)
         return Result(self._definition.run(progress), self)
 
+    def drive_from(self, path: str) -> "Actuator":
+        """The same actuator, driven by a CSV file instead of arrays; writes the file. Itself if there are no arrays."""
+        if self._drive is None:
+            return self
+        rows = np.column_stack(self._drive)
+        np.savetxt(path, rows, fmt="%.17g", delimiter=",", header="time_s,voltage_V", comments="")
+        return Actuator(**{**self._given, "drive.waveform": "table", "drive.file": path})
+
     def scenario(self) -> str:
-        """All keys as a scenario in YAML, which the command runs to the same result."""
+        """All keys as a scenario in YAML, which the command runs to the same result. Arrays that drive it are no part of it."""
         lines = []
         for name, value in self.items():
             text = json.dumps(value) if KEYS[name].kind == "text" else str(value).lower()
@@ -134,6 +144,12 @@ class Actuator(Mapping[str, Any]):
     def __contains__(self, key: object) -> bool:
         return isinstance(key, str) and key_name(key) in KEYS
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Actuator):
+            return NotImplemented
+        same_drive = np.array_equal(self._drive or (), other._drive or ())
+        return same_drive and list(self.values()) == list(other.values())
+
     def __hash__(self) -> int:
         return hash(tuple(self.values()))
 
@@ -149,8 +165,7 @@ def _rebuild(given: dict[str, Any], drive: tuple[np.ndarray, np.ndarray] | None)
     return Actuator(drive=drive, **given)
 
 
-def read_scenario(path: str | os.PathLike[str], **keys: Unpack[Keywords]) -> list[Actuator]:
-    """The actuators of a scenario file: one, or one for each combination of its lists. Keywords win over the file."""
-    sets = [f"{key_name(name)}={plain_value(key_name(name), value)}" for name, value in keys.items()]
-    definitions = _zipact.read_scenario(os.fspath(path), sets)
+def read_scenario(path: str | os.PathLike[str]) -> list[Actuator]:
+    """The actuators of a scenario file: one, or one for each combination of its lists. Every key is then given."""
+    definitions = _zipact.read_scenario(os.fspath(path))
     return [Actuator(**{name: definition.get(name) for name in KEYS}) for definition in definitions]

@@ -168,8 +168,11 @@ class Result(Mapping[str, float]):
         return plot.result(self, ax)
 
     def save(self, directory: str | os.PathLike[str]) -> None:
-        """Write the files that the command writes: scenario.yaml, summary.json, table.csv, results.h5, plots/, ..."""
-        self._found.save(os.fspath(directory), self.actuator.scenario())
+        """Write the files that the command writes: scenario.yaml, summary.json, table.csv, results.h5, plots/, ...;
+        and drive.csv, the arrays that drove it."""
+        folder = os.fspath(directory)
+        os.makedirs(folder, exist_ok=True)
+        self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario())
 
     def __repr__(self) -> str:
         lines = [f"{self.study}: {self.outcome}; {self.message}"]
