@@ -8,6 +8,10 @@ import zipact
 
 VOLTAGES = np.linspace(3e3, 9e3, 13)
 
+LONG = zipact.Actuator(
+    solver__integrator="explicit", contact__model="sequential", drive__voltage=3e3, solver__end_time=1e3
+)  # minutes
+
 
 def sweep(**keys):
     return zipact.Actuator(mesh__nodes=21, **keys).sweep(drive__voltage=VOLTAGES)
@@ -41,11 +45,8 @@ def test_dataframe_has_the_keys_that_differ():
 
 def test_workers_overlap():
     """Two runs are under way at once: each waits, in its progress function, for the other."""
-    long = zipact.Actuator(
-        solver__integrator="explicit", contact__model="sequential", drive__voltage=3e3, solver__end_time=1e3
-    )
     meeting = threading.Barrier(2, timeout=60)
-    runs = [threading.Thread(target=long.run, kwargs=dict(progress=lambda *_: meeting.wait() is not None)) for _ in "ab"]
+    runs = [threading.Thread(target=LONG.run, kwargs=dict(progress=lambda *_: meeting.wait() is not None)) for _ in "ab"]
     for run in runs:
         run.start()
     for run in runs:
@@ -54,19 +55,15 @@ def test_workers_overlap():
 
 
 def test_one_that_fails_stops_all(tmp_path):
-    lost = zipact.Actuator(data__file=tmp_path / "none.csv")
-    long = zipact.Actuator(load__mass="21 g")
+    lost = zipact.Actuator(study="calibrate", data__file=tmp_path / "none.csv")
     with pytest.raises(zipact.InputError, match="none.csv"):
-        zipact.run_batch([lost, *[long.replace(mesh__nodes=21)] * 4], "calibrate", workers=2)
+        zipact.run_batch([LONG, LONG, LONG, lost], workers=4)
 
 
 def test_progress_can_stop_the_rest():
-    long = zipact.Actuator(
-        solver__integrator="explicit", contact__model="sequential", drive__voltage=3e3, solver__end_time=1e3
-    )
     seen = []
     batch = zipact.run_batch(
-        [zipact.Actuator(load__mass="9 g", solver__end_time="1 us"), long, long],
+        [zipact.Actuator(load__mass="9 g", solver__end_time="1 us"), LONG, LONG],
         workers=2,
         progress=lambda done, of: seen.append((done, of)) or True,
     )

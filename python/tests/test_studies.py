@@ -91,7 +91,7 @@ def test_arrays_drive_a_run(tmp_path):
     text = "0 ms = 0 kV, 5 ms = 4 kV, 5 ms = 1 kV, 10 ms = 1 kV"
     same = plain.replace(drive__waveform="table", drive__table=text).run()
     np.testing.assert_array_equal(result.series.values_2d, same.series.values_2d)
-    assert result.series["voltage_V"].max() > 3.9e3
+    assert result.series["voltage_V"].max() > 3e3
     result.save(tmp_path)
     again = zipact.read_scenario(tmp_path / "scenario.yaml")[0].run()
     np.testing.assert_array_equal(result.series.values_2d, again.series.values_2d)

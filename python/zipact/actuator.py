@@ -99,8 +99,8 @@ class Actuator(Mapping[str, Any]):
 
     def replace(self, **keys: Unpack[Keywords]) -> "Actuator":
         """The same actuator with other values of some keys."""
-        given = {**self._given, **{key_name(name): value for name, value in keys.items()}}
-        return Actuator(drive=self._drive, **given)
+        given = {key_name(name): value for name, value in keys.items()}
+        return Actuator(**{"drive": self._drive, **self._given, **given})
 
     def sweep(self, **lists: Iterable[Any]) -> list["Actuator"]:
         """One actuator for each combination of values; the last keyword varies fastest."""

@@ -69,7 +69,7 @@ class Simulation(_zipact.Simulation):
             out = np.empty(len(SIGNALS))
         try:
             self.read_into(out)
-        except (BufferError, TypeError) as error:
+        except (BufferError, TypeError, ValueError) as error:
             raise _zipact.InputError(f"out: {error}") from None
         return out
 
