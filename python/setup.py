@@ -22,6 +22,7 @@ from setuptools.command.build_py import build_py
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
 LIBRARIES = ["libfyaml", "udunits", "jansson", "hdf5-serial", "nlopt"]
+WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wno-missing-field-initializers"]
 SANITIZE = os.environ.get("ZIPACT_SANITIZE", "")
 
 
@@ -121,7 +122,7 @@ setup(
             depends=["src/binding.h", *glob.glob("../include/zipact/*")],
             include_dirs=["../include"],
             define_macros=[("Py_LIMITED_API", "0x030b0000")],
-            extra_compile_args=["-std=c17", "-D_GNU_SOURCE", "-Wall", "-Wextra", "-Wno-missing-field-initializers"],
+            extra_compile_args=["-std=c17", "-D_GNU_SOURCE", *WARNINGS],
             py_limited_api=True,
         )
     ],

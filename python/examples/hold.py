@@ -52,7 +52,8 @@ def main(picture: str = "hold.png") -> None:
     time, aim, stroke, voltage = hold(actuator, end_time=2.4).T
     late = (time > 0.7) & (time < 0.8) | (time > 1.5) & (time < 1.6) | (time > 2.3)
     worst = np.abs(stroke - aim)[late].max()
-    print(f"held within {1e6 * worst:.2g} um, 0.7 s after each step; at most {voltage.max():.0f} V, pull-in {pull_in:.0f} V")
+    print(f"within {1e6 * worst:.2g} um of the target, 0.7 s after each of its steps,")
+    print(f"by at most {voltage.max():.0f} V; it would pull in at {pull_in:.0f} V")
 
     figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(7, 4.5), layout="constrained")
     upper.plot(time, 1e3 * aim, color="#d55e00", linestyle="--", label="target")

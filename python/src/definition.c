@@ -197,7 +197,7 @@ static PyObject *definitions_of(State *state, const ZpScenario *scenario) {
       if (!good) raise_error(state, &err);
     }
     if (!good || PyList_Append(list, (PyObject *)definition)) Py_CLEAR(list);
-    Py_XDECREF(definition);
+    Py_XDECREF((PyObject *)definition);
   }
   return list;
 }

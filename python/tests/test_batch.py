@@ -46,7 +46,8 @@ def test_dataframe_has_the_keys_that_differ():
 def test_workers_overlap():
     """Two runs are under way at once: each waits, in its progress function, for the other."""
     meeting = threading.Barrier(2, timeout=60)
-    runs = [threading.Thread(target=LONG.run, kwargs=dict(progress=lambda *_: meeting.wait() is not None)) for _ in "ab"]
+    both_here = dict(progress=lambda stage, fraction: meeting.wait() is not None)
+    runs = [threading.Thread(target=LONG.run, kwargs=both_here) for _ in range(2)]
     for run in runs:
         run.start()
     for run in runs:

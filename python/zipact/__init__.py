@@ -2,13 +2,13 @@
 
     import zipact
 
-    actuator = zipact.Actuator(load__mass="20 g", drive__voltage=8e3)
+    actuator = zipact.Actuator(load__mass="8 g", drive__voltage=10e3)
     result = actuator.run()             # or run("equilibrium"), "stationary", "modes", ...
     result["zip_time_s"], result.series["stroke_m"]
     result.plot()
 
-Keys are those of `zipact keys`, their dot written as two underscores; `zipact.KEYS` lists them. Numbers are SI, texts may
-have a unit.
+Keys are those of `zipact keys`, their dot written as two underscores; `zipact.KEYS` lists them. Numbers are SI, texts
+may have a unit.
 """
 
 from ._zipact import Error, InputError, MachineError, NumericsError

@@ -76,10 +76,10 @@ def drive_arrays(drive: Any) -> tuple[np.ndarray, np.ndarray]:
 class Actuator(Mapping[str, Any]):
     """An actuator and what is done with it: a value for every key, checked, never changed.
 
-    Actuator(load__mass="20 g", drive__voltage=8e3): keywords are keys with the dot written as two underscores. It cannot be
-    one, since keys contain single ones (mass_spring.axial), and `**` takes the keys themselves, too:
-    Actuator(**{"load.mass": "20 g"}). Numbers are SI, texts are read as in a scenario. What is not given has the default of
-    `preset` and kind, as in the command.
+    Actuator(load__mass="20 g", drive__voltage=8e3): keywords are keys with the dot written as two underscores. One would
+    not do, since keys contain single ones (mass_spring.axial). `**` takes the keys themselves, too:
+    Actuator(**{"load.mass": "20 g"}). Numbers are SI, texts are read as in a scenario. What is not given has the default
+    of `preset` and kind, as in the command.
 
     drive=(times, voltages), arrays in s and V, drives study actuate and Simulation instead of drive.waveform.
 
@@ -125,7 +125,7 @@ class Actuator(Mapping[str, Any]):
         return Actuator(**{**self._given, "drive.waveform": "table", "drive.file": path})
 
     def scenario(self) -> str:
-        """All keys as a scenario in YAML, which the command runs to the same result. Arrays that drive it are no part of it."""
+        """All keys as a scenario in YAML, which the command runs to the same result. Arrays that drive it are not in it."""
         lines = []
         for name, value in self.items():
             text = json.dumps(value) if KEYS[name].kind == "text" else str(value).lower()

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 class Batch(Sequence[Result]):
-    """Results in the order of their actuators. batch["zip_time_s"] is the array of a number of all of them, nan where a run
-    has none."""
+    """Results in the order of their actuators. batch["zip_time_s"] is the array of a number of all of them, nan where a
+    run has none."""
 
     def __init__(self, results: Iterable[Result]) -> None:
         self.results = list(results)

@@ -62,7 +62,8 @@ def equilibrium(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     for name, text in (("pull_in_voltage_V", "pull-in"), ("release_voltage_V", "release")):
         if np.isfinite(result[name]):
             ax.axvline(KILO * result[name], color=GREY, linestyle=":")
-            ax.annotate(f" {text}\n {KILO * result[name]:.3g} kV", (KILO * result[name], 0.8), xycoords=("data", "axes fraction"))
+            at = (KILO * result[name], 0.8)
+            ax.annotate(f" {text}\n {at[0]:.3g} kV", at, xycoords=("data", "axes fraction"))
     ax.plot([], [], color=BLUE, label="stable")
     ax.plot([], [], color=RED, linestyle="--", label="unstable")
     ax.legend()

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 
 class Table(Mapping[str, np.ndarray]):
-    """Columns by name: table["stroke_m"], one number per row; nan where a value does not exist. The arrays are read-only
-    views of the library's own."""
+    """Columns by name: table["stroke_m"], one number per row; nan where a value does not exist. The arrays are views of
+    the library's own, read-only."""
 
     def __init__(self, columns: tuple[tuple[str, str, str], ...], values: np.ndarray) -> None:
         self.values_2d = values
@@ -64,7 +64,7 @@ class Shapes(NamedTuple):
     zipped: np.ndarray
     """[frames] pairs 0 .. zipped are closed; the clip is pair 0"""
     x: np.ndarray
-    """[frames, nodes, ribbons] m, to the right from the clip's place in the straight actuator; ribbon 0 is the upper one"""
+    """[frames, nodes, ribbons] m, rightwards from the clip's place in the straight actuator; ribbon 0 is the upper one"""
     y: np.ndarray
     """[frames, nodes, ribbons] m, upwards from the upper platform (kind ribbon: from the clamp)"""
     gap: np.ndarray | None

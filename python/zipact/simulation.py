@@ -21,7 +21,7 @@ SIGNALS: dict[str, Signal] = {row[0]: Signal(*row) for row in _zipact.signals()}
 
 
 class Shape(NamedTuple):
-    """Shape of the ribbons' insulator faces: x to the right from the clip's place in the straight actuator, y upwards from
+    """Shape of the ribbons' insulator faces: x rightwards from the clip's place in the straight actuator, y upwards from
     the upper platform (kind ribbon: from the clamp)."""
 
     zipped: int
@@ -63,8 +63,8 @@ class Simulation(_zipact.Simulation):
         return self.get(signal)
 
     def read(self, out: np.ndarray | None = None) -> np.ndarray:
-        """Present values of all SIGNALS, in their order, SI; into `out` if given. The signal current is the mean since the
-        reading before."""
+        """Present values of all SIGNALS, in their order, SI; into `out` if given. The signal current is the mean since
+        the reading before."""
         if out is None:
             out = np.empty(len(SIGNALS))
         try:
