@@ -157,7 +157,7 @@ static int take_drive(Definition *self, PyObject *drive) {
   if (rows != others)
     raise_input(self->state, "drive: %zu times, but %zu voltages", rows, others);
   else if (fault)
-    raise_input(self->state, "drive: row %zu: %s", row, fault);
+    raise_input(self->state, "drive: row %zu: %s", row + 1, fault);
   return PyErr_Occurred() ? -1 : 0;
 }
 

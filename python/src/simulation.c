@@ -144,7 +144,7 @@ static PyObject *step(Simulation *self, double dt, double voltage) {
   watch_end(&watch);
   self->busy = false;
   self->steps += info.steps;
-  self->time = outcome == ZP_REACHED_END && err.status == ZP_OK ? end : self->time + info.simulated_time;
+  self->time = outcome == ZP_REACHED_END && err.status == ZP_OK ? end : zp_sim_get(self->sim, "time");
   self->ended = outcome == ZP_DIVERGED;
   if (watch.failed) return NULL;
   if (err.status != ZP_OK) return raise_error(self->state, &err);

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import signal
 import threading
 
 import numpy as np
@@ -138,6 +139,18 @@ def test_other_threads_are_refused_while_it_steps():
     done.set()
     thread.join()
     assert refused and all("is stepping" in text for text in refused)
+
+
+def test_control_c_leaves_a_state_to_go_on_from():
+    simulation = make(**EXPLICIT)
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    with pytest.raises(KeyboardInterrupt):
+        timer.start()
+        simulation.step(1e3)
+    reached = simulation.time
+    assert 0 < reached < 1e3 and simulation["time"] == reached
+    simulation.step(1e-3)
+    assert simulation.time == reached + 1e-3
 
 
 def test_step_limit_and_divergence_are_numerics_errors():

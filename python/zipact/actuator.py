@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Unpack
 import numpy as np
 
 from . import _zipact
-from .keywords import Keywords
+from .keywords import Keywords  # made from keys.def when the wheel is built
 from .result import Result
 
 Progress = Callable[[str, float], Any]

@@ -63,7 +63,7 @@ def equilibrium(result: "Result", table: "Table", ax: Axes | None) -> Axes:
         if np.isfinite(result[name]):
             ax.axvline(KILO * result[name], color=GREY, linestyle=":")
             at = (KILO * result[name], 0.8)
-            ax.annotate(f" {text}\n {at[0]:.3g} kV", at, xycoords=("data", "axes fraction"))
+            ax.annotate(f" {text}\n {at[0]:.4g} kV", at, xycoords=("data", "axes fraction"))
     ax.plot([], [], color=BLUE, label="stable")
     ax.plot([], [], color=RED, linestyle="--", label="unstable")
     ax.legend()
