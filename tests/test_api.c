@@ -229,6 +229,26 @@ START_TEST(every_name_answers) {
 END_TEST
 
 /* A Def filled by field, by key or by assignments is the same Def. */
+/* Steps of 1, 1 and 0.3 times the longest stable one, by turns, diverge; three of 0.77 do not. */
+START_TEST(steps_by_hand_are_even) {
+  ZpActuatorDef def = coarse_def();
+  def.drive.voltage = 1e3; /* nothing meets: no other short steps */
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  double dt = 2.3 * zp_model_info(model).stable_time_step;
+  for (int i = 0; i < 2000; i++) {
+    ck_assert_int_eq(zp_sim_step(sim, dt, NULL, &info), ZP_REACHED_END);
+    ck_assert_int_eq(info.steps, 3);
+  }
+  ck_assert_double_lt(fabs(zp_sim_get(sim, "end_velocity")), 0.01);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* All signals at once are those one by one; the current is the mean since the reading before. */
 START_TEST(reading_is_a_row) {
 #define ZP_SIGNAL(name, unit, suffix, help) SIGNAL_##name,
@@ -291,6 +311,7 @@ int main(void) {
   tcase_add_test(c, simulations_share_a_model);
   tcase_add_test(c, every_name_answers);
   tcase_add_test(c, reading_is_a_row);
+  tcase_add_test(c, steps_by_hand_are_even);
   tcase_add_test(c, three_ways_to_fill_a_def);
   tcase_set_timeout(c, 60);
   suite_add_tcase(suite, c);

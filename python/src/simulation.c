@@ -122,14 +122,14 @@ static int step_arguments(const State *state, PyObject *const *args, Py_ssize_t 
   return -1;
 }
 
-static ZpOutcome advance(Simulation *self, double end, double voltage, const ZpHooks *hooks, ZpRunInfo *info,
+static ZpOutcome advance(Simulation *self, double dt, double voltage, const ZpHooks *hooks, ZpRunInfo *info,
                          ZpError *err) {
   if (!isnan(voltage) && voltage != self->hand_voltage) {
     err->status = zp_sim_set_voltage(self->sim, voltage, err);
     if (err->status != ZP_OK) return ZP_REACHED_END;
     self->hand_voltage = voltage;
   }
-  return zp_sim_run(self->sim, end, false, hooks, info);
+  return zp_sim_step(self->sim, dt, hooks, info);
 }
 
 static PyObject *step(Simulation *self, double dt, double voltage) {
@@ -140,7 +140,7 @@ static PyObject *step(Simulation *self, double dt, double voltage) {
   self->busy = true;
   watch_begin(&watch, NULL);
   ZpHooks hooks = watch_hooks(&watch);
-  ZpOutcome outcome = advance(self, end, voltage, &hooks, &info, &err);
+  ZpOutcome outcome = advance(self, dt, voltage, &hooks, &info, &err);
   watch_end(&watch);
   self->busy = false;
   self->steps += info.steps;

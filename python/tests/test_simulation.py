@@ -32,6 +32,18 @@ def test_one_step_is_the_study(integrator):
     assert simulation.time == 5e-3 and simulation.steps > 0
 
 
+@pytest.mark.parametrize("dt", [0.37e-6, 1e-6, 2.3e-6, 33.3e-6])
+def test_many_short_explicit_steps_are_one_long(dt):
+    """A shorter step at the end of each would make what vibrates fastest diverge."""
+    simulation = make(**EXPLICIT)
+    for _ in range(int(2e-3 / dt)):
+        simulation.step(dt)
+    once = make(**EXPLICIT)
+    once.step(simulation.time)
+    assert simulation["stroke"] == pytest.approx(once["stroke"], rel=1e-6)
+    assert simulation["kinetic_energy"] == pytest.approx(once["kinetic_energy"], rel=0.05)
+
+
 @both
 def test_zips(integrator):
     simulation = make(**integrator)
