@@ -6,7 +6,7 @@
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check python deps bench format docs install clean
+.PHONY: all demo check python deps bench bench-tables format docs install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -34,12 +34,16 @@ python: $(BUILD)/zipact
 bench: $(BUILD)/zipact
 	$(BUILD)/zipact bench
 
+bench-tables: $(BUILD)/zipact
+	@cmake --build $(BUILD) -j $(JOBS) --target precision -- --no-print-directory
+	bench/run.sh $(BUILD)
+
 docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
 
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] tests/*.[ch] python/src/*.[ch]
+	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch]
 
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)

@@ -51,6 +51,8 @@ static ZpStatus run_one(Batch *batch, Progress *progress, ZpError *err) {
     result->shapes = NULL;
     zp_field_map_destroy(result->map);
     result->map = NULL;
+    zp_checkpoint_destroy(result->checkpoint);
+    result->checkpoint = NULL;
   }
   batch->result[batch->done++] = result;
   batch->interrupted = result->outcome == ZP_INTERRUPTED;

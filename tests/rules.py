@@ -45,6 +45,7 @@ PUBLIC = {
     "drive.h": "drive",
     "model.h": "actuator",
     "sim.h": "sim",
+    "checkpoint.h": "sim",
     "signals.def": "sim",
     "study.h": "study",
     "zipact.h": "study",

@@ -533,6 +533,41 @@ START_TEST(table_survives_every_failure) {
 }
 END_TEST
 
+static ZpStatus write_checkpoint(FILE *file, ZpError *err) {
+  ZpActuatorDef def = short_def();
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpCheckpoint *checkpoint = NULL;
+  ZpStatus status = zp_model_create(&def, &model, err);
+  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, err);
+  if (status == ZP_OK) status = zp_sim_checkpoint(sim, &checkpoint, err);
+  if (status == ZP_OK) status = zp_checkpoint_write(checkpoint, file, err);
+  zp_checkpoint_destroy(checkpoint);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return status;
+}
+
+/* Study actuate from the checkpoint of its own start. */
+static ZpStatus run_from_checkpoint(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  ZpResult *result = NULL;
+  def.initial.state = ZP_INITIAL_CHECKPOINT;
+  strcpy(def.initial.file, "memory.zps");
+  FILE *file = fopen(def.initial.file, "wb");
+  ZpStatus status = file ? write_checkpoint(file, err) : ZP_MACHINE;
+  if (file && fclose(file) == 0 && status == ZP_OK) status = zp_data_study_run(&def, NULL, &result, err);
+  *whole = (result != NULL) == (status == ZP_OK);
+  if (result) *whole = result->outcome == ZP_REACHED_END && result->checkpoint;
+  zp_result_destroy(result);
+  return status;
+}
+
+START_TEST(checkpoint_survives_every_failure) {
+  ck_assert_int_ge(fail_each("initial.file", run_from_checkpoint, true), 20);
+}
+END_TEST
+
 /* -- texts: what is written under failures is what is written without ---------------------------------- */
 
 typedef ZpStatus (*Writer)(FILE *file, ZpError *err);
@@ -782,6 +817,7 @@ int main(void) {
   tcase_add_test(core, zipping_allocates_nothing);
   tcase_add_test(core, bezier_steps_allocate_nothing);
   tcase_add_test(files, table_survives_every_failure);
+  tcase_add_test(files, checkpoint_survives_every_failure);
   tcase_add_test(files, scenarios_survive_every_failure);
   tcase_add_test(files, writers_survive_every_failure);
   tcase_add_test(files, reports_survive_every_failure);

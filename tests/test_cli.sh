@@ -292,6 +292,7 @@ interrupt 1 actuate $long --json -o interrupted
 ok "130: Ctrl-C while it moves" status_is 130
 ok "130: --json" json stdout 'd["outcome"] == "interrupted" and d["simulated_time_s"] > 0'
 ok "130: what was done is kept" complete interrupted
+ok "130: where it stood is kept" is_file interrupted/checkpoint.zps
 ok "130: rows are kept" [ "$(wc -l <interrupted/table.csv)" -gt 2 ]
 interrupt 1 actuate --set mesh.nodes=2001 --json -o interrupted-early
 ok "130: Ctrl-C while it settles" status_is 130
@@ -301,6 +302,35 @@ interrupt 1 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -
 ok "130: Ctrl-C in a sweep" status_is 130
 ok "130: the rows until then" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time", "interrupted"]'
 ok "130: and their files" complete interrupted-sweep
+
+# -- checkpoints -------------------------------------------------------------------------------------------------
+
+zp actuate $short --set solver.end_time=4ms -o whole
+zp actuate $short -o cut
+ok "a run leaves a checkpoint" is_file cut/checkpoint.zps
+from="--set initial.state=checkpoint --set initial.file=cut/checkpoint.zps"
+zp actuate $short $from --set solver.end_time=4ms -o rest
+ok "goes on from it" status_is 0
+ok "to the same state" cmp whole/checkpoint.zps rest/checkpoint.zps
+ok "and the same last row" [ "$(tail -1 whole/table.csv | cut -d, -f1-8)" = "$(tail -1 rest/table.csv | cut -d, -f1-8)" ]
+ok "scenario.yaml has the file's whole path" grep -q "file: .*/cut/checkpoint.zps" rest/scenario.yaml
+zp run rest/scenario.yaml -o rest-again
+ok "and runs again" cmp rest/checkpoint.zps rest-again/checkpoint.zps
+mkdir -p sub
+printf 'initial: {state: checkpoint, file: ../cut/checkpoint.zps}\n' >sub/on.yaml
+zp actuate sub/on.yaml $short --set solver.end_time=4ms -o rest-again
+ok "a scenario names it from its own folder" cmp rest/checkpoint.zps rest-again/checkpoint.zps
+zp actuate $short $from --set 'solver.end_time=[3 ms, 4 ms]' -o cut
+ok "a sweep from it into its own folder" status_is 0
+ok "leaves it there" is_file cut/checkpoint.zps
+zp actuate $short $from --set ribbon.thickness=60um -o refused
+ok "2: another model" status_is 2
+ok "2: names the key and both values" says 'ribbon.thickness is 5e-05 m there, 6e-05 m here'
+head -c 999 cut/checkpoint.zps >short.zps
+zp actuate $short $from --set initial.file=short.zps -o refused
+ok "2: cut short" status_is 2
+ok "2: says where it ends" says 'short.zps: cut short: 999 of [0-9]* bytes'
+ok "2: nothing was written" is_absent refused
 
 # -- streams ----------------------------------------------------------------------------------------------------
 
@@ -420,6 +450,7 @@ ok "foreign files are not touched" [ "$(comm -12 before.txt after.txt | wc -l)" 
 ok "shapes of the run before are gone" [ "$(find foreign/shapes -name 'shape_*' | wc -l)" -eq "$(grep -c '<DataSet' foreign/shapes.pvd)" ]
 zp actuate $short --set 'load.mass=[8 g, 9 g]' -o foreign
 ok "a sweep has no shapes, and none of before" is_absent foreign/shapes.pvd
+ok "and no checkpoint" is_absent foreign/checkpoint.zps
 
 # -- no NaN in any file ----------------------------------------------------------------------------------------------------------
 

@@ -395,7 +395,7 @@ START_TEST(only_a_constant_drive_stops) {
   ck_assert_int_eq(zp_study_run(&def, NULL, &ramp, NULL), ZP_OK);
   def = driven(ZP_WAVEFORM_TABLE, 90e-3);
   ZpDriveTable rows = {2, (const double[]){0, 1}, (const double[]){10e3, 10e3}};
-  ck_assert_int_eq(zp_study_run_driven(&def, &rows, NULL, &table, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run_with(&def, &(ZpStudyInput){.table = &rows}, NULL, &table, NULL), ZP_OK);
   ck_assert_int_eq(step->outcome, ZP_ZIPPED);
   ck_assert_int_eq(ramp->outcome, ZP_REACHED_END);
   ck_near(zp_result_get(ramp, "zip_time_s"), zp_result_get(step, "zip_time_s"), 1e-3);
@@ -497,16 +497,15 @@ START_TEST(core_asks_for_the_table) {
 }
 END_TEST
 
-START_TEST(model_of_what_the_keys_name) {
+START_TEST(simulation_of_what_the_keys_name) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
   ZpModel *model;
   ZpSim *sim;
   ZpError err;
-  ck_assert_int_eq(zp_data_model_create(&def, &model, &err), ZP_BAD_INPUT);
-  ck_assert(model == NULL && strstr(err.message, "give drive.table or drive.file"));
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_BAD_INPUT);
+  ck_assert(model == NULL && sim == NULL && strstr(err.message, "give drive.table or drive.file"));
   snprintf(def.drive.table, sizeof def.drive.table, "0 ms = 1 kV, 1 ms = 3 kV");
-  ck_assert_int_eq(zp_data_model_create(&def, &model, &err), ZP_OK);
-  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, &err), ZP_OK);
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_OK);
   zp_sim_run(sim, 0.5e-3, false, NULL, NULL);
   ck_near(zp_sim_get(sim, "voltage"), 2e3, 1e-12);
   zp_sim_destroy(sim);
@@ -583,7 +582,7 @@ int main(void) {
   tcase_add_test(runs, only_a_constant_drive_stops);
   tcase_add_test(inputs, refused);
   tcase_add_test(inputs, core_asks_for_the_table);
-  tcase_add_test(inputs, model_of_what_the_keys_name);
+  tcase_add_test(inputs, simulation_of_what_the_keys_name);
   tcase_add_test(inputs, file_as_text);
   suite_add_tcase(suite, waveforms);
   suite_add_tcase(suite, runs);

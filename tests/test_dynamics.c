@@ -180,6 +180,7 @@ START_TEST(test_rod_standing) {
     make_step(&s, kinds[_i], &seed);
     const ZpRodEval *e = &s.eval[0];
     double size = 0;
+    zp_rod_step_begin(&s.params, e, &s.step);
     zp_rod_step(&s.params, e, e, 0, &s.step);
     zp_rod_step_stiffness(&s.params, e, e, 0, &s.step, half);
     zp_rod_stiffness(&s.params, e, e->T, whole);

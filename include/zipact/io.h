@@ -53,6 +53,13 @@ ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err
  * same bits; of a text key, its default. `text` gets at most `size` bytes with the final 0. */
 void zp_value_print(int index, double value, char *text, size_t size);
 
+/* Write a checkpoint to `file`. */
+ZpStatus zp_checkpoint_write(const ZpCheckpoint *checkpoint, FILE *file, ZpError *err);
+
+/* Read one => *out, the caller's. ZP_BAD_INPUT says why: no such file, no checkpoint, cut short, damaged, of another
+ * version. Whether it fits a model, zp_checkpoint_check says. */
+ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err);
+
 /* Where results go, and what was run. */
 typedef struct ZpReport {
   const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
@@ -65,7 +72,8 @@ typedef struct ZpReport {
 /* Write summary.json (also what --json prints) to `file`. */
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
 
-/* Write scenario.yaml, summary.json, table.csv, results.h5, shapes.pvd with its .vtp files, and plots/.
+/* Write scenario.yaml, summary.json, table.csv, results.h5, shapes.pvd with its .vtp files, plots/ and, of one run in
+ * time, checkpoint.zps.
  * Each file appears under its name when it is complete. Without gnuplot the pictures are left out, the
  * .gp files stay, and `notice` (may be NULL) says so. */
 ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);

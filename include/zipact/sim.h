@@ -114,7 +114,8 @@ double zp_sim_zip_time(const ZpSim *sim);
 size_t zp_sim_state_size(const ZpSim *sim);
 void zp_sim_save(const ZpSim *sim, void *state);
 
-/* Go back to a state saved by a simulation of the same model. ZP_BAD_INPUT if it is of another size. */
+/* Go back to a state saved by a simulation of the same model. Where the waveform is another, the voltage jumps to it.
+ * ZP_BAD_INPUT if it is of another size. Between programs and versions: checkpoint.h. */
 ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
 
 /* The columns of a time series: one per line of signals.def. */

@@ -2,7 +2,7 @@
 #ifndef ZIPACT_STUDY_H
 #define ZIPACT_STUDY_H
 
-#include <zipact/sim.h>
+#include <zipact/checkpoint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -43,18 +43,25 @@ typedef struct ZpResult {
   size_t warnings;
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
-  ZpTable *series;  /* the study's table; NULL if it has none */
-  ZpShapes *shapes; /* NULL if it has none */
-  ZpFieldMap *map;  /* NULL if it has none */
+  ZpTable *series;          /* the study's table; NULL if it has none */
+  ZpShapes *shapes;         /* NULL if it has none */
+  ZpFieldMap *map;          /* NULL if it has none */
+  ZpCheckpoint *checkpoint; /* of a run in time, to go on from; NULL if there is none */
 } ZpResult;
 
 /* Run def->study. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and
  * `err` says why. `hooks` may be NULL. */
 ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
 
-/* The same, study actuate driven by the rows of `table` (NULL: none), as zp_model_create_driven. */
-ZpStatus zp_study_run_driven(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks,
-                             ZpResult **result, ZpError *err);
+/* What study actuate takes beside a Def; NULL where it does not. */
+typedef struct ZpStudyInput {
+  const ZpDriveTable *table; /* with drive.waveform table, as zp_model_create_driven */
+  const ZpCheckpoint *start; /* with initial.state checkpoint, as zp_sim_continue */
+} ZpStudyInput;
+
+/* The same with `input`. */
+ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult **result,
+                           ZpError *err);
 
 /* Free a result; NULL is allowed. */
 void zp_result_destroy(ZpResult *result);

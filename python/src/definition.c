@@ -156,6 +156,8 @@ static int take_drive(Definition *self, PyObject *drive) {
   const char *fault = rows == others ? zp_drive_table_fault(&self->drive, &row) : NULL;
   if (rows != others)
     raise_input(self->state, "drive: %zu times, but %zu voltages", rows, others);
+  else if (self->def.initial.state == ZP_INITIAL_CHECKPOINT)
+    raise_input(self->state, "initial.state = checkpoint: goes with drive.table and drive.file, not with arrays");
   else if (fault)
     raise_input(self->state, "drive: row %zu: %s", row + 1, fault);
   return PyErr_Occurred() ? -1 : 0;
@@ -249,7 +251,8 @@ static PyObject *definition_run(PyObject *object, PyObject *progress) {
   ZpHooks hooks = watch_hooks(&watch);
   ZpResult *result = NULL;
   ZpError err;
-  ZpStatus status = self->drive.rows ? zp_study_run_driven(&self->def, &self->drive, &hooks, &result, &err)
+  ZpStudyInput arrays = {.table = &self->drive};
+  ZpStatus status = self->drive.rows ? zp_study_run_with(&self->def, &arrays, &hooks, &result, &err)
                                      : zp_data_study_run(&self->def, &hooks, &result, &err);
   watch_end(&watch);
   if (watch.failed) {

@@ -55,8 +55,8 @@ static ZpStatus compile(Simulation *self, const ZpHooks *hooks, ZpError *err) {
   const Definition *definition = (Definition *)self->definition;
   ZpActuatorDef def = definition->def;
   def.study = ZP_STUDY_ACTUATE; /* what a motion asks of the keys is checked */
-  ZpStatus status = definition->drive.rows ? zp_model_create_driven(&def, &definition->drive, &self->model, err)
-                                           : zp_data_model_create(&def, &self->model, err);
+  if (!definition->drive.rows) return zp_data_sim_create(&def, hooks, &self->model, &self->sim, err);
+  ZpStatus status = zp_model_create_driven(&def, &definition->drive, &self->model, err);
   return status == ZP_OK ? zp_sim_create(self->model, hooks, &self->sim, err) : status;
 }
 
@@ -79,7 +79,10 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
   ZpError err;
   ZpStatus status = compile(self, &hooks, &err);
   watch_end(&watch);
-  if (!watch.failed && status == ZP_OK) return (PyObject *)self;
+  if (!watch.failed && status == ZP_OK) {
+    self->time = zp_sim_get(self->sim, "time"); /* not 0 where it starts from a checkpoint */
+    return (PyObject *)self;
+  }
   if (!watch.failed) raise_error(state, &err);
   Py_DECREF(self);
   return NULL;

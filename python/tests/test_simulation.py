@@ -165,6 +165,20 @@ def test_control_c_leaves_a_state_to_go_on_from():
     assert simulation.time == reached + 1e-3
 
 
+def test_goes_on_from_a_checkpoint_of_a_study(tmp_path):
+    first = make(**IMPLICIT).actuator.replace(solver__end_time="5 ms")
+    first.run().save(tmp_path)
+    second = first.replace(initial__state="checkpoint", initial__file=tmp_path / "checkpoint.zps")
+    simulation = zipact.Simulation(second)
+    start = simulation.time
+    assert 0 < start <= 5e-3
+    simulation.step(10e-3 - start)
+    whole = first.replace(solver__end_time="10 ms").run()
+    assert simulation["stroke"] == whole["stroke_m"]
+    with pytest.raises(zipact.InputError, match="load.mass"):
+        zipact.Simulation(second.replace(load__mass="9 g"))
+
+
 def test_step_limit_and_divergence_are_numerics_errors():
     with pytest.raises(zipact.NumericsError, match="solver.max_steps"):
         make(solver__max_steps=3).step(1e-3)

@@ -56,6 +56,7 @@ def wrong_actuators():
         yield {"mesh.nodes": value if value is not True else 2.5}
     yield from ({"drive": drive} for drive in WRONG_DRIVES)
     yield {"drive": ([0, 1], [1, 2]), "drive.waveform": "ramp"}
+    yield {"drive": ([0, 1], [1, 2]), "initial.state": "checkpoint", "initial.file": "some.zps"}
     yield {"": 1}
     yield {"load": 1}
     yield {"\ud800": 1}

@@ -437,6 +437,17 @@ static ZpStatus check_motion(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
+  bool goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
+  if (*def->initial.file && !goes_on)
+    return zp_fail(err, ZP_BAD_INPUT, "initial.file: goes with initial.state checkpoint, which is %s",
+                   word_of("initial.state", (int)def->initial.state));
+  if (goes_on && def->study != ZP_STUDY_ACTUATE)
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: goes with study actuate, not with %s",
+                   word_of("study", (int)def->study));
+  return ZP_OK;
+}
+
 /* What is asked of one model or one study only. */
 static ZpStatus check_study(const ZpActuatorDef *def, ZpError *err) {
   if (def->study == ZP_STUDY_ACTUATE) {
@@ -496,5 +507,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
                    def->electro.refresh_period);
   ZpStatus status = check_drive(def, err);
+  if (status == ZP_OK) status = check_initial(def, err);
   return status == ZP_OK ? check_study(def, err) : status;
 }

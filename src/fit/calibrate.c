@@ -3,10 +3,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include <zipact/io.h>
+
 #include "base/fail.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
 #include "io/drive_table.h"
+
 #include "study/studies.h"
 
 /* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
@@ -155,8 +158,43 @@ static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResu
   return status;
 }
 
-static bool is_driven_by_table(const ZpActuatorDef *def) {
-  return def->study == ZP_STUDY_ACTUATE && def->drive.waveform == ZP_WAVEFORM_TABLE;
+/* What study actuate takes from files. */
+typedef struct Files {
+  ZpDriveRows rows;
+  ZpDriveTable table;
+  ZpCheckpoint *start;
+  ZpStudyInput input; /* the same as the study takes it */
+} Files;
+
+static void close_files(Files *files) {
+  zp_drive_rows_free(&files->rows);
+  zp_checkpoint_destroy(files->start);
+}
+
+static ZpStatus read_checkpoint(const ZpActuatorDef *def, ZpCheckpoint **start, ZpError *err) {
+  ZpError reason;
+  if (!*def->initial.file) return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: give initial.file");
+  ZpStatus status = zp_checkpoint_read(def->initial.file, start, &reason);
+  if (status != ZP_OK) return zp_fail(err, status, "initial.file: %.450s", reason.message);
+  status = zp_checkpoint_check(*start, def, &reason);
+  return status == ZP_OK ? ZP_OK
+                         : zp_fail(err, status, "initial.file: %.300s: %.180s", def->initial.file, reason.message);
+}
+
+/* To be closed whatever the status. */
+static ZpStatus open_files(const ZpActuatorDef *def, Files *files, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  *files = (Files){0};
+  if (def->drive.waveform == ZP_WAVEFORM_TABLE) {
+    status = zp_drive_rows_read(def, &files->rows, err);
+    files->table = zp_drive_rows_table(&files->rows);
+    files->input.table = &files->table;
+  }
+  if (status == ZP_OK && def->initial.state == ZP_INITIAL_CHECKPOINT) {
+    status = read_checkpoint(def, &files->start, err);
+    files->input.start = files->start;
+  }
+  return status;
 }
 
 ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
@@ -169,31 +207,43 @@ ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
     ZpReference reference;
     status = zp_reference_read(def->data.file, &reference, err);
     zp_reference_free(&reference);
-  } else if (is_driven_by_table(def)) {
-    ZpDriveRows rows;
-    status = zp_drive_rows_read(def, &rows, err);
-    zp_drive_rows_free(&rows);
+  } else if (def->study == ZP_STUDY_ACTUATE) {
+    Files files;
+    status = open_files(def, &files, err);
+    close_files(&files);
   }
   return status;
 }
 
-ZpStatus zp_data_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err) {
-  *model = NULL;
-  if (!is_driven_by_table(def)) return zp_model_create(def, model, err);
-  ZpDriveRows rows;
-  ZpStatus status = zp_drive_rows_read(def, &rows, err);
-  ZpDriveTable table = zp_drive_rows_table(&rows);
-  if (status == ZP_OK) status = zp_model_create_driven(def, &table, model, err);
-  zp_drive_rows_free(&rows);
+static ZpStatus create_from_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                                  ZpError *err) {
+  Files files;
+  ZpStatus status = open_files(def, &files, err);
+  if (status == ZP_OK) status = zp_model_create_driven(def, files.input.table, model, err);
+  if (status == ZP_OK) status = zp_sim_create(*model, hooks, sim, err);
+  if (status == ZP_OK && files.start) status = zp_sim_continue(*sim, files.start, err);
+  close_files(&files);
   return status;
 }
 
-static ZpStatus run_driven(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
-  ZpDriveRows rows;
-  ZpStatus status = zp_drive_rows_read(def, &rows, err);
-  ZpDriveTable table = zp_drive_rows_table(&rows);
-  if (status == ZP_OK) status = zp_study_run_driven(def, &table, hooks, result, err);
-  zp_drive_rows_free(&rows);
+ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                            ZpError *err) {
+  *model = NULL;
+  *sim = NULL;
+  ZpStatus status = create_from_files(def, hooks, model, sim, err);
+  if (status == ZP_OK) return ZP_OK;
+  zp_sim_destroy(*sim);
+  zp_model_destroy(*model);
+  *model = NULL;
+  *sim = NULL;
+  return status;
+}
+
+static ZpStatus run_with_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
+  Files files;
+  ZpStatus status = open_files(def, &files, err);
+  if (status == ZP_OK) status = zp_study_run_with(def, &files.input, hooks, result, err);
+  close_files(&files);
   return status;
 }
 
@@ -202,7 +252,7 @@ ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpRes
   ZpStatus status = zp_def_check(def, err);
   if (status != ZP_OK) return status;
   if (def->study == ZP_STUDY_CALIBRATE) return calibrate(def, hooks, result, err);
-  if (is_driven_by_table(def)) return run_driven(def, hooks, result, err);
+  if (def->study == ZP_STUDY_ACTUATE) return run_with_files(def, hooks, result, err);
   if (def->study != ZP_STUDY_STATIONARY || *def->data.file == 0) return zp_study_run(def, hooks, result, err);
   ZpReference reference;
   status = zp_reference_read(def->data.file, &reference, err);

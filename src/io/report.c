@@ -154,6 +154,7 @@ static ZpStatus write_all(const ZpReport *report, void (*notice)(const char *mes
   if (status == ZP_OK) status = zp_csv_write(report, err);
   if (status == ZP_OK) status = zp_hdf5_write(report, err);
   if (status == ZP_OK) status = zp_vtk_write(report, err);
+  if (status == ZP_OK) status = zp_checkpoint_report(report, err);
   if (status == ZP_OK) status = zp_plots_write(report, notice, err);
   if (status == ZP_OK) status = write_summary(report, err);
   return status;

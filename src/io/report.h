@@ -46,6 +46,7 @@ ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err);
 ZpStatus zp_csv_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err);
 ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
 
 #endif

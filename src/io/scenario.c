@@ -208,8 +208,13 @@ static char *absolute_path(const ZpSource *source, const char *path) {
   return whole;
 }
 
+static bool names_file(int key) {
+  const char *name = zp_key(key)->name, *last = strrchr(name, '.');
+  return last && strcmp(last, ".file") == 0;
+}
+
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  bool is_path = strcmp(zp_key(key)->name, "data.file") == 0 || strcmp(zp_key(key)->name, "drive.file") == 0;
+  bool is_path = names_file(key);
   Slot slot = {calloc(1, sizeof(double)), 1, false,
                is_path ? absolute_path(reader->source, item->word) : strdup(item->word)};
   ZpActuatorDef scratch;

@@ -181,9 +181,8 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
 
 /* Faces that would pass through each other, and those that press on each other already, meet where their common
  * centre of mass is, just so far inside each other that the first iteration counts them as in touch. */
-static void guess(void *self, double *q1) {
+static void keep_apart(const ZpDynamics *d, double *q1) {
   static const double inside = 1e-13; /* m */
-  ZpDynamics *d = self;
   const ZpModel *model = d->model;
   const double *y = d->start + model->stride;
   for (size_t i = 1; i < model->nodes; i++) {
@@ -198,21 +197,51 @@ static void guess(void *self, double *q1) {
   }
 }
 
-/* Faces that press on each other move as one; what they lose is counted. */
-static void impact(void *self, double *v1) {
+static void attempt(void *self, double *q1) {
   ZpDynamics *d = self;
-  d->impact_loss = 0;
+  zp_rod_step_begin(&d->model->rod, &d->rod0, &d->rod);
+  if (d->model->field) keep_apart(d, q1);
+}
+
+static double kinetic_energy(const ZpDynamics *d) {
+  double sum = 0;
+  for (size_t i = 0; i < d->system.n; i++)
+    sum += d->mass[i] * d->v[i] * d->v[i];
+  return sum / 2;
+}
+
+static void move_as_one(ZpDynamics *d, size_t i) {
+  Pair pair = pair_of(d, i);
+  if (pair.lower < 0) return;
+  double apart = (pair.upper >= 0 ? d->v[pair.upper] : 0) - d->v[pair.lower];
+  d->v[pair.lower] += apart * (pair.upper >= 0 ? pair.upper_share : 1);
+  if (pair.upper >= 0) d->v[pair.upper] = d->v[pair.lower];
+}
+
+/* What presses and how far the rod is strained where the step has ended: a last correction beyond where they were. */
+static void look_back(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  scatter(d, d->q, d->end);
+  zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->rod1);
+  if (!model->field) return;
+  zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
+  zp_stop_push(&d->stop, d->plates1.gap, d->push, d->pressed);
+}
+
+/* Faces that press on each other move as one at the step's end, and what is too fast for the step, which such impacts
+ * make, goes with their loss: => it, J. What they pressed on their way is lost with it. */
+static double impact(ZpDynamics *d) {
+  double loss = kinetic_energy(d);
+  bool any = false;
   for (size_t i = 1; i < d->model->nodes; i++) {
-    if (!(d->pressed[i] > 0)) continue;
-    Pair pair = pair_of(d, i);
-    if (pair.lower < 0) continue;
-    double upper = pair.upper >= 0 ? v1[pair.upper] : 0, apart = upper - v1[pair.lower];
-    d->impact_loss += 0.5 * pair.reduced * apart * apart;
-    v1[pair.lower] += apart * (pair.upper >= 0 ? pair.upper_share : 1);
-    if (pair.upper >= 0) v1[pair.upper] = v1[pair.lower];
-    /* what it pressed on its way is lost with it */
-    d->impact_loss -= d->push[i] * (d->plates1.gap[i] - d->plates0.gap[i]);
+    loss -= d->push[i] * (d->plates1.gap[i] - d->plates0.gap[i]);
+    any |= d->pressed[i] > 0;
   }
+  if (!any) return 0;
+  zp_implicit_smooth(&d->stepper, d->h, d->v);
+  for (size_t i = 1; i < d->model->nodes; i++)
+    if (d->pressed[i] > 0) move_as_one(d, i);
+  return loss - kinetic_energy(d);
 }
 
 /* -- creation and step ---------------------------------------------------------------------------- */
@@ -237,8 +266,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
                                  .begin = begin,
                                  .force = force,
                                  .tangent = tangent,
-                                 .guess = model->field ? guess : NULL,
-                                 .impact = model->field ? impact : NULL};
+                                 .attempt = attempt};
   d->memory = zp_calloc(1, carve(d, NULL));
   if (!d->memory) return false;
   carve(d, d->memory);
@@ -273,6 +301,8 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
   d->history.next = state->next_step;
   double taken = zp_implicit_step(&d->stepper, longest, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
+  look_back(d);
+  if (model->field) state->contact_loss += impact(d);
   scatter(d, d->q, q);
   scatter(d, d->v, v);
   scatter(d, d->history.w, w);
@@ -281,6 +311,5 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
   state->next_step = d->history.next;
   state->drag_loss += d->drag_loss;
   state->internal_loss += zp_rod_step_loss(&model->rod, &d->rod0, &d->rod1, internal_damping(d));
-  if (model->field) state->contact_loss += d->impact_loss;
   return taken;
 }

@@ -21,15 +21,15 @@ typedef struct ZpDynamics {
   ZpPlatesStep plates;
   ZpImplicitHistory history;
   ZpAssembly assembly;
-  double *mass, *q, *v;          /* [n] by equations */
-  double *start, *end;           /* [2 stride] coordinates of nodes */
-  double *force;                 /* [2 stride] N */
-  double *push, *pressed;        /* [N] contact: force N, stiffness N/m; 0 where open */
-  double (*D)[4];                /* [3 edges] stiffness of the ribbons */
-  const double *beyond;          /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
-  const ZpState *state;          /* at the start of the step under way */
-  double U, h;                   /* of that step: voltage in its middle, V; length, s */
-  double drag_loss, impact_loss; /* over it, J */
+  double *mass, *q, *v;   /* [n] by equations */
+  double *start, *end;    /* [2 stride] coordinates of nodes */
+  double *force;          /* [2 stride] N */
+  double *push, *pressed; /* [N] contact: force N, stiffness N/m; 0 where open */
+  double (*D)[4];         /* [3 edges] stiffness of the ribbons */
+  const double *beyond;   /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
+  const ZpState *state;   /* at the start of the step under way */
+  double U, h;            /* of that step: voltage in its middle, V; length, s */
+  double drag_loss;       /* over it, J */
   void *memory;
 } ZpDynamics;
 

@@ -7,6 +7,7 @@
 #include "ribbon/rod_step.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/kernel.h"
 
@@ -15,7 +16,7 @@ static size_t edge_count(const ZpRodParams *p) {
 }
 
 void zp_rod_step_carve(const ZpRodParams *p, ZpRodStep *s, ZpCarver *carver) {
-  double **plain[] = {&s->tx, &s->ty, &s->T, &s->M, &s->stiffness};
+  double **plain[] = {&s->tx, &s->ty, &s->T, &s->M, &s->stiffness, &s->tension, &s->endx, &s->endy};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
     *plain[i] = zp_carve(carver, p->stride);
   size_t margin = ZP_ALIGNMENT / sizeof(double); /* one edge more before the first: a held slope, that never turns */
@@ -106,8 +107,31 @@ ZP_KERNEL static void edge_forces(const ZpRodParams *p, size_t edges, const ZpRo
   }
 }
 
+/* Tension of the step that ends with these edges if it goes with them as at the last end: the present one has in it
+ * what edges that turn are too long by until the iteration has shortened them, and that is far from what is to come. */
+ZP_KERNEL static void foresee(const ZpRodParams *p, size_t padded, const ZpRodEval *e1, double damping,
+                              const ZpRodStep *s) {
+  const double *restrict dpx = e1->dpx, *restrict dpy = e1->dpy, *restrict tx = s->tx, *restrict ty = s->ty,
+                         *restrict T = s->T, *restrict S = p->S;
+  double *restrict endx = s->endx, *restrict endy = s->endy, *restrict tension = s->tension;
+  double share = s->begun ? 0.5 + damping : 0;
+  ZP_SIMD
+  for (size_t j = 0; j < padded; j++) {
+    tension[j] = T[j] + share * S[j] * (tx[j] * (dpx[j] - endx[j]) + ty[j] * (dpy[j] - endy[j]));
+    endx[j] = dpx[j];
+    endy[j] = dpy[j];
+  }
+}
+
+void zp_rod_step_begin(const ZpRodParams *p, const ZpRodEval *e0, ZpRodStep *s) {
+  memcpy(s->T, e0->T, p->stride * sizeof *s->T);
+  s->begun = false;
+}
+
 void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping, ZpRodStep *s) {
   size_t edges = edge_count(p);
+  foresee(p, zp_round_up(edges), e1, damping, s);
+  s->begun = true;
   step_edges(p, zp_round_up(edges), e0, e1, damping, s);
   hold_right_ends(p, s);
   step_joints(p, zp_round_up(edges + p->ribbons), e0, e1, damping, s);
@@ -132,7 +156,7 @@ static void own_stiffness(const ZpRodParams *p, const ZpRodStep *s, double dampi
                           double D[4]) {
   size_t next = j + p->ribbons;
   double tx = s->tx[j], ty = s->ty[j], gx = s->gx[j], gy = s->gy[j];
-  double tension = s->T[j] * over, stretch = (0.5 + damping) * p->S[j] - tension;
+  double tension = s->tension[j] * over, stretch = (0.5 + damping) * p->S[j] - tension;
   double bend = s->stiffness[j] + s->stiffness[next], twist = -0.5 * (s->M[j] - s->M[next]);
   /* 0.5 dg/dd of g = n / L turned with the edge: -(t n + n t) / L^2, and (gy, -gx) is t / L */
   D[0] = stretch * tx * tx + tension + bend * gx * gx + twist * 2 * gy * gx;

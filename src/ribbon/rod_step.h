@@ -3,20 +3,28 @@
 #ifndef ZP_RIBBON_ROD_STEP_H
 #define ZP_RIBBON_ROD_STEP_H
 
+#include <stdbool.h>
+
 #include "ribbon/rod.h"
 
 /* Written by zp_rod_step. */
 typedef struct ZpRodStep {
-  double *tx, *ty;   /* edges: mean of both ends' edges over the mean of their lengths */
-  double *gx, *gy;   /* edges: what times the change of the edge is its rotation, 1/m */
-  double *turn;      /* edges: rotation from start to end, rad */
-  double *T;         /* edges: tension over the step, N */
-  double *M;         /* joints: moment over the step, N m */
-  double *stiffness; /* joints: dM/dphi, N m */
-  double *Rx, *Ry;   /* edges: force on the right node, N, as in ZpRodEval */
+  double *tx, *ty;     /* edges: mean of both ends' edges over the mean of their lengths */
+  double *gx, *gy;     /* edges: what times the change of the edge is its rotation, 1/m */
+  double *turn;        /* edges: rotation from start to end, rad */
+  double *T;           /* edges: tension over the step, N */
+  double *M;           /* joints: moment over the step, N m */
+  double *stiffness;   /* joints: dM/dphi, N m */
+  double *endx, *endy; /* edges at the end, m */
+  double *tension;     /* edges: tension that the last change of the end foresaw, N; the stiffness takes it */
+  bool begun;          /* an end was tried since zp_rod_step_begin */
+  double *Rx, *Ry;     /* edges: force on the right node, N, as in ZpRodEval */
 } ZpRodStep;
 
 void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);
+
+/* A step is to be tried: its tension is first taken for that at its start. */
+void zp_rod_step_begin(const ZpRodParams *params, const ZpRodEval *start, ZpRodStep *step);
 
 /* (evals at both ends of the step, internal damping time over the step's length) => all of `step`. */
 void zp_rod_step(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,

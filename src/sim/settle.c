@@ -101,6 +101,7 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
   double *q = sim->relax_work;
   sim->settled = ZP_REACHED_END;
+  if (model->def.initial.state == ZP_INITIAL_CHECKPOINT) return true; /* which has its reference */
   /* of one straight ribbon neither a start nor a reference is needed */
   if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;

@@ -30,13 +30,15 @@ static bool allocate(ZpSim *sim) {
   size_t signals;
   zp_signal_columns(&signals);
   sim->state = zp_calloc(1, zp_state_size(model));
+  sim->kept = zp_calloc(1, zp_state_size(model));
   sim->a = zp_calloc(2 * model->stride, sizeof(double));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
   bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
-  return zp_eval_create(model, &sim->eval) && sim->state && sim->a && sim->relax_work && sim->row && sim->line_force;
+  return zp_eval_create(model, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work && sim->row &&
+         sim->line_force;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -44,6 +46,20 @@ static void lay_straight(const ZpModel *model, double *q) {
     size_t station = j / model->s;
     q[j] = (double)station * model->l;
   }
+}
+
+/* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
+static bool diverged(const ZpModel *model, const ZpState *state) {
+  static const double speed_of_sound = 1e4; /* m/s, rounded up */
+  const double *q = state->data, *v = q + 2 * model->stride;
+  for (size_t j = 0; j < 2 * model->stride; j++)
+    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(q[j])) return true;
+  return false;
+}
+
+/* A longer run passes through the present state, too, unless the end of this one has cut a step. */
+static void keep(ZpSim *sim) {
+  if (!sim->cut && !diverged(sim->model, sim->state)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
 }
 
 /* Energies count from here on. */
@@ -77,6 +93,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   state->U = zp_waveform_voltage(&model->waveform, 0);
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   start_energy_account(sim);
+  keep(sim);
   *out = sim;
   return ZP_OK;
 }
@@ -86,6 +103,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_dynamics_destroy(&sim->dynamics);
   zp_eval_destroy(&sim->eval);
   zp_free(sim->state);
+  zp_free(sim->kept);
   zp_free(sim->a);
   zp_free(sim->relax_work);
   zp_free(sim->row);
@@ -281,15 +299,6 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
 
 /* -- a run ---------------------------------------------------------------------------------------- */
 
-/* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
-static bool diverged(const ZpModel *model, const ZpState *state) {
-  static const double speed_of_sound = 1e4; /* m/s, rounded up */
-  const double *q = state->data, *v = q + 2 * model->stride;
-  for (size_t j = 0; j < 2 * model->stride; j++)
-    if (!(fabs(v[j]) < speed_of_sound) || !isfinite(q[j])) return true;
-  return false;
-}
-
 /* Fine enough for a fast zip and for a wave; the records thin themselves where a run is long. */
 static double sampling_interval(const ZpModel *model) {
   static const double finest = 1e-4; /* s */
@@ -304,6 +313,21 @@ static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
   info->smallest_bound[2] = fmin(info->smallest_bound[2], bounds.shear);
 }
 
+/* Before a step that the end of the run may cut: from there on a longer run would take others. */
+static void keep_before_cut(ZpSim *sim, double end_time) {
+  static const double rounding = 1e-5;
+  const ZpModel *model = sim->model;
+  double fixed = sim->dynamics.stepper.fixed, longest = fixed > 0 ? fixed : sim->state->next_step;
+  if (model->def.solver.integrator == ZP_INTEGRATOR_EXPLICIT) longest = model->stable_step;
+  if (sim->cut || end_time - sim->state->t > (1 + rounding) * longest) return;
+  keep(sim);
+  sim->cut = true;
+}
+
+static bool nothing_recorded(const ZpSim *sim) {
+  return (sim->series && sim->series->rows == 0) || (sim->shapes && sim->shapes->frames == 0);
+}
+
 static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
 }
@@ -314,14 +338,16 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   ZpState *state = sim->state;
   double start = state->t, interval = sampling_interval(model), next_sample = start + interval;
   bool recording = sim->series || sim->shapes;
-  if (recording && start == 0) zp_sim_offer_record(sim);
+  if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
+    keep_before_cut(sim, end_time);
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
     bool sample = recording && state->t >= next_sample;
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
       if (diverged(model, state)) return ZP_DIVERGED;
+      keep(sim);
       if (asked_to_stop(hooks, (state->t - start) / (end_time - start))) return ZP_INTERRUPTED;
     }
     if (sample) {
@@ -380,8 +406,10 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   ZpImplicitCounts before = sim->dynamics.stepper.counts;
   double start_time = sim->state->t, start_clock = clock ? hooks->clock(hooks->user) : NAN;
   info.outcome = sim->settled;
+  sim->cut = false;
   if (info.outcome == ZP_REACHED_END) {
     info.outcome = advance(sim, end_time, stop_when_zipped, hooks, &info);
+    if (info.outcome != ZP_DIVERGED) keep(sim);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
@@ -412,11 +440,23 @@ ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
   if (status != ZP_OK) return status;
   sim->state->by_hand = true;
   jump_to(sim, voltage);
+  sim->cut = false;
+  keep(sim);
   return ZP_OK;
 }
 
 double zp_sim_zip_time(const ZpSim *sim) {
   return sim->state->zip_time;
+}
+
+void zp_sim_resume(ZpSim *sim) {
+  ZpState *state = sim->state;
+  double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
+  sim->row_time = state->t;
+  sim->row_charge = zp_eval_charge(sim->model, state, &sim->eval);
+  if (voltage != state->U) jump_to(sim, voltage);
+  sim->cut = false;
+  keep(sim);
 }
 
 size_t zp_sim_state_size(const ZpSim *sim) {
@@ -431,5 +471,6 @@ ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err
   if (size != zp_state_size(sim->model))
     return zp_fail(err, ZP_BAD_INPUT, "state of %zu bytes: this model's has %zu", size, zp_state_size(sim->model));
   memcpy(sim->state, state, size);
+  zp_sim_resume(sim);
   return ZP_OK;
 }

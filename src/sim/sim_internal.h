@@ -11,6 +11,8 @@
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
+  ZpState *kept; /* a copy of the last state that a longer run passes through, too; of sound numbers */
+  bool cut;      /* the end of the run has cut a step */
   ZpEval eval;
   double *a;                   /* [2 stride] accelerations, work space of a step */
   double *relax_work;          /* [12 stride] work space of settling */
@@ -34,6 +36,9 @@ struct ZpSim {
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
+
+/* Go on from the state as it has just been given: at the waveform's voltage of its time. */
+void zp_sim_resume(ZpSim *sim);
 
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);

@@ -6,7 +6,8 @@
 
 static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-12; /* s */
-static const double newton_share = 2e-3;   /* of the accuracy: what the iteration may leave */
+static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
+static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 enum { MOST_ITERATIONS = 14, PATIENCE = 6, EASY = 5, HARD = 8 };
 
@@ -30,7 +31,7 @@ static void predict(ZpImplicit *s, double h, const double *q, const double *v, c
   const double *w = history->last > 0 ? history->w : v;
   for (size_t i = 0; i < s->system->n; i++)
     s->q[i] = q[i] + h * w[i];
-  if (s->system->guess) s->system->guess(s->system->self, s->q);
+  if (s->system->attempt) s->system->attempt(s->system->self, s->q);
 }
 
 /* f - M a of (18.1) => r, and the Jacobian factored. */
@@ -46,19 +47,27 @@ static bool linearise(ZpImplicit *s, double h, const double *q, const double *v)
   return zp_band_factor_symmetric(&s->A);
 }
 
+/* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`? What is left is
+ * foreseen from both; far below the accuracy what does not shrink any more is rounding. */
+static bool is_found(double size, double before) {
+  double rate = size / before, left = rate < 0.5 ? 2 * rate * size : size;
+  return left < newton_share || (rate > 0.5 && size < rounding_share);
+}
+
 /* => iterations that it took; 0: it found no end. */
 static int converge(ZpImplicit *s, double h, const double *q, const double *v) {
-  double least = INFINITY;
+  double least = INFINITY, before = 0;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     if (!linearise(s, h, q, v)) return 0;
     zp_band_solve_symmetric(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
-    double size = rms(s->r, s->system->n);
+    double size = rms(s->r, s->system->n) / s->accuracy;
     if (!isfinite(size) || (k >= PATIENCE && size > least)) return 0;
-    if (size < newton_share * s->accuracy) return k + 1;
+    if (is_found(size, before)) return k + 1;
     least = fmin(least, size);
+    before = size;
   }
   return 0;
 }
@@ -87,7 +96,22 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
   memcpy(q, s->q, n * sizeof *q);
   history->last = h;
   s->counts.steps++;
-  if (s->system->impact) s->system->impact(s->system->self, v);
+}
+
+void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
+  enum { POWER = 3 };
+  size_t n = s->system->n;
+  double *fast = s->r, *slow = s->q;
+  memcpy(fast, v, n * sizeof *v);
+  for (int k = 0; k < POWER; k++) {
+    for (size_t i = 0; i < n; i++)
+      slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
+    zp_band_solve_symmetric(&s->A, slow);
+    for (size_t i = 0; i < n; i++)
+      fast[i] -= slow[i];
+  }
+  for (size_t i = 0; i < n; i++)
+    v[i] -= fast[i];
 }
 
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {

@@ -21,10 +21,9 @@ typedef struct ZpImplicitSystem {
   void (*force)(void *self, const double *q1, double h, double *f);
   /* -df/dq1 at the last force => A, symmetric, upper triangle. */
   void (*tangent)(void *self, ZpBand *A);
-  /* Make a first guess of the step's end one that can be: nothing passes through anything. May be NULL. */
-  void (*guess)(void *self, double *q1);
-  /* What the step's end does to the velocities at once (impacts). May be NULL. */
-  void (*impact)(void *self, double *v1);
+  /* The step is tried, from a first guess of its end, which may be made one that can be: nothing passes through
+   * anything. May be NULL. */
+  void (*attempt)(void *self, double *q1);
 } ZpImplicitSystem;
 
 /* What evolves beside q and v: the last step, which the next one's guess and error follow from. */
@@ -53,5 +52,10 @@ void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCa
 /* One step of at most `longest`: (q, v, history) at its start => at its end. => its length, 0 if even the shortest
  * fails; all is then as it was. */
 double zp_implicit_step(ZpImplicit *stepper, double longest, double *q, double *v, ZpImplicitHistory *history);
+
+/* Take out of velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^3 of a mode of
+ * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) keeps such modes, turned round in
+ * every step. */
+void zp_implicit_smooth(ZpImplicit *stepper, double h, double *v);
 
 #endif

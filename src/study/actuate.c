@@ -78,7 +78,32 @@ static void summarize(const ZpSim *sim, const ZpModel *model, const ZpRunInfo *i
   summarize_steps(info, result);
 }
 
-static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start, ZpError *err) {
+  bool goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
+  if (goes_on && !start)
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: there is none; zp_study_run_with takes it");
+  if (start && !goes_on)
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state: a checkpoint was given; it goes with initial.state checkpoint");
+  return ZP_OK;
+}
+
+/* Under a constant voltage until zipped; a run that goes on after that has no such end. */
+static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
+                         ZpResult *result, ZpError *err) {
+  zp_sim_record(sim, result->series, result->shapes);
+  ZpStatus status = start ? zp_sim_continue(sim, start, err) : ZP_OK;
+  if (status != ZP_OK) return status;
+  const ZpActuatorDef *def = zp_model_def(model);
+  bool until_zipped = zp_waveform_is_constant(&model->waveform) && isnan(zp_sim_zip_time(sim));
+  ZpRunInfo info;
+  zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
+  summarize(sim, model, &info, result);
+  warn(model, def, result);
+  return zp_sim_checkpoint(sim, &result->checkpoint, err);
+}
+
+static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks, ZpResult *result,
+                    ZpError *err) {
   const ZpActuatorDef *def = zp_model_def(model);
   ZpModelInfo size = zp_model_info(model);
   size_t columns;
@@ -89,21 +114,18 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, hooks, &sim, err);
   if (status != ZP_OK) return status;
-  zp_sim_record(sim, result->series, result->shapes);
-  ZpRunInfo info;
-  zp_sim_run(sim, def->solver.end_time, zp_waveform_is_constant(&model->waveform), hooks, &info);
-  summarize(sim, model, &info, result);
-  warn(model, def, result);
+  status = simulate(sim, model, start, hooks, result, err);
   zp_sim_destroy(sim);
-  return ZP_OK;
+  return status;
 }
 
-ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks, ZpResult *result,
+ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult *result,
                           ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create_driven(def, table, &model, err);
+  ZpStatus status = check_start(def, input->start, err);
+  if (status == ZP_OK) status = zp_model_create_driven(def, input->table, &model, err);
   if (status != ZP_OK) return status;
-  status = run(model, hooks, result, err);
+  status = run(model, input->start, hooks, result, err);
   zp_model_destroy(model);
   return status;
 }

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 
 /* Motion under a voltage: constant from t = 0 on until closed, any other until end_time. */
-ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks, ZpResult *result,
+ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult *result,
                           ZpError *err);
 
 /* The loaded shape at rest, no voltage. */

@@ -8,11 +8,11 @@
 #include "study/studies.h"
 
 ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
-  return zp_study_run_driven(def, NULL, hooks, out, err);
+  return zp_study_run_with(def, &(ZpStudyInput){0}, hooks, out, err);
 }
 
-ZpStatus zp_study_run_driven(const ZpActuatorDef *def, const ZpDriveTable *table, const ZpHooks *hooks, ZpResult **out,
-                             ZpError *err) {
+ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult **out,
+                           ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
   if (status != ZP_OK) return status;
@@ -40,7 +40,7 @@ ZpStatus zp_study_run_driven(const ZpActuatorDef *def, const ZpDriveTable *table
     break;
   case ZP_STUDY_ACTUATE:
   case ZpStudy_COUNT:
-    status = zp_study_actuate(def, table, hooks, result, err);
+    status = zp_study_actuate(def, input, hooks, result, err);
     break;
   }
   if (status == ZP_OK)
@@ -55,6 +55,7 @@ void zp_result_destroy(ZpResult *result) {
   zp_table_destroy(result->series);
   zp_shapes_destroy(result->shapes);
   zp_field_map_destroy(result->map);
+  zp_checkpoint_destroy(result->checkpoint);
   zp_free(result);
 }
 
