@@ -185,6 +185,15 @@ static void fill_masses(ZpModel *model, Arrays *a) {
   model->pseudo = (ZpMasses){{a->pseudo, a->px1, a->px2}, {a->pseudo, a->py1, a->py2}};
 }
 
+/* Without bending, for the axial springs of mass_spring over an implicit step. */
+static void fill_chain(ZpModel *model, Arrays *a) {
+  for (size_t j = 0; j + model->s < model->count; j++) {
+    a->rod_l[j] = model->l;
+    a->rod_S[j] = model->spring.K_D;
+  }
+  model->rod = (ZpRodParams){model->s, model->nodes, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
+}
+
 /* A joint bends over the half edges beside it; a clamp is the held slope, over half an edge, which makes it
  * second order in l; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
@@ -224,6 +233,25 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
+static ZpStopParams stop_of(const ZpModel *model) {
+  static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
+  static const double thinnest = 10e-6; /* m */
+  const ZpActuatorDef *def = &model->def;
+  double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
+  double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
+  return (ZpStopParams){model->nodes, model->l, E * def->ribbon.width / layers,
+                        model->s == 2 ? def->platform.length / 2 : 0};
+}
+
+/* damping.internal, or what auto stands for: docs/theory.md, section 18. */
+static double internal_damping_of(const ZpActuatorDef *def) {
+  static const double of_taped_steel = 10e-6; /* s */
+  bool damped = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->ribbon.model == ZP_RIBBON_ROD &&
+                def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
+  if (!isnan(def->damping.internal)) return def->damping.internal;
+  return damped ? of_taped_steel : 0;
+}
+
 static void derive(ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
@@ -242,6 +270,8 @@ static void derive(ZpModel *model) {
   model->plates = plates_of(model);
   model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
+  model->stop = stop_of(model);
+  model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it */
   model->stable_step = 0.8 * 2 / frequency_bound(model);
@@ -303,7 +333,10 @@ ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *ta
   }
   carve(model, rows, model->memory, &arrays);
   fill_waveform(model, table, &arrays);
-  fill_rod(model, &arrays);
+  if (model->is_rod)
+    fill_rod(model, &arrays);
+  else
+    fill_chain(model, &arrays);
   fill_masses(model, &arrays);
   *out = model;
   return ZP_OK;

@@ -10,6 +10,7 @@
 
 #include <zipact/model.h>
 
+#include "contact/stop.h"
 #include "contact/zip.h"
 #include "drive/waveform.h"
 #include "electro/edges.h"
@@ -36,9 +37,11 @@ struct ZpModel {
   ZpSection section;
   bool is_rod; /* mechanics: rod, else spring */
   ZpMassSpringParams spring;
-  ZpRodParams rod;
+  ZpRodParams rod; /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
-  ZpEdgeLaw edge_law; /* of plates, where electro.edges */
+  ZpStopParams stop;       /* of unilateral contact in motion */
+  double internal_damping; /* s */
+  ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
   ZpWaveform waveform;
   double field_scale;   /* force_scale * voltage_share^2 */

@@ -423,16 +423,17 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
 /* What the integrators ask of mechanics and contact. */
 static ZpStatus check_motion(const ZpActuatorDef *def, ZpError *err) {
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
-  if (implicit && def->ribbon.model != ZP_RIBBON_ROD)
-    return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = implicit: goes with ribbon.model rod only");
-  if (implicit && def->electro.surface != ZP_SURFACE_POLYLINE)
-    return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = implicit: goes with electro.surface polyline only");
-  if (two && implicit != (def->contact.model == ZP_CONTACT_UNILATERAL))
+  bool sequential = def->contact.model == ZP_CONTACT_SEQUENTIAL;
+  if (two && sequential && implicit)
+    return zp_fail(err, ZP_BAD_INPUT, "contact.model = sequential: goes with solver.integrator explicit only");
+  if (two && !sequential && def->electro.surface == ZP_SURFACE_BEZIER)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "contact.model = %s: unilateral goes with solver.integrator implicit, sequential with explicit",
-                   word_of("contact.model", (int)def->contact.model));
+                   "electro.surface = bezier: goes with contact.model sequential and solver.integrator explicit only");
   if (!implicit && def->damping.internal > 0)
     return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: goes with solver.integrator implicit only",
+                   def->damping.internal);
+  if (def->ribbon.model != ZP_RIBBON_ROD && def->damping.internal > 0)
+    return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: goes with ribbon.model rod only",
                    def->damping.internal);
   return ZP_OK;
 }

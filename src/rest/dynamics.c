@@ -7,9 +7,10 @@ static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
   size_t stride = model->stride, all = 2 * model->count;
   ZpCarver carver = {block, 0};
-  ZpRodEval *evals[] = {&d->rod0, &d->rod1};
-  for (size_t k = 0; k < 2; k++)
-    zp_rod_carve(&model->rod, evals[k], &carver);
+  for (size_t end = 0; end < 2; end++) {
+    zp_rod_carve(&model->rod, end ? &d->rod1 : &d->rod0, &carver);
+    zp_massspring_carve(&d->shear, end ? &d->shear1 : &d->shear0, &carver);
+  }
   zp_rod_step_carve(&model->rod, &d->rod, &carver);
   zp_plates_carve(&model->plates, &d->plates0, &carver);
   zp_plates_carve(&model->plates, &d->plates1, &carver);
@@ -45,7 +46,7 @@ static void scatter(const ZpDynamics *d, const double *equations, double *nodes)
 /* -- the system ----------------------------------------------------------------------------------- */
 
 static double internal_damping(const ZpDynamics *d) {
-  return d->model->def.damping.internal / d->h;
+  return d->model->internal_damping / d->h;
 }
 
 static void begin(void *self, const double *q0) {
@@ -54,7 +55,18 @@ static void begin(void *self, const double *q0) {
   scatter(d, q0, d->start);
   memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
   zp_rod_eval(&model->rod, d->start, d->start + model->stride, &d->rod0);
+  if (!model->is_rod) zp_massspring_eval(&d->shear, d->start, d->start + model->stride, &d->shear0);
   if (model->field) zp_plates_gaps(&model->plates, d->start, d->start + model->stride, &d->plates0);
+}
+
+/* Shear springs of mass_spring: the mean of both ends, as they have no energy whose change it could be. */
+static void add_shear(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  zp_massspring_eval(&d->shear, d->end, d->end + model->stride, &d->shear1);
+  for (size_t j = 0; j + model->s < model->count; j++) {
+    d->rod.Rx[j] += 0.5 * (d->shear0.Rx[j] + d->shear1.Rx[j]);
+    d->rod.Ry[j] += 0.5 * (d->shear0.Ry[j] + d->shear1.Ry[j]);
+  }
 }
 
 static void add_mechanics(ZpDynamics *d) {
@@ -63,6 +75,7 @@ static void add_mechanics(ZpDynamics *d) {
   double *Fx = d->force, *Fy = Fx + stride;
   zp_rod_eval(&model->rod, d->end, d->end + stride, &d->rod1);
   zp_rod_step(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod);
+  if (!model->is_rod) add_shear(d);
   for (size_t j = 0; j < model->count; j++)
     Fy[j] -= model->weight[j];
   for (size_t j = 0; j + s < model->count; j++) {
@@ -80,7 +93,7 @@ static void add_faces(ZpDynamics *d) {
   double *Fx = d->force, *Fy = Fx + stride, U2 = d->U * d->U;
   zp_plates_gaps(&model->plates, d->end, d->end + stride, &d->plates1);
   zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U, &d->plates);
-  zp_stop_push(&d->stop, d->plates1.gap, d->push, d->pressed);
+  zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
   for (size_t j = 0; j < model->count; j++) {
     Fx[j] += d->plates.Fx[j];
     Fy[j] += d->plates.Fy[j];
@@ -143,12 +156,22 @@ static void add_drag_tangent(const ZpDynamics *d, ZpBand *A) {
   }
 }
 
+/* Half of the stiffness at the step's end, of which the matrix keeps the upper triangle. */
+static void add_shear_tangent(ZpDynamics *d, ZpBand *A) {
+  zp_massspring_stiffness(&d->shear, &d->shear1, d->shear1.T, d->D);
+  for (size_t k = 0; k < 3 * (d->model->count - d->model->s); k++)
+    for (size_t c = 0; c < 4; c++)
+      d->D[k][c] *= 0.5;
+  zp_assemble(&d->assembly, ZP_EDGES, d->D[0], A);
+}
+
 static void tangent(void *self, ZpBand *A) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   zp_band_clear(A);
   zp_rod_step_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->D);
   zp_assemble(&d->assembly, ZP_EDGES, d->D[0], A);
+  if (!model->is_rod) add_shear_tangent(d, A);
   if (model->def.damping.drag > 0) add_drag_tangent(d, A);
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)
@@ -225,7 +248,7 @@ static void look_back(ZpDynamics *d) {
   zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->rod1);
   if (!model->field) return;
   zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
-  zp_stop_push(&d->stop, d->plates1.gap, d->push, d->pressed);
+  zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
 }
 
 /* Faces that press on each other move as one at the step's end, and what is too fast for the step, which such impacts
@@ -246,19 +269,11 @@ static double impact(ZpDynamics *d) {
 
 /* -- creation and step ---------------------------------------------------------------------------- */
 
-static ZpStopParams stop_of(const ZpModel *model) {
-  static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
-  static const double thinnest = 10e-6; /* m */
-  const ZpActuatorDef *def = &model->def;
-  double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
-  return (ZpStopParams){model->nodes, model->l, E * def->ribbon.width / layers,
-                        model->s == 2 ? def->platform.length / 2 : 0};
-}
-
 bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   memset(d, 0, sizeof *d);
   d->model = model;
+  d->shear = model->spring;
+  d->shear.K_D = 0;
   if (!zp_assembly_create(model, true, &d->assembly)) return false;
   d->system = (ZpImplicitSystem){.n = d->assembly.n,
                                  .bandwidth = d->assembly.bandwidth,
@@ -273,9 +288,8 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   d->system.mass = d->mass;
   for (size_t k = 0; k < 2 * model->count; k++)
     if (d->assembly.equation[k] >= 0) d->mass[d->assembly.equation[k]] += model->mass[k / 2];
-  d->stop = stop_of(model);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.accuracy = 0.2 * def->solver.tolerance * model->L;
+  d->stepper.accuracy = 0.08 * def->solver.tolerance * model->L;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }

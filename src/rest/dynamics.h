@@ -14,7 +14,8 @@ typedef struct ZpDynamics {
   const ZpModel *model;
   ZpImplicitSystem system;
   ZpImplicit stepper;
-  ZpStopParams stop;
+  ZpMassSpringParams shear; /* of mass_spring, without its axial springs */
+  ZpMassSpringEval shear0, shear1;
   ZpRodEval rod0, rod1; /* at the step's start and at its end */
   ZpRodStep rod;
   ZpPlatesEval plates0, plates1;

@@ -35,10 +35,12 @@ static bool allocate(ZpSim *sim) {
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
+  sim->push = zp_calloc(model->nodes, sizeof(double));
+  sim->pressed = zp_calloc(model->nodes, sizeof(double));
   bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
   return zp_eval_create(model, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work && sim->row &&
-         sim->line_force;
+         sim->line_force && sim->push && sim->pressed;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -108,6 +110,8 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->line_force);
+  zp_free(sim->push);
+  zp_free(sim->pressed);
   zp_free(sim);
 }
 
@@ -157,13 +161,64 @@ static void follow_waveform(ZpSim *sim, bool corner) {
 
 /* -- one step ------------------------------------------------------------------------------------- */
 
+/* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
+static ZpZipState touching(const ZpModel *model, const double *gap) {
+  static const double touch = 5e-7; /* m, as in contact at rest */
+  ZpZipState zip = {0, false};
+  while (zip.front + 1 < model->nodes && gap[zip.front + 1] < touch)
+    zip.front++;
+  zip.platform = zip.front + 1 == model->nodes;
+  return zip;
+}
+
+static const ZpZipState clip_only = {0, false};
+
+static bool is_sequential(const ZpModel *model) {
+  return model->field && model->def.contact.model == ZP_CONTACT_SEQUENTIAL;
+}
+
+static bool is_unilateral(const ZpModel *model) {
+  return model->field && model->def.contact.model == ZP_CONTACT_UNILATERAL;
+}
+
+/* Faces that overlap push each other apart, on top of the accelerations a. */
+static void push_faces(ZpSim *sim, const double *q, double *a) {
+  const ZpModel *model = sim->model;
+  const double *inverse = model->masses.y.inverse;
+  double *ay = a + model->stride;
+  zp_plates_gaps(&model->plates, q, q + model->stride, &sim->eval.plates);
+  zp_stop_push(&model->stop, sim->eval.plates.gap, sim->push, sim->pressed);
+  for (size_t i = 1; i < model->nodes; i++) {
+    ay[2 * i] += sim->push[i] * inverse[2 * i];
+    ay[2 * i + 1] -= sim->push[i] * inverse[2 * i + 1];
+  }
+}
+
+/* Those that pressed on each other in the step dt that has just been taken move as one; their push's work, at the mean
+ * velocity, is lost with what they lose. How far they are closed now goes into the state. */
+static void stop_faces(ZpSim *sim, double dt) {
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = sim->a + model->stride;
+  double *vy = zp_state_v(model, state) + model->stride;
+  for (size_t i = 1; i < model->nodes; i++) {
+    if (!(sim->pressed[i] > 0)) continue;
+    double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
+    state->contact_loss += zp_zip_merge(i, &model->masses.y, vy) - sim->push[i] * apart * dt;
+  }
+  zp_plates_gaps(&model->plates, x, y, &sim->eval.plates);
+  state->zip = touching(model, sim->eval.plates.gap);
+}
+
 static double accelerate(void *self, const double *q, const double *v, double *a) {
   ZpSim *sim = self;
   const ZpModel *model = sim->model;
   zp_eval_accelerations(model, sim->state, q, v, &sim->eval, a);
   sim->opened = sim->state->zip;
-  if (model->field && sim->state->U == 0) sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
-  zp_eval_share(model, &model->masses, &sim->state->zip, a);
+  if (is_unilateral(model)) push_faces(sim, q, a);
+  if (is_sequential(model) && sim->state->U == 0)
+    sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
+  zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &sim->state->zip, a);
 
   double dt = fmin(model->stable_step, sim->even), asked = model->def.solver.time_step;
   /* Half of the first bound of eq. (9): at the bound itself drag would turn a speed round, undiminished.
@@ -229,7 +284,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner
 static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  ZpExplicitSystem system = {2 * model->stride, sim, accelerate, model->field ? next_event : NULL};
+  ZpExplicitSystem system = {2 * model->stride, sim, accelerate, is_sequential(model) ? next_event : NULL};
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   double corner = next_corner(sim), stop = fmin(end_time, corner);
   ZpExplicitStep taken =
@@ -238,24 +293,15 @@ static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   state->drag_loss += sim->eval.drag_power * taken.dt;
   info->steps++;
   info->limited[limit_of(sim, taken.limit, state->t >= corner)]++;
+  if (is_unilateral(model)) stop_faces(sim, taken.dt);
   follow_waveform(sim, state->t >= corner);
   if (!model->field) return;
   if (taken.limit == ZP_EXPLICIT_EVENT)
     meet(sim);
-  else
+  else if (is_sequential(model))
     state->zip = sim->opened;
   state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state)) state->zip_time = state->t;
-}
-
-/* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
-static ZpZipState touching(const ZpModel *model, const double *gap) {
-  static const double touch = 5e-7; /* m, as in contact at rest */
-  ZpZipState zip = {0, false};
-  while (zip.front + 1 < model->nodes && gap[zip.front + 1] < touch)
-    zip.front++;
-  zip.platform = zip.front + 1 == model->nodes;
-  return zip;
 }
 
 /* When within the step that has just been taken the opening fell to 1 %: on the straight line between its ends. */
