@@ -1,11 +1,12 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
+# make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check deps bench bench-tables format docs install clean
+.PHONY: all demo check python deps bench bench-tables format docs install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -27,6 +28,9 @@ check: deps $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) -j $(JOBS) -- --no-print-directory
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
+python: $(BUILD)/zipact
+	scripts/test-python.sh $(BUILD)
+
 bench: $(BUILD)/zipact
 	$(BUILD)/zipact bench
 
@@ -39,7 +43,7 @@ docs: $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
 
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch]
+	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch]
 
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)

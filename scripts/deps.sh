@@ -2,11 +2,14 @@
 # Installs what zipact needs to build, test and draw. On Debian and Ubuntu by apt, with sudo if not root;
 # elsewhere it lists what is needed. Says what it installs; does nothing where all is there.
 #   scripts/deps.sh          build, run and check
+#   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
 set -eu
 packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 ca-certificates"
+[ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
+ python3-matplotlib python3-pandas python3-pytest"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 

@@ -126,7 +126,7 @@ def folder_of(name):
     parts = name.split("/")
     if parts[0] == "src" and len(parts) > 2:
         return parts[1]
-    return "cli" if parts[0] == "cli" else None
+    return "cli" if name.startswith(("cli/", "python/src/")) else None  # the extension, too, sees public headers only
 
 
 def include_is_right(folder, mark, target):
@@ -332,7 +332,7 @@ def functions_of(code):
 def rule_short_functions(repo, files):
     """No function longer than LONGEST_FUNCTION lines."""
     for name in files:
-        if not name.startswith(("src/", "cli/", "include/", "tests/", "bench/")) or not name.endswith((".c", ".h", ".cpp")):
+        if not name.startswith(("src/", "cli/", "include/", "tests/", "bench/", "python/")) or not name.endswith((".c", ".h", ".cpp")):
             continue
         for first, last, function in functions_of(code_of(read(repo, name))):
             length = last - first + 1

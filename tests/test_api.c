@@ -229,6 +229,61 @@ START_TEST(every_name_answers) {
 END_TEST
 
 /* A Def filled by field, by key or by assignments is the same Def. */
+/* Steps of 1, 1 and 0.3 times the longest stable one, by turns, diverge; three of 0.77 do not. */
+START_TEST(steps_by_hand_are_even) {
+  ZpActuatorDef def = coarse_def();
+  def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
+  def.drive.voltage = 1e3; /* nothing meets: no other short steps */
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  double dt = 2.3 * zp_model_info(model).stable_time_step;
+  for (int i = 0; i < 2000; i++) {
+    ck_assert_int_eq(zp_sim_step(sim, dt, NULL, &info), ZP_REACHED_END);
+    ck_assert_int_eq(info.steps, 3);
+  }
+  ck_assert_double_lt(fabs(zp_sim_get(sim, "end_velocity")), 0.01);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* All signals at once are those one by one; the current is the mean since the reading before. */
+START_TEST(reading_is_a_row) {
+#define ZP_SIGNAL(name, unit, suffix, help) SIGNAL_##name,
+  enum {
+#include <zipact/signals.def>
+    SIGNALS
+  };
+#undef ZP_SIGNAL
+#define ZP_SIGNAL(name, unit, suffix, help) #name,
+  static const char *const names[] = {
+#include <zipact/signals.def>
+  };
+#undef ZP_SIGNAL
+  ZpActuatorDef def = coarse_def();
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  double before[SIGNALS], row[SIGNALS];
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  zp_sim_run(sim, 1e-3, false, NULL, NULL);
+  zp_sim_read(sim, before);
+  zp_sim_run(sim, 3e-3, false, NULL, NULL);
+  double current = zp_sim_get(sim, "current");
+  zp_sim_read(sim, row);
+  ck_assert_double_eq(row[SIGNAL_current], current);
+  double mean = (row[SIGNAL_charge] - before[SIGNAL_charge]) / 2e-3;
+  ck_assert_double_eq_tol(current, mean, 1e-12 * fabs(mean));
+  for (int i = 0; i < SIGNALS; i++)
+    if (i != SIGNAL_current) ck_assert_double_eq(row[i], zp_sim_get(sim, names[i]));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 START_TEST(three_ways_to_fill_a_def) {
   ZpActuatorDef by_field = zp_actuator_def_default(), by_key = by_field, resolved;
   int mass = zp_key_find("load.mass"), electrode = zp_key_find("platform.electrode");
@@ -256,6 +311,8 @@ int main(void) {
   tcase_add_test(c, saved_state_continues_to_the_same_bits);
   tcase_add_test(c, simulations_share_a_model);
   tcase_add_test(c, every_name_answers);
+  tcase_add_test(c, reading_is_a_row);
+  tcase_add_test(c, steps_by_hand_are_even);
   tcase_add_test(c, three_ways_to_fill_a_def);
   tcase_set_timeout(c, 60);
   suite_add_tcase(suite, c);

@@ -500,6 +500,22 @@ START_TEST(core_asks_for_the_table) {
 }
 END_TEST
 
+START_TEST(simulation_of_what_the_keys_name) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
+  ZpModel *model;
+  ZpSim *sim;
+  ZpError err;
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_BAD_INPUT);
+  ck_assert(model == NULL && sim == NULL && strstr(err.message, "give drive.table or drive.file"));
+  snprintf(def.drive.table, sizeof def.drive.table, "0 ms = 1 kV, 1 ms = 3 kV");
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_OK);
+  zp_sim_run(sim, 0.5e-3, false, NULL, NULL);
+  ck_near(zp_sim_get(sim, "voltage"), 2e3, 1e-12);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* Runs a scenario; its written form must stand for the same. */
 static ZpResult *run_scenario(const char *text) {
   ZpScenario *scenario = zp_scenario_create(), *again = zp_scenario_create();
@@ -569,6 +585,7 @@ int main(void) {
   tcase_add_test(runs, only_a_constant_drive_stops);
   tcase_add_test(inputs, refused);
   tcase_add_test(inputs, core_asks_for_the_table);
+  tcase_add_test(inputs, simulation_of_what_the_keys_name);
   tcase_add_test(inputs, file_as_text);
   suite_add_tcase(suite, waveforms);
   suite_add_tcase(suite, runs);

@@ -13,6 +13,10 @@ extern "C" {
  * it. ZP_BAD_INPUT names file, line, column and text, or the key. */
 ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err);
 
+/* A model and a simulation of it, both the caller's, for every def: also with drive.waveform table and initial.state
+ * checkpoint. NULL if it fails. */
+ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim, ZpError *err);
+
 /* As zp_study_run, for every study: also calibrate, stationary with area_error_m2 where there is a data.file, and
  * actuate with drive.waveform table. */
 ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);

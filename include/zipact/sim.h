@@ -87,12 +87,21 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 /* Run until `end_time` (s), or until zipped where `stop_when_zipped`. `hooks` and `info` may be NULL. */
 ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info);
 
+/* Run on by `dt` > 0 (s), for callers that come again and again, as control loops: explicit steps are then of equal
+ * length. zp_sim_run ends with a shorter one, which, repeated, would shake what vibrates near the bound of stability
+ * until the numbers diverge. */
+ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
+
 /* Change the potential difference from now on; drive.waveform does not count any more. ZP_BAD_INPUT if it is out of the
  * range of drive.voltage. */
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. */
 double zp_sim_get(const ZpSim *sim, const char *name);
+
+/* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current counts from the row
+ * before. */
+void zp_sim_read(ZpSim *sim, double *row);
 
 /* Present shape; its pointers are valid until the simulation goes on. */
 ZpShape zp_sim_shape(const ZpSim *sim);

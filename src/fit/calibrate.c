@@ -215,6 +215,30 @@ ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
+static ZpStatus create_from_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                                  ZpError *err) {
+  Files files;
+  ZpStatus status = open_files(def, &files, err);
+  if (status == ZP_OK) status = zp_model_create_driven(def, files.input.table, model, err);
+  if (status == ZP_OK) status = zp_sim_create(*model, hooks, sim, err);
+  if (status == ZP_OK && files.start) status = zp_sim_continue(*sim, files.start, err);
+  close_files(&files);
+  return status;
+}
+
+ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                            ZpError *err) {
+  *model = NULL;
+  *sim = NULL;
+  ZpStatus status = create_from_files(def, hooks, model, sim, err);
+  if (status == ZP_OK) return ZP_OK;
+  zp_sim_destroy(*sim);
+  zp_model_destroy(*model);
+  *model = NULL;
+  *sim = NULL;
+  return status;
+}
+
 static ZpStatus run_with_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
   Files files;
   ZpStatus status = open_files(def, &files, err);

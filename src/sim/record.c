@@ -88,6 +88,11 @@ double zp_sim_get(const ZpSim *sim, const char *name) {
   return NAN;
 }
 
+void zp_sim_read(ZpSim *sim, double *row) {
+  zp_sim_fill_row(sim);
+  memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
+}
+
 ZpShape zp_sim_shape(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;

@@ -80,6 +80,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   ZpSim *sim = zp_calloc(1, sizeof *sim);
   if (!sim) return zp_fail_memory(err);
   sim->model = model;
+  sim->even = INFINITY;
   if (!allocate(sim)) {
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
@@ -219,7 +220,7 @@ static double accelerate(void *self, const double *q, const double *v, double *a
     sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
   zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &sim->state->zip, a);
 
-  double dt = model->stable_step, asked = model->def.solver.time_step;
+  double dt = fmin(model->stable_step, sim->even), asked = model->def.solver.time_step;
   /* Half of the first bound of eq. (9): at the bound itself drag would turn a speed round, undiminished.
    * Infinite without drag. */
   double drag = 1 / (model->def.damping.drag * sim->eval.drag_rate);
@@ -473,6 +474,15 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   describe(sim, &info);
   if (out) *out = info;
   return info.outcome;
+}
+
+ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info) {
+  static const double rounding = 1e-9; /* above that of the time reached: no sliver of a step is left at the end */
+  double longest = fmin(sim->model->stable_step, sim->model->def.solver.time_step); /* NAN, auto, does not count */
+  sim->even = dt / ceil(dt / longest) * (1 + rounding);
+  ZpOutcome outcome = zp_sim_run(sim, sim->state->t + dt, false, hooks, info);
+  sim->even = INFINITY;
+  return outcome;
 }
 
 /* -- inputs, state -------------------------------------------------------------------------------- */

@@ -27,6 +27,7 @@ struct ZpSim {
   double settle_residual;
   ZpDynamics dynamics; /* integrator implicit */
   bool stuck;          /* it found no step */
+  double even;         /* explicit: longest step of zp_sim_step, s; else infinite */
   /* of the step under way */
   ZpStepLimit bound; /* what set the largest step allowed */
   size_t met;        /* pair that meets inside it */

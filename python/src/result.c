@@ -1,0 +1,194 @@
+/* What a study found, as plain Python values and buffers. */
+#include "binding.h"
+
+#include <string.h>
+
+typedef struct Result {
+  PyObject_HEAD State *state;
+  ZpResult *result;
+} Result;
+
+PyObject *result_new(State *state, ZpResult *found) {
+  Result *self = PyObject_New(Result, state->result);
+  if (!self) {
+    zp_result_destroy(found);
+    return NULL;
+  }
+  self->state = state;
+  self->result = found;
+  return (PyObject *)self;
+}
+
+static void result_dealloc(PyObject *object) {
+  zp_result_destroy(((Result *)object)->result);
+  free_object(object);
+}
+
+static const ZpResult *of(PyObject *object) {
+  return ((Result *)object)->result;
+}
+
+/* -- words and numbers ------------------------------------------------------------------------------ */
+
+static PyObject *get_study(PyObject *self, void *unused) {
+  (void)unused;
+  return text_from(zp_key(zp_key_find("study"))->choices[of(self)->study].word);
+}
+
+static PyObject *get_outcome(PyObject *self, void *unused) {
+  (void)unused;
+  return text_from(zp_outcome_name(of(self)->outcome));
+}
+
+static PyObject *get_good(PyObject *self, void *unused) {
+  (void)unused;
+  return PyBool_FromLong(zp_outcome_good(of(self)->outcome));
+}
+
+static PyObject *get_message(PyObject *self, void *unused) {
+  (void)unused;
+  return text_from(of(self)->message);
+}
+
+static PyObject *get_warnings(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpResult *result = of(self);
+  PyObject *list = PyTuple_New((Py_ssize_t)result->warnings);
+  for (size_t i = 0; list && i < result->warnings; i++) {
+    PyObject *text = text_from(result->warning[i]);
+    if (!text || PyTuple_SetItem(list, (Py_ssize_t)i, text)) Py_CLEAR(list);
+  }
+  return list;
+}
+
+static PyObject *get_scalars(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpResult *result = of(self);
+  PyObject *list = PyTuple_New((Py_ssize_t)result->scalars);
+  for (size_t i = 0; list && i < result->scalars; i++) {
+    const ZpScalar *scalar = &result->scalar[i];
+    PyObject *item =
+        Py_BuildValue("(ssdN)", scalar->name, scalar->unit, scalar->value, PyBool_FromLong(scalar->timing));
+    if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
+  }
+  return list;
+}
+
+/* -- arrays ---------------------------------------------------------------------------------------- */
+
+/* ((name, unit, help) of each column, rows) */
+static PyObject *get_series(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpTable *table = of(self)->series;
+  if (!table) Py_RETURN_NONE;
+  PyObject *columns = PyTuple_New((Py_ssize_t)table->columns);
+  for (size_t i = 0; columns && i < table->columns; i++) {
+    const ZpColumn *column = &table->column[i];
+    PyObject *item = Py_BuildValue("(sss)", column->name, column->unit, column->help);
+    if (!item || PyTuple_SetItem(columns, (Py_ssize_t)i, item)) Py_CLEAR(columns);
+  }
+  if (!columns) return NULL;
+  PyObject *rows = view_of_rows(((Result *)self)->state, self, table->value, table->rows, table->columns);
+  return Py_BuildValue("(NN)", columns, rows);
+}
+
+/* An array of every frame of a film, by node (2 dimensions) or by node and ribbon (3); None if `first`, that of the
+ * first frame, is NULL. */
+static PyObject *film(PyObject *self, const double *first, int ndim) {
+  if (!first) Py_RETURN_NONE;
+  const ZpShapes *shapes = of(self)->shapes;
+  Py_ssize_t shape[] = {(Py_ssize_t)shapes->frames, (Py_ssize_t)shapes->nodes,
+                        ndim == 3 ? (Py_ssize_t)shapes->ribbons : 1};
+  Py_ssize_t size = sizeof(double);
+  Py_ssize_t strides[] = {(Py_ssize_t)shapes->frame_size * size, shape[2] * size, size};
+  return view_new(((Result *)self)->state, self, first, ndim, shape, strides);
+}
+
+/* (time, voltage, zipped) of each frame. */
+static PyObject *frame_heads(const ZpShapes *shapes) {
+  PyObject *list = PyTuple_New((Py_ssize_t)shapes->frames);
+  for (size_t i = 0; list && i < shapes->frames; i++) {
+    ZpShape shape = zp_shapes_get(shapes, i);
+    PyObject *item = Py_BuildValue("(ddn)", shape.time, shape.voltage, (Py_ssize_t)shape.zipped);
+    if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
+  }
+  return list;
+}
+
+static PyObject *get_shapes(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpShapes *shapes = of(self)->shapes;
+  if (!shapes || shapes->frames == 0) Py_RETURN_NONE;
+  ZpShape first = zp_shapes_get(shapes, 0);
+  return Py_BuildValue("{sNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
+                       film(self, first.y, 3), "gap", film(self, first.gap, 2), "line_force",
+                       film(self, first.line_force, 2));
+}
+
+static PyObject *get_field(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpFieldMap *map = of(self)->map;
+  if (!map) Py_RETURN_NONE;
+  State *state = ((Result *)self)->state;
+  size_t nx = map->nx, ny = map->ny;
+  return Py_BuildValue("{sNsNsNsNsN}", "x", view_of_rows(state, self, map->x, nx, ny), "y",
+                       view_of_rows(state, self, map->y, nx, ny), "potential",
+                       view_of_rows(state, self, map->potential, nx, ny), "strength",
+                       view_of_rows(state, self, map->strength, nx - 1, ny - 1), "permittivity",
+                       view_of_rows(state, self, map->permittivity, nx - 1, ny - 1));
+}
+
+/* -- files ----------------------------------------------------------------------------------------- */
+
+static ZpStatus write_report(const char *directory, const char *text, ZpResult *result, ZpError *err) {
+  ZpScenario *scenario = zp_scenario_create();
+  if (!scenario) {
+    *err = (ZpError){ZP_MACHINE, "no memory"};
+    return ZP_MACHINE;
+  }
+  ZpReport report = {directory, scenario, &result, 1, zp_result_get(result, "wall_time_s")};
+  ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "scenario", err);
+  if (status == ZP_OK) status = zp_report_prepare(directory, err);
+  if (status == ZP_OK) status = zp_report_write(&report, NULL, err);
+  zp_scenario_destroy(scenario);
+  return status;
+}
+
+/* Keeps the interpreter's lock: HDF5 is not for several threads at once. */
+static PyObject *result_save(PyObject *object, PyObject *args) {
+  Result *self = (Result *)object;
+  PyObject *directory, *scenario;
+  if (!PyArg_ParseTuple(args, "UU", &directory, &scenario)) return NULL;
+  const char *where = text_of(self->state, directory, "directory");
+  const char *text = where ? text_of(self->state, scenario, "scenario") : NULL;
+  ZpError err;
+  if (!text) return NULL;
+  if (write_report(where, text, self->result, &err) != ZP_OK) return raise_error(self->state, &err);
+  Py_RETURN_NONE;
+}
+
+static PyGetSetDef getters[] = {
+    {"study", get_study, NULL, "Its word.", NULL},
+    {"outcome", get_outcome, NULL, "How the numerics ended: a word.", NULL},
+    {"good", get_good, NULL, "Whether the outcome is an answer.", NULL},
+    {"message", get_message, NULL, "One sentence on how it ended.", NULL},
+    {"warnings", get_warnings, NULL, "Sentences on limits of validity that were met.", NULL},
+    {"scalars", get_scalars, NULL, "(name, unit, value, follows from wall time) of each number.", NULL},
+    {"series", get_series, NULL, "((name, unit, help) of each column, rows), or None.", NULL},
+    {"shapes", get_shapes, NULL, "Arrays of a film of shapes, or None.", NULL},
+    {"field", get_field, NULL, "Arrays of a map of the field, or None.", NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+static PyMethodDef methods[] = {
+    {"save", result_save, METH_VARARGS, "save(directory, scenario): write the files of the command."},
+    {NULL, NULL, 0, NULL},
+};
+static PyType_Slot slots[] = {
+    {Py_tp_doc, "What a study found."},
+    {Py_tp_dealloc, result_dealloc},
+    {Py_tp_getset, getters},
+    {Py_tp_methods, methods},
+    {0, NULL},
+};
+PyType_Spec result_spec = {"zipact._zipact.Result", sizeof(Result), 0,
+                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};

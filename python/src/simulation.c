@@ -1,0 +1,305 @@
+/* Stepping by hand.
+ *
+ * A step lets other Python threads run, so a simulation may be asked for something while it steps, also by the progress
+ * function and by handlers of signals: `busy` refuses it. */
+#include "binding.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Simulation {
+  PyObject_HEAD State *state;
+  PyObject *definition; /* what it was made from */
+  ZpModel *model;
+  ZpSim *sim;
+  uint64_t fingerprint;          /* of the definition */
+  int end_time_key, voltage_key; /* whose units and ranges dt and voltage have */
+  double time;                   /* s */
+  double hand_voltage;           /* set last by step, V; NAN: none yet */
+  int64_t steps;                 /* taken so far */
+  bool busy;                     /* inside a call that lets other threads run */
+  bool ended;                    /* numbers are beyond use until a state is restored */
+} Simulation;
+
+/* -- states as bytes --------------------------------------------------------------------------------
+ *
+ * magic, fingerprint, checksum, the library's state. A state of another definition or version, or a damaged one, would
+ * send the kernels beyond their arrays: fingerprint and checksum keep it out. */
+
+static const char magic[8] = "zipact1";
+enum { HEAD = sizeof magic + 2 * sizeof(uint64_t) };
+
+/* FNV-1a, 64 bits. */
+static uint64_t hash(uint64_t before, const void *data, size_t size) {
+  const unsigned char *byte = data;
+  for (size_t i = 0; i < size; i++)
+    before = (before ^ byte[i]) * UINT64_C(0x100000001b3);
+  return before;
+}
+
+static uint64_t fingerprint_of(const Definition *definition) {
+  uint64_t sum = hash(UINT64_C(0xcbf29ce484222325), ZP_VERSION, sizeof ZP_VERSION);
+  for (int key = 0; key < zp_key_count(); key++) {
+    const char *text = zp_def_text(&definition->def, key);
+    double value = zp_def_get(&definition->def, key);
+    sum = text ? hash(sum, text, strlen(text) + 1) : hash(sum, &value, sizeof value);
+  }
+  size_t size = definition->drive.rows * sizeof(double);
+  return hash(hash(sum, definition->drive.time, size), definition->drive.voltage, size);
+}
+
+/* -- creation --------------------------------------------------------------------------------------- */
+
+static ZpStatus compile(Simulation *self, const ZpHooks *hooks, ZpError *err) {
+  const Definition *definition = (Definition *)self->definition;
+  ZpActuatorDef def = definition->def;
+  def.study = ZP_STUDY_ACTUATE; /* what a motion asks of the keys is checked */
+  if (!definition->drive.rows) return zp_data_sim_create(&def, hooks, &self->model, &self->sim, err);
+  ZpStatus status = zp_model_create_driven(&def, &definition->drive, &self->model, err);
+  return status == ZP_OK ? zp_sim_create(self->model, hooks, &self->sim, err) : status;
+}
+
+static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kwargs) {
+  (void)kwargs;
+  State *state = state_of_type(type);
+  PyObject *definition;
+  if (!state || !PyArg_ParseTuple(args, "O!", state->definition, &definition)) return NULL;
+  Simulation *self = (Simulation *)((allocfunc)PyType_GetSlot(type, Py_tp_alloc))(type, 0);
+  if (!self) return NULL;
+  self->state = state;
+  self->definition = Py_NewRef(definition);
+  self->fingerprint = fingerprint_of((Definition *)definition);
+  self->end_time_key = zp_key_find("solver.end_time");
+  self->voltage_key = zp_key_find("drive.voltage");
+  self->hand_voltage = NAN;
+  Watch watch;
+  watch_begin(&watch, NULL);
+  ZpHooks hooks = watch_hooks(&watch);
+  ZpError err;
+  ZpStatus status = compile(self, &hooks, &err);
+  watch_end(&watch);
+  if (!watch.failed && status == ZP_OK) {
+    self->time = zp_sim_get(self->sim, "time"); /* not 0 where it starts from a checkpoint */
+    return (PyObject *)self;
+  }
+  if (!watch.failed) raise_error(state, &err);
+  Py_DECREF(self);
+  return NULL;
+}
+
+static void simulation_dealloc(PyObject *object) {
+  Simulation *self = (Simulation *)object;
+  zp_sim_destroy(self->sim);
+  zp_model_destroy(self->model);
+  Py_XDECREF(self->definition);
+  free_object(object);
+}
+
+/* -- steps ------------------------------------------------------------------------------------------ */
+
+static int refuse_busy(const Simulation *self) {
+  if (!self->busy) return 0;
+  raise_input(self->state, "the simulation is stepping, in another thread or in the call that this comes from");
+  return -1;
+}
+
+/* (dt, voltage=None) */
+static int step_arguments(const State *state, PyObject *const *args, Py_ssize_t count, PyObject *names,
+                          PyObject *found[2]) {
+  static const char *const known[] = {"dt", "voltage"};
+  Py_ssize_t named = names ? PyTuple_Size(names) : 0;
+  for (Py_ssize_t i = 0; i < count + named; i++) {
+    Py_ssize_t place = i;
+    if (i >= count)
+      for (place = 0; place < 2; place++)
+        if (PyUnicode_CompareWithASCIIString(PyTuple_GetItem(names, i - count), known[place]) == 0) break;
+    if (place >= 2 || found[place]) {
+      PyErr_SetString(PyExc_TypeError, "step takes dt and voltage, each once");
+      return -1;
+    }
+    found[place] = args[i];
+  }
+  if (found[0]) return 0;
+  raise_input(state, "dt: missing; how long is the step, in s?");
+  return -1;
+}
+
+static ZpOutcome advance(Simulation *self, double dt, double voltage, const ZpHooks *hooks, ZpRunInfo *info,
+                         ZpError *err) {
+  if (!isnan(voltage) && voltage != self->hand_voltage) {
+    err->status = zp_sim_set_voltage(self->sim, voltage, err);
+    if (err->status != ZP_OK) return ZP_REACHED_END;
+    self->hand_voltage = voltage;
+  }
+  return zp_sim_step(self->sim, dt, hooks, info);
+}
+
+static PyObject *step(Simulation *self, double dt, double voltage) {
+  Watch watch;
+  ZpRunInfo info = {0};
+  ZpError err = {.status = ZP_OK};
+  double end = self->time + dt;
+  self->busy = true;
+  watch_begin(&watch, NULL);
+  ZpHooks hooks = watch_hooks(&watch);
+  ZpOutcome outcome = advance(self, dt, voltage, &hooks, &info, &err);
+  watch_end(&watch);
+  self->busy = false;
+  self->steps += info.steps;
+  self->time = outcome == ZP_REACHED_END && err.status == ZP_OK ? end : zp_sim_get(self->sim, "time");
+  self->ended = outcome == ZP_DIVERGED;
+  if (watch.failed) return NULL;
+  if (err.status != ZP_OK) return raise_error(self->state, &err);
+  if (outcome == ZP_REACHED_END) Py_RETURN_NONE;
+  PyErr_SetString(self->state->numerics_error, info.message);
+  return NULL;
+}
+
+static PyObject *simulation_step(PyObject *object, PyObject *const *args, Py_ssize_t count, PyObject *names) {
+  Simulation *self = (Simulation *)object;
+  PyObject *found[2] = {NULL, NULL};
+  double dt, voltage = NAN;
+  if (step_arguments(self->state, args, count, names, found)) return NULL;
+  if (quantity_of(self->state, self->end_time_key, "dt", found[0], &dt)) return NULL;
+  if (found[1] && found[1] != Py_None && quantity_of(self->state, self->voltage_key, "voltage", found[1], &voltage))
+    return NULL;
+  if (refuse_busy(self)) return NULL; /* not before: to become a number, dt may have run code of its own */
+  if (!self->ended) return step(self, dt, voltage);
+  PyErr_SetString(self->state->numerics_error, "the simulation has diverged; restore a state to go on");
+  return NULL;
+}
+
+/* -- reading ---------------------------------------------------------------------------------------- */
+
+static PyObject *simulation_read_into(PyObject *object, PyObject *out) {
+  Simulation *self = (Simulation *)object;
+  Py_buffer buffer;
+  size_t count;
+  zp_signal_columns(&count);
+  if (refuse_busy(self) || PyObject_GetBuffer(out, &buffer, PyBUF_CONTIG | PyBUF_FORMAT)) return NULL;
+  bool fits =
+      buffer.ndim == 1 && buffer.shape[0] == (Py_ssize_t)count && buffer.format && strcmp(buffer.format, "d") == 0;
+  if (fits) zp_sim_read(self->sim, buffer.buf);
+  PyBuffer_Release(&buffer);
+  if (!fits) return raise_input(self->state, "out: takes an array of %zu float64, one per signal", count);
+  Py_RETURN_NONE;
+}
+
+static PyObject *simulation_get(PyObject *object, PyObject *name) {
+  Simulation *self = (Simulation *)object;
+  const char *words = text_of(self->state, name, "signal");
+  if (!words || refuse_busy(self)) return NULL;
+  return PyFloat_FromDouble(zp_sim_get(self->sim, words));
+}
+
+/* (zipped, x, y, gap, line_force), the arrays valid until the simulation goes on. */
+static PyObject *simulation_shape(PyObject *object, PyObject *unused) {
+  (void)unused;
+  Simulation *self = (Simulation *)object;
+  if (refuse_busy(self)) return NULL;
+  ZpModelInfo info = zp_model_info(self->model);
+  ZpShape shape = zp_sim_shape(self->sim);
+  size_t nodes = (size_t)info.nodes, ribbons = (size_t)info.ribbons;
+  PyObject *gap = shape.gap ? view_of_rows(self->state, object, shape.gap, 1, nodes) : Py_NewRef(Py_None);
+  PyObject *force =
+      shape.line_force ? view_of_rows(self->state, object, shape.line_force, 1, nodes) : Py_NewRef(Py_None);
+  return Py_BuildValue("(nNNNN)", (Py_ssize_t)shape.zipped, view_of_rows(self->state, object, shape.x, nodes, ribbons),
+                       view_of_rows(self->state, object, shape.y, nodes, ribbons), gap, force);
+}
+
+/* -- states ----------------------------------------------------------------------------------------- */
+
+static PyObject *simulation_save(PyObject *object, PyObject *unused) {
+  (void)unused;
+  Simulation *self = (Simulation *)object;
+  if (refuse_busy(self)) return NULL;
+  size_t size = zp_sim_state_size(self->sim);
+  char *block = malloc(HEAD + size);
+  if (!block) return PyErr_NoMemory();
+  zp_sim_save(self->sim, block + HEAD);
+  uint64_t sum = hash(self->fingerprint, block + HEAD, size);
+  memcpy(block, magic, sizeof magic);
+  memcpy(block + sizeof magic, &self->fingerprint, sizeof sum);
+  memcpy(block + sizeof magic + sizeof sum, &sum, sizeof sum);
+  PyObject *bytes = PyBytes_FromStringAndSize(block, (Py_ssize_t)(HEAD + size));
+  free(block);
+  return bytes;
+}
+
+/* What is wrong with a state, or NULL. */
+static const char *state_fault(const Simulation *self, const char *bytes, size_t size) {
+  uint64_t fingerprint, sum;
+  if (size < HEAD || memcmp(bytes, magic, sizeof magic) != 0) return "not one of a zipact simulation";
+  memcpy(&fingerprint, bytes + sizeof magic, sizeof sum);
+  memcpy(&sum, bytes + sizeof magic + sizeof sum, sizeof sum);
+  if (fingerprint != self->fingerprint) return "of another actuator, or of another version of zipact";
+  if (sum != hash(fingerprint, bytes + HEAD, size - HEAD)) return "damaged";
+  return NULL;
+}
+
+static PyObject *simulation_restore(PyObject *object, PyObject *state) {
+  Simulation *self = (Simulation *)object;
+  char *bytes;
+  Py_ssize_t size;
+  if (refuse_busy(self)) return NULL;
+  if (!PyBytes_Check(state)) return raise_input(self->state, "state: takes the bytes that save() returned");
+  if (PyBytes_AsStringAndSize(state, &bytes, &size)) return NULL;
+  const char *fault = state_fault(self, bytes, (size_t)size);
+  if (fault) return raise_input(self->state, "state: %s", fault);
+  ZpError err;
+  if (zp_sim_restore(self->sim, bytes + HEAD, (size_t)size - HEAD, &err) != ZP_OK)
+    return raise_error(self->state, &err);
+  self->time = zp_sim_get(self->sim, "time");
+  self->hand_voltage = NAN;
+  self->ended = false;
+  Py_RETURN_NONE;
+}
+
+/* -- numbers that are at hand ------------------------------------------------------------------------ */
+
+static PyObject *get_time(PyObject *self, void *unused) {
+  (void)unused;
+  return PyFloat_FromDouble(((Simulation *)self)->time);
+}
+
+static PyObject *get_steps(PyObject *self, void *unused) {
+  (void)unused;
+  return PyLong_FromLongLong(((Simulation *)self)->steps);
+}
+
+static PyObject *get_zip_time(PyObject *object, void *unused) {
+  (void)unused;
+  Simulation *self = (Simulation *)object;
+  return refuse_busy(self) ? NULL : PyFloat_FromDouble(zp_sim_zip_time(self->sim));
+}
+
+static PyGetSetDef getters[] = {
+    {"time", get_time, NULL, "Time reached, s.", NULL},
+    {"steps", get_steps, NULL, "Steps of the integrator so far.", NULL},
+    {"zip_time", get_zip_time, NULL, "Time at which the actuator had closed, s; nan if not yet.", NULL},
+    {NULL, NULL, NULL, NULL, NULL},
+};
+static PyMethodDef methods[] = {
+    {"step", (PyCFunction)(void (*)(void))simulation_step, METH_FASTCALL | METH_KEYWORDS,
+     "step(dt, voltage=None)\n--\n\n"
+     "Advance by dt: s, or a text with a unit. A voltage (V, or a text with a unit) holds from now on;\n"
+     "until one is given drive.waveform does. Raises NumericsError if the numerics end badly."},
+    {"get", simulation_get, METH_O, "Present value of a signal, SI; nan if there is none of that name."},
+    {"read_into", simulation_read_into, METH_O, "Fill an array of float64 with the present values of all signals."},
+    {"shape", simulation_shape, METH_NOARGS, "(zipped, x, y, gap, line_force); valid until the next step."},
+    {"save", simulation_save, METH_NOARGS, "save()\n--\n\nAll that evolves, as bytes for restore()."},
+    {"restore", simulation_restore, METH_O,
+     "restore(state)\n--\n\nGo back to a state that a simulation of the same actuator saved."},
+    {NULL, NULL, 0, NULL},
+};
+static PyType_Slot slots[] = {
+    {Py_tp_doc, "Simulation(definition): a simulation in time."},
+    {Py_tp_new, simulation_new},
+    {Py_tp_dealloc, simulation_dealloc},
+    {Py_tp_getset, getters},
+    {Py_tp_methods, methods},
+    {0, NULL},
+};
+PyType_Spec simulation_spec = {"zipact._zipact.Simulation", sizeof(Simulation), 0,
+                               Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, slots};

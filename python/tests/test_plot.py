@@ -1,0 +1,35 @@
+"""Every study draws itself."""
+
+import os
+
+import pytest
+import zipact
+
+pyplot = pytest.importorskip("matplotlib.pyplot")
+from test_studies import CASES  # noqa: E402
+
+
+@pytest.fixture(autouse=True)
+def close_figures():
+    yield
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("study", CASES)
+def test_draws(study, tmp_path):
+    result = zipact.Actuator(mesh__nodes=21, **CASES[study]).run(study)
+    axes = result.plot()
+    assert axes.lines and result.study in axes.get_title() and "/" in axes.get_ylabel()
+    axes.figure.savefig(tmp_path / "picture.svg")
+    assert os.path.getsize(tmp_path / "picture.svg") > 5000
+
+
+def test_draws_into_given_axes():
+    _, axes = pyplot.subplots()
+    assert zipact.Actuator(mesh__nodes=21).run("stationary").plot(axes) is axes
+
+
+def test_draws_shapes_and_field():
+    result = zipact.Actuator(mesh__nodes=21).run("profile")
+    assert result.field.plot().collections
+    assert len(result.shapes.plot().lines) == 2

@@ -1,0 +1,183 @@
+"""Stepping by hand."""
+
+import copy
+import pickle
+import signal
+import threading
+
+import numpy as np
+import pytest
+import zipact
+
+EXPLICIT = dict(solver__integrator="explicit", contact__model="sequential")
+IMPLICIT = dict(solver__integrator="implicit", contact__model="unilateral")
+both = pytest.mark.parametrize("integrator", [EXPLICIT, IMPLICIT], ids=["explicit", "implicit"])
+
+
+def make(**keys):
+    return zipact.Simulation(zipact.Actuator(**{"mesh__nodes": 21, "drive__voltage": 4e3} | keys))
+
+
+def without_current(row):
+    """It is a mean over what lies between two readings: no state has it."""
+    return np.delete(row, list(zipact.SIGNALS).index("current"))
+
+
+def test_one_step_is_the_study():
+    simulation = make(**IMPLICIT)
+    simulation.step(5e-3)
+    series = simulation.actuator.replace(solver__end_time=5e-3).run().series
+    np.testing.assert_array_equal(without_current(simulation.read()), without_current(series.values_2d[-1]))
+    assert simulation.time == 5e-3 and simulation.steps > 0
+
+
+@pytest.mark.parametrize("dt", [0.37e-6, 1e-6, 2.3e-6, 33.3e-6])
+def test_many_short_explicit_steps_are_one_long(dt):
+    """A shorter step of the integrator at the end of each would make what vibrates fastest diverge."""
+    simulation = make(**EXPLICIT)
+    for _ in range(int(2e-3 / dt)):
+        simulation.step(dt)
+    once = make(**EXPLICIT)
+    once.step(simulation.time)
+    assert simulation["stroke"] == pytest.approx(once["stroke"], rel=1e-6)
+    assert simulation["kinetic_energy"] == pytest.approx(once["kinetic_energy"], rel=0.05)
+
+
+@both
+def test_zips(integrator):
+    simulation = make(**integrator)
+    while not np.isfinite(simulation.zip_time):
+        simulation.step("1 ms", voltage="10 kV")
+    assert 0.04 < simulation.zip_time <= simulation.time < 0.1
+
+
+@both
+def test_state_goes_back_and_on_to_the_same_bits(integrator):
+    simulation = make(**integrator)
+    simulation.step(2e-3, 8e3)
+    state = simulation.save()
+    simulation.step(3e-3, 9e3)
+    there = without_current(simulation.read())
+    simulation.restore(state)
+    assert simulation.time == 2e-3 and simulation["voltage"] == 8e3
+    for other in (simulation, make(**integrator)):
+        other.restore(state)
+        other.step(3e-3, 9e3)
+        np.testing.assert_array_equal(without_current(other.read()), there)
+
+
+def test_pickle_and_copy_go_on_alike():
+    simulation = make()
+    simulation.step(1e-3, 8e3)
+    for twin in (pickle.loads(pickle.dumps(simulation)), copy.copy(simulation), copy.deepcopy(simulation)):
+        twin.step(1e-3)
+        assert twin.time == 2e-3 and twin["voltage"] == 8e3
+    assert simulation.time == 1e-3
+
+
+def test_voltage_holds_and_waveform_drives_until_one_is_given():
+    simulation = make(drive__waveform="ramp", drive__voltage=8e3, drive__rise_time="10 ms")
+    simulation.step(5e-3)
+    assert simulation["voltage"] == pytest.approx(4e3)
+    simulation.step(1e-3, 2e3)
+    simulation.step(1e-3)
+    assert simulation["voltage"] == 2e3
+
+
+@pytest.mark.parametrize("by", ["text", "arrays"])
+def test_driven_by_a_table(by):
+    table = dict(drive__waveform="table", drive__table="0 ms = 0 kV, 10 ms = 8 kV")
+    simulation = make(**(table if by == "text" else dict(drive=([0, 0.01], [0, 8e3]))))
+    simulation.step(5e-3)
+    assert simulation["voltage"] == pytest.approx(4e3)
+
+
+def test_read_fills_what_it_is_given():
+    simulation = make()
+    simulation.step(1e-3)
+    out = np.full(len(zipact.SIGNALS), -1.0)
+    assert simulation.read(out) is out
+    assert out[list(zipact.SIGNALS).index("stroke")] == simulation["stroke"]
+
+
+def test_current_is_the_mean_since_the_reading_before():
+    simulation = make(**IMPLICIT)
+    place = {name: i for i, name in enumerate(zipact.SIGNALS)}
+    simulation.step(20e-3, 6e3)
+    before = simulation.read()
+    simulation.step(5e-3)
+    after = simulation.read()
+    charged = after[place["charge"]] - before[place["charge"]]
+    assert after[place["current"]] == pytest.approx(charged / 5e-3)
+
+
+def test_shape_is_a_copy():
+    simulation = make()
+    shape = simulation.shape()
+    kept = shape.y.copy()
+    simulation.step(20e-3, 10e3)
+    np.testing.assert_array_equal(shape.y, kept)
+    assert shape.x.shape == (21, 2) and shape.gap.shape == shape.line_force.shape == (21,)
+    assert shape.gap[-1] == pytest.approx(make()["opening"])
+
+
+def test_step_takes_its_arguments_in_any_order():
+    first, second = make(), make()
+    first.step(1e-3, 5e3)
+    second.step(voltage=5e3, dt=1e-3)
+    np.testing.assert_array_equal(first.read(), second.read())
+
+
+def test_other_threads_are_refused_while_it_steps():
+    simulation = make(**EXPLICIT)
+    refused, done = [], threading.Event()
+
+    def meddle():
+        while not done.is_set():
+            for use in (lambda: simulation["stroke"], lambda: simulation.step(1e-6), simulation.save, simulation.read):
+                try:
+                    use()
+                except zipact.InputError as error:
+                    refused.append(str(error))
+
+    thread = threading.Thread(target=meddle)
+    thread.start()
+    for _ in range(20):
+        try:
+            simulation.step(10e-3)
+        except zipact.InputError as error:
+            refused.append(str(error))
+    done.set()
+    thread.join()
+    assert refused and all("is stepping" in text for text in refused)
+
+
+def test_control_c_leaves_a_state_to_go_on_from():
+    simulation = make(**EXPLICIT)
+    timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
+    with pytest.raises(KeyboardInterrupt):
+        timer.start()
+        simulation.step(1e3)
+    reached = simulation.time
+    assert 0 < reached < 1e3 and simulation["time"] == reached
+    simulation.step(1e-3)
+    assert simulation.time == reached + 1e-3
+
+
+def test_goes_on_from_a_checkpoint_of_a_study(tmp_path):
+    first = make(**IMPLICIT).actuator.replace(solver__end_time="5 ms")
+    first.run().save(tmp_path)
+    second = first.replace(initial__state="checkpoint", initial__file=tmp_path / "checkpoint.zps")
+    simulation = zipact.Simulation(second)
+    start = simulation.time
+    assert 0 < start <= 5e-3
+    simulation.step(10e-3 - start)
+    whole = first.replace(solver__end_time="10 ms").run()
+    assert simulation["stroke"] == whole["stroke_m"]
+    with pytest.raises(zipact.InputError, match="load.mass"):
+        zipact.Simulation(second.replace(load__mass="9 g"))
+
+
+def test_step_limit_and_divergence_are_numerics_errors():
+    with pytest.raises(zipact.NumericsError, match="solver.max_steps"):
+        make(solver__max_steps=3).step(1e-3)

@@ -1,0 +1,40 @@
+"""Simulates electrostatic zipping actuators.
+
+    import zipact
+
+    actuator = zipact.Actuator(load__mass="8 g", drive__voltage=10e3)
+    result = actuator.run()             # or run("equilibrium"), "stationary", "modes", ...
+    result["zip_time_s"], result.series["stroke_m"]
+    result.plot()
+
+Keys are those of `zipact keys`, their dot written as two underscores; `zipact.KEYS` lists them. Numbers are SI, texts
+may have a unit.
+"""
+
+from ._zipact import Error, InputError, MachineError, NumericsError
+from ._zipact import version as __version__
+from .actuator import KEYS, Actuator, Key, read_scenario
+from .batch import Batch, run_batch
+from .result import FieldMap, Result, Shapes, Table
+from .simulation import SIGNALS, Shape, Signal, Simulation
+
+__all__ = [
+    "KEYS",
+    "SIGNALS",
+    "Actuator",
+    "Batch",
+    "Error",
+    "FieldMap",
+    "InputError",
+    "Key",
+    "MachineError",
+    "NumericsError",
+    "Result",
+    "Shape",
+    "Shapes",
+    "Signal",
+    "Simulation",
+    "Table",
+    "read_scenario",
+    "run_batch",
+]

@@ -1,0 +1,171 @@
+"""Actuators: what is simulated, by keyword."""
+
+import itertools
+import json
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, NamedTuple, Unpack
+
+import numpy as np
+
+from . import _zipact
+from .keywords import Keywords  # made from keys.def when the wheel is built
+from .result import Result
+
+Progress = Callable[[str, float], Any]
+"""Called some times a second with the stage and its progress, 0 to 1; what it returns, if true, stops the call."""
+
+
+class Key(NamedTuple):
+    """What is known of a key."""
+
+    name: str
+    kind: str
+    """real, real or auto, int, bool, word, text"""
+    unit: str
+    """SI; "1" for pure numbers and words"""
+    default: str
+    min: float
+    max: float
+    help: str
+    choices: dict[str, str]
+    """words that a key of kind word takes, and what they mean"""
+
+
+KEYS: dict[str, Key] = {row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()}
+"""Every key by its name, "load.mass"."""
+
+FILES = ("data.file", "drive.file", "initial.file")  # as in a scenario, they are kept absolute
+
+
+def key_name(keyword: str) -> str:
+    """load__mass => load.mass"""
+    if not isinstance(keyword, str):
+        raise _zipact.InputError(f"{keyword!r}: not the name of a key")
+    return keyword.replace("__", ".")
+
+
+def plain_value(name: str, value: Any) -> Any:
+    """What the extension takes: paths as text."""
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if name in FILES and isinstance(value, str) and value:
+        value = os.path.abspath(value)
+    return value
+
+
+def doubles(what: str, values: Any) -> np.ndarray:
+    """A one-dimensional array of float64."""
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise _zipact.InputError(f"{what}: {error}") from None
+    if array.ndim != 1:
+        raise _zipact.InputError(f"{what}: takes a one-dimensional array, not one of shape {array.shape}")
+    return array
+
+
+def drive_arrays(drive: Any) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        time, voltage = drive
+    except (TypeError, ValueError):
+        raise _zipact.InputError("drive: takes two arrays, times and voltages") from None
+    return doubles("drive: times", time), doubles("drive: voltages", voltage)
+
+
+class Actuator(Mapping[str, Any]):
+    """An actuator and what is done with it: a value for every key, checked, never changed.
+
+    Actuator(load__mass="20 g", drive__voltage=8e3): keywords are keys with the dot written as two underscores. One would
+    not do, since keys contain single ones (mass_spring.axial). `**` takes the keys themselves, too:
+    Actuator(**{"load.mass": "20 g"}). Numbers are SI, texts are read as in a scenario. What is not given has the default
+    of `preset` and kind, as in the command.
+
+    drive=(times, voltages), arrays in s and V, drives study actuate and Simulation instead of drive.waveform.
+
+    As a mapping it has every key: actuator["load.mass"] is a float in SI, an int, a bool, or a str.
+    """
+
+    __slots__ = ("_definition", "_drive", "_given")
+
+    def __init__(self, *, drive: tuple[Any, Any] | None = None, **keys: Unpack[Keywords]) -> None:
+        given = {key_name(name): plain_value(key_name(name), value) for name, value in keys.items()}
+        self._given = given
+        self._drive = None if drive is None else drive_arrays(drive)
+        if self._drive is None:
+            self._definition = _zipact.Definition(given)
+        else:
+            self._definition = _zipact.Definition({"drive.waveform": "table", **given}, self._drive)
+
+    def replace(self, **keys: Unpack[Keywords]) -> "Actuator":
+        """The same actuator with other values of some keys."""
+        given = {key_name(name): value for name, value in keys.items()}
+        return Actuator(**{"drive": self._drive, **self._given, **given})
+
+    def sweep(self, **lists: Iterable[Any]) -> list["Actuator"]:
+        """One actuator for each combination of values; the last keyword varies fastest."""
+        for name, values in lists.items():
+            if isinstance(values, str) or not isinstance(values, Iterable):
+                raise _zipact.InputError(f"{key_name(name)}: sweep takes a list of values")
+        rows = itertools.product(*lists.values())
+        return [self.replace(**dict(zip(lists, row, strict=True))) for row in rows]
+
+    def run(self, study: str | None = None, *, progress: Progress | None = None) -> Result:
+        """Run a study, by default that of key `study`. Other threads go on meanwhile; Ctrl-C stops it."""
+        if study is not None and study != self["study"]:
+            return self.replace(study=study).run(progress=progress)
+        return Result(self._definition.run(progress), self)
+
+    def drive_from(self, path: str) -> "Actuator":
+        """The same actuator, driven by a CSV file instead of arrays; writes the file. Itself if there are no arrays."""
+        if self._drive is None:
+            return self
+        rows = np.column_stack(self._drive)
+        np.savetxt(path, rows, fmt="%.17g", delimiter=",", header="time_s,voltage_V", comments="")
+        return Actuator(**{**self._given, "drive.waveform": "table", "drive.file": path})
+
+    def scenario(self) -> str:
+        """All keys as a scenario in YAML, which the command runs to the same result. Arrays that drive it are not in it."""
+        lines = []
+        for name, value in self.items():
+            text = json.dumps(value) if KEYS[name].kind == "text" else str(value).lower()
+            lines.append(f"{name}: {value if KEYS[name].kind == 'word' else text}\n")
+        return "".join(lines)
+
+    def __getitem__(self, key: str) -> Any:
+        return self._definition.get(key_name(key))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(KEYS)
+
+    def __len__(self) -> int:
+        return len(KEYS)
+
+    def __contains__(self, key: object) -> bool:
+        return isinstance(key, str) and key_name(key) in KEYS
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Actuator):
+            return NotImplemented
+        same_drive = np.array_equal(self._drive or (), other._drive or ())
+        return same_drive and list(self.values()) == list(other.values())
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.values()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _rebuild, (self._given, self._drive)
+
+    def __repr__(self) -> str:
+        given = [f"{name.replace('.', '__')}={value!r}" for name, value in self._given.items()]
+        return f"Actuator({', '.join(given + ['drive=...'] * (self._drive is not None))})"
+
+
+def _rebuild(given: dict[str, Any], drive: tuple[np.ndarray, np.ndarray] | None) -> Actuator:
+    return Actuator(drive=drive, **given)
+
+
+def read_scenario(path: str | os.PathLike[str]) -> list[Actuator]:
+    """The actuators of a scenario file: one, or one for each combination of its lists. Every key is then given."""
+    definitions = _zipact.read_scenario(os.fspath(path))
+    return [Actuator(**{name: definition.get(name) for name in KEYS}) for definition in definitions]

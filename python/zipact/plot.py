@@ -1,0 +1,163 @@
+"""Pictures by matplotlib: each function draws one thing into an Axes, a new one if none is given, and returns it."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
+
+from ._zipact import InputError
+
+if TYPE_CHECKING:
+    from .result import FieldMap, Result, Shapes, Table
+
+BLUE, RED, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#999999"  # told apart by all eyes
+MILLI, KILO = 1e3, 1e-3  # factors from SI
+
+
+def new_axes(ax: Axes | None, x: str, y: str) -> Axes:
+    if ax is None:
+        _, ax = plt.subplots(figsize=(6.4, 4), layout="constrained")
+    ax.set(xlabel=x, ylabel=y)
+    ax.grid(color="#dddddd")
+    ax.set_axisbelow(True)
+    return ax
+
+
+def nan_where(hidden: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values with gaps: lines stop there."""
+    return np.where(hidden, np.nan, values)
+
+
+# -- by study -------------------------------------------------------------------------------------------
+
+
+def actuate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = new_axes(ax, "time / ms", "stroke / mm")
+    time, voltage = MILLI * table["time_s"], table["voltage_V"]
+    ax.plot(time, MILLI * table["stroke_m"], color=BLUE)
+    zipped = result.get("zip_time_s", np.nan)
+    if np.isfinite(zipped):
+        ax.axvline(MILLI * zipped, color=GREY, linestyle="--")
+    if np.ptp(voltage) > 0:
+        right = ax.twinx()
+        right.plot(time, KILO * voltage, color=RED, linewidth=1)
+        right.set_ylabel("voltage / kV", color=RED)
+    return ax
+
+
+def equilibrium(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = new_axes(ax, "voltage / kV", "opening / mm")
+    opening = "opening_m" if np.isfinite(table["opening_m"]).any() else "stroke_m"
+    ax.set_ylabel(opening.replace("_m", " / mm"))
+    stable = table["stable"] == 1
+    for branch in np.unique(table["branch"]):
+        other = table["branch"] != branch
+        x, y = KILO * table["voltage_V"], MILLI * table[opening]
+        # an unstable stretch begins and ends at its stable neighbours
+        inner = stable & np.r_[True, stable[:-1]] & np.r_[stable[1:], True]
+        ax.plot(x, nan_where(other | inner, y), color=RED, linestyle="--")
+        ax.plot(x, nan_where(other | ~stable, y), color=BLUE)
+    for name, text in (("pull_in_voltage_V", "pull-in"), ("release_voltage_V", "release")):
+        if np.isfinite(result[name]):
+            ax.axvline(KILO * result[name], color=GREY, linestyle=":")
+            at = (KILO * result[name], 0.8)
+            ax.annotate(f" {text}\n {at[0]:.4g} kV", at, xycoords=("data", "axes fraction"))
+    ax.plot([], [], color=BLUE, label="stable")
+    ax.plot([], [], color=RED, linestyle="--", label="unstable")
+    ax.legend()
+    return ax
+
+
+def isometric(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = new_axes(ax, "voltage / kV", "force / N")
+    ax.plot(KILO * table["voltage_V"], table["force_N"], color=BLUE)
+    return ax
+
+
+def modes(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = new_axes(ax, "x / mm", "y / mm")
+    film, most = result.shapes, 4
+    ax.plot(MILLI * film.x[0], MILLI * film.y[0], color=GREY)
+    for mode in range(min(most, len(film.time) - 1)):
+        colour = colormaps["viridis"](mode / most)
+        lines = ax.plot(MILLI * film.x[mode + 1], MILLI * film.y[mode + 1], color=colour)
+        lines[0].set_label(f"{table['frequency_Hz'][mode]:.4g} Hz")
+    ax.legend()
+    return ax
+
+
+def stationary(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = shapes(result.shapes, ax)
+    ax.set_aspect("equal")
+    return ax
+
+
+def profile(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = new_axes(ax, "x / mm", "force per length / (N/m)")
+    x = MILLI * table["x_m"]
+    ax.semilogy(x, table["field_N_per_m"], color="#56b4e9", linewidth=4, label="field")
+    ax.semilogy(x, table["plates_N_per_m"], color="black", linestyle="--", label="plates law")
+    if (table["capped"] == 1).any():
+        ax.semilogy(x, table["force_N_per_m"], color=RED, label="with breakdown")
+    ax.legend()
+    return ax
+
+
+def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    x, measured, fitted, _ = table
+    factor = MILLI if table.units[measured] == "m" else 1
+    unit = "mm" if factor == MILLI else table.units[measured]
+    what = result.actuator["calibrate.y"].rpartition("_")[0] or "measured"
+    ax = new_axes(ax, f"{x.rpartition('_')[0]} / {table.units[x]}", f"{what} / {unit}")
+    order = np.argsort(table[x])
+    ax.plot(table[x][order], factor * table[fitted][order], color=BLUE, label="model")
+    ax.plot(table[x], factor * table[measured], "o", color=RED, fillstyle="none", label="measured")
+    ax.legend()
+    return ax
+
+
+STUDIES = {
+    "actuate": actuate,
+    "calibrate": calibrate,
+    "equilibrium": equilibrium,
+    "isometric": isometric,
+    "modes": modes,
+    "profile": profile,
+    "stationary": stationary,
+}
+
+
+def result(result: "Result", ax: Axes | None = None) -> Axes:
+    """What the study is about."""
+    if result.series is None or len(result.series.values_2d) == 0:
+        raise InputError(f"study {result.study} ended without a table: {result.message}")
+    ax = STUDIES[result.study](result, result.series, ax)
+    ax.set_title(f"{result.study}: {result.message}", fontsize="medium")
+    return ax
+
+
+# -- shapes and fields ----------------------------------------------------------------------------------
+
+
+def shapes(film: "Shapes", ax: Axes | None = None) -> Axes:
+    """All shapes of a film, early ones pale."""
+    ax = new_axes(ax, "x / mm", "y / mm")
+    shades = np.linspace(1, 0.15, len(film.time))[::-1]
+    for x, y, shade in zip(film.x, film.y, shades, strict=True):
+        ax.plot(MILLI * x, MILLI * y, color=colormaps["viridis_r"](shade), linewidth=1)
+    return ax
+
+
+def field(map: "FieldMap", ax: Axes | None = None) -> Axes:
+    """Strength of the field; metal is grey."""
+    ax = new_axes(ax, "x / mm", "y / mm")
+    strength = np.ma.masked_where(map.permittivity == 0, 1e-6 * map.strength)
+    colours = colormaps["YlOrRd"].with_extremes(bad="#8c8c8c")
+    mesh = ax.pcolormesh(MILLI * map.x, MILLI * map.y, strength, cmap=colours, shading="flat", rasterized=True)
+    metal = np.pad(map.permittivity == 0, ((0, 1), (0, 1)))  # at the lower left node of each cell
+    bottom, top = MILLI * map.y[metal].min(), MILLI * map.y[metal].max()
+    ax.set_ylim(bottom - 0.3 * (top - bottom), top + 0.3 * (top - bottom))
+    ax.figure.colorbar(mesh, ax=ax, label="field strength / (MV/m)")
+    return ax

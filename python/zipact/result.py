@@ -1,0 +1,182 @@
+"""What a study found, as numpy arrays with units."""
+
+import os
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _zipact
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+    from .actuator import Actuator
+
+
+class Table(Mapping[str, np.ndarray]):
+    """Columns by name: table["stroke_m"], one number per row; nan where a value does not exist. The arrays are views of
+    the library's own, read-only."""
+
+    def __init__(self, columns: tuple[tuple[str, str, str], ...], values: np.ndarray) -> None:
+        self.values_2d = values
+        """all of it, [rows, columns]"""
+        self.units = {name: unit for name, unit, _ in columns}
+        """SI unit of each column; "1" for pure numbers"""
+        self.help = {name: text for name, _, text in columns}
+        """one line on each column"""
+        self._place = {name: i for i, (name, _, _) in enumerate(columns)}
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._place:
+            raise _zipact.InputError(f"{name}: no column; there are {', '.join(self._place)}")
+        return self.values_2d[:, self._place[name]]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._place)
+
+    def __len__(self) -> int:
+        return len(self._place)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._place
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """The table for pandas; units are in .attrs["units"]."""
+        import pandas
+
+        frame = pandas.DataFrame(self.values_2d, columns=list(self._place))
+        frame.attrs["units"] = self.units
+        return frame
+
+    def __repr__(self) -> str:
+        return f"<Table of {len(self.values_2d)} rows: {', '.join(self)}>"
+
+
+class Shapes(NamedTuple):
+    """A film of shapes; of study modes: the shape at rest, then one with each mode on it."""
+
+    time: np.ndarray
+    """[frames] s"""
+    voltage: np.ndarray
+    """[frames] V"""
+    zipped: np.ndarray
+    """[frames] pairs 0 .. zipped are closed; the clip is pair 0"""
+    x: np.ndarray
+    """[frames, nodes, ribbons] m, rightwards from the clip's place in the straight actuator; ribbon 0 is the upper one"""
+    y: np.ndarray
+    """[frames, nodes, ribbons] m, upwards from the upper platform (kind ribbon: from the clamp)"""
+    gap: np.ndarray | None
+    """[frames, nodes] m; None for kind ribbon"""
+    line_force: np.ndarray | None
+    """[frames, nodes] N/m, attraction per length; None for kind ribbon"""
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the film, early shapes pale, late ones dark."""
+        from . import plot
+
+        return plot.shapes(self, ax)
+
+
+class FieldMap(NamedTuple):
+    """The electric field around the ribbons on a grid that follows them: i along the ribbons, j upwards."""
+
+    x: np.ndarray
+    """[nx, ny] m"""
+    y: np.ndarray
+    """[nx, ny] m"""
+    potential: np.ndarray
+    """[nx, ny] V"""
+    strength: np.ndarray
+    """[nx - 1, ny - 1] V/m, in the middle of a cell"""
+    permittivity: np.ndarray
+    """[nx - 1, ny - 1] relative; 0 in metal"""
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the strength of the field."""
+        from . import plot
+
+        return plot.field(self, ax)
+
+
+def array(view: Any) -> Any:
+    return None if view is None else np.asarray(view)
+
+
+def shapes_of(parts: Mapping[str, Any]) -> Shapes:
+    time, voltage, zipped = np.array(parts["heads"], dtype=float).T
+    arrays = (array(parts[name]) for name in ("x", "y", "gap", "line_force"))
+    return Shapes(time, voltage, zipped.astype(int), *arrays)
+
+
+class Result(Mapping[str, float]):
+    """What a study found. As a mapping it has its numbers: result["zip_time_s"]; nan where there is none."""
+
+    def __init__(self, found: _zipact.Result, actuator: "Actuator") -> None:
+        self._found = found
+        self.actuator = actuator
+        """what was run"""
+        self.study: str = found.study
+        self.outcome: str = found.outcome
+        """how the numerics ended: zipped, end_time, converged, followed; or diverged, not_settled, ..."""
+        self.good: bool = found.good
+        """whether the outcome is an answer"""
+        self.message: str = found.message
+        """one sentence on how it ended"""
+        self.warnings: tuple[str, ...] = found.warnings
+        """sentences on limits of validity that were met"""
+        self.units = {name: unit for name, unit, _, _ in found.scalars}
+        """SI unit of each number; "1" for pure ones, "count" for whole ones"""
+        self._numbers = {name: value for name, _, value, _ in found.scalars}
+        self.timings = {name for name, _, _, timing in found.scalars if timing}
+        """names of numbers that follow from wall time: they differ from run to run"""
+        self.series = None if found.series is None else Table(found.series[0], array(found.series[1]))
+        """the study's table, or None"""
+        self.shapes = None if found.shapes is None else shapes_of(found.shapes)
+        """the ribbons' shapes, or None"""
+        self.field = None if found.field is None else FieldMap(**{k: array(v) for k, v in found.field.items()})
+        """the field around the ribbons (study profile), or None"""
+
+    def __getitem__(self, name: str) -> float:
+        if name not in self._numbers:
+            raise _zipact.InputError(f"{name}: no number of study {self.study}; there are {', '.join(self)}")
+        return self._numbers[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._numbers)
+
+    def __len__(self) -> int:
+        return len(self._numbers)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        return self._numbers.get(name, default)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._numbers
+
+    def to_dataframe(self) -> "pandas.DataFrame":
+        """The study's table for pandas; units are in .attrs["units"]."""
+        if self.series is None:
+            raise _zipact.InputError(f"study {self.study} ended without a table: {self.message}")
+        return self.series.to_dataframe()
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw what the study is about with matplotlib."""
+        from . import plot
+
+        return plot.result(self, ax)
+
+    def save(self, directory: str | os.PathLike[str]) -> None:
+        """Write the files that the command writes: scenario.yaml, summary.json, table.csv, results.h5, plots/, ...;
+        and drive.csv, the arrays that drove it."""
+        folder = os.fspath(directory)
+        os.makedirs(folder, exist_ok=True)
+        self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario())
+
+    def __repr__(self) -> str:
+        lines = [f"{self.study}: {self.outcome}; {self.message}"]
+        for name, value in self.items():
+            unit = self.units[name]
+            lines.append(f"  {name:<28} {value:14.6g} {unit if unit not in ('1', 'count') else ''}".rstrip())
+        return "\n".join(lines + [f"  note: {warning}" for warning in self.warnings])

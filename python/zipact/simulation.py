@@ -1,0 +1,89 @@
+"""Stepping by hand: control loops, learning."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _zipact
+from .actuator import Actuator
+
+
+class Signal(NamedTuple):
+    """A quantity that a simulation reports."""
+
+    name: str
+    unit: str
+    help: str
+
+
+SIGNALS: dict[str, Signal] = {row[0]: Signal(*row) for row in _zipact.signals()}
+"""Every signal by its name, in the order of Simulation.read()."""
+
+
+class Shape(NamedTuple):
+    """Shape of the ribbons' insulator faces: x rightwards from the clip's place in the straight actuator, y upwards from
+    the upper platform (kind ribbon: from the clamp)."""
+
+    zipped: int
+    """pairs 0 .. zipped are closed; the clip is pair 0"""
+    x: np.ndarray
+    """[nodes, ribbons] m; ribbon 0 is the upper one"""
+    y: np.ndarray
+    """[nodes, ribbons] m"""
+    gap: np.ndarray | None
+    """[nodes] m; None for kind ribbon"""
+    line_force: np.ndarray | None
+    """[nodes] N/m, attraction per length; None for kind ribbon"""
+
+
+class Simulation(_zipact.Simulation):
+    """An actuator in time, from rest (initial.state) at t = 0 on.
+
+        simulation = zipact.Simulation(zipact.Actuator(load__mass="8 g"))
+        while simulation.time < 0.2:
+            simulation.step(1e-3, voltage=controller(simulation["stroke"]))
+
+    It can be pickled and copied. One thread at a time may use it.
+    """
+
+    __slots__ = ("actuator",)
+    actuator: Actuator
+
+    def __new__(cls, actuator: Actuator) -> "Simulation":
+        if not isinstance(actuator, Actuator):
+            raise _zipact.InputError(f"Simulation: takes an Actuator, not {type(actuator).__name__}")
+        self = super().__new__(cls, actuator._definition)
+        self.actuator = actuator
+        return self
+
+    def __getitem__(self, signal: str) -> float:
+        """Present value of a signal, SI: simulation["stroke"]."""
+        if signal not in SIGNALS:
+            raise _zipact.InputError(f"{signal}: no signal; there are {', '.join(SIGNALS)}")
+        return self.get(signal)
+
+    def read(self, out: np.ndarray | None = None) -> np.ndarray:
+        """Present values of all SIGNALS, in their order, SI; into `out` if given. The signal current is the mean since
+        the reading before."""
+        if out is None:
+            out = np.empty(len(SIGNALS))
+        try:
+            self.read_into(out)
+        except (BufferError, TypeError, ValueError) as error:
+            raise _zipact.InputError(f"out: {error}") from None
+        return out
+
+    def shape(self) -> Shape:
+        """Present shape, copied."""
+        zipped, x, y, gap, line_force = super().shape()
+        flat = [None if view is None else np.array(view)[0] for view in (gap, line_force)]
+        return Shape(zipped, np.array(x), np.array(y), *flat)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Simulation, (self.actuator,), self.save()
+
+    def __setstate__(self, state: bytes) -> None:
+        self.restore(state)
+
+    def __repr__(self) -> str:
+        return f"<Simulation at {1e3 * self.time:g} ms, {self.get('voltage'):g} V>"
