@@ -1,11 +1,12 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
+# make web     the page web/dist/index.html: the actuator live in a browser
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check deps bench bench-tables format docs install clean
+.PHONY: all demo check deps bench bench-tables format docs web check-web install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -37,6 +38,12 @@ bench-tables: $(BUILD)/zipact
 docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
+
+web:
+	scripts/web.sh
+
+check-web: $(BUILD)/zipact
+	ZIPACT=$(abspath $(BUILD)/zipact) scripts/web.sh --test
 
 format:
 	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch]

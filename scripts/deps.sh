@@ -3,10 +3,15 @@
 # elsewhere it lists what is needed. Says what it installs; does nothing where all is there.
 #   scripts/deps.sh          build, run and check
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
+#   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
 set -eu
 packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 ca-certificates"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
+if [ "${1:-}" = --web ]; then
+  packages="$packages clang lld wasi-libc libclang-rt-14-dev-wasm32 chromium"
+  command -v npm >/dev/null 2>&1 || packages="$packages nodejs npm"
+fi
 
 if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>&1; then
   missing=""
