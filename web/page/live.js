@@ -1,7 +1,5 @@
 // The actuator in motion: what the core computes from frame to frame, and what was seen so far.
-import {Refused} from './core.js';
-
-const chunk = 5e-4; // s of simulated time between looks at the clock
+const chunk = 1e-3; // s of simulated time between looks at the clock
 const budget = 5; // ms of a frame for the simulation; where it needs more, time goes slower
 
 export class Live {
@@ -27,25 +25,22 @@ export class Live {
     this.#mark();
   }
 
-  /** The scenario has changed: go on in it; after a failure from its start. */
+  /** The scenario has changed: go on in it; after a failure, or with another number of nodes, from its start. */
   change(voltage) {
-    if (this.failure) return this.restart(voltage);
-    try {
+    if (!this.failure && this.core.nodes === this.core.value('mesh.nodes')) {
       this.core.start(true);
-    } catch (error) {
-      if (!(error instanceof Refused)) throw error;
-      return this.restart(voltage); // another number of nodes
+      if (this.voltage !== voltage) this.core.setVoltage(voltage);
+    } else {
+      this.restart(voltage);
     }
-    if (this.voltage !== voltage) this.core.setVoltage(voltage);
-    return undefined;
   }
 
   /** A button: another voltage from now on. */
   switchTo(voltage) {
-    if (this.failure) return this.restart(voltage);
+    if (this.failure) this.core.start();
+    this.failure = null;
     this.core.setVoltage(voltage);
     this.#mark();
-    return undefined;
   }
 
   #mark() {
@@ -55,12 +50,12 @@ export class Live {
   }
 
   #note() {
-    const {time, stroke} = this.trace;
+    const {time, stroke} = this.trace, most = 4000;
     time.push(this.time - this.zero);
     stroke.push(this.core.signal('stroke'));
-    if (time.length < 4000) return;
-    const odd = (_, k) => k % 2 === 0;
-    this.trace = {time: time.filter(odd), stroke: stroke.filter(odd)};
+    if (time.length < most) return;
+    const every = (_, k) => k % 2 === 0;
+    this.trace = {time: time.filter(every), stroke: stroke.filter(every)};
   }
 
   /** Run `span` seconds, or as far as the budget of a frame goes. */
@@ -69,8 +64,9 @@ export class Live {
     while (this.time < end && !this.failure && performance.now() - begin < budget) {
       const next = Math.min(this.time + chunk, end);
       this.failure = this.core.run(next);
-      if (!this.failure) this.time = next;
+      if (this.failure) return;
+      this.time = next;
+      this.#note();
     }
-    if (!this.failure) this.#note();
   }
 }

@@ -28,6 +28,7 @@ const profile = {length: 1, force: new Float64Array(2), field: new Float64Array(
 
 const tiles = new Tiles($('numbers'), {
   voltage: {label: 'Voltage', unit: 'kV', title: 'between the electrodes, now'},
+  stroke: {label: 'Stroke', unit: 'mm', title: 'height of the clip over the lower platform'},
   opening: {label: 'Opening', unit: 'mm', title: 'distance of the platforms’ faces'},
   contraction: {label: 'Contraction', unit: '%', title: '1 − opening / opening when hanging without voltage'},
   zipped: {label: 'Zipped', unit: 'mm', title: 'closed length from the clip, one half'},
@@ -139,6 +140,9 @@ function set(key, text, kind = null) {
 
 function show() {
   sliders.show();
+  const strongest = core.value('medium.breakdown_field') / 1e6;
+  $('legend-middle').textContent = String(strongest / 4);
+  $('legend-end').textContent = `${strongest} MV/m`;
   showButtons();
   $('undo').disabled = !history?.canUndo;
   $('redo').disabled = !history?.canRedo;
@@ -199,11 +203,11 @@ function fieldOf(gap) {
 
 function scene() {
   const shape = core.shape(), nodes = core.nodes, platform = core.value('platform.length');
-  const length = (core.value('ribbon.length') - platform) / 2, front = Math.round((core.signal('zipped_length') / length) * (nodes - 1));
+  const length = (core.value('ribbon.length') - platform) / 2;
   const field = fieldOf(shape.gap), opening = core.signal('opening'), mass = core.value('load.mass');
   Object.assign(profile, {length, field, force: Float64Array.from(shape.lineForce), largest: core.value('medium.breakdown_field')});
   return {
-    shape: core.shape(), nodes, field, front, platform, opening, mass,
+    shape: core.shape(), nodes, field, platform, opening, mass,
     centre: length + platform / 2,
     largest: profile.largest,
     electrode: core.value('platform.electrode') !== 0,
@@ -219,6 +223,7 @@ let wasZipped = false;
 function showNumbers(now) {
   const {field, opening} = now, contraction = core.signal('contraction');
   tiles.show('voltage', fixed(live.voltage / 1e3, 2));
+  tiles.show('stroke', fixed(1e3 * core.signal('stroke'), 2));
   tiles.show('opening', fixed(1e3 * opening, 2));
   tiles.show('contraction', fixed(100 * contraction, 1));
   tiles.show('zipped', fixed(1e3 * core.signal('zipped_length'), 1));
@@ -307,12 +312,16 @@ document.addEventListener('keydown', (event) => {
   (event.shiftKey ? redo : undo)();
 });
 
-async function copy(text, what) {
-  await navigator.clipboard.writeText(text);
-  say(`${what} copied`);
+/** Copy, and say so on the button; the scenario stands in the address and on the page, too, where copying is forbidden. */
+async function copy(button, text) {
+  const words = button.textContent;
+  const done = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+  button.textContent = done ? 'Copied' : 'Not allowed here';
+  say(button.textContent);
+  setTimeout(() => (button.textContent = words), 1500);
 }
-$('share').addEventListener('click', () => copy(location.href, 'Link'));
-$('copy').addEventListener('click', () => copy($('command').textContent, 'Command'));
+$('share').addEventListener('click', ({target}) => copy(target, location.href));
+$('copy').addEventListener('click', ({target}) => copy(target, $('command').textContent));
 
 for (const name of core.keys.keys()) $('all-keys').append(new Option(core.keys.get(name).help, `${name}=`));
 $('controls').addEventListener('submit', (event) => {
@@ -323,7 +332,6 @@ $('controls').addEventListener('submit', (event) => {
 window.addEventListener('hashchange', () => change(read(location.hash).values));
 
 begin();
-$('legend-end').textContent = '';
 plots.push(timePlot($('plot-time'), seen), voltagePlot($('plot-voltage'), states), profilePlot($('plot-profile'), profile));
 if (!calm && !refusal) press('step');
 requestAnimationFrame(frame);

@@ -5,7 +5,7 @@ export function digits(value, count = 3) {
   if (!Number.isFinite(value)) return '–';
   const rounded = Number(value.toPrecision(count));
   const places = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(rounded) || 1)));
-  return rounded.toFixed(Math.min(places, count)).replace('-', '−');
+  return rounded.toFixed(Math.min(places, count + 2)).replace('-', '−');
 }
 
 /** A fixed number of decimals, so that moving numbers do not jump. */

@@ -3,41 +3,58 @@ import {shade, theme} from './theme.js';
 
 const steel = 7850; // kg/m3, of the weight that is drawn
 const margin = {top: 8e-3, side: 6e-3, string: 5e-3, bottom: 4e-3}; // m around the actuator
+const clip = 3.5e-3; // m, length of a clip
 const magnification = 25; // of the lens
 const thinnest = 1.6; // px of a metal strip that would be thinner, not in the lens
 
-/** Colours by the field in the liquid at each station, and the places of faces on the screen. */
+/** Faces of one half on the screen; side 1: the left one. Ribbons go on straight in clip and platform. */
 class Half {
-  constructor(scene, side, to) {
-    const {shape, nodes, centre} = scene;
-    this.nodes = nodes;
-    this.x = (i, r) => to.x(side * (shape.x[2 * i + r] - centre));
-    this.y = (i, r, outward) => to.y(shape.y[2 * i + r] + (r === 0 ? outward : -outward));
-    this.field = (i) => shade((scene.field[i] + scene.field[Math.min(i + 1, nodes - 1)]) / (2 * scene.largest));
+  constructor({shape, nodes, centre, platform}, side, to) {
+    const last = nodes - 1;
+    const stations = [[0, -clip], ...Array.from({length: nodes}, (_, i) => [i, 0]), [last, platform / 2]];
+    this.x = [0, 1].map((r) => stations.map(([i, beyond]) => to.x(side * (shape.x[2 * i + r] + beyond - centre))));
+    this.y = [0, 1].map((r) => stations.map(([i]) => to.y(shape.y[2 * i + r])));
+    this.scale = to.scale;
   }
-}
 
-/** A band along ribbon r between two distances from its face, m. */
-function band(context, half, r, from, to) {
-  context.beginPath();
-  for (let i = 0; i < half.nodes; i++) context.lineTo(half.x(i, r), half.y(i, r, from));
-  for (let i = half.nodes - 1; i >= 0; i--) context.lineTo(half.x(i, r), half.y(i, r, to));
-  context.closePath();
-  context.fill();
-}
+  /** Path along ribbon r at a distance from its face, m; the other way round: backwards. */
+  along(context, r, outward, backwards = false) {
+    const x = this.x[r], y = this.y[r], shift = (r === 0 ? -outward : outward) * this.scale, n = x.length;
+    for (let k = 0; k < n; k++) {
+      const i = backwards ? n - 1 - k : k;
+      context.lineTo(x[i], y[i] + shift);
+    }
+  }
 
-/** What is between the ribbons, as far as `outward` of their faces. */
-function liquid(context, half, outward) {
-  for (let i = 0; i + 1 < half.nodes; i++) {
-    const step = Math.sign(half.x(i + 1, 0) - half.x(i, 0)) * (i + 2 < half.nodes ? 0.6 : 0); // no seams
-    context.fillStyle = half.field(i);
+  /** A layer of ribbon r between two distances from its face. */
+  layer(context, r, from, to) {
     context.beginPath();
-    context.moveTo(half.x(i, 0), half.y(i, 0, outward));
-    context.lineTo(half.x(i + 1, 0) + step, half.y(i + 1, 0, outward));
-    context.lineTo(half.x(i + 1, 1) + step, half.y(i + 1, 1, outward));
-    context.lineTo(half.x(i, 1), half.y(i, 1, outward));
+    this.along(context, r, from);
+    this.along(context, r, to, true);
     context.fill();
   }
+
+  /** What is between the ribbons, as far as `outward` of their faces, coloured by the field. */
+  liquid(context, {field, largest, electrode}, outward) {
+    const x = this.x[0], span = x.at(-2) - x[1];
+    const gradient = context.createLinearGradient(x[1], 0, x.at(-2), 0);
+    field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max((x[i + 1] - x[1]) / span, 0), 1), shade(E / largest)));
+    if (!electrode) gradient.addColorStop(1, shade(0));
+    context.fillStyle = gradient;
+    context.beginPath();
+    this.along(context, 0, outward);
+    this.along(context, 1, outward, true);
+    context.fill();
+  }
+}
+
+/** Where, from the clip on, the gap first opens as far as one insulator is thick; at the platform if nowhere. */
+function zipFront({shape: {x, y, gap}, nodes, centre, insulator}) {
+  let i = 1;
+  while (i < nodes - 1 && gap[i] < insulator) i++;
+  const share = Math.min(Math.max((insulator - gap[i - 1]) / (gap[i] - gap[i - 1]), 0), 1) || 0;
+  const between = (values, k) => values[2 * i - 2 + k] + share * (values[2 * i + k] - values[2 * i - 2 + k]);
+  return {x: between(x, 0) - centre, y: (between(y, 0) + between(y, 1)) / 2};
 }
 
 export class Picture {
@@ -50,7 +67,7 @@ export class Picture {
     this.#context = canvas.getContext('2d');
   }
 
-  /** scene: shape, nodes, centre (x of the middle, m), field [nodes] and largest (V/m), front (station), platform (m),
+  /** scene: shape, nodes, centre (x of the middle, m), field [nodes] and largest (V/m), platform (m),
    * metal, insulator (m, thickness), mass (kg), hanging (opening without voltage, m; NaN: unknown), texts. */
   draw(scene, still) {
     const context = this.#context, ratio = Math.min(devicePixelRatio, 2);
@@ -102,7 +119,7 @@ export class Picture {
 
   #hanging(scene, to) {
     if (!(scene.hanging > 0)) return;
-    const context = this.#context, y = to.y(-scene.hanging), half = scene.centre * 0.42;
+    const context = this.#context, y = to.y(-scene.hanging), half = 0.6 * scene.centre;
     context.strokeStyle = context.fillStyle = theme.colour.soft;
     context.lineWidth = 1;
     context.setLineDash([4, 5]);
@@ -111,53 +128,40 @@ export class Picture {
     context.lineTo(to.x(half), y);
     context.stroke();
     context.setLineDash([]);
-    if (scene.opening > 0.75 * scene.hanging) return;
     context.font = '12px system-ui, sans-serif';
-    context.textAlign = 'left';
+    context.textAlign = 'right';
     context.textBaseline = 'bottom';
-    context.fillText('hangs here without voltage', to.x(-half), y - 3);
+    const words = 'hangs here without voltage', room = (half - Math.cbrt(scene.mass / steel) / 2) * to.scale;
+    if (scene.opening < 0.75 * scene.hanging && context.measureText(words).width < room - 6) context.fillText(words, to.x(half), y - 3);
   }
 
   #ribbons(scene, to) {
-    const context = this.#context, thickness = Math.max(scene.metal * to.scale, thinnest) / to.scale;
+    const context = this.#context, thickness = Math.max(scene.metal, thinnest / to.scale);
     for (const side of [1, -1]) {
       const half = new Half(scene, side, to);
-      liquid(context, half, scene.insulator);
+      half.liquid(context, scene, scene.insulator);
+      context.fillStyle = theme.colour.metal;
+      for (const r of [0, 1]) half.layer(context, r, scene.insulator, scene.insulator + thickness);
+      this.#clip(half, to, side);
     }
-    this.#betweenPlatforms(scene, to);
+    this.#platforms(scene, to);
+  }
+
+  /** Rigid pieces on the metal where the ribbons are held and the load hangs. */
+  #platforms(scene, to) {
+    const context = this.#context, y = scene.shape.y, last = scene.nodes - 1;
+    const x = to.x(-scene.platform / 2), width = scene.platform * to.scale, height = Math.max(4, 0.6e-3 * to.scale);
     context.fillStyle = theme.colour.metal;
-    for (const side of [1, -1]) {
-      const half = new Half(scene, side, to);
-      for (const r of [0, 1]) band(context, half, r, scene.insulator, scene.insulator + thickness);
-      this.#clip(scene, half, to, side);
-    }
-    this.#platforms(scene, to, thickness);
-  }
-
-  #betweenPlatforms(scene, to) {
-    const last = scene.nodes - 1, y = scene.shape.y, context = this.#context;
-    context.fillStyle = shade(scene.electrode ? scene.field[last] / scene.largest : 0);
-    const top = to.y(y[2 * last] + scene.insulator), bottom = to.y(y[2 * last + 1] - scene.insulator);
-    context.fillRect(to.x(-scene.platform / 2) - 0.5, top, scene.platform * to.scale + 1, bottom - top);
-  }
-
-  #platforms(scene, to, thickness) {
-    const last = scene.nodes - 1, y = scene.shape.y, context = this.#context;
-    const height = Math.max(4, thickness * to.scale * 1.5), x = to.x(-scene.platform / 2), width = scene.platform * to.scale;
     context.fillRect(x, to.y(y[2 * last] + scene.insulator) - height, width, height);
     context.fillRect(x, to.y(y[2 * last + 1] - scene.insulator), width, height);
   }
 
-  /** Where the ribbons are joined, beyond the first station. */
-  #clip(scene, half, to, side) {
-    const context = this.#context, length = 3.5e-3 * to.scale, height = Math.max(10, 2.2e-3 * to.scale);
-    const x = half.x(0, 0) + (side > 0 ? -length : 0), y = (half.y(0, 0, 0) + half.y(0, 1, 0)) / 2;
-    context.save();
+  #clip(half, to, side) {
+    const context = this.#context, length = clip * to.scale, height = Math.max(9, 2.4e-3 * to.scale);
     context.fillStyle = theme.colour.load;
     context.beginPath();
-    context.roundRect(x, y - height / 2, length, height, 3);
+    context.roundRect(side > 0 ? half.x[0][0] : half.x[0][1], (half.y[0][0] + half.y[1][0] - height) / 2, length, height, 3);
     context.fill();
-    context.restore();
   }
 
   #load(scene, to) {
@@ -212,7 +216,7 @@ export class Picture {
   }
 
   #scaleBar(to, width, height) {
-    const context = this.#context, length = 10e-3 * to.scale, right = width - 18, y = height - 14;
+    const context = this.#context, length = 10e-3 * to.scale, right = width - 18, y = height - 40;
     context.strokeStyle = context.fillStyle = theme.colour.soft;
     context.lineWidth = 1.5;
     context.beginPath();
@@ -231,9 +235,8 @@ export class Picture {
   #lens(scene, to, width, height) {
     const context = this.#context, radius = Math.min(84, height * 0.19, width * 0.15);
     const at = {x: radius + 16, y: height - radius - 34};
-    const {shape, front} = scene, scale = to.scale * magnification;
-    const focus = {x: shape.x[2 * front] - scene.centre, y: (shape.y[2 * front] + shape.y[2 * front + 1]) / 2};
-    const inside = {x: (x) => at.x + scale * (x - focus.x), y: (y) => at.y - scale * (y - focus.y)};
+    const scale = to.scale * magnification, focus = zipFront(scene);
+    const inside = {scale, x: (x) => at.x + scale * (x - focus.x), y: (y) => at.y - scale * (y - focus.y)};
     const from = {x: to.x(focus.x), y: to.y(focus.y)};
     this.#beam(from, at, radius);
     context.save();
@@ -243,12 +246,12 @@ export class Picture {
     context.fill();
     context.clip();
     const half = new Half(scene, 1, inside);
-    liquid(context, half, 0);
+    half.liquid(context, scene, 0);
     for (const r of [0, 1]) {
       context.fillStyle = theme.colour.insulator;
-      band(context, half, r, 0, scene.insulator);
+      half.layer(context, r, 0, scene.insulator);
       context.fillStyle = theme.colour.metal;
-      band(context, half, r, scene.insulator, scene.insulator + scene.metal);
+      half.layer(context, r, scene.insulator, scene.insulator + scene.metal);
     }
     context.restore();
     context.strokeStyle = theme.colour.accent;

@@ -5,7 +5,7 @@ import {theme} from './theme.js';
 /** At least `value`, on a round step, so that axes do not tremble. */
 function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(value));
-  return power * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9));
+  return power * [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9));
 }
 
 /** Draw xs, ys over scale `y` of `plot`. */

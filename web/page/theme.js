@@ -29,7 +29,7 @@ function read() {
 read();
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', read);
 
-/** share of the largest field, 0 .. 1 => colour */
+/** share of the largest field, 0 .. 1 => colour; by its square root, so that weak fields show, too */
 export function shade(share) {
-  return theme.shades[Math.round(Math.min(Math.max(share, 0), 1) * (shades - 1))];
+  return theme.shades[Math.round(Math.sqrt(Math.min(Math.max(share, 0), 1)) * (shades - 1))];
 }
