@@ -15,7 +15,7 @@ sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/
 # shellcheck disable=SC2086
 clang --target=wasm32-wasi -O3 -msimd128 -std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off \
   -Wall -Wextra -Werror -fvisibility=hidden -Iinclude -Isrc -mexec-model=reactor \
-  $sources src/io/value.c src/io/number.c src/io/source.c web/*.c \
+  $sources src/io/value.c src/io/number.c src/io/source.c src/io/unit_nouns.c web/*.c \
   -Wl,--export-dynamic -Wl,--strip-all -Wl,-z,stack-size=1048576 -o web/build/zipact.wasm
 
 cd web

@@ -105,6 +105,8 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   if (key < 0)
     snprintf(message, sizeof message, "%.80s=%.80s: unknown key; did you mean %s?", web->text, sign + 1,
              zp_key_nearest(web->text));
+  else if (sign[1] == 0)
+    snprintf(message, sizeof message, "%s=: empty; give a value", web->text);
   else if (zp_value_read(key, sign + 1, &value, &err) != ZP_OK)
     snprintf(message, sizeof message, "%s=%.80s: %s", web->text, sign + 1, err.message);
   else {

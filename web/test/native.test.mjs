@@ -53,7 +53,7 @@ for (const [name, changes] of Object.entries(fixedSteps)) {
     core.resolve(new Map([...values, ['study', 'actuate']]));
     const ours = core.study(['steps', 'contraction', 'energy_error']);
     assert.equal(ours.scalars.steps, theirs.steps);
-    assert.ok(ours.scalars.contraction > 0.01, 'it moves');
+    assert.ok(ours.scalars.contraction > 1e-3, 'it moves');
     for (const column of Object.keys(rows)) {
       const scale = derived[column];
       const d = scale
@@ -89,7 +89,7 @@ test('pull-in and release are those of the command', () => {
 const refused = [
   ['ribbon.length', '20'], ['ribbon.lenght', '1'], ['ribbon.length', '5 kg'], ['ribbon.length', 'abc'], ['ribbon.length', ''],
   ['mesh.nodes', '7.5'], ['contact.model', 'seq'], ['platform.length', '95 mm'], ['load.mass', '-1 g'], ['ribbon.density', '0'],
-  ['drive.rise_time', '1 ms'], ['segment_1.length', '60 mm'], ['electro.breakdown_cap', 'maybe'], ['data.file', 'a.csv'],
+  ['drive.rise_time', '1 ms'], ['segment_1.length', '60 mm'], ['electro.breakdown_cap', 'maybe'],
 ];
 
 for (const [key, text] of refused) {
@@ -113,17 +113,25 @@ test('after a refusal the scenario is what it was', () => {
   assert.equal(core.value('load.mass'), 0.02);
 });
 
-test('what the page leaves out is refused', () => {
-  const core = new Core(module);
-  for (const [key, text] of [['electro.model', 'field'], ['electro.edges', 'true'], ['actuator.kind', 'ribbon']])
-    assert.throws(() => core.resolve(scenario.assignments(new Map([[key, text]]))), /this page/);
-});
+const leftOut = [
+  {'electro.model': 'field'}, {'electro.edges': 'true'}, {'actuator.kind': 'ribbon'},
+  {'solver.integrator': 'explicit', 'contact.model': 'sequential'},
+];
 
-test('a key that the command has, the page has, with the same range', () => {
-  const keys = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'}));
-  const list = Array.isArray(keys) ? keys : keys.keys, core = new Core(module);
-  assert.equal(core.keys.size, list.length);
-  for (const {name} of list) assert.ok(core.keys.has(name), name);
+for (const values of leftOut) {
+  test(`what the page leaves out is refused: ${Object.keys(values)}`, () => {
+    const core = new Core(module);
+    assert.throws(() => core.resolve(scenario.assignments(new Map(Object.entries(values)))), /this page/);
+  });
+}
+
+test('the page has the keys of the command, with their ranges', () => {
+  const list = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'})), core = new Core(module);
+  assert.deepEqual([...core.keys.keys()], list.map(({key}) => key));
+  for (const {key, unit, min, max} of list.filter(({min}) => typeof min === 'number')) {
+    assert.equal(core.keys.get(key).min, min, `${key} in ${unit}`);
+    assert.equal(core.keys.get(key).max, max, `${key} in ${unit}`);
+  }
 });
 
 test('the command line that the page shows gives the page’s scenario', () => {
