@@ -238,7 +238,7 @@ function showNumbers(now) {
 }
 
 const plots = [];
-const cost = {mean: 0, worst: 0, frames: 0};
+const cost = {mean: 0, worst: 0}; // ms of work a frame
 
 function describePicture({opening}) {
   const text = `Two ribbons, ${fixed(1e3 * opening, 1)} millimetres open, ` +
@@ -248,8 +248,6 @@ function describePicture({opening}) {
   $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all states of rest. ${$('voltage-note').textContent}`);
   $('plot-profile').setAttribute('aria-label', 'Attraction per length and field in the liquid along the ribbon');
   $('frame').textContent = `A frame takes ${fixed(cost.mean, 1)} ms, ${fixed(cost.worst, 1)} ms at most.`;
-  document.documentElement.dataset.frameMean = cost.mean;
-  document.documentElement.dataset.frameWorst = cost.worst;
   cost.worst = 0;
 }
 
@@ -269,6 +267,7 @@ function frame(now) {
   const spent = performance.now() - begin;
   cost.mean += 0.05 * (spent - cost.mean);
   cost.worst = Math.max(cost.worst, spent);
+  document.documentElement.dataset.frame = spent;
   if (now - described > 1000) {
     described = now;
     describePicture(picked);
@@ -291,13 +290,16 @@ makePresets($('presets'), scenario.presets, (values) => {
   if (change(new Map([...scenario.beginning, ...values]))) press('step');
 });
 
+/** The scenario of the address; where that is refused, the page's own beside the refusal. */
 function begin() {
   core.resolve(scenario.assignments(scenario.beginning));
   live.restart(0);
-  history = new scenario.History(scenario.beginning);
-  if (given.values !== scenario.beginning && apply(given.values)) history = new scenario.History(given.values);
-  else if (given.values === scenario.beginning) askStudies(scenario.beginning);
+  const taken = apply(given.values), why = refusal;
+  if (!taken) apply(scenario.beginning);
+  refusal = why;
+  history = new scenario.History(taken ? given.values : scenario.beginning);
   show();
+  showAlert();
 }
 
 for (const button of ['step', 'hold', 'release']) $(button).addEventListener('click', () => press(button));
