@@ -1,5 +1,5 @@
 // The form: sliders and presets made from lists, each within what the core allows.
-import {pretty} from './numbers.js';
+import {digits, pretty} from './numbers.js';
 
 /** "0.1 m" in the key's own unit, "mm": the number that a slider stands at. */
 function inShown(core, name, value) {
@@ -62,22 +62,31 @@ export function makePresets(place, presets, choose) {
   place.append(row);
 }
 
-/** A list of round factors on a slider. */
+/** How many times slower than life: a list of round factors on a slider. */
 export class SlowMotion {
   static factors = [1, 2, 5, 10, 20, 50, 100, 200, 500];
 
   constructor(input, output, factor, changed) {
-    this.factor = SlowMotion.factors.includes(factor) ? factor : 10;
-    input.value = SlowMotion.factors.indexOf(this.factor);
-    const show = () => {
-      this.factor = SlowMotion.factors[input.value];
-      output.textContent = `${this.factor}×`;
-      input.setAttribute('aria-valuetext', `${this.factor} times slower`);
-    };
+    this.input = input;
+    this.output = output;
+    input.value = Math.max(SlowMotion.factors.indexOf(factor), 0);
     input.addEventListener('input', () => {
-      show();
+      this.show(1);
       changed();
     });
-    show();
+    this.show(1);
+  }
+
+  get factor() {
+    return SlowMotion.factors[this.input.value];
+  }
+
+  /** `pace`: share of that speed that this machine keeps up. */
+  show(pace) {
+    const text = pace > 0.9 ? `${this.factor}×` : `≈ ${digits(this.factor / pace, 2)}×`;
+    if (this.output.textContent === text) return;
+    this.output.textContent = text;
+    this.output.title = pace > 0.9 ? '' : 'as fast as this machine computes';
+    this.input.setAttribute('aria-valuetext', `${this.factor} times slower`);
   }
 }

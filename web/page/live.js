@@ -1,12 +1,14 @@
 // The actuator in motion: what the core computes from frame to frame, and what was seen so far.
-const chunk = 1e-3; // s of simulated time between looks at the clock
 const budget = 5; // ms of a frame for the simulation; where it needs more, time goes slower
+const chunk = {least: 1e-5, most: 1e-3, cost: 1.5}; // s of simulated time between looks at the clock; ms it may cost
 
 export class Live {
   time = 0; // s, as the simulation counts
   zero = 0; // s, when the voltage last changed by a button
   failure = null; // how the numerics ended, until something changes
   trace = {time: [], stroke: []}; // since `zero`
+  pace = 1; // share of the time asked for that was run, lately
+  #cost = 2000; // ms a simulated second, lately
 
   constructor(core) {
     this.core = core;
@@ -60,13 +62,19 @@ export class Live {
 
   /** Run `span` seconds, or as far as the budget of a frame goes. */
   advance(span) {
-    const end = this.time + span, begin = performance.now();
-    while (this.time < end && !this.failure && performance.now() - begin < budget) {
-      const next = Math.min(this.time + chunk, end);
+    const begin = this.time, end = begin + span, start = performance.now();
+    let now = start;
+    while (this.time < end && now - start < budget) {
+      const length = Math.min(Math.max(chunk.cost / this.#cost, chunk.least), chunk.most);
+      const next = this.time + length > end ? end : this.time + length;
       this.failure = this.core.run(next);
       if (this.failure) return;
+      const done = performance.now();
+      this.#cost += 0.2 * ((done - now) / (next - this.time) - this.#cost);
       this.time = next;
+      now = done;
       this.#note();
     }
+    this.pace += 0.1 * ((this.time - begin) / span - this.pace);
   }
 }

@@ -264,6 +264,7 @@ function frame(now) {
   states.now = {voltage: live.voltage, stroke: core.signal('stroke')};
   plots[count++ % plots.length].update(); // one plot a frame: each 20 times a second
   showNumbers(picked);
+  slow.show(live.pace);
   const spent = performance.now() - begin;
   cost.mean += 0.05 * (spent - cost.mean);
   cost.worst = Math.max(cost.worst, spent);

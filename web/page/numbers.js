@@ -31,6 +31,7 @@ export class Tiles {
       term.textContent = label;
       tile.title = title;
       number.id = `n-${name}`;
+      number.textContent = '–';
       small.textContent = ` ${unit}`;
       value.append(number, small);
       tile.append(term, value);

@@ -1,7 +1,7 @@
 // Colours of style.css for what is drawn on a canvas, and the scale of colours for the field.
 
 const names = ['paper', 'panel', 'ink', 'soft', 'line', 'accent', 'warm', 'metal', 'insulator', 'load'];
-const shades = 64;
+const shades = 256;
 
 function parse(colour) {
   return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));

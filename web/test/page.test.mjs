@@ -35,7 +35,7 @@ function pageTest(name, options, body) {
     page.on('pageerror', (error) => trouble.push(String(error)));
     page.on('request', (request) => /^(file|blob|data):/.test(request.url()) || trouble.push(`asks for ${request.url()}`));
     await page.goto(address + hash);
-    await page.waitForFunction(() => document.getElementById('n-letgo').textContent);
+    await page.waitForFunction(() => document.getElementById('voltage-note').textContent);
     await body(page);
     await page.close();
     assert.deepEqual(trouble, []);
