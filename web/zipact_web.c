@@ -123,6 +123,12 @@ static ZpStatus refuse_left_out(const ZpActuatorDef *def, ZpError *err) {
                    "electro.edges = true");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "this page shows actuator.kind electro_ribbon; the command knows the others");
+  if (def->study != ZP_STUDY_ACTUATE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page runs study actuate, and equilibrium beside it; the command knows more");
+  if (def->drive.waveform != ZP_WAVEFORM_STEP)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page has buttons for the voltage; the command knows more of drive.waveform");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "this page steps by solver.integrator implicit; the command knows the other");
   return ZP_OK;
@@ -214,11 +220,15 @@ EXPORT const double *zp_web_line_force(ZpWeb *web) {
 
 /* -- study ---------------------------------------------------------------------------------------- */
 
-/* Run the scenario's study. How it ended is in the text, as a refusal is. */
+/* Run the scenario in the study named in the text. How it ended is in the text, as a refusal is. */
 EXPORT int zp_web_study(ZpWeb *web) {
   ZpError err;
+  ZpActuatorDef def = web->def;
+  int study = zp_key_choice(zp_key_find("study"), web->text);
+  if (study < 0) return say(web, ZP_BAD_INPUT, "unknown study");
+  def.study = (ZpStudy)study;
   zp_result_destroy(web->result);
-  ZpStatus status = zp_study_run(&web->def, NULL, &web->result, &err);
+  ZpStatus status = zp_study_run(&def, NULL, &web->result, &err);
   snprintf(web->text, TEXT_SIZE, "%s", status == ZP_OK ? web->result->message : err.message);
   return (int)status;
 }
@@ -230,6 +240,14 @@ EXPORT int zp_web_outcome(const ZpWeb *web) {
 /* The summary's number named in the text. */
 EXPORT double zp_web_scalar(ZpWeb *web) {
   return zp_result_get(web->result, web->text);
+}
+
+EXPORT int zp_web_warnings(const ZpWeb *web) {
+  return (int)web->result->warnings;
+}
+
+EXPORT const char *zp_web_warning(const ZpWeb *web, int index) {
+  return web->result->warning[index];
 }
 
 EXPORT int zp_web_rows(const ZpWeb *web) {

@@ -13,14 +13,13 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   ZpState *state = sim->state;
   double opening0 = state->opening0, stretch = model->L / other->L;
   memcpy(state, from->state, zp_state_size(model));
-  double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
-  for (size_t j = 0; j < 2 * model->stride; j++) {
-    q[j] *= stretch;
-    v[j] *= stretch;
-  }
+  double *moving[] = {zp_state_q(model, state), zp_state_v(model, state), zp_state_mean_v(model, state),
+                      zp_state_mean_a(model, state)};
+  for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
+    for (size_t j = 0; j < 2 * model->stride; j++)
+      moving[k][j] *= stretch;
   state->opening0 = opening0;
   state->by_hand = true;
-  state->last_step = state->next_step = 0; /* the other model's mean acceleration says nothing here */
   state->work = state->drag_loss = state->contact_loss = state->internal_loss = 0;
   state->refreshed = NAN;
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);

@@ -139,9 +139,11 @@ export class Core {
 
   // -- studies
 
-  /** Run the scenario's study => its message, whether it ended well, the scalars asked for, the columns of its table. */
-  study(scalars) {
+  /** Run the scenario in study `name` => its message, whether it ended well, warnings, the scalars asked for, the columns
+   * of its table. */
+  study(name, scalars) {
     const c = this.#c, web = this.#web;
+    this.#put(name);
     this.#check(c.zp_web_study(web));
     const message = this.#get(), good = c.zp_web_good(c.zp_web_outcome(web)) !== 0;
     const rows = c.zp_web_rows(web), columns = c.zp_web_columns(web);
@@ -150,6 +152,7 @@ export class Core {
     return {
       message,
       good,
+      warnings: Array.from({length: c.zp_web_warnings(web)}, (_, k) => this.#string(c.zp_web_warning(web, k))),
       scalars: Object.fromEntries(scalars.map((name) => {
         this.#put(name);
         return [name, c.zp_web_scalar(web)];

@@ -36,9 +36,9 @@ const tiles = new Tiles($('numbers'), {
   field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; never more than its breakdown field where electro.breakdown_cap is true'},
   capacitance: {label: 'Capacitance', unit: 'pF', title: 'of the electrodes'},
   time: {label: 'Time', unit: 'ms', title: 'simulated, since the last button'},
-  zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at this voltage; without the drag of the liquid, so no prediction'},
-  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips, raised slowly'},
-  letgo: {label: 'Lets go', unit: 'kV', title: 'voltage at which it opens again, lowered slowly'},
+  zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at this voltage; without the drag of the liquid, so no prediction', study: true},
+  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips, raised slowly', study: true},
+  letgo: {label: 'Lets go', unit: 'kV', title: 'voltage at which it opens again, lowered slowly', study: true},
 });
 
 // -- the voltage
@@ -161,7 +161,7 @@ function remember() {
 
 // -- studies
 
-const runStudy = new Study(module, ({result, refused}) => {
+const runStudy = new Study(module, 'actuate', ['zip_time_s'], ({result, refused}) => {
   if (result) {
     seen.run = {time: result.columns.time_s, stroke: result.columns.stroke_m};
     run.zipTime = result.scalars.zip_time_s;
@@ -171,10 +171,15 @@ const runStudy = new Study(module, ({result, refused}) => {
     run.zipTime = run.hanging = NaN;
   }
   $('time-note').textContent = refused ?? result.message;
+  $('warnings').replaceChildren(...(result?.warnings ?? []).map((words) => {
+    const item = document.createElement('li');
+    item.textContent = words;
+    return item;
+  }));
   tiles.show('zip', digits(1e3 * run.zipTime));
 });
 
-const restStudy = new Study(module, ({result, refused}) => {
+const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'release_voltage_V'], ({result, refused}) => {
   const columns = result?.columns;
   states.rest = columns && {voltage: columns.voltage_V, stroke: columns.stroke_m, stable: columns.stable, branch: columns.branch};
   rest.pullIn = result?.scalars.pull_in_voltage_V ?? NaN;
@@ -187,9 +192,8 @@ const restStudy = new Study(module, ({result, refused}) => {
 
 function askStudies(values) {
   const all = scenario.assignments(values);
-  runStudy.ask(new Map([...all, ['study', 'actuate']]), ['zip_time_s']);
-  restStudy.ask(new Map([...all, ['study', 'equilibrium'], ['drive.voltage', `${highest} V`]]),
-                ['pull_in_voltage_V', 'release_voltage_V']);
+  runStudy.ask(all);
+  restStudy.ask(new Map([...all, ['drive.voltage', `${highest} V`]]));
 }
 
 // -- what is seen, frame by frame
@@ -265,6 +269,8 @@ function frame(now) {
   plots[count++ % plots.length].update(); // one plot a frame: each 20 times a second
   showNumbers(picked);
   slow.show(live.pace);
+  $('time-note').classList.toggle('due', runStudy.due);
+  $('voltage-note').classList.toggle('due', restStudy.due);
   const spent = performance.now() - begin;
   cost.mean += 0.05 * (spent - cost.mean);
   cost.worst = Math.max(cost.worst, spent);

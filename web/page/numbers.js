@@ -20,16 +20,17 @@ export function pretty(text) {
   return text.replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');
 }
 
-/** Tiles of a description list: name => {unit, title}. */
+/** Tiles of a description list: name => {label, unit, title, study: it is the whole scenario's}. */
 export class Tiles {
   #values = new Map();
 
   constructor(list, tiles) {
-    for (const [name, {unit, label, title}] of Object.entries(tiles)) {
+    for (const [name, {unit, label, title, study}] of Object.entries(tiles)) {
       const tile = document.createElement('div'), term = document.createElement('dt'), value = document.createElement('dd');
       const number = document.createElement('span'), small = document.createElement('small');
       term.textContent = label;
       tile.title = title;
+      tile.classList.toggle('study', Boolean(study));
       number.id = `n-${name}`;
       number.textContent = '–';
       small.textContent = ` ${unit}`;

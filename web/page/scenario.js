@@ -12,7 +12,7 @@ export const beginning = new Map([['damping.internal', '1000 us']]);
 /** Sliders in their order: range and step in the key's own unit, within the key's own range. */
 export const sliders = [
   {key: 'drive.voltage', label: 'Voltage', min: 0, max: 12, step: 0.1},
-  {key: 'load.mass', label: 'Load', min: 0, max: 60, step: 0.5},
+  {key: 'load.mass', label: 'Load', min: 0, max: 100, step: 0.5},
   {key: 'ribbon.thickness', label: 'Steel thickness', min: 20, max: 200, step: 1},
   {key: 'ribbon.length', label: 'Length', min: 40, max: 200, step: 1},
   {key: 'ribbon.width', label: 'Width', min: 4, max: 40, step: 0.1},
@@ -27,7 +27,7 @@ export const sliders = [
 export const presets = [
   {name: 'The paper’s', help: '50 µm steel lifts 8 g', values: {}},
   {name: 'Thin and far', help: '20 µm steel: the largest stroke', values: {'ribbon.thickness': '20 um', 'load.mass': '1 g', 'drive.voltage': '8 kV'}},
-  {name: 'Thick and strong', help: '100 µm steel', values: {'ribbon.thickness': '100 um', 'load.mass': '25 g'}},
+  {name: 'Thick and strong', help: '200 µm steel lifts 100 g, by 2 mm', values: {'ribbon.thickness': '200 um', 'load.mass': '100 g'}},
   {name: 'Too heavy', help: '30 g: it does not close', values: {'load.mass': '30 g'}},
   {name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
 ];

@@ -5,10 +5,11 @@ export class Study {
   #worker;
   #waiting = null;
   #busy = false;
-  #asked = 0;
 
-  /** `answer` gets {result} or {refused}. */
-  constructor(module, answer) {
+  /** `answer` gets {result} or {refused}; results have the `scalars` asked for. */
+  constructor(module, study, scalars, answer) {
+    this.study = study;
+    this.scalars = scalars;
     this.#worker = new Worker(URL.createObjectURL(new Blob([source], {type: 'text/javascript'})));
     this.#worker.postMessage({module});
     this.#worker.onmessage = ({data}) => {
@@ -23,8 +24,8 @@ export class Study {
     return this.#busy;
   }
 
-  ask(values, scalars) {
-    this.#waiting = {number: ++this.#asked, values, scalars};
+  ask(values) {
+    this.#waiting = {study: this.study, scalars: this.scalars, values};
     if (!this.#busy) this.#next();
   }
 

@@ -8,12 +8,12 @@ self.onmessage = ({data}) => {
     core = new Core(data.module);
     return;
   }
-  const {number, values, scalars} = data;
+  const {values, study, scalars} = data;
   try {
     core.resolve(values);
-    self.postMessage({number, result: core.study(scalars)});
+    self.postMessage({result: core.study(study, scalars)});
   } catch (error) {
     if (!(error instanceof Refused)) throw error;
-    self.postMessage({number, refused: error.message});
+    self.postMessage({refused: error.message});
   }
 };

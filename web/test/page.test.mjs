@@ -5,21 +5,16 @@ import {mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
-import {chromium} from 'playwright-core';
+import {address, launch} from '../browser.mjs';
 import {digits} from '../page/numbers.js';
 import * as scenario from '../page/scenario.js';
 
 const command = process.env.ZIPACT ?? new URL('../../build/zipact', import.meta.url).pathname;
-const address = new URL('../dist/index.html', import.meta.url).href;
 const folder = mkdtempSync(join(tmpdir(), 'zipact-page-'));
 let browser;
 
 before(async () => {
-  browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-           '--disable-component-update', '--disable-sync'],
-  });
+  browser = await launch();
 });
 after(async () => {
   await browser?.close();
