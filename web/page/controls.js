@@ -69,7 +69,7 @@ export class SlowMotion {
   constructor(input, output, factor, changed) {
     this.input = input;
     this.output = output;
-    input.value = Math.max(SlowMotion.factors.indexOf(factor), 0);
+    input.value = Math.max(SlowMotion.factors.findIndex((f) => f >= factor), 0);
     input.addEventListener('input', () => {
       this.show(1);
       changed();

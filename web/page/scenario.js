@@ -37,18 +37,32 @@ export function assignments(values) {
   return new Map([...always, ...values]);
 }
 
-/** (values) => "load.mass=8g&…"; the blank between number and unit is left out. */
-export function toAddress(values) {
-  return [...values].map(([key, text]) => `${key}=${encodeURIComponent(text.replace(' ', ''))}`).join('&');
+const usualFactor = 10; // of slow motion
+
+/** => "#load.mass=8g&…&slow=20"; the blank between number and unit is left out. */
+export function toAddress(values, slow) {
+  const pairs = [...values].map(([key, text]) => `${key}=${encodeURIComponent(text.replace(' ', ''))}`);
+  return `#${[...pairs, ...(slow === usualFactor ? [] : [`slow=${slow}`])].join('&')}`;
 }
 
-/** The other way; what is no key=value is left for the core to refuse. */
+/** The other way; without a scenario that of the beginning. What is no key=value is left for the core to refuse. */
 export function fromAddress(hash) {
-  const pairs = decodeURIComponent(hash.replace(/^#/, '')).split('&').filter(Boolean);
-  return new Map(pairs.map((pair) => {
-    const at = pair.indexOf('=');
-    return at < 0 ? [pair, ''] : [pair.slice(0, at), pair.slice(at + 1)];
+  const values = new Map(hash.replace(/^#/, '').split('&').filter(Boolean).map((pair) => {
+    const [key, ...text] = pair.split('=').map(decode);
+    return [key, text.join('=')];
   }));
+  const slow = Number(values.get('slow') ?? usualFactor);
+  values.delete('slow');
+  return {values: values.size ? values : beginning, slow};
+}
+
+/** As it was typed, where it is not encoded. */
+function decode(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
 }
 
 /** Keys of the resolved scenario that are not the command's defaults => [[key, text]]. */

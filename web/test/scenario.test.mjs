@@ -10,16 +10,18 @@ const module = new WebAssembly.Module(readFileSync(new URL('../build/zipact.wasm
 
 test('the address gives the scenario back', () => {
   const values = new Map([['load.mass', '8 g'], ['ribbon.plane', 'stress'], ['drive.voltage', '9.5 kV']]);
-  const core = new Core(module), again = new Core(module);
+  const core = new Core(module), again = new Core(module), read = scenario.fromAddress(scenario.toAddress(values, 50));
   core.resolve(scenario.assignments(values));
-  again.resolve(scenario.assignments(scenario.fromAddress(`#${scenario.toAddress(values)}`)));
+  again.resolve(scenario.assignments(read.values));
   for (const name of core.keys.keys()) assert.ok(Object.is(core.value(name), again.value(name)), name);
+  assert.equal(read.slow, 50);
 });
 
 test('an address that is no scenario comes to the core as it is', () => {
-  assert.deepEqual([...scenario.fromAddress('#nonsense')], [['nonsense', '']]);
-  assert.equal(scenario.fromAddress('').size, 0);
-  assert.throws(() => new Core(module).resolve(scenario.fromAddress('#nonsense')), /unknown key/);
+  assert.deepEqual([...scenario.fromAddress('#nonsense').values], [['nonsense', '']]);
+  assert.deepEqual([...scenario.fromAddress('#load.mass=%zz').values], [['load.mass', '%zz']]);
+  assert.equal(scenario.fromAddress('#slow=20').values, scenario.beginning);
+  assert.throws(() => new Core(module).resolve(scenario.fromAddress('#nonsense').values), /unknown key/);
 });
 
 test('every slider stays within what the core allows, at both ends alone and together', () => {
