@@ -1,6 +1,6 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
-# make web     the page web/dist/index.html: the actuator live in a browser
+# make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
@@ -46,10 +46,10 @@ check-web: $(BUILD)/zipact
 	ZIPACT=$(abspath $(BUILD)/zipact) scripts/web.sh --test
 
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch]
+	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] web/*.c
 
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)
 
 clean:
-	rm -rf $(BUILD) out
+	rm -rf $(BUILD) out web/build web/dist web/node_modules
