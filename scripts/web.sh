@@ -19,6 +19,9 @@ clang --target=wasm32-wasi -O3 -msimd128 -std=c17 -D_GNU_SOURCE -fopenmp-simd -f
   -Wl,--export-dynamic -Wl,--strip-all -Wl,-z,stack-size=1048576 -o web/build/zipact.wasm
 
 cd web
-[ node_modules/.package-lock.json -nt package-lock.json ] || npm ci --ignore-scripts --loglevel=error
+if ! cmp -s package-lock.json node_modules/.installed; then
+  npm ci --ignore-scripts --loglevel=error
+  cp package-lock.json node_modules/.installed
+fi
 npm run --silent build
 if [ "${1:-}" = --test ]; then npm test --silent; fi

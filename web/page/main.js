@@ -161,12 +161,12 @@ function announceZip() {
 function work(passed) {
   if (!paused && !live.failure) live.advance(passed / slow.factor);
   showAlert();
+  $('time-note').classList.toggle('due', runStudy.due);
+  $('voltage-note').classList.toggle('due', restStudy.due);
   if (live.failure) return; // the last good instant stays in sight
   view.draw(calm);
   announceZip();
   slow.show(live.pace);
-  $('time-note').classList.toggle('due', runStudy.due);
-  $('voltage-note').classList.toggle('due', restStudy.due);
 }
 
 /** Once a second, what need not be at once. */

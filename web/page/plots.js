@@ -59,7 +59,7 @@ class Plot {
       ...this.#size(),
       legend: {show: false},
       cursor: {show: false},
-      padding: [8, 10, 0, 0],
+      padding: [8, 18, 0, 0],
       scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => [0, roundUp(end()[name] || 1)]}])),
       series: scales.map((name) => (name === 'x' ? {} : {scale: name, paths: () => null, points: {show: false}})),
       axes: scales.map((name) => ({...axes[name], scale: name})),

@@ -47,6 +47,7 @@ async function until(page, name, condition, what) {
   }
 }
 
+const failing = '#electro.breakdown_cap=false&drive.voltage=1000kV';
 const closed = (page) => until(page, 'contraction', (c) => c > 99, 'it closes');
 const native = (study, values) => JSON.parse(execFileSync(
   command, [study, ...[...values].flatMap(([key, text]) => ['--set', `${key}=${text}`]), '-o', folder, '--json', '--quiet'],
@@ -157,24 +158,32 @@ pageTest('an address that is refused says so', {hash: '#ribbon.length=20'}, asyn
   await closed(page);
 });
 
-pageTest('numerics that fail say so; a change goes on', {hash: '#electro.breakdown_cap=false&drive.voltage=1000kV'}, async (page) => {
+pageTest('numerics that fail say so; a change goes on', {hash: failing}, async (page) => {
   await page.waitForFunction(() => document.querySelector('[role=alert]').textContent.includes('no time step converges'));
   await page.click('text=The paper’s');
   await page.waitForFunction(() => document.querySelector('[role=alert]').hidden);
   await closed(page);
 });
 
-for (const [width, height] of [[360, 640], [390, 844], [820, 1180], [1440, 900]]) {
-  pageTest(`nothing scrolls sideways at ${width} px`, {viewport: {width, height}}, async (page) => {
-    const {scroll, client} = await page.evaluate(() => ({scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth}));
-    assert.ok(scroll <= client, `${scroll} in ${client}`);
-    if (width > 600) return;
-    await page.focus('#damping-internal'); // the picture stays in sight beside the last slider
-    const {top, bottom} = await page.evaluate(() => document.getElementById('view').getBoundingClientRect());
-    const slider = await page.evaluate(() => document.getElementById('damping-internal').getBoundingClientRect().top);
-    assert.ok(top >= 0 && bottom <= slider, `${top} ${bottom} ${slider}`);
-  });
+async function scrollsSideways(page) {
+  const {scroll, client} = await page.evaluate(() => ({scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth}));
+  assert.ok(scroll <= client, `${scroll} in ${client}`);
 }
+
+for (const [width, height] of [[360, 640], [390, 844], [820, 1180], [1440, 900]])
+  pageTest(`nothing scrolls sideways at ${width} px`, {viewport: {width, height}}, scrollsSideways);
+
+pageTest('long messages wrap on a phone', {viewport: {width: 390, height: 844}, hash: failing}, async (page) => {
+  await page.waitForFunction(() => document.getElementById('time-note').textContent);
+  await scrollsSideways(page);
+});
+
+pageTest('on a phone the picture stays in sight beside the last slider', {viewport: {width: 390, height: 844}}, async (page) => {
+  await page.focus('#damping-internal');
+  const place = (id) => page.evaluate((i) => document.getElementById(i).getBoundingClientRect().toJSON(), id);
+  const view = await place('view'), slider = await place('damping-internal');
+  assert.ok(view.top >= 0 && view.bottom <= slider.top, `${view.top} ${view.bottom} ${slider.top}`);
+});
 
 pageTest('everything that can be used has a name', {}, async (page) => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, [role=img]')]
