@@ -1,5 +1,5 @@
 // The actuator in motion: what the core computes from frame to frame, and what was seen so far.
-const budget = 5; // ms of a frame for the simulation; where it needs more, time goes slower
+const budget = 4; // ms of a frame for the simulation; where it needs more, time goes slower
 const chunk = {least: 1e-5, most: 1e-3, cost: 1.5}; // s of simulated time between looks at the clock; ms it may cost
 
 export class Live {
