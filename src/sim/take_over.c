@@ -24,6 +24,6 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   state->refreshed = NAN;
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   zp_sim_start_account(sim);
-  sim->row_time = state->t;
+  zp_sim_resume(sim);
   return ZP_OK;
 }

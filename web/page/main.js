@@ -149,7 +149,7 @@ function remember() {
 // -- frame by frame
 
 const cost = {mean: 0, worst: 0}; // ms of work a frame
-let before = performance.now(), described = 0, wasZipped = false;
+let before = performance.now(), described = -Infinity, wasZipped = false;
 
 function announceZip() {
   const zipped = core.signal('contraction') > 0.99;
