@@ -5,6 +5,7 @@
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
+#   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
 set -eu
 packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 ca-certificates"
@@ -12,6 +13,10 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
  python3-matplotlib python3-pandas python3-pytest"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
+if [ "${1:-}" = --web ]; then
+  packages="$packages clang lld wasi-libc libclang-rt-14-dev-wasm32 chromium"
+  command -v npm >/dev/null 2>&1 || packages="$packages nodejs npm"
+fi
 
 if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>&1; then
   missing=""

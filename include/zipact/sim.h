@@ -121,6 +121,12 @@ ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err
 /* The columns of a time series: one per line of signals.def. */
 const ZpColumn *zp_signal_columns(size_t *count);
 
+/* Go on from where `from` is, a simulation of another model with as many ribbons and nodes: its time, voltage, contact,
+ * velocities and shape, stretched to this model's length. Energy and losses count from here on; contraction refers to
+ * this model's own hanging equilibrium. drive.waveform does not count any more. ZP_BAD_INPUT if the models differ in
+ * number. */
+ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -26,30 +26,6 @@
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *database; /* guarded by `lock`; NULL until the first unit is met */
 
-/* What a value in a unit is called, to say what another value is not. */
-static const struct {
-  const char *unit, *noun;
-} nouns[] = {
-    {"m", "a length"},
-    {"Pa", "a pressure"},
-    {"kg/m3", "a density"},
-    {"V/m", "an electric field"},
-    {"kg", "a mass"},
-    {"m/s2", "an acceleration"},
-    {"N/m", "a force per length"},
-    {"V", "a voltage"},
-    {"s", "a time"},
-    {"Hz", "a frequency"},
-    {"N", "a force"},
-    {"N s2/m2", "a drag coefficient"},
-};
-
-static ZpStatus fail_dimension(const char *to, ZpError *err) {
-  for (size_t i = 0; i < sizeof nouns / sizeof nouns[0]; i++)
-    if (strcmp(nouns[i].unit, to) == 0) return zp_fail(err, ZP_BAD_INPUT, "not %s", nouns[i].noun);
-  return zp_fail(err, ZP_BAD_INPUT, "not in a unit like %s", to);
-}
-
 /* A digit belongs to an exponent (m2, m^2, m-2, m^-2), or is the 1 of "1/m". Any other would be a factor
  * that hides in the unit. */
 static bool digit_allowed(const char *text, size_t i) {
@@ -114,11 +90,11 @@ static bool is_proportional(const cv_converter *converter, double *factor) {
 static ZpStatus scale_between(const ut_unit *from, const ut_unit *to, const char *to_text, ZpUnitScale *scale,
                               ZpError *err) {
   cv_converter *converter = ut_get_converter((ut_unit *)from, (ut_unit *)to);
-  if (!converter) return fail_dimension(to_text, err);
+  if (!converter) return zp_unit_fail_dimension(to_text, err);
   double factor;
   bool proportional = is_proportional(converter, &factor);
   cv_free(converter);
-  if (!proportional) return fail_dimension(to_text, err);
+  if (!proportional) return zp_unit_fail_dimension(to_text, err);
   *scale = scale_of_factor(factor);
   return ZP_OK;
 }

@@ -20,4 +20,7 @@ typedef struct ZpUnitScale {
  * May be called from several threads. */
 ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err);
 
+/* ZP_BAD_INPUT, "not a length": the unit is of another kind than the SI unit `to`. */
+ZpStatus zp_unit_fail_dimension(const char *to, ZpError *err);
+
 #endif

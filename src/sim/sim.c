@@ -64,8 +64,7 @@ static void keep(ZpSim *sim) {
   if (!sim->cut && !diverged(sim->model, sim->state)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
 }
 
-/* Energies count from here on. */
-static void start_energy_account(ZpSim *sim) {
+void zp_sim_start_account(ZpSim *sim) {
   ZpState *state = sim->state;
   ZpEnergies e = zp_eval_energies(sim->model, state, &sim->eval);
   state->base_energy = zp_energy_without_field(&e);
@@ -94,7 +93,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   }
   state->U = zp_waveform_voltage(&model->waveform, 0);
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
-  start_energy_account(sim);
+  zp_sim_start_account(sim);
   keep(sim);
   *out = sim;
   return ZP_OK;

@@ -44,6 +44,9 @@ void zp_sim_resume(ZpSim *sim);
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);
 
+/* Energies count from here on. */
+void zp_sim_start_account(ZpSim *sim);
+
 /* Fill sim->row (record.c). */
 void zp_sim_fill_row(ZpSim *sim);
 

@@ -1,0 +1,27 @@
+#!/bin/sh
+# Builds the page web/dist/index.html: the core as WebAssembly, then all of web/page/ with it in one file.
+#   scripts/web.sh         build
+#   scripts/web.sh --test  build, and test it against the command and in a browser
+set -eu
+cd "$(dirname "$0")/.."
+scripts/deps.sh --web
+mkdir -p web/build
+
+# The core without the two-dimensional field and what reads or writes files; web/without_field.c and web/units.c
+# stand in for what it misses.
+sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/drive src/solve src/actuator src/rest \
+  src/sim src/study -name '*.c' | sort | grep -v -E \
+  -e 'electro/(field|grid|surplus)\.c|math/skyline\.c|study/(profile|faces|bookkeeping)\.c')
+# shellcheck disable=SC2086
+clang --target=wasm32-wasi -O3 -msimd128 -std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off \
+  -Wall -Wextra -Werror -fvisibility=hidden -Iinclude -Isrc -mexec-model=reactor \
+  $sources src/io/value.c src/io/number.c src/io/source.c src/io/unit_nouns.c web/*.c \
+  -Wl,--export-dynamic -Wl,--strip-all -Wl,-z,stack-size=1048576 -o web/build/zipact.wasm
+
+cd web
+if ! cmp -s package-lock.json node_modules/.installed; then
+  npm ci --ignore-scripts --loglevel=error
+  cp package-lock.json node_modules/.installed
+fi
+npm run --silent build
+if [ "${1:-}" = --test ]; then npm test --silent; fi

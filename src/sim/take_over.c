@@ -1,0 +1,29 @@
+/* One simulation goes on where another was: a model whose values change while it runs. */
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "sim/sim_internal.h"
+
+ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
+  const ZpModel *model = sim->model, *other = from->model;
+  if (model->s != other->s || model->nodes != other->nodes)
+    return zp_fail(err, ZP_BAD_INPUT, "mesh.nodes = %zu: the simulation to take over from has %zu, on %zu ribbons",
+                   model->nodes, other->nodes, other->s);
+  ZpState *state = sim->state;
+  double opening0 = state->opening0, stretch = model->L / other->L;
+  memcpy(state, from->state, zp_state_size(model));
+  double *moving[] = {zp_state_q(model, state), zp_state_v(model, state), zp_state_mean_v(model, state),
+                      zp_state_mean_a(model, state)};
+  for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
+    for (size_t j = 0; j < 2 * model->stride; j++)
+      moving[k][j] *= stretch;
+  state->opening0 = opening0;
+  state->by_hand = true;
+  state->work = state->drag_loss = state->contact_loss = state->internal_loss = 0;
+  state->refreshed = NAN;
+  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
+  zp_sim_start_account(sim);
+  zp_sim_resume(sim);
+  return ZP_OK;
+}

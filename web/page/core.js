@@ -1,0 +1,163 @@
+// zipact's C core as a JavaScript object: web/zipact_web.c, its one buffer of text, its numbers where they lie.
+
+// What the C library asks of a system: no files, no environment, the end of the world as an exception.
+const system = {
+  environ_get: () => 0,
+  environ_sizes_get: () => 0,
+  fd_close: () => 8,
+  fd_seek: () => 8,
+  fd_write: () => 8,
+  proc_exit: (code) => {
+    throw new Error(`the core ended with ${code}`);
+  },
+};
+
+/** A wrong value, a refused scenario, no memory: in the words of the command. */
+export class Refused extends Error {}
+
+export class Core {
+  #c;
+  #web;
+  #text;
+  #textSize;
+
+  /** @param {WebAssembly.Module} module */
+  constructor(module) {
+    const c = new WebAssembly.Instance(module, {wasi_snapshot_preview1: system}).exports;
+    c._initialize();
+    this.#c = c;
+    this.#web = c.zp_web_create();
+    this.#text = c.zp_web_text(this.#web);
+    this.#textSize = c.zp_web_text_size();
+    this.keys = new Map(Array.from({length: c.zp_web_key_count()}, (_, index) => {
+      const name = this.#string(c.zp_web_key_name(index));
+      return [name, {
+        index,
+        name,
+        shown: this.#string(c.zp_web_key_shown(index)),
+        help: this.#string(c.zp_web_key_help(index)),
+        min: c.zp_web_key_min(index),
+        max: c.zp_web_key_max(index),
+        default: c.zp_web_key_default(index),
+      }];
+    }));
+  }
+
+  #bytes(pointer, length) {
+    return new Uint8Array(this.#c.memory.buffer, pointer, length);
+  }
+
+  #string(pointer) {
+    let end = pointer;
+    const all = new Uint8Array(this.#c.memory.buffer);
+    while (all[end]) end++;
+    return new TextDecoder().decode(all.subarray(pointer, end));
+  }
+
+  #put(text) {
+    const bytes = new TextEncoder().encode(text).subarray(0, this.#textSize - 1);
+    const buffer = this.#bytes(this.#text, this.#textSize);
+    buffer.set(bytes);
+    buffer[bytes.length] = 0;
+  }
+
+  #get() {
+    return this.#string(this.#text);
+  }
+
+  #check(status) {
+    if (status !== 0) throw new Refused(this.#get());
+  }
+
+  #doubles(pointer, length) {
+    return new Float64Array(this.#c.memory.buffer, pointer, length);
+  }
+
+  // -- scenario
+
+  /** Take `values`, a Map of key => text ("8 g"), over the defaults. Refused: the scenario stays as it was. */
+  resolve(values) {
+    this.#c.zp_web_clear(this.#web);
+    for (const [key, text] of values) {
+      this.#put(`${key}=${text}`);
+      this.#check(this.#c.zp_web_assign(this.#web));
+    }
+    this.#check(this.#c.zp_web_resolve(this.#web));
+  }
+
+  /** Value of a key in the scenario, SI. */
+  value(name) {
+    return this.#c.zp_web_key_value(this.#web, this.keys.get(name).index);
+  }
+
+  /** (key, SI) => "8 g". */
+  print(name, value) {
+    this.#c.zp_web_print(this.#web, this.keys.get(name).index, value);
+    return this.#get();
+  }
+
+  // -- simulation
+
+  /** A simulation of the scenario, from its hanging equilibrium or on from where the last one is. */
+  start(goOn = false) {
+    this.#check(this.#c.zp_web_start(this.#web, goOn ? 1 : 0));
+    this.nodes = this.#c.zp_web_nodes(this.#web);
+    this.insulatorOffset = this.#c.zp_web_insulator_offset(this.#web);
+  }
+
+  setVoltage(voltage) {
+    this.#check(this.#c.zp_web_set_voltage(this.#web, voltage));
+  }
+
+  /** Run until `time`, s. => null, or how the numerics ended badly. */
+  run(time) {
+    const outcome = this.#c.zp_web_run(this.#web, time);
+    return this.#c.zp_web_good(outcome) ? null : this.#get();
+  }
+
+  /** Present value of a signal of signals.def. */
+  signal(name) {
+    this.#put(name);
+    return this.#c.zp_web_signal(this.#web);
+  }
+
+  zipTime() {
+    return this.#c.zp_web_zip_time(this.#web);
+  }
+
+  /** Insulator faces: x, y [2 nodes], upper and lower by turns; gap, lineForce [nodes]. Valid until the next call. */
+  shape() {
+    const c = this.#c, web = this.#web, n = this.nodes;
+    const x = c.zp_web_x(web), y = c.zp_web_y(web), gap = c.zp_web_gap(web), force = c.zp_web_line_force(web);
+    return {
+      x: this.#doubles(x, 2 * n),
+      y: this.#doubles(y, 2 * n),
+      gap: this.#doubles(gap, n),
+      lineForce: this.#doubles(force, n),
+    };
+  }
+
+  // -- studies
+
+  /** Run the scenario in study `name` => its message, whether it ended well, warnings, the scalars asked for, the columns
+   * of its table. */
+  study(name, scalars) {
+    const c = this.#c, web = this.#web;
+    this.#put(name);
+    this.#check(c.zp_web_study(web));
+    const message = this.#get(), good = c.zp_web_good(c.zp_web_outcome(web)) !== 0;
+    const rows = c.zp_web_rows(web), columns = c.zp_web_columns(web);
+    const table = this.#doubles(c.zp_web_table(web), rows * columns);
+    const column = (k) => Float64Array.from({length: rows}, (_, row) => table[row * columns + k]);
+    return {
+      message,
+      good,
+      warnings: Array.from({length: c.zp_web_warnings(web)}, (_, k) => this.#string(c.zp_web_warning(web, k))),
+      scalars: Object.fromEntries(scalars.map((name) => {
+        this.#put(name);
+        return [name, c.zp_web_scalar(web)];
+      })),
+      columns: Object.fromEntries(Array.from({length: columns}, (_, k) => [this.#string(c.zp_web_column(web, k)), column(k)])),
+    };
+  }
+}

@@ -1,0 +1,48 @@
+// Numbers as people read them, and the tiles that show them.
+
+/** Three significant digits, no exponent: 0.0787 => "0.0787", 78.72 => "78.7", 5624.5 => "5620". */
+export function digits(value, count = 3) {
+  if (!Number.isFinite(value)) return '–';
+  const rounded = Number(value.toPrecision(count));
+  const places = Math.max(0, count - 1 - Math.floor(Math.log10(Math.abs(rounded) || 1)));
+  return rounded.toFixed(Math.min(places, count + 2)).replace('-', '−');
+}
+
+/** A fixed number of decimals, so that moving numbers do not jump. */
+export function fixed(value, places) {
+  if (!Number.isFinite(value)) return '–';
+  const text = value.toFixed(places);
+  return (Number(text) === 0 ? (0).toFixed(places) : text).replace('-', '−');
+}
+
+/** "8 g" as the command writes it => as people do: "8 g", "50 µm". */
+export function pretty(text) {
+  return text.replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');
+}
+
+/** Tiles of a description list: name => {label, unit, title, study: it is the whole scenario's}. */
+export class Tiles {
+  #values = new Map();
+
+  constructor(list, tiles) {
+    for (const [name, {unit, label, title, study}] of Object.entries(tiles)) {
+      const tile = document.createElement('div'), term = document.createElement('dt'), value = document.createElement('dd');
+      const number = document.createElement('span'), small = document.createElement('small');
+      term.textContent = label;
+      tile.title = title;
+      tile.classList.toggle('study', Boolean(study));
+      number.id = `n-${name}`;
+      number.textContent = '–';
+      small.textContent = ` ${unit}`;
+      value.append(number, small);
+      tile.append(term, value);
+      list.append(tile);
+      this.#values.set(name, number);
+    }
+  }
+
+  show(name, text) {
+    const number = this.#values.get(name);
+    if (number.textContent !== text) number.textContent = text;
+  }
+}

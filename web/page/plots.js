@@ -1,0 +1,138 @@
+// The three plots. uPlot makes axes and scales; curves are drawn here, because branches turn back in voltage.
+import uPlot from 'uplot';
+import {theme} from './theme.js';
+
+/** At least `value`, on a round step, so that axes do not tremble. */
+function roundUp(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9));
+}
+
+/** Draw xs, ys over scale `y` of `plot`. */
+function curve(plot, xs, ys, {colour, width = 2, dash = [], y = 'y'}) {
+  const context = plot.ctx, ratio = devicePixelRatio;
+  context.save();
+  context.strokeStyle = theme.colour[colour];
+  context.lineWidth = width * ratio;
+  context.lineJoin = 'round';
+  context.setLineDash(dash.map((length) => length * ratio));
+  context.beginPath();
+  for (let k = 0; k < xs.length; k++) context.lineTo(plot.valToPos(xs[k], 'x', true), plot.valToPos(ys[k], y, true));
+  context.stroke();
+  context.restore();
+}
+
+function dot(plot, x, y, colour) {
+  const context = plot.ctx, ratio = devicePixelRatio;
+  context.save();
+  context.fillStyle = theme.colour[colour];
+  context.strokeStyle = theme.colour.panel;
+  context.lineWidth = 2 * ratio;
+  context.beginPath();
+  context.arc(plot.valToPos(x, 'x', true), plot.valToPos(y, 'y', true), 5.5 * ratio, 0, 2 * Math.PI);
+  context.fill();
+  context.stroke();
+  context.restore();
+}
+
+const axis = (label, more = {}) => ({
+  label,
+  labelSize: 20,
+  labelFont: '12px system-ui, sans-serif',
+  font: '12px system-ui, sans-serif',
+  stroke: () => theme.colour.soft,
+  grid: {stroke: () => theme.colour.line, width: 1},
+  ticks: {show: false},
+  ...more,
+});
+
+/** A plot in `place`: `end` gives where its scales end, `paint` its curves. */
+class Plot {
+  #plot;
+  #data;
+
+  constructor(place, axes, end, paint) {
+    const scales = Object.keys(axes);
+    this.place = place;
+    this.#data = scales.map(() => [0, 1]);
+    this.#plot = new uPlot({
+      ...this.#size(),
+      legend: {show: false},
+      cursor: {show: false},
+      padding: [8, 18, 0, 0],
+      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => [0, roundUp(end()[name] || 1)]}])),
+      series: scales.map((name) => (name === 'x' ? {} : {scale: name, paths: () => null, points: {show: false}})),
+      axes: scales.map((name) => ({...axes[name], scale: name})),
+      hooks: {draw: [paint]},
+    }, this.#data, place);
+    new ResizeObserver(() => this.#plot.setSize(this.#size())).observe(place);
+  }
+
+  #size() {
+    return {width: Math.max(this.place.clientWidth, 200), height: this.place.clientHeight};
+  }
+
+  update() {
+    this.#plot.setData(this.#data);
+  }
+}
+
+const scaled = (values, factor) => Array.from(values, (value) => value * factor);
+
+/** Stroke over time: the run that the command gives, and what is happening. */
+export function timePlot(place, data) {
+  const end = () => ({
+    x: Math.max(...[data.run, data.trace].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), 10),
+    y: Math.max(...[data.run, data.trace].map((c) => 1e3 * (c ? c.stroke.reduce((a, b) => Math.max(a, b), 0) : 0)), 1e-3),
+  });
+  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('stroke / mm', {size: 44})}, end, (plot) => {
+    if (data.run) curve(plot, scaled(data.run.time, 1e3), scaled(data.run.stroke, 1e3), {colour: 'soft', width: 1.5, dash: [5, 4]});
+    curve(plot, scaled(data.trace.time, 1e3), scaled(data.trace.stroke, 1e3), {colour: 'accent', width: 2.5});
+    dot(plot, 1e3 * data.trace.time.at(-1), 1e3 * data.trace.stroke.at(-1), 'accent');
+  });
+}
+
+/** Runs of points of one branch that are all stable or all not; each takes the next one's first point along. */
+function pieces({branch, stable}) {
+  const found = [];
+  for (let k = 0, start = 0; k < branch.length; k++) {
+    const ends = k + 1 === branch.length || branch[k + 1] !== branch[k];
+    if (!ends && stable[k + 1] === stable[k]) continue;
+    found.push({from: start, to: ends ? k + 1 : k + 2, stable: stable[k] !== 0});
+    start = k + 1;
+  }
+  return found;
+}
+
+/** Stroke over voltage: all states of rest, and where it is now. */
+export function voltagePlot(place, data) {
+  const end = () => ({
+    x: data.highest / 1e3,
+    y: 1e3 * Math.max(data.rest?.stroke.reduce((a, b) => Math.max(a, b), 0) ?? 0, data.now.stroke),
+  });
+  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('stroke / mm', {size: 44})}, end, (plot) => {
+    if (data.rest) {
+      const x = scaled(data.rest.voltage, 1e-3), y = scaled(data.rest.stroke, 1e3);
+      for (const {from, to, stable} of pieces(data.rest))
+        curve(plot, x.slice(from, to), y.slice(from, to), stable ? {colour: 'ink'} : {colour: 'warm', width: 1.5, dash: [4, 4]});
+    }
+    dot(plot, data.now.voltage / 1e3, 1e3 * data.now.stroke, 'accent');
+  });
+}
+
+/** Attraction per length and field in the liquid, from the clip to the platform. */
+export function profilePlot(place, data) {
+  const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
+  const end = () => ({x: 1e3 * data.length, force: Math.max(largest(data.force), 1), field: data.largest / 1e6});
+  const right = {side: 1, grid: {show: false}, size: 40, stroke: () => theme.colour.warm};
+  const axes = {
+    x: axis('from the clip / mm', {size: 34}),
+    force: axis('attraction / N/m', {size: 44, stroke: () => theme.colour.accent}),
+    field: axis('field / MV/m', right),
+  };
+  return new Plot(place, axes, end, (plot) => {
+    const n = data.force.length, x = Array.from({length: n}, (_, i) => (1e3 * data.length * i) / (n - 1));
+    curve(plot, x, scaled(data.field, 1e-6), {colour: 'warm', width: 2, y: 'field'});
+    curve(plot, x, Array.from(data.force), {colour: 'accent', width: 2.5, y: 'force'});
+  });
+}

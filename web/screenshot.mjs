@@ -1,0 +1,13 @@
+// The picture of the page in the README: node screenshot.mjs FILE.png
+import {address, launch} from './browser.mjs';
+
+const browser = await launch();
+const page = await browser.newPage({viewport: {width: 1440, height: 910}, colorScheme: 'light'});
+await page.goto(`${address}#damping.internal=1ms&slow=20`);
+await page.waitForFunction(() => document.getElementById('n-letgo').textContent !== '–');
+await page.click('#step');
+await page.waitForFunction(() => Number(document.getElementById('n-zipped').textContent) >= 12);
+await page.click('#pause');
+await page.waitForTimeout(300);
+await page.screenshot({path: process.argv[2]});
+await browser.close();

@@ -1,0 +1,173 @@
+// The core as WebAssembly beside the native command: the same numbers, the same words.
+import assert from 'node:assert/strict';
+import {execFileSync, spawnSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, test} from 'node:test';
+import {Core, Refused} from '../page/core.js';
+import * as scenario from '../page/scenario.js';
+
+const command = process.env.ZIPACT ?? new URL('../../build/zipact', import.meta.url).pathname;
+const module = new WebAssembly.Module(readFileSync(new URL('../build/zipact.wasm', import.meta.url)));
+const folder = mkdtempSync(join(tmpdir(), 'zipact-web-'));
+after(() => rmSync(folder, {recursive: true}));
+
+function settings(values) {
+  return [...values].flatMap(([key, text]) => ['--set', `${key}=${text}`]);
+}
+
+function native(study, values) {
+  const all = [study, ...settings(values), '-o', folder, '--json', '--quiet'];
+  return JSON.parse(execFileSync(command, all, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}));
+}
+
+function table() {
+  const [head, ...rows] = readFileSync(join(folder, 'table.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+  return Object.fromEntries(head.map((name, k) => [name, rows.map((row) => (row[k] === '' ? NaN : Number(row[k])))]));
+}
+
+/** The largest difference of two columns, over the largest value. */
+function difference(a, b) {
+  assert.equal(a.length, b.length);
+  const most = a.reduce((m, v) => Math.max(m, Math.abs(v) || 0), 0);
+  return a.reduce((m, v, k) => Math.max(m, Number.isNaN(v) && Number.isNaN(b[k]) ? 0 : Math.abs(v - b[k])), 0) / (most || 1);
+}
+
+/** What an imbalance of energy or a current is measured by: they are small differences of large numbers. */
+const derived = {energy_imbalance_J: 'electric_work_J', contact_loss_J: 'electric_work_J', axial_energy_J: 'electric_work_J'};
+
+const fixedSteps = {
+  'the default actuator zips': {},
+  'thick steel, heavy load': {'ribbon.thickness': '100 um', 'load.mass': '25 g', 'damping.internal': '1000 us'},
+  'half a zip in thin steel': {'ribbon.thickness': '30 um', 'drive.voltage': '7 kV', 'solver.end_time': '30 ms'},
+};
+
+for (const [name, changes] of Object.entries(fixedSteps)) {
+  test(`fixed steps, native and WASM within 1e-9: ${name}`, () => {
+    const values = scenario.assignments(new Map(Object.entries({
+      'solver.time_step': '200 us', 'solver.end_time': '60 ms', ...changes,
+    })));
+    const theirs = native('actuate', values), rows = table();
+    const core = new Core(module);
+    core.resolve(values);
+    const ours = core.study('actuate', ['steps', 'contraction', 'energy_error']);
+    assert.equal(ours.scalars.steps, theirs.steps);
+    assert.deepEqual(ours.warnings, theirs.warnings);
+    assert.ok(ours.scalars.contraction > 1e-3, 'it moves');
+    for (const column of Object.keys(rows)) {
+      const scale = derived[column];
+      const d = scale
+        ? Math.max(...rows[column].map((v, k) => Math.abs(v - ours.columns[column][k]))) / Math.max(...rows[scale].map(Math.abs))
+        : difference(rows[column], ours.columns[column]);
+      assert.ok(d < 1e-9, `${column} differs by ${d}`);
+    }
+  });
+}
+
+test('the simulation that runs along ends where the study does, with fixed steps', () => {
+  const values = scenario.assignments(new Map([['solver.time_step', '200 us'], ['solver.end_time', '40 ms']]));
+  native('actuate', values);
+  const rows = table(), core = new Core(module);
+  core.resolve(values);
+  core.start();
+  for (let k = 1; k <= 200; k++) assert.equal(core.run(k * 2e-4), null);
+  for (const signal of ['stroke', 'opening', 'contraction', 'force', 'charge', 'capacitance', 'zipped_length']) {
+    const column = Object.keys(rows).find((head) => head === signal || head.startsWith(`${signal}_`));
+    const wanted = rows[column].at(-1);
+    assert.ok(Math.abs(core.signal(signal) - wanted) <= 1e-9 * Math.abs(wanted), `${signal}: ${core.signal(signal)}, ${wanted}`);
+  }
+});
+
+test('pull-in and release are those of the command', () => {
+  const values = scenario.assignments(scenario.beginning);
+  const theirs = native('equilibrium', values), core = new Core(module);
+  core.resolve(values);
+  const {scalars} = core.study('equilibrium', ['pull_in_voltage_V', 'release_voltage_V']);
+  for (const [name, value] of Object.entries(scalars)) assert.ok(Math.abs(value / theirs[name] - 1) < 1e-6, `${name}: ${value}, ${theirs[name]}`);
+});
+
+const refused = [
+  ['ribbon.length', '20'], ['ribbon.lenght', '1'], ['ribbon.length', '5 kg'], ['ribbon.length', 'abc'], ['ribbon.length', ''],
+  ['mesh.nodes', '7.5'], ['contact.model', 'seq'], ['platform.length', '95 mm'], ['load.mass', '-1 g'], ['ribbon.density', '0'],
+  ['drive.rise_time', '1 ms'], ['segment_1.length', '60 mm'], ['electro.breakdown_cap', 'maybe'],
+];
+
+for (const [key, text] of refused) {
+  test(`refused in the command's words: ${key}=${text}`, () => {
+    const values = scenario.assignments(new Map([[key, text]]));
+    const {status, stderr} = spawnSync(command, ['actuate', ...settings(values), '-o', folder, '--quiet'], {encoding: 'utf8'});
+    const core = new Core(module);
+    if (status !== 2) assert.fail(`the command takes it: ${stderr}`);
+    assert.throws(() => core.resolve(values), (error) => {
+      assert.ok(error instanceof Refused);
+      assert.equal(stderr.trim().replace('zipact: ', '').replace('--set ', ''), error.message);
+      return true;
+    });
+  });
+}
+
+test('after a refusal the scenario is what it was', () => {
+  const core = new Core(module);
+  core.resolve(scenario.assignments(new Map([['load.mass', '20 g']])));
+  assert.throws(() => core.resolve(scenario.assignments(new Map([['platform.length', '95 mm']]))), Refused);
+  assert.equal(core.value('load.mass'), 0.02);
+});
+
+const leftOut = [
+  {'electro.model': 'field'}, {'electro.edges': 'true'}, {'actuator.kind': 'ribbon'}, {study: 'modes'},
+  {'drive.waveform': 'sine'},
+  {'solver.integrator': 'explicit', 'contact.model': 'sequential'},
+];
+
+for (const values of leftOut) {
+  test(`what the page leaves out is refused: ${Object.keys(values)}`, () => {
+    const core = new Core(module);
+    assert.throws(() => core.resolve(scenario.assignments(new Map(Object.entries(values)))), /this page/);
+  });
+}
+
+test('the page has the keys of the command, with their ranges', () => {
+  const list = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'})), core = new Core(module);
+  assert.deepEqual([...core.keys.keys()], list.map(({key}) => key));
+  for (const {key, unit, min, max} of list.filter(({min}) => typeof min === 'number')) {
+    assert.equal(core.keys.get(key).min, min, `${key} in ${unit}`);
+    assert.equal(core.keys.get(key).max, max, `${key} in ${unit}`);
+  }
+});
+
+test('the command line that the page shows gives the page’s scenario', () => {
+  const core = new Core(module);
+  core.resolve(scenario.assignments(new Map([...scenario.beginning, ['load.mass', '12.5 g'], ['ribbon.thickness', '60 um'], ['solver.time_step', '1 ms']])));
+  const words = [...scenario.toCommand(core).matchAll(/--set "([^"]*)"/g)].map((found) => found[1].split('='));
+  native('actuate', new Map([...words, ['solver.end_time', '10 ms']]));
+  const written = readFileSync(join(folder, 'scenario.yaml'), 'utf8');
+  for (const [, text] of words) assert.ok(written.includes(text), `${text} in scenario.yaml`);
+  const again = new Core(module);
+  again.resolve(new Map(words));
+  for (const name of core.keys.keys()) assert.ok(Object.is(again.value(name), core.value(name)), name);
+});
+
+test('numbers that leave all bounds are said to, and the next scenario runs', () => {
+  const core = new Core(module);
+  core.resolve(scenario.assignments(new Map([['drive.voltage', '1000 kV'], ['electro.breakdown_cap', 'false']])));
+  core.start();
+  assert.match(core.run(0.01), /no time step converges/);
+  core.resolve(scenario.assignments(new Map()));
+  core.start();
+  assert.equal(core.run(0.01), null);
+});
+
+test('a change while it runs goes on from where it was', () => {
+  const core = new Core(module);
+  core.resolve(scenario.assignments(scenario.beginning));
+  core.start();
+  core.run(0.05);
+  const before = {stroke: core.signal('stroke'), speed: core.signal('end_velocity')};
+  core.resolve(scenario.assignments(new Map([...scenario.beginning, ['load.mass', '20 g']])));
+  core.start(true);
+  assert.equal(core.signal('stroke'), before.stroke);
+  assert.equal(core.signal('end_velocity'), before.speed);
+  assert.equal(core.signal('voltage'), 10e3);
+  assert.equal(core.run(0.3), null);
+});

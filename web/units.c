@@ -1,0 +1,37 @@
+/* Units of the page, in place of src/io/units.c, which asks UDUNITS: those of keys.def with SI prefixes. */
+#include "io/units.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "base/fail.h"
+
+static const struct {
+  const char *prefix;
+  int exponent;
+} prefixes[] = {{"", 0}, {"n", -9}, {"u", -6}, {"µ", -6}, {"m", -3}, {"c", -2}, {"k", 3}, {"M", 6}, {"G", 9}};
+
+static const char *const others[] = {"m",   "g",     "s",    "V",   "Pa",  "N",      "Hz",
+                                     "V/m", "kg/m3", "m/s2", "N/m", "1/m", "N s2/m2"};
+
+/* (unit with its prefix, unit without) => does it fit? Then its power of ten, too. */
+static bool read_prefix(const char *unit, const char *base, int *exponent) {
+  for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
+    size_t length = strlen(prefixes[i].prefix);
+    *exponent = prefixes[i].exponent;
+    if (strncmp(unit, prefixes[i].prefix, length) == 0 && strcmp(unit + length, base) == 0) return true;
+  }
+  return false;
+}
+
+ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err) {
+  bool mass = strcmp(to, "kg") == 0;
+  int exponent;
+  if (read_prefix(from, mass ? "g" : to, &exponent)) {
+    *scale = (ZpUnitScale){.decimal = true, .exponent = exponent - (mass ? 3 : 0), .factor = 1};
+    return ZP_OK;
+  }
+  for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+    if (read_prefix(from, others[i], &exponent)) return zp_unit_fail_dimension(to, err);
+  return zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
+}

@@ -1,0 +1,268 @@
+/* zipact for a web page: a scenario given as texts, a simulation that runs along, a study.
+ *
+ * Made for a caller that has numbers and one buffer of text only. Names of keys, signals and columns go in through
+ * that buffer, messages come out through it. All functions that may fail give a ZpStatus, with the message in the
+ * buffer, or a ZpOutcome. Shapes and tables are read where they lie; pointers hold until the next call. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <zipact/io.h>
+#include <zipact/zipact.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "io/value.h"
+
+#define EXPORT __attribute__((visibility("default"), used))
+
+enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 64 };
+
+typedef struct ZpWeb {
+  char text[TEXT_SIZE];
+  ZpAssignment list[MOST_ASSIGNMENTS];
+  size_t assigned;
+  ZpActuatorDef def;
+  ZpModel *model;
+  ZpSim *sim;
+  ZpResult *result;
+} ZpWeb;
+
+EXPORT ZpWeb *zp_web_create(void) {
+  ZpWeb *web = zp_calloc(1, sizeof *web);
+  if (web) web->def = zp_actuator_def_default();
+  return web;
+}
+
+EXPORT char *zp_web_text(ZpWeb *web) {
+  return web->text;
+}
+
+EXPORT int zp_web_text_size(void) {
+  return TEXT_SIZE;
+}
+
+static int say(ZpWeb *web, ZpStatus status, const char *message) {
+  snprintf(web->text, TEXT_SIZE, "%s", status == ZP_OK ? "" : message);
+  return (int)status;
+}
+
+/* -- keys ----------------------------------------------------------------------------------------- */
+
+EXPORT int zp_web_key_count(void) {
+  return zp_key_count();
+}
+
+EXPORT const char *zp_web_key_name(int index) {
+  return zp_key(index)->name;
+}
+
+EXPORT const char *zp_web_key_shown(int index) {
+  return zp_key(index)->shown;
+}
+
+EXPORT const char *zp_web_key_help(int index) {
+  return zp_key(index)->help;
+}
+
+EXPORT double zp_web_key_min(int index) {
+  return zp_key(index)->min;
+}
+
+EXPORT double zp_web_key_max(int index) {
+  return zp_key(index)->max;
+}
+
+EXPORT double zp_web_key_default(int index) {
+  return zp_key(index)->def;
+}
+
+/* Value of a key in the scenario as resolved, SI. */
+EXPORT double zp_web_key_value(const ZpWeb *web, int index) {
+  return zp_def_get(&web->def, index);
+}
+
+/* (key, SI) => text "8 g". */
+EXPORT void zp_web_print(ZpWeb *web, int index, double value) {
+  zp_value_print(index, value, web->text, TEXT_SIZE);
+}
+
+/* -- scenario ------------------------------------------------------------------------------------- */
+
+EXPORT void zp_web_clear(ZpWeb *web) {
+  web->assigned = 0;
+}
+
+/* Text "ribbon.length=80 mm" => one more assignment. Messages are those of the command's --set. */
+EXPORT int zp_web_assign(ZpWeb *web) {
+  ZpError err;
+  char *sign = strchr(web->text, '=');
+  if (!sign || web->assigned == MOST_ASSIGNMENTS) return say(web, ZP_BAD_INPUT, sign ? "too many keys" : "no = in it");
+  *sign = 0;
+  int key = zp_key_find(web->text);
+  double value;
+  char message[sizeof err.message + TEXT_SIZE];
+  if (key < 0)
+    snprintf(message, sizeof message, "%.80s=%.80s: unknown key; did you mean %s?", web->text, sign + 1,
+             zp_key_nearest(web->text));
+  else if (sign[1] == 0)
+    snprintf(message, sizeof message, "%s=: empty; give a value", web->text);
+  else if (zp_value_read(key, sign + 1, &value, &err) != ZP_OK)
+    snprintf(message, sizeof message, "%s=%.80s: %s", web->text, sign + 1, err.message);
+  else {
+    web->list[web->assigned++] = (ZpAssignment){key, value};
+    return say(web, ZP_OK, "");
+  }
+  return say(web, ZP_BAD_INPUT, message);
+}
+
+static ZpStatus refuse_left_out(const ZpActuatorDef *def, ZpError *err) {
+  if (def->electro.model == ZP_ELECTRO_FIELD || def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page leaves the two-dimensional field out; the command knows electro.model = field and "
+                   "electro.edges = true");
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "this page shows actuator.kind electro_ribbon; the command knows the others");
+  if (def->study != ZP_STUDY_ACTUATE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page runs study actuate, and equilibrium beside it; the command knows more");
+  if (def->drive.waveform != ZP_WAVEFORM_STEP)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page has buttons for the voltage; the command knows more of drive.waveform");
+  if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
+    return zp_fail(err, ZP_BAD_INPUT, "this page steps by solver.integrator implicit; the command knows the other");
+  return ZP_OK;
+}
+
+/* All assignments => the scenario. What was the scenario stays if they are refused. */
+EXPORT int zp_web_resolve(ZpWeb *web) {
+  ZpError err;
+  ZpActuatorDef def;
+  ZpStatus status = zp_def_resolve(&def, web->list, web->assigned, &err);
+  if (status == ZP_OK) status = zp_def_check(&def, &err);
+  if (status == ZP_OK) status = refuse_left_out(&def, &err);
+  if (status == ZP_OK) web->def = def;
+  return say(web, status, err.message);
+}
+
+/* -- simulation ----------------------------------------------------------------------------------- */
+
+/* A simulation of the scenario: from its hanging equilibrium, or going on from where the last one is. */
+EXPORT int zp_web_start(ZpWeb *web, int go_on) {
+  ZpError err;
+  ZpModel *model;
+  ZpSim *sim = NULL;
+  ZpStatus status = zp_model_create(&web->def, &model, &err);
+  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, &err);
+  if (status == ZP_OK && go_on) status = zp_sim_take_over(sim, web->sim, &err);
+  if (status != ZP_OK) {
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+    return say(web, status, err.message);
+  }
+  zp_sim_destroy(web->sim);
+  zp_model_destroy(web->model);
+  web->model = model;
+  web->sim = sim;
+  return say(web, ZP_OK, "");
+}
+
+EXPORT int zp_web_set_voltage(ZpWeb *web, double voltage) {
+  ZpError err;
+  return say(web, zp_sim_set_voltage(web->sim, voltage, &err), err.message);
+}
+
+/* => ZpOutcome; how it ended in the text. */
+EXPORT int zp_web_run(ZpWeb *web, double end_time) {
+  ZpRunInfo info;
+  ZpOutcome outcome = zp_sim_run(web->sim, end_time, false, NULL, &info);
+  snprintf(web->text, TEXT_SIZE, "%s", info.message);
+  return (int)outcome;
+}
+
+EXPORT int zp_web_good(int outcome) {
+  return zp_outcome_good((ZpOutcome)outcome);
+}
+
+/* Present value of the signal named in the text. */
+EXPORT double zp_web_signal(ZpWeb *web) {
+  return zp_sim_get(web->sim, web->text);
+}
+
+EXPORT double zp_web_zip_time(ZpWeb *web) {
+  return zp_sim_zip_time(web->sim);
+}
+
+EXPORT double zp_web_insulator_offset(ZpWeb *web) {
+  return zp_model_info(web->model).insulator_offset;
+}
+
+EXPORT int zp_web_nodes(ZpWeb *web) {
+  return zp_model_info(web->model).nodes;
+}
+
+/* x and y [2 nodes] of interleaved faces, gap and line force [nodes]. */
+EXPORT const double *zp_web_x(ZpWeb *web) {
+  return zp_sim_shape(web->sim).x;
+}
+
+EXPORT const double *zp_web_y(ZpWeb *web) {
+  return zp_sim_shape(web->sim).y;
+}
+
+EXPORT const double *zp_web_gap(ZpWeb *web) {
+  return zp_sim_shape(web->sim).gap;
+}
+
+EXPORT const double *zp_web_line_force(ZpWeb *web) {
+  return zp_sim_shape(web->sim).line_force;
+}
+
+/* -- study ---------------------------------------------------------------------------------------- */
+
+/* Run the scenario in the study named in the text. How it ended is in the text, as a refusal is. */
+EXPORT int zp_web_study(ZpWeb *web) {
+  ZpError err;
+  ZpActuatorDef def = web->def;
+  int study = zp_key_choice(zp_key_find("study"), web->text);
+  if (study < 0) return say(web, ZP_BAD_INPUT, "unknown study");
+  def.study = (ZpStudy)study;
+  zp_result_destroy(web->result);
+  ZpStatus status = zp_study_run(&def, NULL, &web->result, &err);
+  snprintf(web->text, TEXT_SIZE, "%s", status == ZP_OK ? web->result->message : err.message);
+  return (int)status;
+}
+
+EXPORT int zp_web_outcome(const ZpWeb *web) {
+  return (int)web->result->outcome;
+}
+
+/* The summary's number named in the text. */
+EXPORT double zp_web_scalar(ZpWeb *web) {
+  return zp_result_get(web->result, web->text);
+}
+
+EXPORT int zp_web_warnings(const ZpWeb *web) {
+  return (int)web->result->warnings;
+}
+
+EXPORT const char *zp_web_warning(const ZpWeb *web, int index) {
+  return web->result->warning[index];
+}
+
+EXPORT int zp_web_rows(const ZpWeb *web) {
+  return (int)web->result->series->rows;
+}
+
+EXPORT int zp_web_columns(const ZpWeb *web) {
+  return (int)web->result->series->columns;
+}
+
+EXPORT const char *zp_web_column(const ZpWeb *web, int column) {
+  return web->result->series->column[column].name;
+}
+
+/* [rows][columns] */
+EXPORT const double *zp_web_table(const ZpWeb *web) {
+  return web->result->series->value;
+}
