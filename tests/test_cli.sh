@@ -290,7 +290,7 @@ interrupt() { # SECONDS ARGUMENT...: Ctrl-C that long after the start
   status=$?
 }
 
-long="--set mesh.nodes=5 --set solver.tolerance=0.1 --set drive.voltage=0 --set solver.end_time=10000"
+long="--set mesh.nodes=5 --set solver.time_step=1us --set solver.tolerance=0.1 --set drive.voltage=0 --set solver.end_time=10000"
 interrupt 1 actuate $long --json -o interrupted
 ok "130: Ctrl-C while it moves" status_is 130
 ok "130: --json" json stdout 'd["outcome"] == "interrupted" and d["simulated_time_s"] > 0'
