@@ -216,9 +216,9 @@ static Balance balance_of(const ZpActuatorDef *def) {
   return b;
 }
 
-/* Explicit: largest imbalance on the way, of the work, with steps of 0.4 and 0.2 us: step 1.8e-4 and 0.7e-4, ramp 0.9e-5 and
- * 0.4e-5, sine 0.8e-4 and 0.6e-4, one that changes sign 2.8e-4 and 1.2e-4, square 0.8e-4 and 0.3e-4: the stepping is of
- * first order, and a voltage that changes adds nothing. */
+/* Explicit: largest imbalance on the way, of the work, with steps of 0.4 and 0.2 us: step 1.8e-4 and 0.7e-4, ramp
+ * 0.9e-5 and 0.4e-5, sine 0.8e-4 and 0.6e-4, one that changes sign 2.8e-4 and 1.2e-4, square 0.8e-4 and 0.3e-4: the
+ * stepping is of first order, and a voltage that changes adds nothing. */
 START_TEST(energy_balances) {
   ZpActuatorDef def[5];
   const char *const name[] = {"step", "ramp", "sine", "sine of both signs", "square"};

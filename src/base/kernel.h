@@ -12,6 +12,9 @@
 #define ZP_KERNEL
 #endif
 
+/* Part of a kernel: compiled with it, for each processor. */
+#define ZP_INLINE static inline __attribute__((always_inline))
+
 /* Iterations of the loop that follows are independent. */
 #define ZP_SIMD _Pragma("omp simd")
 

@@ -118,14 +118,24 @@ int zp_band_negative_pivots(const ZpBand *band, double *work) {
 
 /* -- symmetric: U' D U, row by row ----------------------------------------------------------------- */
 
-/* What row k, scaled to its pivot, takes off the `below` rows that it meets: `width` entries of each, as many as a row
- * has. A copy of it with zeros behind makes all these loops equally long. */
-static inline void eliminate(double *restrict row_k, size_t width, size_t below, double inverse) {
-  double r[2 * (ZP_BAND_MOST + 1)];
+static bool is_pivot(double value) {
+  return value != 0 && isfinite(value);
+}
+
+/* A row with zeros behind: what it takes off each row below then has one length, that of a row. */
+ZP_INLINE void copy_padded(const double *restrict row, size_t width, double *restrict copy) {
   for (size_t j = 0; j < width; j++) {
-    r[j] = row_k[j];
-    r[width + j] = 0;
+    copy[j] = row[j];
+    copy[width + j] = 0;
   }
+}
+
+/* What row k, scaled to its pivot, takes off the `below` rows that it meets. */
+ZP_INLINE bool eliminate(double *restrict row_k, size_t width, size_t below) {
+  double r[2 * (ZP_BAND_MOST + 1)];
+  if (!is_pivot(row_k[0])) return false;
+  double inverse = 1 / row_k[0];
+  copy_padded(row_k, width, r);
   for (size_t i = 1; i <= below; i++) {
     double factor = r[i] * inverse, *restrict row_i = row_k + i * width;
     ZP_SIMD
@@ -133,19 +143,43 @@ static inline void eliminate(double *restrict row_k, size_t width, size_t below,
       row_i[j] -= factor * r[i + j];
     row_k[i] = factor;
   }
+  return true;
 }
 
-static inline bool factor_rows(ZpBand *band, size_t width) {
-  size_t n = band->n, full = n > width ? n - width : 0; /* rows that meet all that a row can */
-  for (size_t k = 0; k < n; k++) {
-    double *row = band->a + k * width;
-    if (row[0] == 0 || !isfinite(row[0])) return false;
-    eliminate(row, width, k < full ? width - 1 : least(width - 1, n - 1 - k), 1 / row[0]);
+/* The same of rows k and k + 1 at once, so that each row below is loaded and stored once for both. */
+ZP_INLINE bool eliminate_two(double *restrict row_k, size_t width) {
+  double r[2 * (ZP_BAND_MOST + 1)], s[2 * (ZP_BAND_MOST + 1)], *restrict next = row_k + width;
+  if (!is_pivot(row_k[0])) return false;
+  double over_r = 1 / row_k[0], first = row_k[1] * over_r;
+  copy_padded(row_k, width, r);
+  ZP_SIMD
+  for (size_t j = 0; j < width; j++)
+    next[j] -= first * r[1 + j];
+  row_k[1] = first;
+  if (!is_pivot(next[0])) return false;
+  double over_s = 1 / next[0];
+  copy_padded(next, width, s);
+  for (size_t i = 1; i < width; i++) {
+    double f = r[i + 1] * over_r, g = s[i] * over_s, *restrict row_i = next + i * width;
+    ZP_SIMD
+    for (size_t j = 0; j < width; j++)
+      row_i[j] = (row_i[j] - f * r[i + 1 + j]) - g * s[i + j];
+    if (i + 1 < width) row_k[i + 1] = f;
+    next[i] = g;
   }
   return true;
 }
 
-static inline void substitute_forward(const double *restrict row, size_t below, double *restrict b) {
+ZP_INLINE bool factor_rows(ZpBand *band, size_t width) {
+  size_t n = band->n, k = 0;
+  for (; width > 1 && k + width < n; k += 2)
+    if (!eliminate_two(band->a + k * width, width)) return false;
+  for (; k < n; k++)
+    if (!eliminate(band->a + k * width, width, least(width - 1, n - 1 - k))) return false;
+  return true;
+}
+
+ZP_INLINE void substitute_forward(const double *restrict row, size_t below, double *restrict b) {
   double known = b[0];
   ZP_SIMD
   for (size_t i = 1; i <= below; i++)
@@ -153,14 +187,14 @@ static inline void substitute_forward(const double *restrict row, size_t below, 
 }
 
 /* In four sums, whatever the processor. */
-static inline void substitute_back(const double *restrict row, size_t below, double *restrict b) {
+ZP_INLINE void substitute_back(const double *restrict row, size_t below, double *restrict b) {
   double sum[4] = {0};
   for (size_t i = 1; i <= below; i++)
     sum[i % 4] += row[i] * b[i];
   b[0] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static inline void solve_rows(const ZpBand *band, size_t width, double *restrict b) {
+ZP_INLINE void solve_rows(const ZpBand *band, size_t width, double *restrict b) {
   const double *a = band->a;
   size_t n = band->n, full = n > width ? n - width : 0;
   for (size_t k = 0; k < full; k++)

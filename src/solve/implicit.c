@@ -9,7 +9,7 @@ static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
 static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
-enum { MOST_ITERATIONS = 14, PATIENCE = 6, EASY = 5, HARD = 8 };
+enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
 
 void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
   s->system = system;
