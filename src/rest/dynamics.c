@@ -176,9 +176,10 @@ static void tangent(void *self, ZpBand *A) {
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)
     d->plates.own[i] += d->pressed[i];
-  const double *by_list[] = {d->plates.own, d->plates.next, d->plates.along0, d->plates.along1};
-  for (size_t k = 0; k < 4; k++)
-    zp_assemble(&d->assembly, ZP_OWN + k, by_list[k], A);
+  zp_assemble(&d->assembly, ZP_OWN, d->plates.own, A);
+  zp_assemble(&d->assembly, ZP_NEXT, d->plates.next, A);
+  zp_assemble(&d->assembly, ZP_ALONG_LEFT, d->plates.along0, A);
+  zp_assemble(&d->assembly, ZP_ALONG_RIGHT, d->plates.along1, A);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */

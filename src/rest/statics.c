@@ -291,9 +291,10 @@ static void add_faces(ZpStatics *s, ZpBand *K) {
   }
   if (s->U == 0) return;
   zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, s->own, s->next, s->along0, s->along1);
-  const double *by_list[] = {s->own, s->next, s->along0, s->along1};
-  for (size_t k = 0; k < 4; k++)
-    zp_assemble(&s->assembly, ZP_OWN + k, by_list[k], K);
+  zp_assemble(&s->assembly, ZP_OWN, s->own, K);
+  zp_assemble(&s->assembly, ZP_NEXT, s->next, K);
+  zp_assemble(&s->assembly, ZP_ALONG_LEFT, s->along0, K);
+  zp_assemble(&s->assembly, ZP_ALONG_RIGHT, s->along1, K);
 }
 
 static void stiffness(void *self, ZpBand *K) {
