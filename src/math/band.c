@@ -122,20 +122,13 @@ static bool is_pivot(double value) {
   return value != 0 && isfinite(value);
 }
 
-/* A row with zeros behind: what it takes off each row below then has one length, that of a row. */
-ZP_INLINE void copy_padded(const double *restrict row, size_t width, double *restrict copy) {
-  for (size_t j = 0; j < width; j++) {
-    copy[j] = row[j];
-    copy[width + j] = 0;
-  }
-}
-
-/* What row k, scaled to its pivot, takes off the `below` rows that it meets. */
+/* What row k, scaled to its pivot, takes off the `below` rows that it meets; a copy of it with zeros behind makes all
+ * these loops as long as a row. */
 ZP_INLINE bool eliminate(double *restrict row_k, size_t width, size_t below) {
-  double r[2 * (ZP_BAND_MOST + 1)];
+  double r[2 * (ZP_BAND_MOST + 1)] = {0};
   if (!is_pivot(row_k[0])) return false;
   double inverse = 1 / row_k[0];
-  copy_padded(row_k, width, r);
+  memcpy(r, row_k, width * sizeof *r);
   for (size_t i = 1; i <= below; i++) {
     double factor = r[i] * inverse, *restrict row_i = row_k + i * width;
     ZP_SIMD
@@ -148,17 +141,17 @@ ZP_INLINE bool eliminate(double *restrict row_k, size_t width, size_t below) {
 
 /* The same of rows k and k + 1 at once, so that each row below is loaded and stored once for both. */
 ZP_INLINE bool eliminate_two(double *restrict row_k, size_t width) {
-  double r[2 * (ZP_BAND_MOST + 1)], s[2 * (ZP_BAND_MOST + 1)], *restrict next = row_k + width;
+  double r[2 * (ZP_BAND_MOST + 1)] = {0}, s[2 * (ZP_BAND_MOST + 1)] = {0}, *restrict next = row_k + width;
   if (!is_pivot(row_k[0])) return false;
   double over_r = 1 / row_k[0], first = row_k[1] * over_r;
-  copy_padded(row_k, width, r);
+  memcpy(r, row_k, width * sizeof *r);
   ZP_SIMD
   for (size_t j = 0; j < width; j++)
     next[j] -= first * r[1 + j];
   row_k[1] = first;
   if (!is_pivot(next[0])) return false;
   double over_s = 1 / next[0];
-  copy_padded(next, width, s);
+  memcpy(s, next, width * sizeof *s);
   for (size_t i = 1; i < width; i++) {
     double f = r[i + 1] * over_r, g = s[i] * over_s, *restrict row_i = next + i * width;
     ZP_SIMD
