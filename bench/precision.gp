@@ -7,7 +7,7 @@ if (motion eq "swing") {
   set title "A cantilever's swing, 0.1 s, against the converged one"
   set ylabel "rms of the tip's distance / swing, %"
 } else {
-  set title "Default actuator, 8 g, 10 kV, first 70 ms, against implicit steps at 1e-7;\n{/*0.85 explicit steps go with sequential contact}"
+  set title "Default actuator, 8 g, 10 kV, first 70 ms, against implicit steps at 1e-7, undamped"
   set ylabel "rms of the platform's distance / opening, %"
 }
 set xlabel "CPU seconds per simulated second, one thread"

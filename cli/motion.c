@@ -40,7 +40,6 @@ ZpStatus motion_swing(int nodes, bool implicit, ZpActuatorDef *def, ZpError *err
                              {"damping.internal", 0},
                              {"mesh.nodes", nodes},
                              {"solver.integrator", implicit ? ZP_INTEGRATOR_IMPLICIT : ZP_INTEGRATOR_EXPLICIT},
-                             {"solver.tolerance", 4e-5},
                              {"solver.end_time", 0.1}};
   return resolve(setting, sizeof setting / sizeof setting[0], def, err);
 }
@@ -52,8 +51,6 @@ Trajectory motion_swing_reference(void) {
 ZpStatus motion_zip(int nodes, bool implicit, ZpActuatorDef *def, ZpError *err) {
   const Setting setting[] = {{"mesh.nodes", nodes},
                              {"solver.integrator", implicit ? ZP_INTEGRATOR_IMPLICIT : ZP_INTEGRATOR_EXPLICIT},
-                             {"contact.model", implicit ? ZP_CONTACT_UNILATERAL : ZP_CONTACT_SEQUENTIAL},
-                             {"damping.internal", implicit ? zp_actuator_def_default().damping.internal : 0},
                              {"solver.end_time", 70e-3}};
   return resolve(setting, sizeof setting / sizeof setting[0], def, err);
 }
