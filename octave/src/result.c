@@ -20,6 +20,7 @@ void set(mxArray *structs, size_t index, const char *name, mxArray *value) {
     if (!isalnum((unsigned char)*c)) *c = '_';
   int number = mxGetFieldNumber(structs, field);
   if (number < 0) number = mxAddField(structs, field);
+  mxDestroyArray(mxGetFieldByNumber(structs, index, number)); /* what was there, if any */
   mxSetFieldByNumber(structs, index, number, value);
 }
 
@@ -157,6 +158,20 @@ static mxArray *warnings_cell(const ZpResult *result) {
   return warnings;
 }
 
+/* frequency_1_Hz, ... together, as in summary.json; false if it is none of them. */
+static bool set_frequency(mxArray *structs, size_t index, const ZpScalar *scalar) {
+  static const char name[] = "frequencies_Hz";
+  int mode, end = 0;
+  if (sscanf(scalar->name, "frequency_%d_Hz%n", &mode, &end) != 1 || !end) return false;
+  const mxArray *before = mxGetField(structs, index, name);
+  size_t count = before ? mxGetNumberOfElements(before) : 0;
+  mxArray *all = new_matrix(count + 1, 1, NULL);
+  if (count) memcpy(mxGetPr(all), mxGetPr(before), count * sizeof(double));
+  mxGetPr(all)[count] = scalar->value;
+  set(structs, index, name, all);
+  return true;
+}
+
 void set_result(mxArray *structs, size_t index, const ZpResult *result, const ZpActuatorDef *def) {
   set(structs, index, "study", mxCreateString(zp_key(zp_key_find("study"))->choices[result->study].word));
   set(structs, index, "outcome", mxCreateString(zp_outcome_name(result->outcome)));
@@ -164,7 +179,8 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
   set(structs, index, "message", mxCreateString(result->message));
   set(structs, index, "warnings", warnings_cell(result));
   for (size_t i = 0; i < result->scalars; i++)
-    set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));
+    if (!set_frequency(structs, index, &result->scalar[i]))
+      set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));
   if (result->series) set(structs, index, "series", series_struct(result->series));
   if (result->shapes) set(structs, index, "shapes", shapes_struct(result->shapes));
   if (result->map) set(structs, index, "field", map_struct(result->map));
