@@ -47,12 +47,15 @@ void fail_interrupted(void) {
   jump("zipact:interrupted", "interrupted");
 }
 
+/* Messages quote what was given, which may be no UTF-8: bytes beyond ASCII become a question mark. */
 void fail_input(const char *format, ...) {
   char message[sizeof((ZpError *)0)->message];
   va_list values;
   va_start(values, format);
   vsnprintf(message, sizeof message, format, values);
   va_end(values);
+  for (char *c = message; *c; c++)
+    if ((unsigned char)*c > '~') *c = '?';
   jump("zipact:input", message);
 }
 
