@@ -13,7 +13,7 @@ cp "$root"/octave/*.m "$folder"
 libraries=$(pkg-config --libs libfyaml udunits jansson hdf5-serial nlopt)
 cd "$folder"
 # shellcheck disable=SC2086
-CFLAGS="-std=c17 -O2 -fPIC -Wall -Wextra -Werror" mkoctfile --mex -o zipact_mex -I"$root/include" \
+CFLAGS="-std=c17 -D_GNU_SOURCE -O2 -fPIC -Wall -Wextra -Werror" mkoctfile --mex -o zipact_mex -I"$root/include" \
   -Wl,--exclude-libs,ALL "$root"/octave/src/*.c "$build/libzipact-io.a" "$build/libzipact.a" $libraries -lm -lpthread
 rm -f ./*.o
 

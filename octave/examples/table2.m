@@ -42,11 +42,11 @@ function draw(picture, table, nodes, load_g, ours)
   hold('on');
   for i = 1:numel(nodes)
     theirs = table(table(:, 1) == nodes(i), :);
-    plot(load_g, ours(:, i), '-', 'color', colours(i, :), 'displayname', sprintf('zipact, N = %d', nodes(i)));
-    plot(theirs(:, 2), theirs(:, 3), 'o', 'color', colours(i, :), 'displayname', sprintf('Table II, N = %d', nodes(i)));
+    plot(load_g, ours(:, i), '-', 'linewidth', 2, 'color', colours(i, :), 'displayname', sprintf('zipact, N = %d', nodes(i)));
+    plot(theirs(:, 2), theirs(:, 3), 'o', 'markersize', 5, 'linewidth', 1, 'color', colours(i, :), 'displayname', sprintf('Table II, N = %d', nodes(i)));
   end
   elements = table(table(:, 1) == nodes(1), :);
-  plot(elements(:, 2), elements(:, 4), 'k--', 'displayname', 'Table II, finite elements');
+  plot(elements(:, 2), elements(:, 4), 'k--', 'linewidth', 2, 'displayname', 'Table II, finite elements');
   xlabel('load / g');
   ylabel('stroke / mm');
   grid('on');

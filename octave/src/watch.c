@@ -1,10 +1,13 @@
-/* Ctrl-C during long calls. */
+/* Ctrl-C during long calls. Octave blocks SIGINT for its interpreter, and a thread of its own waits for it; MATLAB's
+ * windows send none, there it does nothing. */
 #include "binding.h"
 
+#include <pthread.h>
 #include <signal.h>
 
 static volatile sig_atomic_t interrupted;
-static void (*interpreters)(int);
+static struct sigaction interpreters_action;
+static sigset_t interpreters_mask;
 
 static void note(int number) {
   (void)number;
@@ -19,11 +22,17 @@ static bool asked_to_stop(void *user, const char *stage, double fraction) {
 const ZpHooks watch_hooks = {.progress = asked_to_stop};
 
 void watch_begin(void) {
+  struct sigaction ours = {.sa_handler = note};
+  sigset_t interrupt;
+  sigemptyset(&interrupt);
+  sigaddset(&interrupt, SIGINT);
   interrupted = 0;
-  interpreters = signal(SIGINT, note);
+  sigaction(SIGINT, &ours, &interpreters_action);
+  pthread_sigmask(SIG_UNBLOCK, &interrupt, &interpreters_mask);
 }
 
 bool watch_end(void) {
-  signal(SIGINT, interpreters);
+  pthread_sigmask(SIG_SETMASK, &interpreters_mask, NULL);
+  sigaction(SIGINT, &interpreters_action, NULL);
   return interrupted;
 }

@@ -57,6 +57,16 @@ many = arrayfun(@(i) zipact('open', 'mesh.nodes', 21), 1:20);
 check(numel(unique(many)) == 20, 'handles differ');
 for i = randperm(20), zipact('close', many(i)); end
 
+% Ctrl-C stops a long call, and only this
+system(sprintf('(sleep 1; kill -INT %d) &', getpid()));
+try
+  zipact('actuate', 'solver.integrator', 'explicit', 'contact.model', 'sequential', 'drive.voltage', '2 kV', ...
+         'solver.end_time', 1000);
+  check(false, 'was not stopped');
+catch problem
+  check(strcmp(problem.identifier, 'zipact:interrupted'), '%s', problem.message);
+end
+
 % pictures of every study that has one
 graphics_toolkit('gnuplot');
 figure('visible', 'off');
