@@ -1,13 +1,14 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
+# make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check python web check-web deps bench bench-tables format docs install clean
+.PHONY: all demo check python octave web check-web deps bench bench-tables format docs install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -32,6 +33,9 @@ check: deps $(BUILD)/CMakeCache.txt
 python: $(BUILD)/zipact
 	scripts/test-python.sh $(BUILD)
 
+octave: $(BUILD)/zipact
+	scripts/test-octave.sh $(BUILD)
+
 bench: $(BUILD)/zipact
 	$(BUILD)/zipact bench
 
@@ -50,7 +54,7 @@ check-web: $(BUILD)/zipact
 	ZIPACT=$(abspath $(BUILD)/zipact) scripts/web.sh --test
 
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch] web/*.c
+	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch] octave/src/*.[ch] web/*.c
 
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)

@@ -3,6 +3,7 @@
 # elsewhere it lists what is needed. Says what it installs; does nothing where all is there.
 #   scripts/deps.sh          build, run and check
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
+#   scripts/deps.sh --octave what the MEX function, its tests and pictures need
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
 #   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
@@ -11,6 +12,7 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
  fonts-dejavu-core python3 ca-certificates"
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
  python3-matplotlib python3-pandas python3-pytest"
+[ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 if [ "${1:-}" = --web ]; then

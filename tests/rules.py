@@ -126,7 +126,7 @@ def folder_of(name):
     parts = name.split("/")
     if parts[0] == "src" and len(parts) > 2:
         return parts[1]
-    return "cli" if name.startswith(("cli/", "python/src/")) else None  # the extension, too, sees public headers only
+    return "cli" if name.startswith(("cli/", "python/src/", "octave/src/")) else None  # the bindings, too, see public headers only
 
 
 def include_is_right(folder, mark, target):

@@ -596,6 +596,38 @@ START_TEST(test_restore_goes_on_bit_for_bit) {
 }
 END_TEST
 
+/* A state goes on from its sealed bytes; not from damaged ones, nor those of another actuator. */
+START_TEST(test_sealed_state) {
+  ZpActuatorDef def = saved_def(0);
+  ZpModel *model = model_of(&def);
+  def.load.mass *= 2;
+  ZpModel *heavier = model_of(&def);
+  ZpSim *sim = sim_of(model), *again = sim_of(model), *other = sim_of(heavier);
+  size_t size = zp_sim_sealed_size(sim);
+  char *sealed = malloc(size), *restored = malloc(size);
+  ck_assert_int_eq(zp_sim_run(sim, 5e-3, false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_seal(sim, sealed);
+  ck_assert_int_eq(zp_sim_unseal(again, sealed, size, NULL), ZP_OK);
+  zp_sim_seal(again, restored);
+  ck_assert_mem_eq(sealed, restored, size);
+  ck_assert_int_eq(zp_sim_unseal(other, sealed, size, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_sim_unseal(again, sealed, size - 1, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_sim_unseal(again, sealed, 0, NULL), ZP_BAD_INPUT);
+  for (size_t i = 0; i < size; i++) {
+    sealed[i] ^= 1;
+    ck_assert_int_eq(zp_sim_unseal(again, sealed, size, NULL), ZP_BAD_INPUT);
+    sealed[i] ^= 1;
+  }
+  free(sealed);
+  free(restored);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(again);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+  zp_model_destroy(heavier);
+}
+END_TEST
+
 /* Reading signals, shapes and recording change nothing. */
 START_TEST(test_looking_changes_nothing) {
   ZpActuatorDef def = saved_def(0);
@@ -658,6 +690,7 @@ int main(void) {
   TCase *state = tcase_create("state");
   tcase_set_timeout(state, 60);
   tcase_add_loop_test(state, test_restore_goes_on_bit_for_bit, 0, 2);
+  tcase_add_test(state, test_sealed_state);
   tcase_add_test(state, test_looking_changes_nothing);
   suite_add_tcase(suite, state);
   return run_suite(suite);

@@ -118,6 +118,12 @@ void zp_sim_save(const ZpSim *sim, void *state);
  * ZP_BAD_INPUT if it is of another size. Between programs and versions: checkpoint.h. */
 ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
 
+/* The same as bytes that the caller may give away: sealed with a fingerprint of the model and this version, and a
+ * checksum. ZP_BAD_INPUT, and nothing is changed, if they are no state of this model and version, or damaged. */
+size_t zp_sim_sealed_size(const ZpSim *sim);
+void zp_sim_seal(const ZpSim *sim, void *sealed);
+ZpStatus zp_sim_unseal(ZpSim *sim, const void *sealed, size_t size, ZpError *err);
+
 /* The columns of a time series: one per line of signals.def. */
 const ZpColumn *zp_signal_columns(size_t *count);
 

@@ -13,7 +13,6 @@ typedef struct Simulation {
   PyObject *definition; /* what it was made from */
   ZpModel *model;
   ZpSim *sim;
-  uint64_t fingerprint;          /* of the definition */
   int end_time_key, voltage_key; /* whose units and ranges dt and voltage have */
   double time;                   /* s */
   double hand_voltage;           /* set last by step, V; NAN: none yet */
@@ -21,33 +20,6 @@ typedef struct Simulation {
   bool busy;                     /* inside a call that lets other threads run */
   bool ended;                    /* numbers are beyond use until a state is restored */
 } Simulation;
-
-/* -- states as bytes --------------------------------------------------------------------------------
- *
- * magic, fingerprint, checksum, the library's state. A state of another definition or version, or a damaged one, would
- * send the kernels beyond their arrays: fingerprint and checksum keep it out. */
-
-static const char magic[8] = "zipact1";
-enum { HEAD = sizeof magic + 2 * sizeof(uint64_t) };
-
-/* FNV-1a, 64 bits. */
-static uint64_t hash(uint64_t before, const void *data, size_t size) {
-  const unsigned char *byte = data;
-  for (size_t i = 0; i < size; i++)
-    before = (before ^ byte[i]) * UINT64_C(0x100000001b3);
-  return before;
-}
-
-static uint64_t fingerprint_of(const Definition *definition) {
-  uint64_t sum = hash(UINT64_C(0xcbf29ce484222325), ZP_VERSION, sizeof ZP_VERSION);
-  for (int key = 0; key < zp_key_count(); key++) {
-    const char *text = zp_def_text(&definition->def, key);
-    double value = zp_def_get(&definition->def, key);
-    sum = text ? hash(sum, text, strlen(text) + 1) : hash(sum, &value, sizeof value);
-  }
-  size_t size = definition->drive.rows * sizeof(double);
-  return hash(hash(sum, definition->drive.time, size), definition->drive.voltage, size);
-}
 
 /* -- creation --------------------------------------------------------------------------------------- */
 
@@ -69,7 +41,6 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
   if (!self) return NULL;
   self->state = state;
   self->definition = Py_NewRef(definition);
-  self->fingerprint = fingerprint_of((Definition *)definition);
   self->end_time_key = zp_key_find("solver.end_time");
   self->voltage_key = zp_key_find("drive.voltage");
   self->hand_voltage = NAN;
@@ -214,28 +185,9 @@ static PyObject *simulation_save(PyObject *object, PyObject *unused) {
   (void)unused;
   Simulation *self = (Simulation *)object;
   if (refuse_busy(self)) return NULL;
-  size_t size = zp_sim_state_size(self->sim);
-  char *block = malloc(HEAD + size);
-  if (!block) return PyErr_NoMemory();
-  zp_sim_save(self->sim, block + HEAD);
-  uint64_t sum = hash(self->fingerprint, block + HEAD, size);
-  memcpy(block, magic, sizeof magic);
-  memcpy(block + sizeof magic, &self->fingerprint, sizeof sum);
-  memcpy(block + sizeof magic + sizeof sum, &sum, sizeof sum);
-  PyObject *bytes = PyBytes_FromStringAndSize(block, (Py_ssize_t)(HEAD + size));
-  free(block);
+  PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)zp_sim_sealed_size(self->sim));
+  if (bytes) zp_sim_seal(self->sim, PyBytes_AsString(bytes));
   return bytes;
-}
-
-/* What is wrong with a state, or NULL. */
-static const char *state_fault(const Simulation *self, const char *bytes, size_t size) {
-  uint64_t fingerprint, sum;
-  if (size < HEAD || memcmp(bytes, magic, sizeof magic) != 0) return "not one of a zipact simulation";
-  memcpy(&fingerprint, bytes + sizeof magic, sizeof sum);
-  memcpy(&sum, bytes + sizeof magic + sizeof sum, sizeof sum);
-  if (fingerprint != self->fingerprint) return "of another actuator, or of another version of zipact";
-  if (sum != hash(fingerprint, bytes + HEAD, size - HEAD)) return "damaged";
-  return NULL;
 }
 
 static PyObject *simulation_restore(PyObject *object, PyObject *state) {
@@ -245,11 +197,8 @@ static PyObject *simulation_restore(PyObject *object, PyObject *state) {
   if (refuse_busy(self)) return NULL;
   if (!PyBytes_Check(state)) return raise_input(self->state, "state: takes the bytes that save() returned");
   if (PyBytes_AsStringAndSize(state, &bytes, &size)) return NULL;
-  const char *fault = state_fault(self, bytes, (size_t)size);
-  if (fault) return raise_input(self->state, "state: %s", fault);
   ZpError err;
-  if (zp_sim_restore(self->sim, bytes + HEAD, (size_t)size - HEAD, &err) != ZP_OK)
-    return raise_error(self->state, &err);
+  if (zp_sim_unseal(self->sim, bytes, (size_t)size, &err) != ZP_OK) return raise_error(self->state, &err);
   self->time = zp_sim_get(self->sim, "time");
   self->hand_voltage = NAN;
   self->ended = false;

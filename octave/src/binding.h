@@ -1,0 +1,74 @@
+/* What the files of the MEX function share.
+ *
+ * An error of the interpreter (mexErrMsgIdAndTxt, but also a failed mxCreate...) jumps out of the call. So that nothing
+ * is lost then, texts are the interpreter's memory, which it frees itself, and what the library made for a call hangs
+ * on `call`, which is freed when the next call begins. */
+#ifndef ZIPACT_OCTAVE_BINDING_H
+#define ZIPACT_OCTAVE_BINDING_H
+
+#include <mex.h>
+
+#include <zipact/batch.h>
+#include <zipact/calibrate.h>
+#include <zipact/zipact.h>
+
+/* What the present call owns. */
+typedef struct Call {
+  ZpScenario *scenario;
+  ZpBatch batch;
+  ZpShapes *film;
+} Call;
+extern Call call;
+
+/* -- failures (zipact_mex.c): none returns ------------------------------------------------------------ */
+
+_Noreturn void fail(const ZpError *err);
+_Noreturn void fail_memory(void);
+_Noreturn void fail_numerics(const char *message);
+_Noreturn void fail_interrupted(void);
+__attribute__((format(printf, 1, 2))) _Noreturn void fail_input(const char *format, ...);
+
+/* -- values => the library (arguments.c) --------------------------------------------------------------- */
+
+/* The text in a row of characters; else fails and names `what`. */
+char *text_of(const mxArray *value, const char *what);
+
+/* A quantity that has a key's unit and range but is called otherwise, as dt. */
+double quantity_of(const char *key, const char *name, const mxArray *value);
+
+/* Fill call.scenario from [FILE or STRUCT,] KEY, VALUE, ... */
+void read_scenario(int count, const mxArray *const *value);
+
+/* -- the library => structs (result.c) ------------------------------------------------------------------ */
+
+mxArray *new_struct(void);
+
+/* Set a field of structs[index], which is made if needed; what is no letter, digit or _ in `name` becomes _. */
+void set(mxArray *structs, size_t index, const char *name, mxArray *value);
+
+/* [rows x columns] numbers; NULL: zeros. */
+mxArray *new_matrix(size_t rows, size_t columns, const double *value);
+
+mxArray *keys_struct(void);
+mxArray *shapes_struct(const ZpShapes *shapes);
+void set_result(mxArray *structs, size_t index, const ZpResult *result, const ZpActuatorDef *def);
+
+/* -- long calls (watch.c) ------------------------------------------------------------------------------- */
+
+/* Between the two Ctrl-C stops the library instead of the interpreter. */
+void watch_begin(void);
+bool watch_end(void); /* true if it did */
+extern const ZpHooks watch_hooks;
+
+/* -- simulations by hand (simulation.c): arguments => result, NULL if there is none ---------------------- */
+
+mxArray *simulation_open(int count, const mxArray *const *value);
+mxArray *simulation_step(int count, const mxArray *const *value);
+mxArray *simulation_read(int count, const mxArray *const *value);
+mxArray *simulation_shape(int count, const mxArray *const *value);
+mxArray *simulation_save(int count, const mxArray *const *value);
+mxArray *simulation_restore(int count, const mxArray *const *value);
+mxArray *simulation_close(int count, const mxArray *const *value);
+void simulation_close_all(void);
+
+#endif

@@ -1,0 +1,188 @@
+/* What the library found => structs. */
+#include "binding.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* -- structs ------------------------------------------------------------------------------------------- */
+
+mxArray *new_struct(void) {
+  return mxCreateStructMatrix(1, 1, 0, NULL);
+}
+
+void set(mxArray *structs, size_t index, const char *name, mxArray *value) {
+  enum { LONGEST_NAME = 63 }; /* of MATLAB */
+  char field[LONGEST_NAME + 1];
+  snprintf(field, sizeof field, "%s", name);
+  for (char *c = field; *c; c++)
+    if (!isalnum((unsigned char)*c)) *c = '_';
+  int number = mxGetFieldNumber(structs, field);
+  if (number < 0) number = mxAddField(structs, field);
+  mxDestroyArray(mxGetFieldByNumber(structs, index, number)); /* what was there, if any */
+  mxSetFieldByNumber(structs, index, number, value);
+}
+
+mxArray *new_matrix(size_t rows, size_t columns, const double *value) {
+  mxArray *matrix = mxCreateDoubleMatrix(rows, columns, mxREAL);
+  if (value && rows && columns) memcpy(mxGetPr(matrix), value, rows * columns * sizeof *value);
+  return matrix;
+}
+
+/* -- keys ---------------------------------------------------------------------------------------------- */
+
+/* A value as it can be given back. */
+static mxArray *key_value(const ZpKey *key, double value, const char *text) {
+  if (key->type == ZP_KEY_TEXT) return mxCreateString(text);
+  if (key->type == ZP_KEY_ENUM) return mxCreateString(key->choices[(int)value].word);
+  if (key->type == ZP_KEY_BOOL) return mxCreateLogicalScalar(value != 0);
+  if (isnan(value)) return mxCreateString("auto");
+  return mxCreateDoubleScalar(value);
+}
+
+static mxArray *words_of(const ZpKey *key) {
+  size_t count = key->type == ZP_KEY_ENUM ? (size_t)key->max + 1 : 0;
+  mxArray *words = mxCreateCellMatrix(1, count);
+  for (size_t i = 0; i < count; i++)
+    mxSetCell(words, i, mxCreateString(key->choices[i].word));
+  return words;
+}
+
+mxArray *keys_struct(void) {
+  size_t count = (size_t)zp_key_count();
+  mxArray *keys = mxCreateStructMatrix(count, 1, 0, NULL);
+  for (size_t i = 0; i < count; i++) {
+    const ZpKey *key = zp_key((int)i);
+    set(keys, i, "name", mxCreateString(key->name));
+    set(keys, i, "unit", mxCreateString(key->unit));
+    set(keys, i, "default", key_value(key, key->def, key->text));
+    set(keys, i, "min", mxCreateDoubleScalar(key->min));
+    set(keys, i, "max", mxCreateDoubleScalar(key->max));
+    set(keys, i, "choices", words_of(key));
+    set(keys, i, "help", mxCreateString(key->help));
+  }
+  return keys;
+}
+
+/* All keys, groups as structs: what zipact takes, too. */
+static mxArray *definition_struct(const ZpActuatorDef *def) {
+  mxArray *all = new_struct();
+  for (int i = 0; i < zp_key_count(); i++) {
+    const ZpKey *key = zp_key(i);
+    mxArray *value = key_value(key, zp_def_get(def, i), zp_def_text(def, i));
+    const char *dot = strchr(key->name, '.');
+    if (!dot) {
+      set(all, 0, key->name, value);
+      continue;
+    }
+    char group[32];
+    snprintf(group, sizeof group, "%.*s", (int)(dot - key->name), key->name);
+    if (!mxGetField(all, 0, group)) set(all, 0, group, new_struct());
+    set(mxGetField(all, 0, group), 0, dot + 1, value);
+  }
+  return all;
+}
+
+/* -- tables, shapes, maps ------------------------------------------------------------------------------- */
+
+static mxArray *series_struct(const ZpTable *table) {
+  mxArray *series = new_struct();
+  for (size_t i = 0; i < table->columns; i++) {
+    mxArray *column = new_matrix(table->rows, 1, NULL);
+    for (size_t row = 0; row < table->rows; row++)
+      mxGetPr(column)[row] = table->value[row * table->columns + i];
+    set(series, 0, table->column[i].name, column);
+  }
+  return series;
+}
+
+/* [nodes x ribbons x frames] */
+static mxArray *new_film(size_t nodes, size_t ribbons, size_t frames) {
+  return mxCreateNumericArray(3, (mwSize[]){nodes, ribbons, frames}, mxDOUBLE_CLASS, mxREAL);
+}
+
+static void put_frame(mxArray *film, size_t frame, size_t nodes, size_t ribbons, const double *value) {
+  double *to = mxGetPr(film) + frame * nodes * ribbons;
+  for (size_t node = 0; node < nodes; node++)
+    for (size_t ribbon = 0; ribbon < ribbons; ribbon++)
+      to[ribbon * nodes + node] = value[node * ribbons + ribbon];
+}
+
+mxArray *shapes_struct(const ZpShapes *film) {
+  size_t n = film->nodes, ribbons = film->ribbons, frames = film->frames;
+  mxArray *time = new_matrix(frames, 1, NULL), *voltage = new_matrix(frames, 1, NULL);
+  mxArray *zipped = new_matrix(frames, 1, NULL);
+  mxArray *x = new_film(n, ribbons, frames), *y = new_film(n, ribbons, frames);
+  mxArray *gap = new_matrix(n, frames, NULL), *force = new_matrix(n, frames, NULL);
+  bool facing = false; /* another face, so that there is a gap */
+  for (size_t i = 0; i < frames; i++) {
+    ZpShape shape = zp_shapes_get(film, i);
+    mxGetPr(time)[i] = shape.time;
+    mxGetPr(voltage)[i] = shape.voltage;
+    mxGetPr(zipped)[i] = (double)shape.zipped;
+    put_frame(x, i, n, ribbons, shape.x);
+    put_frame(y, i, n, ribbons, shape.y);
+    facing = shape.gap && shape.line_force;
+    if (facing) put_frame(gap, i, n, 1, shape.gap);
+    if (facing) put_frame(force, i, n, 1, shape.line_force);
+  }
+  mxArray *shapes = new_struct();
+  set(shapes, 0, "time_s", time);
+  set(shapes, 0, "voltage_V", voltage);
+  set(shapes, 0, "zipped", zipped);
+  set(shapes, 0, "x_m", x);
+  set(shapes, 0, "y_m", y);
+  if (facing) set(shapes, 0, "gap_m", gap);
+  if (facing) set(shapes, 0, "line_force_N_per_m", force);
+  return shapes;
+}
+
+/* Rows go upwards, columns along the ribbons, as meshgrid has them. */
+static mxArray *map_struct(const ZpFieldMap *map) {
+  mxArray *field = new_struct();
+  set(field, 0, "x_m", new_matrix(map->ny, map->nx, map->x));
+  set(field, 0, "y_m", new_matrix(map->ny, map->nx, map->y));
+  set(field, 0, "potential_V", new_matrix(map->ny, map->nx, map->potential));
+  set(field, 0, "strength_V_per_m", new_matrix(map->ny - 1, map->nx - 1, map->strength));
+  set(field, 0, "permittivity", new_matrix(map->ny - 1, map->nx - 1, map->permittivity));
+  return field;
+}
+
+/* -- results ------------------------------------------------------------------------------------------- */
+
+static mxArray *warnings_cell(const ZpResult *result) {
+  mxArray *warnings = mxCreateCellMatrix(result->warnings, result->warnings > 0);
+  for (size_t i = 0; i < result->warnings; i++)
+    mxSetCell(warnings, i, mxCreateString(result->warning[i]));
+  return warnings;
+}
+
+/* frequency_1_Hz, ... together, as in summary.json; false if it is none of them. */
+static bool set_frequency(mxArray *structs, size_t index, const ZpScalar *scalar) {
+  static const char name[] = "frequencies_Hz";
+  int mode, end = 0;
+  if (sscanf(scalar->name, "frequency_%d_Hz%n", &mode, &end) != 1 || !end) return false;
+  const mxArray *before = mxGetField(structs, index, name);
+  size_t count = before ? mxGetNumberOfElements(before) : 0;
+  mxArray *all = new_matrix(count + 1, 1, NULL);
+  if (count) memcpy(mxGetPr(all), mxGetPr(before), count * sizeof(double));
+  mxGetPr(all)[count] = scalar->value;
+  set(structs, index, name, all);
+  return true;
+}
+
+void set_result(mxArray *structs, size_t index, const ZpResult *result, const ZpActuatorDef *def) {
+  set(structs, index, "study", mxCreateString(zp_key(zp_key_find("study"))->choices[result->study].word));
+  set(structs, index, "outcome", mxCreateString(zp_outcome_name(result->outcome)));
+  set(structs, index, "good", mxCreateLogicalScalar(zp_outcome_good(result->outcome)));
+  set(structs, index, "message", mxCreateString(result->message));
+  set(structs, index, "warnings", warnings_cell(result));
+  for (size_t i = 0; i < result->scalars; i++)
+    if (!set_frequency(structs, index, &result->scalar[i]))
+      set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));
+  if (result->series) set(structs, index, "series", series_struct(result->series));
+  if (result->shapes) set(structs, index, "shapes", shapes_struct(result->shapes));
+  if (result->map) set(structs, index, "field", map_struct(result->map));
+  set(structs, index, "definition", definition_struct(def));
+}

@@ -1,0 +1,81 @@
+% Stepping by hand: like a run, to and fro to the same bits.
+1;
+
+% All signals but the mean current since they were read last.
+function signals = seen(sim)
+  signals = rmfield(zipact('read', sim), 'current_A');
+end
+
+sim = zipact('open', 'mesh.nodes', 21);
+check(isa(sim, 'uint64') && isscalar(sim), 'a handle');
+check(zipact('read', sim).time_s == 0, 'the start');
+check(abs(zipact('step', sim, 1e-3) - 1e-3) < 1e-15, 'the time after a step');
+state = zipact('save', sim);
+check(isa(state, 'uint8'), 'a state');
+zipact('step', sim, '2 ms', '5 kV');
+there = seen(sim);
+check(there.voltage_V == 5000 && abs(there.time_s - 3e-3) < 1e-15, 'a step with a voltage');
+zipact('step', sim, 1e-3);
+check(zipact('read', sim).voltage_V == 5000, 'the voltage holds');
+
+check(zipact('restore', sim, state) == 1e-3, 'the time of a state');
+zipact('step', sim, 2e-3, 5e3);
+check(isequaln(seen(sim), there), 'on from a state, to the same bits');
+
+% another simulation of the same actuator; both live side by side
+other = zipact('open', 'mesh.nodes', 21);
+check(other ~= sim && zipact('read', other).time_s == 0, 'another simulation');
+zipact('restore', other, state);
+zipact('step', other, 2e-3, 5e3);
+check(isequaln(seen(other), there), 'on in another simulation');
+
+% the signals are those of a run; the shape is what they say
+run = zipact('actuate', 'mesh.nodes', 21, 'solver.end_time', '1 ms');
+check(isequal(fieldnames(run.series), fieldnames(zipact('read', other))), 'names of the signals');
+shape = zipact('shape', other);
+check(isequal(size(shape.y_m), [21 2]) && abs(shape.gap_m(end) - there.opening_m) < 1e-15, 'the shape');
+
+% closed ones are gone, the others stay
+zipact('close', sim);
+check(zipact('read', other).time_s == there.time_s, 'the other one is open');
+zipact('close', other);
+
+% cleared with simulations open: nothing is left, and an old handle is not taken for a new one
+old = zipact('open', 'mesh.nodes', 21);
+clear zipact_mex
+new = zipact('open', 'mesh.nodes', 21);
+try
+  zipact('read', old);
+  check(false, 'an old handle was taken');
+catch problem
+  check(strcmp(problem.identifier, 'zipact:input'), '%s', problem.message);
+end
+zipact('close', new);
+
+% many, closed in any order
+many = arrayfun(@(i) zipact('open', 'mesh.nodes', 21), 1:20);
+check(numel(unique(many)) == 20, 'handles differ');
+for i = randperm(20), zipact('close', many(i)); end
+
+% Ctrl-C stops a long call, and only this
+system(sprintf('(sleep 1; kill -INT %d) &', getpid()));
+try
+  zipact('actuate', 'solver.integrator', 'explicit', 'contact.model', 'sequential', 'drive.voltage', '2 kV', ...
+         'solver.end_time', 1000);
+  check(false, 'was not stopped');
+catch problem
+  check(strcmp(problem.identifier, 'zipact:interrupted'), '%s', problem.message);
+end
+
+% pictures of every study that has one
+graphics_toolkit('gnuplot');
+figure('visible', 'off');
+for study = {'stationary', 'equilibrium', 'isometric', 'profile', 'modes', 'actuate'}
+  clf();
+  zipact_plot(zipact(study{1}, 'mesh.nodes', 21));
+  lines = findobj(gca(), 'type', 'line');
+  check(numel(lines) >= 1 && numel(get(lines(1), 'xdata')) > 3, 'picture of %s', study{1});
+end
+close('all');
+
+disp('test_simulation: passed');

@@ -1,0 +1,109 @@
+% Every study: the command's numbers to the last bit, as structs.
+1;
+
+function path = scratch()
+  path = fullfile(pwd, 'scratch');
+  if ~exist(path, 'dir'), mkdir(path); end
+end
+
+% jsondecode of Octave 7 loses last bits of numbers, so these are read from the text.
+function [summary, names, rows] = command(arguments)
+  folder = fullfile(scratch(), 'out');
+  [~, text] = system(sprintf('"%s" %s -o "%s" --json --quiet', getenv('ZIPACT_COMMAND'), arguments, folder));
+  summary = jsondecode(text);
+  for number = regexp(text, '"(\w+)": (-?[\d.][\d.e+-]*)', 'tokens')
+    if isfield(summary, number{1}{1}), summary.(number{1}{1}) = str2double(number{1}{2}); end
+  end
+  lines = strsplit(strtrim(fileread(fullfile(folder, 'table.csv'))), "\n");
+  names = strsplit(lines{1}, ',');
+  cells = cellfun(@(line) strsplit(line, ',', 'CollapseDelimiters', false), lines(2:end), 'UniformOutput', false);
+  rows = str2double(vertcat(cells{:})); % an empty cell is NaN
+end
+
+function same_as_the_command(study, options, varargin)
+  [summary, names, rows] = command([study options]);
+  result = zipact(study, varargin{:});
+  check(strcmp(result.message, summary.message) && strcmp(result.outcome, summary.outcome), '%s: message', study);
+  check(isequal(fieldnames(result.series)', regexprep(names, '\W', '_')), '%s: columns', study);
+  columns = struct2cell(result.series);
+  check(isequaln([columns{:}], rows), '%s: rows', study);
+  told = 0;
+  for name = fieldnames(summary)'
+    theirs = summary.(name{1});
+    if any(strcmp(name{1}, {'wall_time_s', 'real_time_factor', 'version', 'warnings', 'outcome', 'message', 'frequencies_Hz'}))
+      continue
+    end
+    if isempty(theirs), theirs = NaN; end % null
+    if isnumeric(theirs) && isfield(result, name{1})
+      check(isequaln(theirs, result.(name{1})), '%s: %s', study, name{1});
+      told++;
+    end
+  end
+  check(told > 0 || strcmp(study, 'modes'), '%s: no number compared', study);
+end
+
+same_as_the_command('stationary', '');
+same_as_the_command('equilibrium', ' --set "load.mass=20 g" --set drive.voltage=6000', ...
+                    'load.mass', '20 g', 'drive.voltage', 6e3);
+same_as_the_command('isometric', ' --set "isometric.separation=3 mm"', 'isometric.separation', '3 mm');
+same_as_the_command('modes', ' --set mesh.nodes=21', 'mesh.nodes', int32(21));
+modes = zipact('modes', 'mesh.nodes', 21);
+check(isequal(modes.frequencies_Hz, modes.series.frequency_Hz), 'frequencies');
+same_as_the_command('profile', ' --set electro.model=field', 'electro.model', 'field');
+same_as_the_command('actuate', ' --set mesh.nodes=21', 'mesh.nodes', single(21));
+
+data = fullfile(fileparts(mfilename('fullpath')), '..', '..', 'examples');
+fit = fullfile(data, 'calibrate-modulus.yaml');
+same_as_the_command('calibrate', [' "' fit '"'], fit);
+
+% a file, a struct and pairs say the same, in this order
+file = fullfile(scratch(), 'mine.yaml');
+id = fopen(file, 'w');
+fputs(id, "study: stationary\nload.mass: 20 g\nmesh.nodes: 21\n");
+fclose(id);
+keys.load.mass = '20 g';
+keys.mesh.nodes = 21;
+ours = zipact('stationary', 'load.mass', 0.02, 'mesh.nodes', '21');
+check(isequaln(ours, zipact('run', file)), 'a file');
+check(isequaln(ours, zipact('stationary', keys)), 'a struct');
+check(isequaln(ours, zipact('run', ours.definition)), 'its own definition');
+check(ours.stroke_m > zipact('run', file, 'load.mass', '8 g').stroke_m, 'pairs after a file');
+
+% lists: the product, the last key of the table of keys fastest, as the command has it
+runs = zipact('stationary', 'mesh.nodes', [21 31], 'load.mass', {'8 g', 0.02});
+check(isequal(size(runs), [1 4]), 'size of a sweep');
+swept = arrayfun(@(r) [r.definition.load.mass r.definition.mesh.nodes], runs, 'UniformOutput', false);
+check(isequal(vertcat(swept{:}), [8e-3 21; 8e-3 31; 20e-3 21; 20e-3 31]), 'order of a sweep');
+check(runs(3).stroke_m == ours.stroke_m, 'a run of a sweep');
+check(isequal(fieldnames(zipact('stationary', 'load.mass', {0.02}).series), fieldnames(ours.series)), 'a list of one');
+
+% shapes: nodes x ribbons x frames
+moved = zipact('actuate', 'mesh.nodes', 21);
+shapes = moved.shapes;
+frames = numel(shapes.time_s);
+check(frames > 10 && isequal(size(shapes.y_m), [21 2 frames]) && isequal(size(shapes.gap_m), [21 frames]), 'shapes');
+gap = squeeze(shapes.y_m(:, 1, :) - shapes.y_m(:, 2, :));
+check(max(abs(gap(:) - shapes.gap_m(:))) < 1e-12, 'the gap is the distance of the ribbons');
+alone = zipact('stationary', 'actuator.kind', 'ribbon');
+check(size(alone.shapes.x_m, 2) == 1 && ~isfield(alone.shapes, 'gap_m'), 'one ribbon alone');
+
+% the map of the field: rows go upwards, columns along
+field = zipact('profile', 'electro.model', 'field').field;
+inside = all(all(diff(field.x_m, 1, 2) > 0));
+check(inside && isequal(size(field.strength_V_per_m), size(field.x_m) - 1), 'the map of the field');
+
+% keys, text keys, quotes
+keys = zipact('keys');
+mass = keys(strcmp({keys.name}, 'load.mass'));
+check(strcmp(mass.unit, 'kg') && mass.default == 8e-3 && mass.max == 1e3, 'the table of keys');
+study = keys(strcmp({keys.name}, 'study'));
+check(any(strcmp(study.choices, 'modes')) && strcmp(study.default, 'actuate'), 'words of a key');
+table = '0 ms = 0 kV, 1 ms = 2 kV';
+driven = zipact('actuate', 'drive.waveform', 'table', 'drive.table', table, 'solver.end_time', '2 ms', 'mesh.nodes', 21);
+check(strcmp(driven.definition.drive.table, table) && driven.series.voltage_V(end) == 2000, 'a text key');
+
+% what ended badly is returned, and says so
+short = zipact('actuate', 'mesh.nodes', 21, 'solver.max_steps', 3);
+check(~short.good && strcmp(short.outcome, 'step_limit'), 'a run that ended badly');
+
+disp('test_studies: passed');

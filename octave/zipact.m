@@ -1,0 +1,47 @@
+%ZIPACT  Simulation of electrostatic zipping actuators: studies, and stepping by hand.
+%
+%   RESULT = ZIPACT(STUDY, KEY, VALUE, ...) runs a study: stationary, equilibrium,
+%   isometric, profile, modes, actuate or calibrate.
+%
+%      rest = zipact('equilibrium', 'load.mass', '20 g', 'drive.voltage', 6e3)
+%      rest.release_voltage_V                      % a number of summary.json
+%      plot(rest.series.voltage_V, rest.series.opening_m)
+%
+%   Numbers are SI, texts take a unit. A vector or a cell of values runs them all:
+%   RESULT is then an array of structs, one for each combination.
+%
+%      all = zipact('isometric', 'drive.voltage', {'4 kV', '6 kV'}, 'load.mass', [8e-3 20e-3]);
+%      [all.force_N]
+%
+%   ZIPACT(STUDY, FILE, ...) takes a scenario file first, ZIPACT(STUDY, KEYS, ...) a struct:
+%   keys.load.mass = '20 g'. ZIPACT('run', FILE) runs the study that the file names.
+%
+%   Fields of RESULT: study, outcome, good (is it an answer?), message, warnings, the numbers
+%   of the study, and where there are any
+%      series      table.csv: a column vector for each column
+%      shapes      time_s, voltage_V, zipped, x_m and y_m [nodes x ribbons x frames], gap_m and
+%                  line_force_N_per_m [nodes x frames]
+%      field       the electric field of study profile, for contourf
+%      definition  all keys as they were: ZIPACT takes it again. ('auto': chosen by the library)
+%
+%   KEYS = ZIPACT('keys')           all keys: name, unit, default, min, max, choices, help
+%   TEXT = ZIPACT('version')
+%
+%   Stepping by hand:
+%      sim = zipact('open', KEY, VALUE, ...)       % or FILE, or a struct, as above
+%      time = zipact('step', sim, dt)              % s, or a text as '1 ms'
+%      time = zipact('step', sim, dt, voltage)     % V; holds from now on
+%      now = zipact('read', sim)                   % all signals: now.stroke_m ...
+%      shape = zipact('shape', sim)                % as in RESULT.shapes, one frame
+%      state = zipact('save', sim)                 % bytes; of use to the same actuator only
+%      time = zipact('restore', sim, state)        % goes on from there, to the same bits
+%      zipact('close', sim)
+%
+%   Errors are zipact:input (what you gave, and what would do), zipact:numerics (a step ended
+%   badly), zipact:machine (memory, files), zipact:interrupted (Ctrl-C). A study whose numerics
+%   end badly returns what it reached: look at RESULT.good.
+%
+%   See also ZIPACT_PLOT.
+function varargout = zipact(varargin)
+  varargout = zipact_mex(varargin{:});
+end

@@ -1,0 +1,42 @@
+%ZIPACT_PLOT  Draw what a study found into the current axes.
+%
+%   ZIPACT_PLOT(RESULT) draws the table of RESULT, as ZIPACT returns it: stroke over time,
+%   opening or force over voltage, force along the ribbons, frequencies; of study stationary
+%   the ribbons at rest. Of an array of results it draws each, as far as they have the same study.
+%
+%   See also ZIPACT.
+function zipact_plot(result)
+  if ~isstruct(result) || isempty(result) || ~isfield(result, 'series') || numel(unique({result.study})) > 1
+    error('zipact:input', 'zipact_plot: takes what zipact returned for a study');
+  end
+  [x, y, labels, style] = axes_of(result(1).study);
+  held = ishold();
+  for i = 1:numel(result)
+    plot(x(result(i).series), y(result(i).series), style);
+    hold('on');
+  end
+  if ~held, hold('off'); end
+  xlabel(labels{1});
+  ylabel(labels{2});
+  grid('on');
+end
+
+function [x, y, labels, style] = axes_of(study)
+  style = '-';
+  switch study
+    case 'actuate'
+      x = @(s) 1e3 * s.time_s;     y = @(s) 1e3 * s.stroke_m;     labels = {'time / ms', 'stroke / mm'};
+    case 'equilibrium'
+      x = @(s) 1e-3 * s.voltage_V; y = @(s) 1e3 * s.opening_m;    labels = {'voltage / kV', 'opening / mm'};
+    case 'isometric'
+      x = @(s) 1e-3 * s.voltage_V; y = @(s) s.force_N;            labels = {'voltage / kV', 'force / N'};
+    case 'profile'
+      x = @(s) 1e3 * s.x_m;        y = @(s) s.force_N_per_m;      labels = {'x / mm', 'force per length / (N/m)'};
+    case 'modes'
+      x = @(s) s.mode;             y = @(s) s.frequency_Hz;       labels = {'mode', 'frequency / Hz'}; style = 'o';
+    case 'stationary'
+      x = @(s) 1e3 * s.x_m;        y = @(s) 1e3 * s.y_m;          labels = {'x / mm', 'y / mm'};
+    otherwise
+      error('zipact:input', 'zipact_plot: no picture of study %s', study);
+  end
+end

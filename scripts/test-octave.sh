@@ -1,0 +1,23 @@
+#!/bin/sh
+# Builds the MEX function of octave/ into BUILD/octave, with all that goes with it, and tests it in Octave.
+#   scripts/test-octave.sh BUILD
+# BUILD is the build folder that has the libraries.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+build=$(cd "$1" && pwd)
+folder=$build/octave
+"$root/scripts/deps.sh" --octave
+
+mkdir -p "$folder"
+cp "$root"/octave/*.m "$folder"
+libraries=$(pkg-config --libs libfyaml udunits jansson hdf5-serial nlopt)
+cd "$folder"
+# shellcheck disable=SC2086
+CFLAGS="-std=c17 -D_GNU_SOURCE -O2 -fPIC -Wall -Wextra -Werror" mkoctfile --mex -o zipact_mex -I"$root/include" \
+  -Wl,--exclude-libs,ALL "$root"/octave/src/*.c "$build/libzipact-io.a" "$build/libzipact.a" $libraries -lm -lpthread
+rm -f ./*.o
+
+export ZIPACT_COMMAND="$build/zipact"
+for test in "$root"/octave/tests/test_*.m; do
+  octave-cli --no-init-file --no-history --path "$folder" --path "$root/octave/tests" --path "$root/octave/examples" "$test"
+done
