@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Tables of docs/validity.md, between its markers, and docs/images/validity-*.svg, from runs of examples/validity.
+"""Tables of docs/validity.md, between its markers, and docs/images/validity-*.svg, from runs of examples/validity and
+of examples/experiments.yaml.
 
 make-validity-page.py [--check] ZIPACT    with --check says whether the page is up to date, of what runs within seconds
 """
@@ -174,7 +175,35 @@ def chain_motion(runs):
     return curves
 
 
+READING = 0.15  # of what is read off the published plots
+SOFTER, STIFFER = 200 * 0.85, 200 * 1.15  # GPa: steel 5 % thinner or thicker bends as much more or less
+
+
+def experiments(runs):
+    """(thickness um, load g, measured mm, ours, range over the load's reading, range over stiffness) of each actuator."""
+    def ours(settings):
+        return [1e3 * row["fitted_m"] for row in runs.rows("../experiments", settings)]
+    with open(os.path.join(HOME, "examples", "data", "experiments-2018.csv"), newline="") as file:
+        loads = [float(row["load.mass_g"]) for row in csv.DictReader(line for line in file if line[0] != "#")]
+    shares = [ours({"load.share": 0.5 * (1 + sign * READING)}) for sign in (-1, 1)]
+    steels = [ours({"ribbon.young_modulus": f"{E} GPa"}) for E in (STIFFER, SOFTER)]
+    rows = runs.rows("../experiments")
+    return list(zip([1e6 * r["ribbon.thickness_m"] for r in rows], loads, [1e3 * r["measured_m"] for r in rows], ours(None),
+                    zip(*shares), zip(*steels)))
+
+
 # The page.
+
+
+def experiments_table(runs):
+    rows = []
+    for b, m, measured, ours, load, steel in experiments(runs):
+        low, high = measured * (1 - READING), measured * (1 + READING)
+        meet = "yes" if low <= ours <= high else "with the load" if load[0] <= high and low <= load[1] else "no"
+        rows.append([f"{b:g} µm", f"{m:g} g", f"{low:.3g} to {high:.3g} mm", f"{ours:.3g} mm", f"{load[0]:.3g} to {load[1]:.3g} mm",
+                     f"{steel[0]:.3g} to {steel[1]:.3g} mm", per_cent(off(ours, measured)), meet])
+    return table(["steel", "load", "measured, ±15 %", "ours", "load ±15 %", "steel 5 % thicker, thinner", "ours over measured",
+                  "within the error"], rows)
 
 
 def grid(curves, head, show):
@@ -216,18 +245,23 @@ def pull_in_table(runs):
     return table(["load", "voltage", "plates", "plates against field", "plates against plates with edges"], rows)
 
 
+def mm(value):
+    return f"{value:.3g} mm"
+
+
 def quick_sections(runs):
-    force, edges, strokes = field_force(runs), edges_force(runs), chain_strokes(runs)
-    mm = "{:.3g} mm".format
+    force, strokes = field_force(runs), chain_strokes(runs)
     yield "field-limits", limits(force, "plates against field, ribbons of 100 mm", mm, "not up to 78 mm")
     yield "field-force", grid(force, "opening", mm)
-    yield "edges-limits", limits(edges, "plates without edges", mm, "–")
-    yield "edges-force", grid(edges, "width", mm)
     yield "chain-limits", limits(strokes, "chain against rod", "stroke {:.2f} of the half length".format, "not up to 0.64")
     yield "chain-stroke", grid(strokes, "stroke / half length", "{:.3f}".format)
+    yield "experiments", experiments_table(runs)
 
 
 def slow_sections(runs):
+    edges = edges_force(runs)
+    yield "edges-limits", limits(edges, "plates without edges", mm, "–")
+    yield "edges-force", grid(edges, "width", mm)
     yield "field-pull-in", pull_in_table(runs)
     yield "contact-zip", zip_table(zip_times(runs))
     yield "contact-release", release_table(closed_lengths(runs))
@@ -254,7 +288,7 @@ def panel(title, x_label, y_label, curves, extra=""):
     for k, (label, points) in enumerate(curves.items()):
         blocks.append(f"$c{k} << EOD\n" + "\n".join(f"{x:.9g} {abs(y):.9g}" for x, y in points) + "\nEOD\n")
         plots.append(f"$c{k} using 1:2 with linespoints lw 2 pt {5 + 2 * (k % 6)} ps 0.6 lc rgb '{INK[k % len(INK)]}' title '{label}'")
-    return ("".join(blocks) + f"set title '{title}'\nset xlabel '{x_label}' offset 0, 0.7\nset ylabel '{y_label}'\n{extra}\nplot "
+    return ("".join(blocks) + f"set title '{title}'\nset xlabel '{x_label}' offset 0, 0.9\nset ylabel '{y_label}'\n{extra}\nplot "
             + ", ".join(plots) + "\n")
 
 
@@ -290,6 +324,22 @@ def pictures(runs):
               zip_times(runs), LOG.format(low=0.5, high=100) + "set logscale x\nset xrange [0.9:25]\nset xtics (1, 2, 5, 10, 20)\n"),
         panel("Closed length after the voltage fell from 10 kV", "voltage it fell to / kV", "closed length of one half / mm",
               closed_lengths(runs), "set xrange [0:2]\nset yrange [-2:50]\n")])
+    measured = "\n".join(f"{b} {y}" for b, _, y, *_ in experiments(runs))
+    ours = "\n".join(f"{b} {y} {low} {high}" for b, _, _, y, (low, high), _ in experiments(runs))
+    draw("validity-experiments", [
+        f"""$measured << EOD\n{measured}\nEOD\n$ours << EOD\n{ours}\nEOD
+set title 'Opening under the largest load'
+set xlabel 'thickness of the steel / µm' offset 0, 0.9
+set ylabel 'opening / mm'
+set logscale xy
+set format y '%g'
+set xrange [15:1400]
+set yrange [0.4:120]
+set xtics (20, 50, 100, 200, 500, 1000)
+set bars 1.5
+plot $measured using ($1*0.96):2:($2*{1 - READING}):($2*{1 + READING}) with yerrorbars lw 2 pt 7 ps 0.6 lc rgb '{INK[1]}' title 'measured, ±15 %', \\
+  $ours using ($1*1.04):2:3:4 with yerrorbars lw 2 pt 5 ps 0.6 lc rgb '{INK[0]}' title 'ours, nothing fitted; load ±15 %'
+"""])
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
               LOG.format(low=0.003, high=20) + "set xrange [0:0.7]\n"),
