@@ -8,7 +8,7 @@
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check python octave web check-web deps bench bench-tables format docs install clean
+.PHONY: all demo check python octave web check-web deps bench bench-tables format docs validity verification install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -46,6 +46,13 @@ bench-tables: $(BUILD)/zipact
 docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
+
+validity: $(BUILD)/zipact
+	scripts/make-validity-page.py $(BUILD)/zipact
+
+verification: deps $(BUILD)/CMakeCache.txt
+	@cmake --build $(BUILD) -j $(JOBS) -- --no-print-directory
+	scripts/make-verification-page.py $(BUILD)
 
 web:
 	scripts/web.sh

@@ -14,10 +14,22 @@
 
 #define LENGTH_OF(array) (sizeof(array) / sizeof((array)[0]))
 
+/* Where ZIPACT_CHECKS names a file, what a check compares, measures and allows is added there: docs/verification.md is
+ * made from these lines. */
+static inline void note_check(const char *place, const char *what, const char *against, double measured,
+                              double allowed) {
+  const char *name = getenv("ZIPACT_CHECKS");
+  FILE *file = name ? fopen(name, "a") : NULL;
+  if (!file) return;
+  fprintf(file, "%s\t%s\t%s\t%.17g\t%.17g\n", place, what, against, measured, allowed);
+  fclose(file);
+}
+
 /* |value - expected| <= tolerance |expected|, with a message that holds the numbers. */
 #define ck_near(value, expected, tolerance)                                                                            \
   do {                                                                                                                 \
     double near_value = (value), near_expected = (expected), near_tolerance = (tolerance);                             \
+    note_check(__func__, #value, #expected, fabs(near_value / near_expected - 1), near_tolerance);                     \
     ck_assert_msg(fabs(near_value - near_expected) <= near_tolerance * fabs(near_expected),                            \
                   "%s = %.10g, expected %.10g: off by %.2e, allowed %.2e", #value, near_value, near_expected,          \
                   fabs(near_value / near_expected - 1), near_tolerance);                                               \
@@ -27,6 +39,7 @@
 #define ck_below(value, limit)                                                                                         \
   do {                                                                                                                 \
     double below_value = (value), below_limit = (limit);                                                               \
+    note_check(__func__, #value, "", below_value, below_limit);                                                        \
     ck_assert_msg(below_value < below_limit, "%s = %.4g, must be below %.4g", #value, below_value, below_limit);       \
   } while (0)
 

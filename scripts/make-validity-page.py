@@ -1,0 +1,367 @@
+#!/usr/bin/env python3
+"""Tables of docs/validity.md, between its markers, and docs/images/validity-*.svg, from runs of examples/validity and
+of examples/experiments.yaml.
+
+make-validity-page.py [--check] ZIPACT    with --check says whether the page is up to date, of what runs within seconds
+"""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PAGE = os.path.join(HOME, "docs", "validity.md")
+SEQUENTIAL = {"contact.model": "sequential", "solver.integrator": "explicit"}
+LIMIT = 1  # per cent: where a simple model stops being good enough
+INK = ["#0b5fa5", "#c2410c", "#15803d", "#7c3aed", "#111827", "#db2777"]
+
+
+class Runs:
+    """Runs scenarios, each once, in a folder that goes when done."""
+
+    def __init__(self, zipact, folder):
+        self.zipact, self.folder, self.done = zipact, folder, {}
+
+    def folder_of(self, name, settings=None):
+        """Where the results of a scenario with these settings stand."""
+        words = [f"{key}={value}" for key, value in (settings or {}).items()]
+        key = " ".join([name, *words])
+        if key not in self.done:
+            out = os.path.join(self.folder, str(len(self.done)))
+            scenario = os.path.join(HOME, "examples", "validity", name + ".yaml")
+            sets = [part for word in words for part in ("--set", word)]
+            subprocess.run([self.zipact, "run", scenario, "-o", out, "--quiet", *sets], check=True)
+            self.done[key] = out
+        return self.done[key]
+
+    def rows(self, name, settings=None):
+        """Rows of table.csv, texts that are numbers as numbers; an empty cell is None."""
+        with open(os.path.join(self.folder_of(name, settings), "table.csv"), newline="") as file:
+            return [{k: number(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+    def summary(self, name, settings=None):
+        with open(os.path.join(self.folder_of(name, settings), "summary.json")) as file:
+            return json.load(file)
+
+    def compare(self, name, simple, value, keys, better=None):
+        """{values of keys: (simple, better)} of the column `value`, where both have one."""
+        pairs = {}
+        for a, b in zip(self.rows(name, simple), self.rows(name, better)):
+            at = tuple(a[k] for k in keys)
+            assert at == tuple(b[k] for k in keys)
+            if a[value] is not None and b[value] is not None:
+                pairs[at] = a[value], b[value]
+        return pairs
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text or None
+
+
+def off(simple, better):
+    """What the simple model is off, in per cent."""
+    return 100 * (simple / better - 1)
+
+
+def per_cent(value):
+    """Two digits, as many as the comparisons are worth; a dash where there is nothing to compare."""
+    if value is None:
+        return "–"
+    digits = max(0, 1 - math.floor(math.log10(abs(value)))) if value else 0
+    return f"{value:+.{min(digits, 4)}f} %".replace("-", "−")
+
+
+def crossing(points):
+    """Where |y| of points (x, y) last crosses LIMIT, by a power law between two points; None where it never does."""
+    found = None
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if (abs(y0) < LIMIT) != (abs(y1) < LIMIT):
+            share = math.log(LIMIT / abs(y0)) / math.log(abs(y1 / y0))
+            found = x0 * (x1 / x0) ** share
+    return found
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+# The comparisons: each gives curves {label: [(x, per cent)]}.
+
+
+def field_force(runs):
+    curves = {}
+    for row in runs.rows("field-force"):
+        label = f"insulator {1e6 * row['insulator.thickness_m']:g} µm"
+        curves.setdefault(label, []).append((1e3 * row["isometric.separation_m"], 100 * (1 / row["scale_factor"] - 1)))
+    return curves
+
+
+def edges_force(runs):
+    curves = {}
+    pairs = runs.compare("edges-force", None, "force_N", ("isometric.separation_m", "ribbon.width_m"),
+                         {"electro.edges": "true"})
+    for (opening, width), pair in pairs.items():
+        curves.setdefault(f"force, open {1e3 * opening:g} mm", []).append((1e3 * width, off(*pair)))
+    curves["pull-in voltage"] = [(width, off(*edges_pull_in(runs, width))) for width in (2, 5, 12.7, 25, 50, 100)]
+    return {label: sorted(points) for label, points in curves.items()}
+
+
+def edges_pull_in(runs, width):
+    """Pull-in voltage without and with lateral edges; the load, 8 g on 12.7 mm, grows with the width."""
+    actuator = {"ribbon.width": f"{width} mm", "load.mass": f"{8 * width / 12.7:.9g} g"}
+    return [runs.summary("edges-pull-in", {**actuator, "electro.edges": edges})["pull_in_voltage_V"] for edges in ("false", "true")]
+
+
+def zip_times(runs):
+    keys = "ribbon.thickness_m", "load.mass_kg"
+    pull_in = {tuple(r[k] for k in keys): r["pull_in_voltage_V"] for r in runs.rows("contact-pull-in")}
+    curves = {}
+    for (b, m, U), pair in runs.compare("contact-zip", SEQUENTIAL, "zip_time_s", (*keys, "drive.voltage_V")).items():
+        label = f"{1e6 * b:g} µm steel, {1e3 * m:g} g"
+        curves.setdefault(label, []).append((U / pull_in[b, m], off(*pair)))
+    return curves
+
+
+def closed_lengths(runs):
+    pairs = runs.compare("contact-release", SEQUENTIAL, "zipped_length_m", ("drive.offset_V",))
+    names = "sequential", "unilateral"
+    return {name: [(1e-3 * U, 1e3 * pair[k]) for (U,), pair in pairs.items()] for k, name in enumerate(names)}
+
+
+def chain_strokes(runs):
+    rod = runs.rows("chain-stroke")
+    finest = max(row["mesh.nodes"] for row in rod)
+    exact = {row["load.mass_kg"]: row["stroke_m"] for row in rod if row["mesh.nodes"] == finest}
+    chain = runs.rows("chain-stroke", {"ribbon.model": "mass_spring"})
+    curves = {}
+    for row in chain + rod:
+        m, nodes = row["load.mass_kg"], row["mesh.nodes"]
+        if row in chain and nodes < finest or nodes == 21:
+            label = f"N = {nodes:g}" if row in chain else f"rod, {nodes:g}"
+            curves.setdefault(label, []).append((exact[m] / 45e-3, off(row["stroke_m"], exact[m])))
+    return curves
+
+
+def frequency(rows):
+    """Crossings of the middle, upwards, per time."""
+    points = [(row["time_s"], row["stroke_m"]) for row in rows]
+    strokes = [y for _, y in points]
+    middle = (max(strokes) + min(strokes)) / 2
+    at = [t0 + (t1 - t0) * (middle - y0) / (y1 - y0) for (t0, y0), (t1, y1) in zip(points, points[1:]) if y0 < middle <= y1]
+    return (len(at) - 1) / (at[-1] - at[0])
+
+
+def chain_motion(runs):
+    chain = {"ribbon.model": "mass_spring"}
+    keys = "drive.voltage_V", "mesh.nodes"
+    rod = {tuple(r[k] for k in keys): r["zip_time_s"] for r in runs.rows("chain-zip")}
+    finest = max(nodes for _, nodes in rod)
+    curves = {}
+    for row in runs.rows("chain-zip", chain):
+        U, nodes = (row[k] for k in keys)
+        curves.setdefault(f"zip time, {1e-3 * U:g} kV", []).append((nodes, off(row["zip_time_s"], rod[U, finest])))
+    fine = {"mesh.nodes": 161, "solver.integrator": "implicit", "contact.model": "unilateral",
+            "damping.internal": "0 s", "solver.tolerance": 1e-6}
+    exact = frequency(runs.rows("chain-swing", fine))
+    curves["frequency"] = [(n, off(frequency(runs.rows("chain-swing", {**chain, "mesh.nodes": n})), exact))
+                           for n in (11, 21, 41)]
+    return curves
+
+
+READING = 0.15  # of what is read off the published plots
+SOFTER, STIFFER = 200 * 0.85, 200 * 1.15  # GPa: steel 5 % thinner or thicker bends as much more or less
+
+
+def experiments(runs):
+    """(thickness um, load g, measured mm, ours, range over the load's reading, range over stiffness) of each actuator."""
+    def ours(settings):
+        return [1e3 * row["fitted_m"] for row in runs.rows("../experiments", settings)]
+    with open(os.path.join(HOME, "examples", "data", "experiments-2018.csv"), newline="") as file:
+        loads = [float(row["load.mass_g"]) for row in csv.DictReader(line for line in file if line[0] != "#")]
+    shares = [ours({"load.share": 0.5 * (1 + sign * READING)}) for sign in (-1, 1)]
+    steels = [ours({"ribbon.young_modulus": f"{E} GPa"}) for E in (STIFFER, SOFTER)]
+    rows = runs.rows("../experiments")
+    return list(zip([1e6 * r["ribbon.thickness_m"] for r in rows], loads, [1e3 * r["measured_m"] for r in rows], ours(None),
+                    zip(*shares), zip(*steels)))
+
+
+# The page.
+
+
+def experiments_table(runs):
+    rows = []
+    for b, m, measured, ours, load, steel in experiments(runs):
+        low, high = measured * (1 - READING), measured * (1 + READING)
+        meet = "yes" if low <= ours <= high else "with the load" if load[0] <= high and low <= load[1] else "no"
+        rows.append([f"{b:g} µm", f"{m:g} g", f"{low:.3g} to {high:.3g} mm", f"{ours:.3g} mm", f"{load[0]:.3g} to {load[1]:.3g} mm",
+                     f"{steel[0]:.3g} to {steel[1]:.3g} mm", per_cent(off(ours, measured)), meet])
+    return table(["steel", "load", "measured, ±15 %", "ours", "load ±15 %", "steel 5 % thicker, thinner", "ours over measured",
+                  "within the error"], rows)
+
+
+def grid(curves, head, show):
+    """One row per x, one column per curve."""
+    xs = sorted({x for points in curves.values() for x, _ in points})
+    columns = [dict(points) for points in curves.values()]
+    return table([head, *curves], [[show(x), *(per_cent(column.get(x)) for column in columns)] for x in xs])
+
+
+def limits(curves, what, show, never):
+    """One row per curve: where it crosses LIMIT; `never` says what not crossing means."""
+    rows = []
+    for label, points in curves.items():
+        at = crossing(points)
+        rows.append([label, never if at is None else show(at)])
+    return table([what, "1 % at"], rows)
+
+
+def zip_table(curves):
+    rows = []
+    for label, points in curves.items():
+        rows.append([label, *(f"{per_cent(y)} at {x:.2f}" for x, y in (points[0], points[len(points) // 2], points[-1]))])
+    return table(["actuator", "lowest voltage", "middle", "highest"], rows)
+
+
+def release_table(curves):
+    rows = [[f"{U:g} kV", f"{a:g} mm", f"{b:g} mm"]
+            for (U, a), (_, b) in zip(curves["sequential"], curves["unilateral"])]
+    return table(["voltage falls to", "closed of 45 mm, sequential", "unilateral"], rows)
+
+
+def pull_in_table(runs):
+    rows = []
+    for a, b, c in zip(runs.rows("field-pull-in"), runs.rows("field-pull-in", {"electro.model": "field"}),
+                       runs.rows("field-pull-in", {"electro.edges": "true"})):
+        for name, key in ("pull-in", "pull_in_voltage_V"), ("release", "release_voltage_V"):
+            rows.append([f"{1e3 * a['load.mass_kg']:g} g", name, f"{a[key]:.0f} V", per_cent(off(a[key], b[key])),
+                         per_cent(off(a[key], c[key]))])
+    return table(["load", "voltage", "plates", "plates against field", "plates against plates with edges"], rows)
+
+
+def mm(value):
+    return f"{value:.3g} mm"
+
+
+def quick_sections(runs):
+    force, strokes = field_force(runs), chain_strokes(runs)
+    yield "field-limits", limits(force, "plates against field, ribbons of 100 mm", mm, "not up to 78 mm")
+    yield "field-force", grid(force, "opening", mm)
+    yield "chain-limits", limits(strokes, "chain against rod", "stroke {:.2f} of the half length".format, "not up to 0.64")
+    yield "chain-stroke", grid(strokes, "stroke / half length", "{:.3f}".format)
+    yield "experiments", experiments_table(runs)
+
+
+def slow_sections(runs):
+    edges = edges_force(runs)
+    yield "edges-limits", limits(edges, "plates without edges", mm, "–")
+    yield "edges-force", grid(edges, "width", mm)
+    yield "field-pull-in", pull_in_table(runs)
+    yield "contact-zip", zip_table(zip_times(runs))
+    yield "contact-release", release_table(closed_lengths(runs))
+    yield "chain-motion", grid(chain_motion(runs), "N", "{:g}".format)
+
+
+def markers(name):
+    return f"<!-- made: {name} -->\n", f"\n<!-- end: {name} -->"
+
+
+def part(page, name):
+    """Where a table stands in the page, without its markers."""
+    begin, end = markers(name)
+    start = page.index(begin) + len(begin)
+    return start, page.index(end, start)
+
+
+# The pictures.
+
+
+def panel(title, x_label, y_label, curves, extra=""):
+    """gnuplot text of one panel of a picture."""
+    blocks, plots = [], []
+    for k, (label, points) in enumerate(curves.items()):
+        blocks.append(f"$c{k} << EOD\n" + "\n".join(f"{x:.9g} {abs(y):.9g}" for x, y in points) + "\nEOD\n")
+        plots.append(f"$c{k} using 1:2 with linespoints lw 2 pt {5 + 2 * (k % 6)} ps 0.6 lc rgb '{INK[k % len(INK)]}' title '{label}'")
+    return ("".join(blocks) + f"set title '{title}'\nset xlabel '{x_label}' offset 0, 0.5\nset ylabel '{y_label}'\n{extra}\nplot "
+            + ", ".join(plots) + "\n")
+
+
+LOG = """set logscale y
+set format y '%g %%'
+set yrange [{low}:{high}]
+set object 1 rectangle from graph 0, first {low} to graph 1, first 1 fc rgb '#e6f4ea' fs solid noborder behind
+set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 2.5 lc rgb '#b91c1c'
+set label 1 '1 %' at graph 0.02, first 1 offset 0, 0.6 left tc rgb '#b91c1c'
+"""
+CLEAR = "unset logscale\nunset object 1\nunset arrow 1\nunset label 1\nset format y '%g'\nset xtics auto\n"
+
+
+def draw(name, panels):
+    script = (f"set terminal svg size 480,{390 * len(panels)} font 'sans,14' background '#ffffff'\n"
+              f"set output '{os.path.join(HOME, 'docs', 'images', name)}.svg'\n"
+              "set grid lc rgb '#d0d0d0'\nset border lc rgb '#404040'\nset key below samplen 2 maxrows 3 font ',13'\n"
+              "set tmargin 2.2\nset lmargin 11\n"
+              f"set multiplot layout {len(panels)},1\n" + CLEAR.join(panels) + "unset multiplot\n")
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+
+
+def pictures(runs):
+    widths = "set logscale x\nset xrange [2:100]\nset xtics (2, 5, 10, 20, 50, 100)\n"
+    nodes = "set logscale x\nset xrange [8:100]\nset xtics (11, 21, 41, 61, 81)\n"
+    draw("validity-plates", [
+        panel("Force: plates law against field", "opening of ribbons of 100 mm / mm", "difference", field_force(runs),
+              LOG.format(low=0.001, high=10) + "set logscale x\nset xrange [1:80]\nset xtics (1, 2, 5, 10, 20, 40, 80)\n"),
+        panel("Without lateral edges against with", "width of the ribbons / mm", "difference", edges_force(runs),
+              LOG.format(low=0.1, high=20) + widths)])
+    draw("validity-contact", [
+        panel("Zip time: sequential against unilateral", "voltage / static pull-in voltage", "difference",
+              zip_times(runs), LOG.format(low=0.5, high=100) + "set logscale x\nset xrange [0.9:25]\nset xtics (1, 2, 5, 10, 20)\n"),
+        panel("Closed length after the voltage fell from 10 kV", "voltage it fell to / kV", "closed length of one half / mm",
+              closed_lengths(runs), "set xrange [0:2]\nset yrange [-2:50]\n")])
+    ours = "\n".join(f"{b} {y / measured} {low / measured} {high / measured}"
+                     for b, _, measured, y, (low, high), _ in experiments(runs))
+    draw("validity-experiments", [f"""$ours << EOD\n{ours}\nEOD
+set title 'Opening under the largest load, nothing fitted'
+set xlabel 'thickness of the steel / µm' offset 0, 0.5
+set ylabel 'computed / measured'
+set logscale x
+set xrange [15:1400]
+set yrange [0.5:1.5]
+set xtics (20, 50, 100, 200, 500, 1000)
+set object 1 rectangle from graph 0, first {1 - READING} to graph 1, first {1 + READING} fc rgb '#e6f4ea' fs solid noborder behind
+set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 1.5 lc rgb '#15803d'
+set label 1 'measured, ±15 %' at graph 0.98, first {1 + READING} offset 0, -0.7 right tc rgb '#15803d'
+set bars 1.5
+plot $ours using 1:2:3:4 with yerrorbars lw 2 pt 5 ps 0.7 lc rgb '{INK[0]}' title 'computed, load ±15 %'
+"""])
+    draw("validity-chain", [
+        panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
+              LOG.format(low=0.003, high=20) + "set xrange [0:0.7]\n"),
+        panel("Motion: chain against rod, 8 g", "N, nodes per ribbon", "difference", chain_motion(runs),
+              LOG.format(low=0.03, high=20) + nodes)])
+
+
+def main():
+    check = sys.argv[1:2] == ["--check"]
+    with tempfile.TemporaryDirectory() as folder, open(PAGE, encoding="utf-8") as file:
+        page, runs = file.read(), Runs(sys.argv[-1], folder)
+        if check:
+            old = [name for name, text in quick_sections(runs) if page[slice(*part(page, name))] != text]
+            sys.exit(f"docs/validity.md is out of date ({', '.join(old)}): make validity" if old else print("1 passed, 0 failed"))
+        for sections in quick_sections, slow_sections:
+            for name, text in sections(runs):
+                start, end = part(page, name)
+                page = page[:start] + text + page[end:]
+        pictures(runs)
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(page)
+
+
+if __name__ == "__main__":
+    main()
