@@ -4,6 +4,7 @@
 #   scripts/deps.sh          build, run and check
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
+#   scripts/deps.sh --docs   also what makes the manual's HTML
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
 #   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
 set -eu
@@ -12,6 +13,7 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
  python3-matplotlib python3-pandas python3-pytest"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
+[ "${1:-}" = --docs ] && packages="$packages pandoc doxygen fonts-dejavu-extra"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 if [ "${1:-}" = --web ]; then
   packages="$packages clang lld wasi-libc libclang-rt-14-dev-wasm32 chromium"
