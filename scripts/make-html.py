@@ -35,7 +35,7 @@ class Links(html.parser.HTMLParser):
 
 def pandoc(text, title, place):
     command = ["pandoc", "-f", "gfm+tex_math_dollars", "-t", "html", "--mathml", "--standalone",
-               "--template", SITE / "page.html", "--lua-filter", SITE / "pages.lua",
+               "--template", SITE / "page.template", "--lua-filter", SITE / "pages.lua",
                "--metadata", "pagetitle=" + title, "--variable", "root=" + "../" * place.count("/")]
     return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
 
