@@ -48,6 +48,7 @@ docs: $(BUILD)/zipact
 	scripts/make-html.py $(BUILD)/docs/html
 
 check-docs:
+	scripts/deps.sh --browser
 	scripts/check-docs.sh $(BUILD)/docs/html
 
 web:

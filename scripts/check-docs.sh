@@ -51,6 +51,7 @@ async function all() {
 all();
 </script></body>""")
 PYTHON
+: >"$scratch/log"
 python3 -u -m http.server --bind 127.0.0.1 --directory "$scratch/root" 0 >"$scratch/log" 2>/dev/null &
 server=$!
 until port=$(sed -n 's/.* port \([0-9]*\) .*/\1/p' "$scratch/log") && [ -n "$port" ]; do sleep 0.1; done

@@ -37,7 +37,10 @@ def pandoc(text, title, place):
     command = ["pandoc", "-f", "gfm+tex_math_dollars", "-t", "html", "--mathml", "--standalone",
                "--template", SITE / "page.template", "--lua-filter", SITE / "pages.lua",
                "--metadata", "pagetitle=" + title, "--variable", "root=" + "../" * place.count("/")]
-    return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+    result = subprocess.run(command, input=text, capture_output=True, text=True, check=True)
+    if result.stderr:  # a formula that it cannot read is but a warning
+        sys.exit("%s: %s" % (place, result.stderr))
+    return result.stdout
 
 
 def title_of(markdown, place):
