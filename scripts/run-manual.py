@@ -3,8 +3,7 @@
 
     scripts/run-manual.py [--check] ZIPACT      with --check, says whether the numbers are up to date
 
-In the console blocks of PAGES, lines after "$ " are run one after the other, a page in one folder of its own beside
-examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
+In the console blocks of PAGES, what stands after "$ " (and "> ", where it goes on) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
 stands for what is left out. PICTURES are copied from the results.
 """
 
@@ -57,10 +56,10 @@ def renewed(shown, printed):
 
 def block(lines, folder):
     """A console block, run again."""
-    commands = [i for i, line in enumerate(lines) if line.startswith("$ ")]
-    for start, end in zip(commands, commands[1:] + [len(lines)]):
-        yield lines[start]
-        yield from renewed(lines[start + 1 : end], run(lines[start][2:], folder))
+    text = "\n".join(lines)
+    for command, shown in re.findall(r"^\$ (.*(?:\n> .*)*)((?:\n(?!\$ ).*)*)", text, re.M):
+        yield "$ " + command
+        yield from renewed(shown.splitlines()[1:], run(command.replace("\n> ", "\n"), folder))
 
 
 def page(text, folder):
