@@ -3,8 +3,8 @@
 
     scripts/make-html.py OUT      needs pandoc, doxygen and fonts-dejavu-extra (scripts/deps.sh --docs)
 
-It begins with docs/README.md and follows links: a Markdown page becomes an HTML page at the same place, a source a page
-that shows it, anything else is copied. The C API comes from Doxygen, in OUT/api.
+It begins with docs/README.md and follows links: a Markdown page becomes an HTML page at the same place, a source or a
+folder a page that shows it, anything else is copied. The C API comes from Doxygen, in OUT/api.
 """
 
 import html.parser
@@ -53,6 +53,13 @@ def source_page(place, source):
     return pandoc("# %s\n\n%s\n%s\n````\n" % (place, fence, source.read_text(encoding="utf-8")), place, place)
 
 
+def folder_page(place, folder):
+    """A page that lists the files of a folder of the repository."""
+    names = sorted(path.name for path in folder.iterdir() if path.is_file())
+    links = ["- [%s](%s/%s)\n" % (name, folder.name, name) for name in names]
+    return pandoc("# %s\n\n%s" % (place, "".join(links)), place, place)
+
+
 def make(place, out):
     """Write the file `place` below `out`; the places that it links to."""
     target = out / place
@@ -63,6 +70,8 @@ def make(place, out):
         page = pandoc(text, title_of(text, place), place)
     elif place.endswith(".html") and source.is_file():
         page = source_page(place.removesuffix(".html"), source)
+    elif place.endswith(".html") and source.is_dir():
+        page = folder_page(place.removesuffix(".html"), source)
     else:
         if (REPO / place).is_file():  # else it is a dead link, which check-docs.sh reports
             shutil.copyfile(REPO / place, target)

@@ -38,7 +38,7 @@ local function link(l)
   if extension == "md" then
     path = path:gsub("md$", "html")
   elseif not pictures[extension] then
-    path = path .. ".html" -- a source, shown on a page of its own
+    path = path .. ".html" -- a source or a folder, shown on a page of its own
   end
   l.target = path .. anchor
   return l
