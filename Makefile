@@ -3,12 +3,13 @@
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
+# make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ made anew; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check python octave web check-web deps bench bench-tables format docs validity verification install clean
+.PHONY: all demo check python octave web check-web deps bench bench-tables format docs check-docs validity verification install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -46,6 +47,13 @@ bench-tables: $(BUILD)/zipact
 docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
+	scripts/run-manual.py $(BUILD)/zipact
+	scripts/deps.sh --docs
+	scripts/make-html.py $(BUILD)/docs/html
+
+check-docs:
+	scripts/deps.sh --browser
+	scripts/check-docs.sh $(BUILD)/docs/html
 
 validity: $(BUILD)/zipact
 	scripts/make-validity-page.py $(BUILD)/zipact

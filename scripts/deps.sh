@@ -5,6 +5,7 @@
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --octave what the MEX function, its tests and pictures need
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
+#   scripts/deps.sh --docs   also what makes the manual's HTML
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
 #   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
 set -eu
@@ -14,6 +15,7 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
  python3-matplotlib python3-pandas python3-pytest"
 [ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
+[ "${1:-}" = --docs ] && packages="$packages pandoc doxygen fonts-dejavu-extra"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 if [ "${1:-}" = --web ]; then
   packages="$packages clang lld wasi-libc libclang-rt-14-dev-wasm32 chromium"

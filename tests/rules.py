@@ -310,6 +310,22 @@ def rule_map(repo, files):
         yield bool(re.search(r"(?<![\w])%s/" % folder, text)), "MAP.md:1", "src/%s/ is not mentioned" % folder
 
 
+def rule_equations_are_checked(repo, files):
+    """Each numbered equation of the theory is in its table of checks, and the tests named there exist."""
+    theory = read(repo, "docs/theory.md")
+    rows = re.findall(r"^\| (\d+)\.(\d+)(?: – \1\.(\d+))? \|(.*)$", theory, re.M)
+    listed = {(int(part), n) for part, first, last, _ in rows for n in range(int(first), int(last or first) + 1)}
+    for part, number in re.findall(r"\\tag\{(\d+)\.(\d+)\}", theory):
+        yield (int(part), int(number)) in listed, "docs/theory.md:1", "(%s.%s) is in no row of section 1.1" % (part, number)
+    tests = {os.path.basename(name)[:-2]: read(repo, name) for name in files if re.match(r"tests/test_\w+\.c$", name)}
+    for _, _, _, row in rows:
+        source = ""
+        for name in re.findall(r"`(\w+)`", row.split("|")[1]):
+            source = tests.get(name, source)
+            known = name in tests or "START_TEST(%s)" % name in source
+            yield known, "docs/theory.md:1", "there is no test %s" % name
+
+
 def functions_of(code):
     """(first line, last line, name) of each function body at file level."""
     position = 0
@@ -364,6 +380,7 @@ RULES = [
     rule_no_mutable_globals,
     rule_no_paths_of_this_machine,
     rule_map,
+    rule_equations_are_checked,
     rule_short_functions,
     rule_head_comment,
 ]

@@ -1,0 +1,79 @@
+#!/bin/sh
+# Looks at the manual as a reader would: all links of the Markdown and of the HTML arrive; in Chromium, wide and narrow,
+# nothing is cut off, formulas and pictures have a size, nothing comes from elsewhere.
+# Needs `make docs`, chromium (scripts/deps.sh --browser) and python3.
+#   check-docs.sh HTML [SHOTS]      with SHOTS, screenshots of the pages go to that folder
+set -eu
+site=$(cd "$1" && pwd) shots=${2:-}
+here=$(dirname "$0")
+scratch=$(mktemp -d)
+trap 'kill "$server" 2>/dev/null || true; rm -rf "$scratch"' EXIT
+browser() {
+  timeout 300 chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking \
+    --disable-component-update --disable-sync --hide-scrollbars --user-data-dir="$scratch/profile" "$@" 2>/dev/null
+}
+failed=0
+python3 "$here/check-links.py" "$here/.." "$site" || failed=1
+
+# One page of ours shows the manual's pages one by one in a frame, as no window is as narrow as a phone.
+mkdir "$scratch/root"
+ln -s "$site" "$scratch/root/manual"
+(cd "$site" && find . -name '*.html' ! -path './api/search/*' ! -name index.html | sort) >"$scratch/pages"
+python3 - "$scratch/pages" >"$scratch/root/look.html" <<'PYTHON'
+import json, sys
+print("<body style='margin:0'><pre id=found>nothing</pre><iframe id=frame height=900></iframe><script>const pages = %s;" %
+      json.dumps(open(sys.argv[1]).read().split()))
+print(r"""
+function look(view) {
+  const bad = [], wide = view.document.documentElement.clientWidth;
+  const scrolls = e => e && (/auto|scroll/.test(view.getComputedStyle(e).overflowX) || scrolls(e.parentElement));
+  for (const e of view.document.querySelectorAll("body *")) {
+    const box = e.getBoundingClientRect(), what = e.tagName + " " + e.textContent.trim().slice(0, 40);
+    if (box.width && box.right > wide + 1 && !scrolls(e)) bad.push("cut off: " + what);
+    if (e.tagName === "IMG" && e.complete && !e.naturalWidth) bad.push("no picture: " + e.src);
+    if (e.tagName === "math" && (box.width < 3 || box.height < 8)) bad.push("no size: " + what);
+    if (e.tagName === "merror" || e.classList.contains("math")) bad.push("formula not rendered: " + what);
+  }
+  for (const e of view.performance.getEntriesByType("resource"))
+    if (!e.name.startsWith(location.origin)) bad.push("loaded from elsewhere: " + e.name);
+  return bad;
+}
+async function all() {
+  const bad = [];
+  for (const page of pages) for (const width of [1280, 390]) {
+    frame.width = width;
+    await new Promise(done => { frame.onload = done; frame.src = "manual/" + page; });
+    await frame.contentDocument.fonts.ready;
+    bad.push(...look(frame.contentWindow).map(what => page + ", " + width + " px wide: " + what));
+  }
+  found.textContent = JSON.stringify({looked: 2 * pages.length, bad});
+}
+all();
+</script></body>""")
+PYTHON
+: >"$scratch/log"
+python3 -u -m http.server --bind 127.0.0.1 --directory "$scratch/root" 0 >"$scratch/log" 2>/dev/null &
+server=$!
+until port=$(sed -n 's/.* port \([0-9]*\) .*/\1/p' "$scratch/log") && [ -n "$port" ]; do sleep 0.1; done
+
+browser --window-size=1400,1000 --virtual-time-budget=120000 --dump-dom "http://127.0.0.1:$port/look.html" >"$scratch/dom"
+python3 - "$scratch/dom" <<'PYTHON' || failed=1
+import html, json, re, sys
+found = re.search(r'<pre id="found">(.*?)</pre>', open(sys.argv[1], encoding="utf-8").read(), re.S)
+if not found or found.group(1) == "nothing":
+    sys.exit("the pages did not load")
+found = json.loads(html.unescape(found.group(1)))
+print(*found["bad"], "pages: %d looked at, %d faults" % (found["looked"], len(found["bad"])), sep="\n")
+sys.exit(1 if found["bad"] or not found["looked"] else 0)
+PYTHON
+
+[ -z "$shots" ] || mkdir -p "$shots"
+for width in ${shots:+1280 390}; do
+  for page in README getting-started studies formats theory extending keys; do
+    printf '<body style="margin:0"><iframe src="manual/docs/%s.html" style="border:0" width="%d" height="6000"></iframe></body>' \
+      "$page" "$width" >"$scratch/root/shot.html"
+    browser --window-size="$width,6000" --screenshot="$shots/$page-$width.png" "http://127.0.0.1:$port/shot.html" >&2
+  done
+done
+[ "$failed" -eq 0 ] && echo "1 passed, 0 failed"
+exit "$failed"

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Runs every command of the manual and renews what the manual shows of it: numbers and pictures.
+
+    scripts/run-manual.py [--check] ZIPACT      with --check, says whether the numbers are up to date
+
+In the console blocks of PAGES, what stands after "$ " (and "> ", where it goes on) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
+stands for what is left out. PICTURES are copied from the results.
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
+PAGES = ["getting-started.md", "studies.md"]
+PICTURES = {
+    "stationary.svg": "stationary/plots/shape.svg",
+    "pull-in.svg": "equilibrium/plots/stroke.svg",
+    "calibrate.svg": "calibrate/plots/fit.svg",
+    "profile.svg": "profile/plots/profile.svg",
+    "field.svg": "profile/plots/field_tip.svg",
+    "isometric.svg": "isometric/plots/forces.svg",
+    "actuate.svg": "actuate/plots/stroke.svg",
+    "profiles.svg": "actuate/plots/profiles.svg",
+    "modes.svg": "modes/plots/modes.svg",
+    "reproduce.svg": "reproduce/plots/fig-8.svg",
+    "sweep.svg": "sweep/plots/contraction.svg",
+}
+
+
+def run(command, folder):
+    """What `command` prints; the manual shows no command that fails."""
+    result = subprocess.run(command, shell=True, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if result.returncode != 0:
+        sys.exit("%s\n%sexit status %d" % (command, result.stdout, result.returncode))
+    return result.stdout.splitlines()
+
+
+def renewed(shown, printed):
+    """The lines `shown`, as they are now among those `printed`."""
+    rest = iter(printed)
+    for line in shown:
+        if line == "...":
+            yield line
+            continue
+        first = line.split()[0]
+        found = next((new for new in rest if new.split()[:1] == [first]), None)
+        if found is None:
+            sys.exit("the manual shows a line that is not printed: " + line)
+        yield found.rstrip()
+
+
+def block(lines, folder):
+    """A console block, run again."""
+    text = "\n".join(lines)
+    for command, shown in re.findall(r"^\$ (.*(?:\n> .*)*)((?:\n(?!\$ ).*)*)", text, re.M):
+        yield "$ " + command
+        yield from renewed(shown.splitlines()[1:], run(command.replace("\n> ", "\n"), folder))
+
+
+def page(text, folder):
+    """The text of a page with all its console blocks run again."""
+    def again(match):
+        return match.group(1) + "\n".join(block(match.group(2).splitlines(), folder)) + "\n```"
+
+    return re.sub(r"(```console\n)(.*?)\n```", again, text, flags=re.S)
+
+
+def copy_pictures(results):
+    for name, source in PICTURES.items():
+        shutil.copyfile(results / source, DOCS / "images" / name)
+
+
+def main():
+    check = sys.argv[1:2] == ["--check"]
+    zipact = pathlib.Path(sys.argv[-1]).resolve()
+    os.environ["PATH"] = "%s:%s" % (zipact.parent, os.environ["PATH"])
+    old = []
+    with tempfile.TemporaryDirectory() as scratch:
+        shutil.copytree(DOCS.parent / "examples", scratch + "/examples")
+        for name in PAGES:
+            text = (DOCS / name).read_text(encoding="utf-8")
+            new = page(text, scratch)
+            old += [name] if new != text else []
+            if not check:
+                (DOCS / name).write_text(new, encoding="utf-8")
+        if not check:
+            copy_pictures(pathlib.Path(scratch) / "out")
+    if check and old:
+        sys.exit("out of date: %s: make docs" % ", ".join("docs/" + name for name in old))
+    if check:
+        print("%d passed, 0 failed" % len(PAGES))
+
+
+if __name__ == "__main__":
+    main()
