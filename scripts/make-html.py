@@ -94,6 +94,8 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     out = pathlib.Path(sys.argv[1]).resolve()
+    if out.exists() and not (out / "formulas.ttf").is_file():
+        sys.exit("%s: there is something else; not replaced" % out)
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     api(out)
