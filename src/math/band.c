@@ -172,34 +172,33 @@ ZP_INLINE bool factor_rows(ZpBand *band, size_t width) {
   return true;
 }
 
-ZP_INLINE void substitute_forward(const double *restrict row, size_t below, double *restrict b) {
-  double known = b[0];
-  ZP_SIMD
-  for (size_t i = 1; i <= below; i++)
-    b[i] -= row[i] * known;
-}
-
-/* In four sums, whatever the processor. */
-ZP_INLINE void substitute_back(const double *restrict row, size_t below, double *restrict b) {
+/* What `count` entries, `stride` apart, take off *b with the values `step` apart: in four sums, whatever the processor;
+ * the nearest value, found last, comes last, as the next row waits for it. */
+ZP_INLINE void substitute(const double *entry, ptrdiff_t stride, size_t count, ptrdiff_t step, double *b) {
   double sum[4] = {0};
-  for (size_t i = 1; i <= below; i++)
-    sum[i % 4] += row[i] * b[i];
-  b[0] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  for (size_t i = 3; i <= count; i++)
+    sum[i % 4] += entry[(ptrdiff_t)i * stride] * b[(ptrdiff_t)i * step];
+  double known = *b - ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+  if (count >= 2) known -= entry[2 * stride] * b[2 * step];
+  if (count >= 1) known -= entry[stride] * b[step];
+  *b = known;
 }
 
-ZP_INLINE void solve_rows(const ZpBand *band, size_t width, double *restrict b) {
+/* U' y = b, y / D, U x = y. */
+ZP_INLINE void solve_rows(const ZpBand *band, size_t width, double *b) {
   const double *a = band->a;
-  size_t n = band->n, full = n > width ? n - width : 0;
-  for (size_t k = 0; k < full; k++)
-    substitute_forward(a + k * width, width - 1, b + k);
-  for (size_t k = full; k < n; k++)
-    substitute_forward(a + k * width, least(width - 1, n - 1 - k), b + k);
+  size_t n = band->n, most = width - 1, ends = least(most, n);
+  ptrdiff_t column = 1 - (ptrdiff_t)width; /* from an entry to that above it */
+  for (size_t k = 0; k < ends; k++)
+    substitute(a + k * width, column, k, -1, b + k);
+  for (size_t k = ends; k < n; k++)
+    substitute(a + k * width, column, most, -1, b + k);
   for (size_t k = 0; k < n; k++)
     b[k] /= a[k * width];
-  for (size_t k = n; k-- > full;)
-    substitute_back(a + k * width, least(width - 1, n - 1 - k), b + k);
-  for (size_t k = full; k-- > 0;)
-    substitute_back(a + k * width, width - 1, b + k);
+  for (size_t k = n; k-- > n - ends;)
+    substitute(a + k * width, 1, n - 1 - k, 1, b + k);
+  for (size_t k = n - ends; k-- > 0;)
+    substitute(a + k * width, 1, most, 1, b + k);
 }
 
 /* The widths of one ribbon and of two are compiled on their own. */
