@@ -34,7 +34,8 @@ static const size_t real[] = {REAL(t),
 
 enum { REALS = sizeof real / sizeof real[0], BY_HAND = REALS, FRONT, PLATFORM, WAS_OPEN, ARRAYS };
 
-_Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == (REALS + 4) * sizeof(double), "a checkpoint holds all of a state");
+_Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == (REALS + 4) * sizeof(double),
+               "a checkpoint holds all of a state");
 
 ZpCheckpoint *zp_checkpoint_create(size_t count) {
   ZpCheckpoint *checkpoint = zp_calloc(1, sizeof *checkpoint);
