@@ -64,8 +64,8 @@ static ZpActuatorDef def_of(int which, double *cut, double *end) {
   case 4:
     return DEF(IMPLICIT, {"mesh.nodes", 21}, {"solver.time_step", 0.7e-3});
   case 5:
-    *cut = 71e-3;
-    *end = 74e-3;
+    *cut = 30e-3;
+    *end = 33e-3;
     return DEF(IMPLICIT, {"mesh.nodes", 21}, {"electro.model", ZP_ELECTRO_FIELD});
   default:
     return DEF(IMPLICIT, {"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 21}, {"initial.state", ZP_INITIAL_STRAIGHT});
