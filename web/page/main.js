@@ -93,7 +93,7 @@ const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'releas
 });
 
 function askStudies(values) {
-  const all = scenario.assignments(values);
+  const all = values;
   runStudy.ask(all);
   restStudy.ask(new Map([...all, ['drive.voltage', `${highest} V`]]));
 }
@@ -106,11 +106,11 @@ let history = new scenario.History(scenario.beginning);
 /** Make `values` the scenario of core, simulation and studies. If it is refused, that of history stays. */
 function apply(values) {
   const done = guarded(() => {
-    core.resolve(scenario.assignments(values));
+    core.resolve(values);
     live.change(voltage());
   });
   if (done) askStudies(values);
-  else core.resolve(scenario.assignments(history.present));
+  else core.resolve(history.present);
   show();
   return done;
 }
@@ -232,7 +232,7 @@ $('copy').addEventListener('click', ({target}) => copy(target, $('command').text
 
 // -- beginning: the scenario of the address; where that is refused, the page's own beside the refusal
 
-core.resolve(scenario.assignments(scenario.beginning));
+core.resolve(scenario.beginning);
 live.restart(0);
 if (apply(given.values)) {
   history = new scenario.History(given.values);

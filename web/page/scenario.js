@@ -1,11 +1,5 @@
 // The scenario of the page: which keys have sliders, presets, text for the command, the address after #, undo.
 
-/** What the page always says; the rest are the command's defaults. */
-export const always = [
-  ['solver.integrator', 'implicit'],
-  ['contact.model', 'unilateral'],
-];
-
 /** Where the page starts beyond the defaults. */
 export const beginning = new Map([['damping.internal', '1000 us']]);
 
@@ -31,11 +25,6 @@ export const presets = [
   {name: 'Too heavy', help: '30 g: it does not close', values: {'load.mass': '30 g'}},
   {name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
 ];
-
-/** Both as one Map of key => text, what the core takes. */
-export function assignments(values) {
-  return new Map([...always, ...values]);
-}
 
 const usualFactor = 10; // of slow motion
 

@@ -45,9 +45,9 @@ const fixedSteps = {
 
 for (const [name, changes] of Object.entries(fixedSteps)) {
   test(`fixed steps, native and WASM within 1e-9: ${name}`, () => {
-    const values = scenario.assignments(new Map(Object.entries({
+    const values = new Map(Object.entries({
       'solver.time_step': '200 us', 'solver.end_time': '60 ms', ...changes,
-    })));
+    }));
     const theirs = native('actuate', values), rows = table();
     const core = new Core(module);
     core.resolve(values);
@@ -66,7 +66,7 @@ for (const [name, changes] of Object.entries(fixedSteps)) {
 }
 
 test('the simulation that runs along ends where the study does, with fixed steps', () => {
-  const values = scenario.assignments(new Map([['solver.time_step', '200 us'], ['solver.end_time', '40 ms']]));
+  const values = new Map([['solver.time_step', '200 us'], ['solver.end_time', '40 ms']]);
   native('actuate', values);
   const rows = table(), core = new Core(module);
   core.resolve(values);
@@ -80,7 +80,7 @@ test('the simulation that runs along ends where the study does, with fixed steps
 });
 
 test('pull-in and release are those of the command', () => {
-  const values = scenario.assignments(scenario.beginning);
+  const values = scenario.beginning;
   const theirs = native('equilibrium', values), core = new Core(module);
   core.resolve(values);
   const {scalars} = core.study('equilibrium', ['pull_in_voltage_V', 'release_voltage_V']);
@@ -95,7 +95,7 @@ const refused = [
 
 for (const [key, text] of refused) {
   test(`refused in the command's words: ${key}=${text}`, () => {
-    const values = scenario.assignments(new Map([[key, text]]));
+    const values = new Map([[key, text]]);
     const {status, stderr} = spawnSync(command, ['actuate', ...settings(values), '-o', folder, '--quiet'], {encoding: 'utf8'});
     const core = new Core(module);
     if (status !== 2) assert.fail(`the command takes it: ${stderr}`);
@@ -109,8 +109,8 @@ for (const [key, text] of refused) {
 
 test('after a refusal the scenario is what it was', () => {
   const core = new Core(module);
-  core.resolve(scenario.assignments(new Map([['load.mass', '20 g']])));
-  assert.throws(() => core.resolve(scenario.assignments(new Map([['platform.length', '95 mm']]))), Refused);
+  core.resolve(new Map([['load.mass', '20 g']]));
+  assert.throws(() => core.resolve(new Map([['platform.length', '95 mm']])), Refused);
   assert.equal(core.value('load.mass'), 0.02);
 });
 
@@ -123,7 +123,7 @@ const leftOut = [
 for (const values of leftOut) {
   test(`what the page leaves out is refused: ${Object.keys(values)}`, () => {
     const core = new Core(module);
-    assert.throws(() => core.resolve(scenario.assignments(new Map(Object.entries(values)))), /this page/);
+    assert.throws(() => core.resolve(new Map(Object.entries(values))), /this page/);
   });
 }
 
@@ -138,7 +138,7 @@ test('the page has the keys of the command, with their ranges', () => {
 
 test('the command line that the page shows gives the page’s scenario', () => {
   const core = new Core(module);
-  core.resolve(scenario.assignments(new Map([...scenario.beginning, ['load.mass', '12.5 g'], ['ribbon.thickness', '60 um'], ['solver.time_step', '1 ms']])));
+  core.resolve(new Map([...scenario.beginning, ['load.mass', '12.5 g'], ['ribbon.thickness', '60 um'], ['solver.time_step', '1 ms']]));
   const words = [...scenario.toCommand(core).matchAll(/--set "([^"]*)"/g)].map((found) => found[1].split('='));
   native('actuate', new Map([...words, ['solver.end_time', '10 ms']]));
   const written = readFileSync(join(folder, 'scenario.yaml'), 'utf8');
@@ -150,21 +150,21 @@ test('the command line that the page shows gives the page’s scenario', () => {
 
 test('numbers that leave all bounds are said to, and the next scenario runs', () => {
   const core = new Core(module);
-  core.resolve(scenario.assignments(new Map([['drive.voltage', '1000 kV'], ['electro.breakdown_cap', 'false']])));
+  core.resolve(new Map([['drive.voltage', '1000 kV'], ['electro.breakdown_cap', 'false']]));
   core.start();
   assert.match(core.run(0.01), /no time step converges/);
-  core.resolve(scenario.assignments(new Map()));
+  core.resolve(new Map());
   core.start();
   assert.equal(core.run(0.01), null);
 });
 
 test('a change while it runs goes on from where it was', () => {
   const core = new Core(module);
-  core.resolve(scenario.assignments(scenario.beginning));
+  core.resolve(scenario.beginning);
   core.start();
   core.run(0.05);
   const before = {stroke: core.signal('stroke'), speed: core.signal('end_velocity')};
-  core.resolve(scenario.assignments(new Map([...scenario.beginning, ['load.mass', '20 g']])));
+  core.resolve(new Map([...scenario.beginning, ['load.mass', '20 g']]));
   core.start(true);
   assert.equal(core.signal('stroke'), before.stroke);
   assert.equal(core.signal('end_velocity'), before.speed);

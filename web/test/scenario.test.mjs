@@ -11,8 +11,8 @@ const module = new WebAssembly.Module(readFileSync(new URL('../build/zipact.wasm
 test('the address gives the scenario back', () => {
   const values = new Map([['load.mass', '8 g'], ['ribbon.plane', 'stress'], ['drive.voltage', '9.5 kV']]);
   const core = new Core(module), again = new Core(module), read = scenario.fromAddress(scenario.toAddress(values, 50));
-  core.resolve(scenario.assignments(values));
-  again.resolve(scenario.assignments(read.values));
+  core.resolve(values);
+  again.resolve(read.values);
   for (const name of core.keys.keys()) assert.ok(Object.is(core.value(name), again.value(name)), name);
   assert.equal(read.slow, 50);
 });
@@ -28,16 +28,16 @@ test('every slider stays within what the core allows, at both ends alone and tog
   const core = new Core(module);
   for (const {key, min, max} of scenario.sliders) {
     const unit = core.keys.get(key).shown;
-    for (const end of [min, max]) core.resolve(scenario.assignments(new Map([[key, `${end} ${unit}`.trim()]])));
+    for (const end of [min, max]) core.resolve(new Map([[key, `${end} ${unit}`.trim()]]));
   }
   for (const end of ['min', 'max'])
-    core.resolve(scenario.assignments(new Map(scenario.sliders.map((s) => [s.key, `${s[end]} ${core.keys.get(s.key).shown}`.trim()]))));
+    core.resolve(new Map(scenario.sliders.map((s) => [s.key, `${s[end]} ${core.keys.get(s.key).shown}`.trim()])));
 });
 
 test('every preset runs', () => {
   const core = new Core(module);
   for (const {name, values} of scenario.presets) {
-    core.resolve(scenario.assignments(new Map([...scenario.beginning, ...Object.entries(values)])));
+    core.resolve(new Map([...scenario.beginning, ...Object.entries(values)]));
     core.start();
     assert.equal(core.run(0.2), null, name);
   }
