@@ -52,6 +52,25 @@ static ZpStatus time_run(const ZpActuatorDef *def, double span, double *per_step
   return status;
 }
 
+/* (seconds of CPU time a step takes, simulated seconds of a step, when the measuring began) */
+static Row row_of(const char *name, int nodes, double per_step, double step, double start) {
+  return (Row){.name = name,
+               .nodes = nodes,
+               .ns_per_node_step = 1e9 * per_step / (2 * nodes),
+               .steps = 1 / step,
+               .seconds = per_step / step,
+               .cpu = motion_clock() - start,
+               .paper_ratio = NAN,
+               .error = NAN};
+}
+
+/* The same with the paper's mean step, beside its cost. */
+static Row row_beside_paper(const char *name, int nodes, double per_step, double start) {
+  Row row = row_of(name, nodes, per_step, paper_step(nodes), start);
+  row.paper_ratio = paper_cost(nodes) / row.seconds;
+  return row;
+}
+
 /* The whole step of preset paper-code with the field found anew in every step. */
 ZpStatus bench_paper_code(int nodes, Row *row, ZpError *err) {
   ZpAssignment list[4];
@@ -63,14 +82,7 @@ ZpStatus bench_paper_code(int nodes, Row *row, ZpError *err) {
   ZpStatus status = zp_def_resolve(&def, list, count, err);
   double per_step = NAN, own_step, start = motion_clock();
   if (status == ZP_OK) status = time_run(&def, 4e-3, &per_step, &own_step, err);
-  *row = (Row){.name = "explicit paper-code",
-               .nodes = nodes,
-               .ns_per_node_step = 1e9 * per_step / (2 * nodes),
-               .steps = 1 / paper_step(nodes),
-               .seconds = per_step / paper_step(nodes),
-               .cpu = motion_clock() - start,
-               .paper_ratio = paper_cost(nodes) / (per_step / paper_step(nodes)),
-               .error = NAN};
+  *row = row_beside_paper("explicit paper-code", nodes, per_step, start);
   return status;
 }
 
@@ -80,14 +92,7 @@ ZpStatus bench_explicit(int nodes, Row *row, ZpError *err) {
   double per_step = NAN, mean_step = NAN, start = motion_clock();
   ZpStatus status = motion_zip(nodes, false, &def, err);
   if (status == ZP_OK) status = time_run(&def, 4e-3, &per_step, &mean_step, err);
-  *row = (Row){.name = "explicit default actuator",
-               .nodes = nodes,
-               .ns_per_node_step = 1e9 * per_step / (2 * nodes),
-               .steps = 1 / mean_step,
-               .seconds = per_step / mean_step,
-               .cpu = motion_clock() - start,
-               .paper_ratio = NAN,
-               .error = NAN};
+  *row = row_of("explicit default actuator", nodes, per_step, mean_step, start);
   return status;
 }
 
@@ -104,14 +109,6 @@ ZpStatus bench_plain(int nodes, Row *row, ZpError *err) {
     }
     samples[k] = (motion_clock() - begin) / (double)steps;
   }
-  double per_step = median(samples);
-  *row = (Row){.name = "plain mechanics kernel",
-               .nodes = nodes,
-               .ns_per_node_step = 1e9 * per_step / (2 * nodes),
-               .steps = 1 / paper_step(nodes),
-               .seconds = per_step / paper_step(nodes),
-               .cpu = motion_clock() - start,
-               .paper_ratio = paper_cost(nodes) / (per_step / paper_step(nodes)),
-               .error = NAN};
+  *row = row_beside_paper("plain mechanics kernel", nodes, median(samples), start);
   return ZP_OK;
 }

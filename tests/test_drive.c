@@ -195,6 +195,23 @@ START_TEST(no_pulse_is_missed) {
 }
 END_TEST
 
+/* Found in review: a rise shorter than any step ended a run as one in which no step converges. */
+START_TEST(corners_within_no_time) {
+  static const double apart[] = {1e-14, 1e-12, 1e-11};
+  for (size_t i = 0; i < LENGTH_OF(apart); i++) {
+    ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
+    const double t[] = {0, apart[i], 1e-4, 1e-4 + apart[i]}, U[] = {0, 5e3, 5e3, 0};
+    ZpModel *model = model_with_table(&def, 4, t, U);
+    ZpSim *sim = sim_of(model);
+    ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, NULL), ZP_REACHED_END);
+    ck_assert_double_nan(zp_sim_zip_time(sim));
+    ck_assert_double_gt(zp_sim_get(sim, "opening"), 0.01);
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+}
+END_TEST
+
 /* |imbalance| and work at the end over the most that the source gave; runs that close nothing. */
 typedef struct Balance {
   double error, work, most;
@@ -575,6 +592,7 @@ int main(void) {
   tcase_add_test(waveforms, table_faults);
   tcase_add_test(runs, steps_end_at_corners);
   tcase_add_test(runs, no_pulse_is_missed);
+  tcase_add_test(runs, corners_within_no_time);
   tcase_add_test(runs, energy_balances);
   tcase_add_test(runs, work_is_integral_of_U_dQ);
   tcase_add_test(runs, account_closes_at_corners);

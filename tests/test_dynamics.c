@@ -551,14 +551,14 @@ static Zip zip(ZpActuatorDef def) {
 static void check_zip(const char *name, const Zip *zip) {
   printf("%s: %.3f ms, energy off by %.1e, faces overlap by %.2g um, %.3f of the work lost where they meet\n", name,
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
-  ck_below(zip->energy_error, 1e-4);
+  ck_below(zip->energy_error, 1e-5); /* 4e-6 of mass_spring, whose shear has no energy; 3e-7 of the others */
   ck_below(zip->overlap, 1e-6);
   ck_assert_double_gt(zip->contact_loss, 0.1);
   ck_assert_double_gt(zip->contraction, 0.99);
 }
 
-/* The default actuator: times agree between tolerances and between meshes. Measured: 75.62 ms, with a tolerance of 1e-6
- * 75.88 ms (0.35 %), at N = 121 75.59 ms (0.03 %); energy within 1.9e-7, 9e-9, 8.5e-7; overlap 0.08, 0.57, 0.31 um. */
+/* The default actuator: times agree between tolerances and between meshes. Measured: 75.65 ms, with a tolerance of 1e-6
+ * 75.88 ms (0.3 %), at N = 121 75.68 ms (0.03 %); energy within 1.2e-8, 2e-10, 3.2e-8; overlap 0.04, 0.37, 0.08 um. */
 START_TEST(test_zip_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -575,8 +575,8 @@ START_TEST(test_zip_time) {
 }
 END_TEST
 
-/* Steps of one length, lateral edges, drag: energy balances, too. Measured: 75.46 ms; with steps of 0.1 ms 75.53 ms;
- * edges pull harder, 73.29 ms; drag 124.2 ms; energy within 1.8e-6. */
+/* Steps of one length, lateral edges, drag: energy balances, too. Measured: 75.51 ms; with steps of 0.1 ms 75.52 ms;
+ * edges pull harder, 73.37 ms; drag 127.1 ms; energy within 3e-7. */
 START_TEST(test_zip_otherwise) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -608,8 +608,8 @@ START_TEST(test_zip_explicit) {
   def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
   Zip explicit = zip(def);
   printf("explicit: %.3f ms, energy off by %.1e\n", 1e3 * explicit.time, explicit.energy_error);
-  ck_near(explicit.time, implicit.time, 5e-3);
-  ck_below(explicit.energy_error, 1e-3);
+  ck_near(explicit.time, implicit.time, 2e-3);
+  ck_below(explicit.energy_error, 3e-4);
 }
 END_TEST
 
@@ -639,7 +639,7 @@ START_TEST(test_pull_in_in_motion) {
 END_TEST
 
 /* Plates are the most of the solved field; what it has beyond them is held between its solutions, which costs energy.
- * Measured: 75.63 ms, 0.22 % off plates; energy within 2e-4, a thousand times that of plates. */
+ * Measured: 75.66 ms, 0.2 % off plates; energy within 2e-4, far more than that of plates. */
 START_TEST(test_zip_by_field) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   double plates = zip(def).time;

@@ -315,10 +315,14 @@ static ZpStepLimit implicit_limit(const ZpSim *sim, bool corner, bool end) {
   return sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
 }
 
-/* No step at all: what a corner is away when rounding or a pulse has put it next to another. */
-static bool nothing_moves(double time) {
-  static const double shortest = 1e-13; /* s: a nanometre at the speed of sound */
-  return time < shortest;
+/* => length of the step, 0 if none was found. Of the shortest, where rounding, a pulse or a steep rise has put the
+ * next corner, only time takes notice. */
+static double advance_implicit(ZpSim *sim, double longest) {
+  static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
+  if (longest < shortest) return longest;
+  double taken = zp_dynamics_step(&sim->dynamics, sim->state, longest);
+  if (taken > 0 && sim->model->s == 2) sim->state->zip = touching(sim->model, sim->dynamics.plates1.gap);
+  return taken;
 }
 
 static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
@@ -328,7 +332,7 @@ static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   if (!state->by_hand) longest = fmin(left, zp_waveform_resolution(&model->waveform, state->t));
   double before = model->s == 2 ? opening(model, state) : 0;
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
-  double taken = nothing_moves(left) ? left : zp_dynamics_step(&sim->dynamics, state, longest);
+  double taken = advance_implicit(sim, longest);
   sim->stuck = !(taken > 0);
   if (sim->stuck) return;
   state->t = taken == left ? stop : state->t + taken;
@@ -336,7 +340,6 @@ static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->limited[implicit_limit(sim, state->t >= corner, state->t >= end_time)]++;
   follow_waveform(sim, state->t >= corner);
   if (model->s < 2) return;
-  state->zip = touching(model, sim->dynamics.plates1.gap);
   state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state))
     state->zip_time = zipped_at(model, state, before, taken);
