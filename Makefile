@@ -3,7 +3,7 @@
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
-# make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ made anew; make check-docs looks at it
+# make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build

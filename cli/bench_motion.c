@@ -45,7 +45,7 @@ ZpStatus bench_zip(int nodes, Row *row, ZpError *err) {
   return status;
 }
 
-/* It zips, is held, is let go and swings until a second is over. */
+/* It zips, is held, is released and swings until a second is over. */
 ZpStatus bench_use(int nodes, Row *row, ZpError *err) {
   static const double time[] = {0, 0.48, 0.48}, voltage[] = {10e3, 10e3, 0};
   static const ZpDriveTable table = {3, time, voltage};

@@ -71,7 +71,7 @@ static Row row_beside_paper(const char *name, int nodes, double per_step, double
   return row;
 }
 
-/* The whole step of preset paper-code with the field found anew in every step. */
+/* The whole step of preset paper-code with the field recomputed in every step. */
 ZpStatus bench_paper_code(int nodes, Row *row, ZpError *err) {
   ZpAssignment list[4];
   size_t count = 0;

@@ -10,7 +10,7 @@ static const char usage[] =
     "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--json] [--quiet]\n"
     "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
     "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
-    "zipact reproduce [-o DIR]           every table and figure of the paper beside ours\n"
+    "zipact reproduce [-o DIR]           the tables and figures of the paper beside our own\n"
     "zipact bench [--json]               speed on this machine\n"
     "zipact --version | --help | STUDY --help\n"
     "\n"
@@ -18,14 +18,15 @@ static const char usage[] =
 
 static const char study_usage[] =
     "\n"
-    "  SCENARIO.yaml     values for keys; without it, the defaults. A key with a list is swept\n"
-    "  --set KEY=VALUE   a value for a key, \"load.mass=20 g\"; wins over the file; may be repeated\n"
-    "  -o, --output DIR  folder for results; default out/STUDY\n"
-    "  --json            print the summary as JSON on standard output, and nothing else\n"
-    "  --quiet           no progress, no messages but errors\n"
+    "  SCENARIO.yaml     values of keys; keys not given keep their defaults. A list of values is a sweep\n"
+    "  --set KEY=VALUE   the value of a key, as in \"load.mass=20 g\"; overrides the file; may be repeated\n"
+    "  -o, --output DIR  folder of the results (default: out/STUDY)\n"
+    "  --json            print only the summary, as JSON, to standard output\n"
+    "  --quiet           no progress and no messages except errors\n"
     "\n"
-    "Values take units (\"130 um\", \"10 kV\", \"8 g\"); a bare number is SI. `zipact keys` lists the keys.\n"
-    "Exit status: 0 done; 1 the numerics ended badly; 2 wrong input; 3 the machine failed; 130 interrupted.\n";
+    "Values take units (\"130 um\", \"10 kV\", \"8 g\"); a number without a unit is in SI. `zipact keys` lists the "
+    "keys.\n"
+    "Exit status: 0 done; 1 the solver failed; 2 wrong input; 3 the machine failed; 130 interrupted.\n";
 
 void cli_notice(const char *message) {
   fprintf(stderr, "zipact: %s\n", message);
@@ -92,12 +93,12 @@ static int read_options(int argc, char **argv, const char **set, Options *option
       return EXIT_INPUT; /* getopt has said why */
   }
   if (optind < argc) options->scenario = argv[optind++];
-  return optind < argc ? fail_usage("one scenario at a time, not also ", argv[optind]) : EXIT_DONE;
+  return optind < argc ? fail_usage("only one scenario at a time; unexpected argument ", argv[optind]) : EXIT_DONE;
 }
 
 static int no_scenario_options(const char *word, const Options *o) {
-  if (o->scenario) return fail_usage("takes no scenario: ", word);
-  if (o->sets) return fail_usage("takes no --set: ", word);
+  if (o->scenario) return fail_usage("does not take a scenario: ", word);
+  if (o->sets) return fail_usage("does not take --set: ", word);
   return EXIT_DONE;
 }
 
@@ -105,20 +106,20 @@ static int dispatch(const char *word, const Options *o) {
   bool is_study = zp_key_choice(zp_key_find("study"), word) >= 0, is_run = strcmp(word, "run") == 0;
   if (is_study || is_run) {
     if (o->help) return print_study_help(word);
-    if (o->yaml) return fail_usage("--yaml goes with keys, not with ", word);
+    if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", word);
     if (is_run && !o->scenario) return fail_usage("run needs a scenario file", "");
     return cli_study(is_run ? NULL : word, o);
   }
   bool is_keys = strcmp(word, "keys") == 0, is_reproduce = strcmp(word, "reproduce") == 0;
-  if (!is_keys && !is_reproduce && strcmp(word, "bench") != 0) return fail_usage("no such study or command: ", word);
+  if (!is_keys && !is_reproduce && strcmp(word, "bench") != 0) return fail_usage("unknown study or command: ", word);
   if (o->help) {
     print_help();
     return EXIT_DONE;
   }
   int status = no_scenario_options(word, o);
   if (status != EXIT_DONE) return status;
-  if (o->yaml && !is_keys) return fail_usage("--yaml goes with keys, not with ", word);
-  if (o->directory && !is_reproduce) return fail_usage("takes no -o: ", word);
+  if (o->yaml && !is_keys) return fail_usage("--yaml is an option of keys, not of ", word);
+  if (o->directory && !is_reproduce) return fail_usage("does not take -o: ", word);
   return is_keys ? cli_keys(o) : is_reproduce ? cli_reproduce(o) : cli_bench(o);
 }
 

@@ -100,7 +100,7 @@ static ZpStatus run(const ZpModel *model, ZpShapes *film, Motion *motion, ZpErro
   motion->steps = (double)info.steps / end;
   zp_sim_destroy(sim);
   if (info.outcome == ZP_REACHED_END) return ZP_OK;
-  *err = (ZpError){.status = ZP_MACHINE, .message = "a run of the benchmark ended badly"};
+  *err = (ZpError){.status = ZP_MACHINE, .message = "a run of the benchmark failed"};
   return ZP_MACHINE;
 }
 

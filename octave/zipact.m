@@ -34,12 +34,12 @@
 %      now = zipact('read', sim)                   % all signals: now.stroke_m ...
 %      shape = zipact('shape', sim)                % as in RESULT.shapes, one frame
 %      state = zipact('save', sim)                 % bytes; of use to the same actuator only
-%      time = zipact('restore', sim, state)        % goes on from there, to the same bits
+%      time = zipact('restore', sim, state)        % resumes there, to the same bits
 %      zipact('close', sim)
 %
-%   Errors are zipact:input (what you gave, and what would do), zipact:numerics (a step ended
-%   badly), zipact:machine (memory, files), zipact:interrupted (Ctrl-C). A study whose numerics
-%   end badly returns what it reached: look at RESULT.good.
+%   Errors are zipact:input (what you gave, and what would do), zipact:numerics (the solver
+%   failed in a step), zipact:machine (memory, files), zipact:interrupted (Ctrl-C). A study whose solver
+%   fails returns what it reached: look at RESULT.good.
 %
 %   See also ZIPACT_PLOT.
 function varargout = zipact(varargin)

@@ -65,7 +65,7 @@ def number(text):
 
 
 def off(simple, better):
-    """What the simple model is off, in per cent."""
+    """Difference of the simple model from the better one, in per cent."""
     return 100 * (simple / better - 1)
 
 
@@ -179,17 +179,34 @@ READING = 0.15  # of what is read off the published plots
 SOFTER, STIFFER = 200 * 0.85, 200 * 1.15  # GPa: steel 5 % thinner or thicker bends as much more or less
 
 
+class Experiment:
+    """A published row beside ours: openings in mm, of ours also their ranges over the reading and the steel."""
+
+    def __init__(self, row, ours, by_load, by_steel):
+        self.plot, self.load, self.measured = row["plot"], float(row["load.mass_g"]), float(row["opening_mm"])
+        self.thickness, self.length, self.width = (float(row[f"ribbon.{key}"]) for key in ("thickness_um", "length_mm", "width_mm"))
+        self.ours, self.by_load, self.by_steel = ours, by_load, by_steel
+
+    def varied(self):
+        """What its plot varies."""
+        return f"{getattr(self, self.plot):g} {'µm' if self.plot == 'thickness' else 'mm'}"
+
+    def meets(self):
+        low, high = self.measured * (1 - READING), self.measured * (1 + READING)
+        if low <= self.ours <= high:
+            return "yes"
+        return "with the load" if self.by_load[0] <= high and low <= self.by_load[1] else "**no**"
+
+
 def experiments(runs):
-    """(thickness um, load g, measured mm, ours, range over the load's reading, range over stiffness) of each actuator."""
-    def ours(settings):
+    """All published rows, in the order of the data."""
+    def ours(settings=None):
         return [1e3 * row["fitted_m"] for row in runs.rows("../experiments", settings)]
     with open(os.path.join(HOME, "examples", "data", "experiments-2018.csv"), newline="") as file:
-        loads = [float(row["load.mass_g"]) for row in csv.DictReader(line for line in file if line[0] != "#")]
-    shares = [ours({"load.share": 0.5 * (1 + sign * READING)}) for sign in (-1, 1)]
+        rows = list(csv.DictReader(line for line in file if line[0] != "#"))
+    loads = [ours({"load.share": 0.5 * (1 + sign * READING)}) for sign in (-1, 1)]
     steels = [ours({"ribbon.young_modulus": f"{E} GPa"}) for E in (STIFFER, SOFTER)]
-    rows = runs.rows("../experiments")
-    return list(zip([1e6 * r["ribbon.thickness_m"] for r in rows], loads, [1e3 * r["measured_m"] for r in rows], ours(None),
-                    zip(*shares), zip(*steels)))
+    return [Experiment(*all_of) for all_of in zip(rows, ours(), zip(*loads), zip(*steels), strict=True)]
 
 
 # The page.
@@ -197,13 +214,12 @@ def experiments(runs):
 
 def experiments_table(runs):
     rows = []
-    for b, m, measured, ours, load, steel in experiments(runs):
-        low, high = measured * (1 - READING), measured * (1 + READING)
-        meet = "yes" if low <= ours <= high else "with the load" if load[0] <= high and low <= load[1] else "no"
-        rows.append([f"{b:g} µm", f"{m:g} g", f"{low:.3g} to {high:.3g} mm", f"{ours:.3g} mm", f"{load[0]:.3g} to {load[1]:.3g} mm",
-                     f"{steel[0]:.3g} to {steel[1]:.3g} mm", per_cent(off(ours, measured)), meet])
-    return table(["steel", "load", "measured, ±15 %", "ours", "load ±15 %", "steel 5 % thicker, thinner", "ours over measured",
-                  "within the error"], rows)
+    for e in experiments(runs):
+        ranges = [f"{low:.3g} to {high:.3g} mm" for low, high in (e.by_load, e.by_steel)]
+        rows.append([e.plot, f"{e.length:g} mm × {e.width:g} mm × {e.thickness:g} µm", f"{e.load:g} g", f"{e.measured:g} mm",
+                     f"{e.ours:.3g} mm", per_cent(off(e.ours, e.measured)), *ranges, e.meets()])
+    return table(["plot", "actuator", "load", "measured, ±15 %", "computed", "error", "load ±15 %", "steel 5 % thicker, thinner",
+                  "within the reading"], rows)
 
 
 def grid(curves, head, show):
@@ -311,6 +327,30 @@ def draw(name, panels):
     subprocess.run(["gnuplot"], input=script, text=True, check=True)
 
 
+def draw_experiments(found):
+    """Computed over measured, point by point, with a colour for each of the published plots."""
+    plots = list(dict.fromkeys(e.plot for e in found))
+    points = ["\n".join(f"{x} {e.ours / e.measured} {e.by_load[0] / e.measured} {e.by_load[1] / e.measured}"
+                        for x, e in enumerate(found) if e.plot == plot) for plot in plots]
+    blocks = "".join(f"$c{k} << EOD\n{text}\nEOD\n" for k, text in enumerate(points))
+    curves = ", ".join(f"$c{k} using 1:2:3:4 with yerrorbars lw 2 pt {5 + 2 * k} ps 0.7 lc rgb '{INK[k]}' title 'by {plot}'"
+                       for k, plot in enumerate(plots))
+    ticks = ", ".join(f"'{e.varied()}' {x}" for x, e in enumerate(found))
+    draw("validity-experiments", [blocks + f"""set title 'Opening under the largest load, nothing fitted'
+set ylabel 'computed / measured'
+set xrange [-0.8:{len(found) - 0.2}]
+set yrange [0.5:1.7]
+set xtics ({ticks}) rotate by 60 right
+set key maxrows 1
+set bmargin 6.5
+set object 1 rectangle from graph 0, first {1 - READING} to graph 1, first {1 + READING} fc rgb '#e6f4ea' fs solid noborder behind
+set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 1.5 lc rgb '#15803d'
+set label 1 'measured, ±15 %' at graph 0.98, first {1 - READING} offset 0, -0.7 right tc rgb '#15803d'
+set bars 1.5
+plot {curves}
+"""])
+
+
 def pictures(runs):
     widths = "set logscale x\nset xrange [2:100]\nset xtics (2, 5, 10, 20, 50, 100)\n"
     nodes = "set logscale x\nset xrange [8:100]\nset xtics (11, 21, 41, 61, 81)\n"
@@ -324,22 +364,7 @@ def pictures(runs):
               zip_times(runs), LOG.format(low=0.5, high=100) + "set logscale x\nset xrange [0.9:25]\nset xtics (1, 2, 5, 10, 20)\n"),
         panel("Closed length after the voltage fell from 10 kV", "voltage it fell to / kV", "closed length of one half / mm",
               closed_lengths(runs), "set xrange [0:2]\nset yrange [-2:50]\n")])
-    ours = "\n".join(f"{b} {y / measured} {low / measured} {high / measured}"
-                     for b, _, measured, y, (low, high), _ in experiments(runs))
-    draw("validity-experiments", [f"""$ours << EOD\n{ours}\nEOD
-set title 'Opening under the largest load, nothing fitted'
-set xlabel 'thickness of the steel / µm' offset 0, 0.5
-set ylabel 'computed / measured'
-set logscale x
-set xrange [15:1400]
-set yrange [0.5:1.5]
-set xtics (20, 50, 100, 200, 500, 1000)
-set object 1 rectangle from graph 0, first {1 - READING} to graph 1, first {1 + READING} fc rgb '#e6f4ea' fs solid noborder behind
-set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 1.5 lc rgb '#15803d'
-set label 1 'measured, ±15 %' at graph 0.98, first {1 + READING} offset 0, -0.7 right tc rgb '#15803d'
-set bars 1.5
-plot $ours using 1:2:3:4 with yerrorbars lw 2 pt 5 ps 0.7 lc rgb '{INK[0]}' title 'computed, load ±15 %'
-"""])
+    draw_experiments(experiments(runs))
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
               LOG.format(low=0.003, high=20) + "set xrange [0:0.7]\n"),

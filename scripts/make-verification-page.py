@@ -23,7 +23,7 @@ within a relative error of another, or for a number below a limit; "measured" is
 allowed. Where it was compared often, the comparison that came nearest to its limit is shown.
 
 Further tests compare bits, texts and files, refuse wrong input, let every allocation fail once, and fuzz the reader of scenarios: they pass or fail and have no
-number. Where the simple models leave the fuller ones stands in [validity](validity.md), what experiments say, [there](validity.md#experiments).
+number. Where the simple models deviate from the fuller ones is shown in [validity](validity.md), and so is [what experiments say](validity.md#experiments).
 
 | room | tests with numbers | comparisons |
 |---|---|---|

@@ -369,6 +369,41 @@ def rule_no_products(repo, files):
     yield not bad, ".gitignore:1", "%d ignored files are tracked, in %s" % (len(bad), " ".join(folders))
 
 
+def rule_readme_is_short(repo, files):
+    """The README fits on a screen and a half, and its first picture is the live page."""
+    text = read(repo, "README.md")
+    lines = text.count("\n")
+    yield lines <= 75, "README.md:%d" % lines, "%d lines, more than 75: docs/ is the home of the rest" % lines
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)]*)\)", text)
+    yield pictures[:1] == ["docs/images/live.png"], "README.md:1", "its first picture is not the live page"
+
+
+# Phrases over which native speakers stumble, and what to say instead.
+STUMBLING = {
+    r"(solved|found) anew": "re-solve, recompute",
+    r"(is|are) warned of": "prints a warning",
+    r"what it is off by": "its error",
+    r"\blet(s|ting)? go\b": "release, open again; unilateral contact",
+    r"that the insulator stands": "dielectric strength",
+    r"faces press and": "unilateral contact",
+    r"\bend(s|ed)? badly": "the solver failed",
+    r"takes? the very": "exactly the same",
+    r"\bno predictions?\b": "not a prediction",
+}
+READ_BY_USERS = ("README.md", "MAP.md", "docs/", "include/", "src/", "cli/", "web/", "python/", "octave/", "examples/", "bench/")
+
+
+def rule_plain_words(repo, files):
+    """Texts that users and maintainers read are plain English."""
+    for name in files:
+        if name.startswith(READ_BY_USERS) and name.endswith((".md", ".def", ".c", ".h", ".py", ".js", ".mjs", ".m", ".yaml", ".1")):
+            text = read(repo, name)
+            found = [(line_at(text, m.start()), " ".join(m.group(0).split()), instead)
+                     for phrase, instead in STUMBLING.items() for m in re.finditer(phrase.replace(" ", r"\s+"), text, re.I)]
+            yield not found, "%s:%d" % (name, found[0][0] if found else 1), "say it plainly: %s" % "; ".join(
+                "%d: %s (%s)" % each for each in found)
+
+
 RULES = [
     rule_no_products,
     rule_includes,
@@ -383,6 +418,8 @@ RULES = [
     rule_equations_are_checked,
     rule_short_functions,
     rule_head_comment,
+    rule_readme_is_short,
+    rule_plain_words,
 ]
 
 

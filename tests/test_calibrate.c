@@ -10,6 +10,7 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
+#include "elastica.h"
 #include "fit/reference.h"
 
 static void write_file(const char *path, const char *text) {
@@ -243,8 +244,8 @@ START_TEST(bad_input_is_refused) {
   refuse_file(good, "ribbon.width, ribbon.width", "named twice");
   refuse_file(good, "ribbon.width,", "unknown key");
   refuse_file("load_g,load.mass_g,stroke_mm\n8,9,2\n9,9,3\n", "load.mass", "cannot be fitted");
-  refuse_file("time_ms,stroke_mm\n2,2\n1,3\n", E, "bad.csv:3: times must rise");
-  refuse_file("time_ms,stroke_mm,load_g\n1,2,8\n2,3,8\n", E, "no key may change");
+  refuse_file("time_ms,stroke_mm\n2,2\n1,3\n", E, "bad.csv:3: times must not be negative");
+  refuse_file("time_ms,stroke_mm,load_g\n1,2,8\n2,3,8\n", E, "no key can change");
   refuse_file(good, "load.mass", "cannot be fitted");
   refuse_file(good, "mass_spring.shear_coefficient", "is auto");
   refuse_file(good, "damping.drag", "is 0");
@@ -295,7 +296,7 @@ START_TEST(area_error_of_stationary) {
   ck_assert(zp_result_get(result, "area_error_m2") < 1e-12);
   zp_result_destroy(result);
   write_file("shape.csv", "x_mm,y_mm\n1,2\n1,3\n");
-  refuse(&def, "x does not rise");
+  refuse(&def, "x must increase");
   write_file("shape.csv", "x_mm,height_mm\n1,2\n1,3\n");
   refuse(&def, "no column y_m");
 }
@@ -314,6 +315,38 @@ START_TEST(rows_of_different_actuators_are_compared) {
   ck_assert(zp_result_get(result, "residual_rms_m") < 1e-12);
   ck_assert_uint_eq(result->series->rows, 2);
   zp_result_destroy(result);
+}
+END_TEST
+
+/* Of the published experiments only those of thickness were compared, not the rows of length and width, three of which
+ * are far off. All rows are there, as they were read; weightless, ours is twice the guided elastica of half the length
+ * under half of the load. (Not so for 20 um, first: at p = 109 the oracle finds another branch.) */
+START_TEST(published_experiments_of_length_and_width_are_compared) {
+  static const struct {
+    double thickness, length, width, load, opening; /* um, mm, mm, g, mm */
+  } row[] = {{20, 100, 12.7, 15, 85},  {50, 100, 12.7, 30, 55},    {100, 100, 12.7, 50, 29},
+             {200, 100, 12.7, 100, 7}, {500, 100, 12.7, 500, 2.1}, {1000, 100, 12.7, 1200, 0.8},
+             {50, 10, 12.7, 290, 0.8}, {50, 20, 12.7, 110, 3},     {50, 50, 12.7, 43, 19},
+             {50, 100, 12.7, 30, 60},  {50, 200, 12.7, 9, 120},    {50, 100, 6, 7, 35},
+             {50, 100, 12.7, 30, 60},  {50, 100, 25, 40, 55}};
+  const size_t rows = sizeof row / sizeof row[0];
+  ZpScenario *scenario = zp_scenario_create();
+  ZpActuatorDef def = zp_actuator_def_default();
+  ck_assert_int_eq(zp_scenario_read(scenario, ZP_SOURCE_DIR "/examples/experiments.yaml", NULL), ZP_OK);
+  ck_assert_int_eq(zp_scenario_set(scenario, "ribbon.density=0", NULL), ZP_OK);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, NULL), ZP_OK);
+  ZpResult *result = fit(&def);
+  ck_assert_uint_eq(result->series->rows, rows);
+  for (size_t i = 0; i < rows; i++) {
+    const double half = 0.5e-3 * row[i].length, b = 1e-6 * row[i].thickness, w = 1e-3 * row[i].width;
+    const double EI = def.ribbon.young_modulus * w * b * b * b / 12;
+    const Elastica exact = elastica(0.5e-3 * row[i].load * def.gravity * half * half / EI, 0, true);
+    assert_near(zp_table_get(result->series, i, "measured_m"), 1e-3 * row[i].opening, 1e-12);
+    ck_assert(exact.found);
+    if (i > 0) assert_near(zp_table_get(result->series, i, "fitted_m"), 2 * half * exact.y, 1e-3);
+  }
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
 }
 END_TEST
 
@@ -410,6 +443,7 @@ int main(void) {
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, table_1_of_the_paper);
   tcase_add_test(fits, rows_of_different_actuators_are_compared);
+  tcase_add_test(fits, published_experiments_of_length_and_width_are_compared);
   tcase_add_test(fits, force_against_stroke);
   tcase_add_test(fits, held_force_data);
   tcase_add_test(fits, drag_is_found_from_a_swing);

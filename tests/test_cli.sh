@@ -172,7 +172,7 @@ refused() { # DESCRIPTION PATTERN ARGUMENT...: wrong input, said why, nothing wr
 }
 
 refused "no command" 'missing'
-refused "unknown study" 'no such study.*fly' fly -o refused
+refused "unknown study" 'unknown study.*fly' fly -o refused
 refused "unknown option" 'frobnicate' actuate --frobnicate -o refused
 refused "--set without a value" 'argument' actuate -o refused --set
 refused "two scenarios" 'defaults' actuate starter.yaml defaults/scenario.yaml -o refused
@@ -182,9 +182,9 @@ refused "keys with -o" 'keys' keys -o refused
 refused "keys twice" 'not both' keys --json --yaml
 refused "--yaml of a study" 'yaml' actuate --yaml -o refused
 refused "bench with --set" 'bench' bench --set load.mass=1
-refused "bench with -o" 'no -o.*bench' bench -o refused
-refused "reproduce with a scenario" 'no scenario.*reproduce' reproduce starter.yaml -o refused
-refused "reproduce with --set" 'no --set.*reproduce' reproduce --set load.mass=1 -o refused
+refused "bench with -o" 'not take -o.*bench' bench -o refused
+refused "reproduce with a scenario" 'not take a scenario.*reproduce' reproduce starter.yaml -o refused
+refused "reproduce with --set" 'not take --set.*reproduce' reproduce --set load.mass=1 -o refused
 refused "missing file" 'absent.yaml.*No such file' run absent.yaml -o refused
 refused "no =" 'KEY=VALUE' actuate --set load.mass -o refused
 refused "empty value" 'load\.mass.*give a value' actuate --set load.mass= -o refused

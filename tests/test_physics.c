@@ -193,7 +193,7 @@ START_TEST(test_drag_law) {
 }
 END_TEST
 
-/* A limp strand let go falls freely but for the drag: v = v_t tanh(g t / v_t), v_t = sqrt(m g / c). Its clamp
+/* A limp strand, released, falls freely but for the drag: v = v_t tanh(g t / v_t), v_t = sqrt(m g / c). Its clamp
  * holds the first node only while angles are small. */
 START_TEST(test_terminal_velocity) {
   const double c = 10, v_t = sqrt(mu * 45e-3 / 21 * g / c);
@@ -217,7 +217,7 @@ START_TEST(test_terminal_velocity) {
 }
 END_TEST
 
-/* A cantilever let go from straight: its free end falls freely until the clamp is felt there. Its first
+/* A cantilever released from straight: its free end falls freely until the clamp is felt there. Its first
  * period is 48 ms; measured: 4e-5 off after 0.5 ms, most of it the step's n (n + 1) for n^2. */
 START_TEST(test_free_fall) {
   ZpActuatorDef def = strand(NAN, 0);
@@ -253,7 +253,7 @@ static double crossing_frequency(const ZpTable *series, double level) {
   return (count - 1) / (last - first);
 }
 
-/* A ribbon let go from straight swings about its rest in its first mode, mostly. */
+/* A ribbon released from straight swings about its rest in its first mode, mostly. */
 static double frequency(int nodes) {
   ZpActuatorDef def =
       DEF(PAPER_MOTION, {"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.length", 45e-3}, {"ribbon.plane", ZP_PLANE_STRESS},

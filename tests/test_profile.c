@@ -419,10 +419,10 @@ START_TEST(test_refusals) {
   refused(bad, "insulator.thickness = 1e-08 m", "1e-06 m");
   bad = def;
   bad.electro.insulator_offset = 0;
-  refused(bad, "electro.insulator_offset = 0 m", "no bound");
+  refused(bad, "electro.insulator_offset = 0 m", "infinite");
   bad = def;
   bad.electro.edges = true;
-  refused(bad, "electro.edges = true", "know no edges");
+  refused(bad, "electro.edges = true", "without lateral edges");
   bad = def;
   bad.medium.permittivity = 0.5;
   refused(bad, "medium.permittivity = 0.5", "out of range");

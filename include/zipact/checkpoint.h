@@ -1,7 +1,7 @@
-/* Where a run stood, so that it can go on from there: in memory; as a file, see io.h.
+/* The state of a run, from which it can be resumed: in memory; as a file, see io.h.
  *
- * A run that goes on from a checkpoint takes the very steps that it would have taken without a break, to the same
- * bits. So that this holds, the checkpoint of a run that its end time has cut is the state before that last, cut step.
+ * A resumed run takes exactly the same steps as an uninterrupted one, to the last bit. For this reason, the checkpoint
+ * of a run that its end time has cut short is the state before that last, shortened step.
  */
 #ifndef ZIPACT_CHECKPOINT_H
 #define ZIPACT_CHECKPOINT_H

@@ -48,7 +48,7 @@ double zp_published(ZpQuantity quantity, int nodes, double load);
 
 /* Reproduce the paper: run its scenarios into `directory`/runs, compare, and write report.html, comparison.csv,
  * summary.json and plots/ there. `hooks` and `notice` (see zp_report_write) may be NULL. *outcome: ZP_CONVERGED,
- * ZP_INTERRUPTED with the page of what was done, or the first that ended badly. `summary`, unless NULL, gets what
+ * ZP_INTERRUPTED with the page of what was done, or the first that failed. `summary`, unless NULL, gets what
  * summary.json holds. */
 ZpStatus zp_reproduce(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message), FILE *summary,
                       ZpOutcome *outcome, ZpError *err);

@@ -13,7 +13,7 @@ extern "C" {
 
 typedef struct ZpSim ZpSim;
 
-/* How the numerics ended. */
+/* How the solver ended. */
 typedef enum ZpOutcome {
   ZP_REACHED_END, /* "end_time": the time asked for was reached */
   ZP_ZIPPED,      /* "zipped": the actuator has closed */
@@ -29,7 +29,7 @@ typedef enum ZpOutcome {
 /* The word for an outcome, as in summary.json. */
 const char *zp_outcome_name(ZpOutcome outcome);
 
-/* True if the outcome is an answer, false if the numerics ended badly (or were interrupted). */
+/* True if the outcome is an answer, false if the solver failed (or was interrupted). */
 bool zp_outcome_good(ZpOutcome outcome);
 
 /* What the caller may want to know and say while a long call works. All may be NULL. */

@@ -79,7 +79,7 @@ mxArray *simulation_step(int count, const mxArray *const *value) {
   double voltage = count > 2 ? quantity_of("drive.voltage", "voltage", value[2]) : 0;
   ZpRunInfo info = {0};
   ZpError err;
-  if (simulation->ended) fail_numerics("the simulation has diverged; restore a state to go on");
+  if (simulation->ended) fail_numerics("the simulation has diverged; restore a state to continue");
   if (count > 2 && zp_sim_set_voltage(simulation->sim, voltage, &err) != ZP_OK) fail(&err);
   watch_begin();
   ZpOutcome outcome = zp_sim_step(simulation->sim, dt, &watch_hooks, &info);

@@ -128,7 +128,8 @@ static mxArray *answer(const char *name, int count, const mxArray *const *value)
   for (size_t i = 0; i < sizeof command / sizeof *command; i++)
     if (strcmp(name, command[i].name) == 0) return command[i].answer(count, value);
   if (zp_key_choice(zp_key_find("study"), name) >= 0) return run_study(name, count, value);
-  fail_input("%.80s: no study and none of run, keys, version, open, step, read, shape, save, restore, close", name);
+  fail_input("%.80s: neither a study nor one of run, keys, version, open, step, read, shape, save, restore, close",
+             name);
 }
 
 void mexFunction(int outputs, mxArray *output[], int inputs, const mxArray *input[]) {

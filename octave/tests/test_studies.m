@@ -102,8 +102,8 @@ table = '0 ms = 0 kV, 1 ms = 2 kV';
 driven = zipact('actuate', 'drive.waveform', 'table', 'drive.table', table, 'solver.end_time', '2 ms', 'mesh.nodes', 21);
 check(strcmp(driven.definition.drive.table, table) && driven.series.voltage_V(end) == 2000, 'a text key');
 
-% what ended badly is returned, and says so
+% what failed is returned, and says so
 short = zipact('actuate', 'mesh.nodes', 21, 'solver.max_steps', 3);
-check(~short.good && strcmp(short.outcome, 'step_limit'), 'a run that ended badly');
+check(~short.good && strcmp(short.outcome, 'step_limit'), 'a run that failed');
 
 disp('test_studies: passed');

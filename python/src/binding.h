@@ -51,7 +51,7 @@ typedef struct Watch {
   bool failed;        /* an exception is set: the result of the call does not count */
 } Watch;
 
-/* Let go of the interpreter, and take it again. Between the two no Python object may be touched. */
+/* Release the interpreter, and take it again. Between the two no Python object may be touched. */
 void watch_begin(Watch *watch, PyObject *progress);
 void watch_end(Watch *watch);
 ZpHooks watch_hooks(Watch *watch);

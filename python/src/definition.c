@@ -157,7 +157,7 @@ static int take_drive(Definition *self, PyObject *drive) {
   if (rows != others)
     raise_input(self->state, "drive: %zu times, but %zu voltages", rows, others);
   else if (self->def.initial.state == ZP_INITIAL_CHECKPOINT)
-    raise_input(self->state, "initial.state = checkpoint: goes with drive.table and drive.file, not with arrays");
+    raise_input(self->state, "initial.state = checkpoint: requires drive.table or drive.file instead of arrays");
   else if (fault)
     raise_input(self->state, "drive: row %zu: %s", row + 1, fault);
   return PyErr_Occurred() ? -1 : 0;

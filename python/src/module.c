@@ -37,7 +37,7 @@ const char *text_of(const State *state, PyObject *text, const char *what) {
   const char *words = PyUnicode_Check(text) ? PyUnicode_AsUTF8AndSize(text, &size) : NULL;
   if (words && strlen(words) == (size_t)size) return words;
   PyErr_Clear();
-  raise_input(state, "%s: not a text, or one with characters that no text has", what);
+  raise_input(state, "%s: not a text, or a text with invalid characters", what);
   return NULL;
 }
 
@@ -123,14 +123,14 @@ static PyObject *add_exception(PyObject *module, const char *name, const char *h
 }
 
 static int add_exceptions(PyObject *module, State *state) {
-  state->error = add_exception(module, "zipact.Error", "Whatever zipact raises.", PyExc_Exception, NULL);
+  state->error = add_exception(module, "zipact.Error", "The base of all errors of zipact.", PyExc_Exception, NULL);
   if (!state->error) return -1;
   state->input_error = add_exception(module, "zipact.InputError", "A value, key, unit, file or argument is wrong.",
                                      state->error, PyExc_ValueError);
   state->machine_error = add_exception(module, "zipact.MachineError", "No memory, no permission, a disk is full.",
                                        state->error, PyExc_RuntimeError);
-  state->numerics_error = add_exception(module, "zipact.NumericsError", "The numerics of a step ended badly.",
-                                        state->error, PyExc_ArithmeticError);
+  state->numerics_error = add_exception(module, "zipact.NumericsError", "The solver failed in a step.", state->error,
+                                        PyExc_ArithmeticError);
   return state->input_error && state->machine_error && state->numerics_error ? 0 : -1;
 }
 

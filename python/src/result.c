@@ -169,10 +169,10 @@ static PyObject *result_save(PyObject *object, PyObject *args) {
 
 static PyGetSetDef getters[] = {
     {"study", get_study, NULL, "Its word.", NULL},
-    {"outcome", get_outcome, NULL, "How the numerics ended: a word.", NULL},
+    {"outcome", get_outcome, NULL, "How the solver ended: a word.", NULL},
     {"good", get_good, NULL, "Whether the outcome is an answer.", NULL},
     {"message", get_message, NULL, "One sentence on how it ended.", NULL},
-    {"warnings", get_warnings, NULL, "Sentences on limits of validity that were met.", NULL},
+    {"warnings", get_warnings, NULL, "Sentences on limits of validity that were reached.", NULL},
     {"scalars", get_scalars, NULL, "(name, unit, value, follows from wall time) of each number.", NULL},
     {"series", get_series, NULL, "((name, unit, help) of each column, rows), or None.", NULL},
     {"shapes", get_shapes, NULL, "Arrays of a film of shapes, or None.", NULL},

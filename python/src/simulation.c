@@ -71,7 +71,7 @@ static void simulation_dealloc(PyObject *object) {
 
 static int refuse_busy(const Simulation *self) {
   if (!self->busy) return 0;
-  raise_input(self->state, "the simulation is stepping, in another thread or in the call that this comes from");
+  raise_input(self->state, "the simulation is already stepping, in another thread or in the call that led here");
   return -1;
 }
 
@@ -137,7 +137,7 @@ static PyObject *simulation_step(PyObject *object, PyObject *const *args, Py_ssi
     return NULL;
   if (refuse_busy(self)) return NULL; /* not before: to become a number, dt may have run code of its own */
   if (!self->ended) return step(self, dt, voltage);
-  PyErr_SetString(self->state->numerics_error, "the simulation has diverged; restore a state to go on");
+  PyErr_SetString(self->state->numerics_error, "the simulation has diverged; restore a state to continue");
   return NULL;
 }
 
@@ -233,13 +233,13 @@ static PyMethodDef methods[] = {
     {"step", (PyCFunction)(void (*)(void))simulation_step, METH_FASTCALL | METH_KEYWORDS,
      "step(dt, voltage=None)\n--\n\n"
      "Advance by dt: s, or a text with a unit. A voltage (V, or a text with a unit) holds from now on;\n"
-     "until one is given drive.waveform does. Raises NumericsError if the numerics end badly."},
+     "until one is given, drive.waveform applies. Raises NumericsError if the solver fails."},
     {"get", simulation_get, METH_O, "Present value of a signal, SI; nan if there is none of that name."},
     {"read_into", simulation_read_into, METH_O, "Fill an array of float64 with the present values of all signals."},
     {"shape", simulation_shape, METH_NOARGS, "(zipped, x, y, gap, line_force); valid until the next step."},
     {"save", simulation_save, METH_NOARGS, "save()\n--\n\nAll that evolves, as bytes for restore()."},
     {"restore", simulation_restore, METH_O,
-     "restore(state)\n--\n\nGo back to a state that a simulation of the same actuator saved."},
+     "restore(state)\n--\n\nReturn to a state that a simulation of the same actuator saved."},
     {NULL, NULL, 0, NULL},
 };
 static PyType_Slot slots[] = {

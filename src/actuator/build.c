@@ -292,7 +292,7 @@ static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table,
   size_t row;
   if (!table) return ZP_OK;
   if (def->drive.waveform != ZP_WAVEFORM_TABLE)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform: a table was given; it goes with drive.waveform table");
+    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform: a table was given, which requires drive.waveform table");
   const char *fault = zp_drive_table_fault(table, &row);
   return fault ? zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: row %zu: %s", row + 1, fault) : ZP_OK;
 }

@@ -18,7 +18,7 @@ typedef struct ZpEval {
   ZpSurplus surplus;       /* where the field is solved */
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
-  ZpBezierSurface surface; /* for the free stations; made anew when the front moves */
+  ZpBezierSurface surface; /* for the free stations; remade when the front moves */
   const double *none;      /* [stride] zeros: the attraction that there is without voltage */
   void *memory;
 } ZpEval;
@@ -48,7 +48,7 @@ bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, 
 /* Stiffness of the mechanics at the last positions, as zp_rod_stiffness; `tension` NULL: the present one. */
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
 
-/* Should a held electric force be found anew at this state? And do so, into the state. What a solved field has
+/* Should a held electric force be recomputed at this state? And do so, into the state. What a solved field has
  * beyond plates is due when a gap with its insulators, or the one where breakdown sets in, has changed by more than
  * electro.refresh_change. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);

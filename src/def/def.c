@@ -199,13 +199,13 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "%s: longer than %d bytes", key->name, ZP_TEXT_SIZE - 1);
   for (size_t i = 0; i < length; i++)
     if ((unsigned char)text[i] < 0x20 || text[i] == 0x7F)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: has a control character in place %zu", key->name, i + 1);
+      return zp_fail(err, ZP_BAD_INPUT, "%s: character %zu is a control character", key->name, i + 1);
   return ZP_OK;
 }
 
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
   const ZpKey *key = &keys[index];
-  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes no text", key->name);
+  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: does not take a text", key->name);
   ZpStatus status = check_text(key, text, err);
   if (status != ZP_OK) return status;
   char *field = (char *)def + key->offset;
@@ -273,7 +273,7 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
       has_n |= preset_values[j].selector == (int)preset && strcmp(preset_values[j].key, p->key) == 0 &&
                preset_values[j].nodes == nodes;
     if (!has_n && !is_given(zp_key_find(p->key), list, count))
-      return zp_fail(err, ZP_BAD_INPUT, "%s: preset %s has no value for mesh.nodes = %d; give one", p->key,
+      return zp_fail(err, ZP_BAD_INPUT, "%s: preset %s has no value for mesh.nodes = %d; please give one", p->key,
                      words_of_ZpPreset[preset].word, nodes);
   }
   return ZP_OK;
@@ -304,30 +304,30 @@ static const char *word_of(const char *key, int choice) {
 static const double thinnest = 1e-6;
 
 static ZpStatus refuse_thin(const ZpActuatorDef *def, ZpError *err) {
-  return zp_fail(
-      err, ZP_BAD_INPUT,
-      "insulator.thickness = %g m: the field needs %g m at least, for its grid keeps closed faces a nanometre "
-      "apart",
-      def->insulator.thickness, thinnest);
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "insulator.thickness = %g m: electro.model field needs at least %g m, because its grid keeps closed "
+                 "faces a nanometre "
+                 "apart",
+                 def->insulator.thickness, thinnest);
 }
 
 /* What electro.model field asks of other keys. */
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.model = field: goes with actuator.kind electro_ribbon only; use plates, which are right "
+                   "electro.model = field: requires actuator.kind electro_ribbon; use plates, which is accurate "
                    "within 1 %% where a gap opens slowly");
   if (def->electro.surface != ZP_SURFACE_POLYLINE)
-    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: goes with electro.surface polyline only");
+    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: requires electro.surface polyline");
   if (def->insulator.thickness == 0)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "insulator.thickness = 0 m: with electro.model field faces that touch need an insulator between "
+                   "insulator.thickness = 0 m: with electro.model field, faces that touch need an insulator between "
                    "the metals");
   if (def->insulator.thickness < thinnest) return refuse_thin(def, err);
   if (def->study == ZP_STUDY_MODES && def->modes.voltage > 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
+        "modes.voltage = %g V: with electro.model field, frequencies are computed only without voltage; use plates",
         def->modes.voltage);
   return ZP_OK;
 }
@@ -336,7 +336,7 @@ static ZpStatus check_square(const ZpActuatorDef *def, ZpError *err) {
   double shorter = fmin(def->drive.duty, 1 - def->drive.duty) / def->drive.frequency;
   if (def->drive.rise_time <= shorter) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
-                 "drive.rise_time = %g s: longer than the shorter part of the square wave, %g s (drive.duty over "
+                 "drive.rise_time = %g s: longer than the shorter part of the square wave, %g s (drive.duty / "
                  "drive.frequency)",
                  def->drive.rise_time, shorter);
 }
@@ -358,15 +358,16 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
     const char *text = zp_def_text(def, key);
     bool given = text ? *text != 0 : zp_def_get(def, key) != keys[key].def;
     if (given && !of[i].used[kind])
-      return zp_fail(err, ZP_BAD_INPUT, "%s: goes with drive.waveform %s, which is %s", of[i].key, of[i].goes_with,
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires drive.waveform %s, but it is %s", of[i].key, of[i].goes_with,
                      words_of_ZpWaveformKind[kind].word);
   }
   if (*def->drive.table && *def->drive.file)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.table: there is a drive.file, too; give one of them");
+    return zp_fail(err, ZP_BAD_INPUT, "drive.table: drive.file is given as well; give only one of them");
   if (kind == ZP_WAVEFORM_TABLE && def->study == ZP_STUDY_CALIBRATE)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: goes with study actuate, not with calibrate");
+    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: requires study actuate, not calibrate");
   if (kind == ZP_WAVEFORM_RAMP && def->drive.rise_time == 0)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.rise_time = 0 s: a ramp takes time; give one, or drive.waveform step");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "drive.rise_time = 0 s: a ramp needs a rise time above 0; or use drive.waveform step");
   return kind == ZP_WAVEFORM_SQUARE ? check_square(def, err) : ZP_OK;
 }
 
@@ -374,26 +375,27 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_FLANGE)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.edges: goes with actuator.kind electro_ribbon, two strips of one width; how wide the flat "
-                   "electrode of a flange is, is not said");
+                   "electro.edges: requires actuator.kind electro_ribbon, two strips of the same width; the width of "
+                   "a flange's flat electrode is not known");
   if (def->electro.surface != ZP_SURFACE_POLYLINE)
-    return zp_fail(err, ZP_BAD_INPUT, "electro.edges: goes with electro.surface polyline only");
+    return zp_fail(err, ZP_BAD_INPUT, "electro.edges: requires electro.surface polyline");
   if (def->insulator.thickness == 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "insulator.thickness = 0 m: with electro.edges faces that touch need an insulator between the metals");
+        "insulator.thickness = 0 m: with electro.edges, faces that touch need an insulator between the metals");
   return ZP_OK;
 }
 
 static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = %s: study %s holds the platform of actuator.kind electro_ribbon",
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon, whose platform it holds",
                    word_of("actuator.kind", (int)def->actuator.kind), word_of("study", (int)def->study));
   double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
   if (separation > longest)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "isometric.separation = %g m: out of reach; at most %g of ribbon.length - platform.length, %g m",
+                   "isometric.separation = %g m: out of reach; at most %g (ribbon.length - platform.length) = %g m",
                    separation, most, longest);
   return ZP_OK;
 }
@@ -401,23 +403,23 @@ static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.edges = true: study profile compares forces in the plane of the ribbons, which know no "
-                   "edges; the other studies have them");
+                   "electro.edges = true: study profile compares forces in the plane of the ribbons, without "
+                   "lateral edges; the other studies can include them");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study profile looks at the two ribbons of actuator.kind electro_ribbon",
+                   "actuator.kind = %s: study profile requires actuator.kind electro_ribbon, which has two ribbons",
                    word_of("actuator.kind", (int)def->actuator.kind));
   if (def->insulator.thickness == 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
         "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
-        "the field has no bound there");
+        "the field there is infinite");
   if (def->insulator.thickness < thinnest) return refuse_thin(def, err);
   if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
     return def->profile.shape == ZP_PROFILE_HELD ? check_isometric(def, err) : ZP_OK;
-  return zp_fail(
-      err, ZP_BAD_INPUT,
-      "electro.insulator_offset = 0 m: the plates law that study profile compares with has no bound at the clip");
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "electro.insulator_offset = 0 m: the plates law, which study profile compares with the field, is "
+                 "infinite at the clip");
 }
 
 /* What the integrators ask of mechanics and contact. */
@@ -425,26 +427,25 @@ static ZpStatus check_motion(const ZpActuatorDef *def, ZpError *err) {
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool sequential = def->contact.model == ZP_CONTACT_SEQUENTIAL;
   if (two && sequential && implicit)
-    return zp_fail(err, ZP_BAD_INPUT, "contact.model = sequential: goes with solver.integrator explicit only");
+    return zp_fail(err, ZP_BAD_INPUT, "contact.model = sequential: requires solver.integrator explicit");
   if (two && !sequential && def->electro.surface == ZP_SURFACE_BEZIER)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.surface = bezier: goes with contact.model sequential and solver.integrator explicit only");
+                   "electro.surface = bezier: requires contact.model sequential and solver.integrator explicit");
   if (!implicit && def->damping.internal > 0)
-    return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: goes with solver.integrator implicit only",
+    return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires solver.integrator implicit",
                    def->damping.internal);
   if (def->ribbon.model != ZP_RIBBON_ROD && def->damping.internal > 0)
-    return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: goes with ribbon.model rod only",
-                   def->damping.internal);
+    return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires ribbon.model rod", def->damping.internal);
   return ZP_OK;
 }
 
 static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
   bool goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
   if (*def->initial.file && !goes_on)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.file: goes with initial.state checkpoint, which is %s",
+    return zp_fail(err, ZP_BAD_INPUT, "initial.file: requires initial.state checkpoint, but it is %s",
                    word_of("initial.state", (int)def->initial.state));
   if (goes_on && def->study != ZP_STUDY_ACTUATE)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: goes with study actuate, not with %s",
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s",
                    word_of("study", (int)def->study));
   return ZP_OK;
 }
@@ -483,12 +484,12 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (two && bare && !def->electro.breakdown_cap)
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
-                   "force has no bound");
+                   "force is infinite");
   bool actuates = def->study == ZP_STUDY_ACTUATE;
   if (def->actuator.kind == ZP_KIND_FLANGE && actuates && def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
-    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: in motion goes with solver.integrator implicit only");
+    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: motion requires solver.integrator implicit");
   if (def->ribbon.density == 0 && def->insulator.density == 0 && (actuates || def->study == ZP_STUDY_MODES))
-    return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a ribbon that moves needs a mass");
+    return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a moving ribbon needs a mass");
   double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   double segments = def->segment_1.length + def->segment_2.length + def->segment_3.length;
   if (segments > flexible * (1 + 1e-12))
@@ -496,16 +497,16 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    "segment_1.length to segment_3.length: %g m together, more than the ribbon's %g m", segments,
                    flexible);
   if (segments > 0 && def->ribbon.model != ZP_RIBBON_ROD)
-    return zp_fail(err, ZP_BAD_INPUT, "segment_1.length = %g m: segments go with ribbon.model rod only",
+    return zp_fail(err, ZP_BAD_INPUT, "segment_1.length = %g m: segments require ribbon.model rod",
                    def->segment_1.length);
   if (two && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);
   if (def->electro.switch_offset > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
-    return zp_fail(err, ZP_BAD_INPUT, "electro.switch_offset = %g m: goes with electro.surface bezier only",
+    return zp_fail(err, ZP_BAD_INPUT, "electro.switch_offset = %g m: requires electro.surface bezier",
                    def->electro.switch_offset);
   if (def->electro.refresh_period > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
-    return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: goes with electro.surface bezier only",
+    return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: requires electro.surface bezier",
                    def->electro.refresh_period);
   ZpStatus status = check_drive(def, err);
   if (status == ZP_OK) status = check_initial(def, err);

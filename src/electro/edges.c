@@ -145,7 +145,7 @@ ZpStatus zp_edges_make(const ZpEdgeParams *p, double largest, ZpEdgeLaw *law, Zp
   return zp_fail(
       err, ZP_BAD_INPUT,
       "electro.edges: no smooth law of the gap fits the field across strips of width %g m with insulators of "
-      "%g m; off by %.2g",
+      "%g m; the relative error is %.2g",
       p->w, p->t, law->error);
 }
 

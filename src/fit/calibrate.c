@@ -24,14 +24,14 @@ typedef struct Names {
 #define NAMES(key, unit)                                                                                               \
   {key "_standard_error",                                                                                              \
    {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"},                           \
-   {{key "_" unit, unit, "what was set"},                                                                              \
+   {{key "_" unit, unit, "value set on the bench"},                                                                    \
     {"measured_m", "m", "stroke or opening in data.file"},                                                             \
-    {"fitted_m", "m", "the same from the model with the fitted values; nan: no state of rest"},                        \
-    {"residual_m", "m", "fitted less measured"}},                                                                      \
-   {{key "_" unit, unit, "what was set"},                                                                              \
+    {"fitted_m", "m", "the same, computed with the fitted values; nan: no equilibrium"},                               \
+    {"residual_m", "m", "fitted minus measured"}},                                                                     \
+   {{key "_" unit, unit, "value set on the bench"},                                                                    \
     {"measured_N", "N", "force in data.file"},                                                                         \
-    {"fitted_N", "N", "force_N of study isometric with the fitted values; nan: no state of rest"},                     \
-    {"residual_N", "N", "fitted less measured"}}},
+    {"fitted_N", "N", "force_N of study isometric, computed with the fitted values; nan: no equilibrium"},             \
+    {"residual_N", "N", "fitted minus measured"}}},
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
 #define ZP_INT(path, name, def, min, max, help)               NAMES(#path #name, "1")
@@ -92,16 +92,18 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
     for (int j = 0; j < k; j++)
       zp_result_add(result, names[fit->key[k]].correlation[j], "1",
                     told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
-    if (at_bound(fit, z, k)) zp_result_warn(result, "%s stands at a bound: no standard error", key->name);
+    if (at_bound(fit, z, k))
+      zp_result_warn(result, "%s is at a bound of its range: it has no standard error", key->name);
   }
-  if (!told_apart && n > 0) zp_result_warn(result, "the data do not tell the fitted keys apart: no standard errors");
+  if (!told_apart && n > 0)
+    zp_result_warn(result, "the data cannot distinguish the fitted keys: they have no standard errors");
 }
 
 static const ZpColumn over_time[4] = {
     {"time_s", "s", "time since the voltage was switched on"},
     {"measured_m", "m", "stroke or opening in data.file"},
-    {"fitted_m", "m", "the same from the model with the fitted values"},
-    {"residual_m", "m", "fitted less measured"},
+    {"fitted_m", "m", "the same, computed with the fitted values"},
+    {"residual_m", "m", "fitted minus measured"},
 };
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
@@ -130,7 +132,7 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
              fit->n > 0 ? "fitted" : "compared", 1e3 * rms, fit->held ? "mN" : "mm");
   else
     snprintf(result->message, sizeof result->message,
-             fit->stopped ? "interrupted" : "some rows have no state of rest within the bounds");
+             fit->stopped ? "interrupted" : "some rows have no equilibrium within the bounds");
   report_keys(fit, z, has_J ? J : NULL, square, result);
   zp_result_add(result, fit->held ? "residual_rms_N" : "residual_rms_m", fit->held ? "N" : "m", rms);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);

@@ -31,7 +31,7 @@ static ZpStatus read_column(const ZpData *data, const char *stem, double *value,
 static ZpStatus take(const ZpData *data, ZpReference *reference, ZpError *err) {
   reference->count = data->rows;
   if (data->rows < 2)
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: %.200s: a reference curve needs two rows or more", data->path);
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: %.200s: a reference curve needs at least two rows", data->path);
   reference->x = calloc(data->rows, sizeof(double));
   reference->y = calloc(data->rows, sizeof(double));
   if (!reference->x || !reference->y) return zp_fail_memory(err);
@@ -39,7 +39,8 @@ static ZpStatus take(const ZpData *data, ZpReference *reference, ZpError *err) {
   if (status == ZP_OK) status = read_column(data, "y", reference->y, err);
   for (size_t i = 1; i < data->rows && status == ZP_OK; i++)
     if (!(reference->x[i] > reference->x[i - 1]))
-      status = zp_fail(err, ZP_BAD_INPUT, "data.file: %.200s:%d: x does not rise", data->path, data->line[i + 1]);
+      status = zp_fail(err, ZP_BAD_INPUT, "data.file: %.200s:%d: x must increase from row to row", data->path,
+                       data->line[i + 1]);
   return status;
 }
 

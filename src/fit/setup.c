@@ -35,10 +35,11 @@ static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %.80s: unknown key; did you mean %s?", name,
                    zp_key_nearest(name));
   if (!is_real(key))
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: takes no real number, cannot be fitted", name);
-  if (fit->n == ZP_FIT_MOST) return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: more than %d keys", ZP_FIT_MOST);
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: is not a real number and cannot be fitted", name);
+  if (fit->n == ZP_FIT_MOST)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: more than %d keys; fit fewer at a time", ZP_FIT_MOST);
   for (int i = 0; i < fit->n; i++)
-    if (fit->key[i] == key) return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: named twice", name);
+    if (fit->key[i] == key) return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is named twice", name);
   double start = zp_def_get(fit->def, key);
   if (isnan(start) || start == 0)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,
@@ -101,8 +102,8 @@ static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, in
 static ZpStatus check_set(const ZpFit *fit, int key, const char *column, ZpError *err) {
   for (int i = 0; i < fit->n; i++)
     if (fit->key[i] == key)
-      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: given by column %.60s, cannot be fitted", zp_key(key)->name,
-                     column);
+      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is given by column %.60s and cannot be fitted",
+                     zp_key(key)->name, column);
   return ZP_OK;
 }
 
@@ -110,7 +111,8 @@ static ZpStatus check_set(const ZpFit *fit, int key, const char *column, ZpError
 static ZpStatus check_times(const ZpFit *fit, const ZpData *data, ZpError *err) {
   for (size_t i = 0; i < fit->rows; i++)
     if (!(fit->x[i] >= (i ? fit->x[i - 1] : 0)))
-      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must rise from 0 on", data->path, data->line[i + 1]);
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must not be negative and must not decrease", data->path,
+                     data->line[i + 1]);
   return ZP_OK;
 }
 
@@ -121,7 +123,8 @@ static ZpStatus read_x(ZpFit *fit, const ZpData *data, int column, ZpError *err)
   fit->x_key = is_time ? -1 : key_of_header(fit, name, &factor, &divisor);
   if (!is_time && fit->x_key < 0)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "calibrate.x: column %.60s: not time, load, force, voltage or a number key with its unit", name);
+                   "calibrate.x: column %.60s: is not time, load, force, voltage or a numeric key, with its unit",
+                   name);
   ZpStatus status = check_set(fit, fit->x_key, name, err);
   if (status == ZP_OK) status = read_column(fit, data, column, fit->x_key, factor, divisor, fit->x, err);
   return status == ZP_OK && is_time ? check_times(fit, data, err) : status;
@@ -136,10 +139,11 @@ static ZpStatus read_others(ZpFit *fit, const ZpData *data, int x, int y, ZpErro
     int key = column == x || column == y ? -1 : key_of_header(fit, name, &factor, &divisor);
     if (key < 0) continue;
     if (fit->x_key < 0)
-      return zp_fail(err, ZP_BAD_INPUT, "%.200s: column %.60s: rows over time are of one run, no key may change",
-                     data->path, name);
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "%.200s: column %.60s: rows over time belong to one run, in which no key can change", data->path,
+                     name);
     if (fit->others == ZP_FIT_OTHERS)
-      return zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns that set keys", data->path, ZP_FIT_OTHERS);
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns set keys", data->path, ZP_FIT_OTHERS);
     fit->other_key[fit->others] = key;
     fit->other[fit->others] = calloc(fit->rows, sizeof(double));
     if (!fit->other[fit->others++]) return zp_fail_memory(err);
@@ -172,11 +176,11 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
   fit->opening = zp_data_unit(name, "opening", "m", &factor, &divisor);
   fit->held = !fit->opening && !by_load && zp_data_unit(name, "force", "N", &factor, &divisor);
   if (!fit->opening && !fit->held && !zp_data_unit(name, "stroke", "m", &factor, &divisor))
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "calibrate.y: column %.60s: not stroke or opening with a unit of length, nor force against voltage or "
-        "another key",
-        name);
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "calibrate.y: column %.60s: is not a stroke or an opening with a unit of length, nor a force "
+                   "against voltage or "
+                   "another key",
+                   name);
   if (fit->opening && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   ZpStatus status = ZP_OK;

@@ -92,7 +92,7 @@ static double predict_rest(ZpFit *fit, const double *z, size_t row) {
   return value;
 }
 
-/* One run in time through all rows; NAN from where it ends badly. */
+/* One run in time through all rows; NAN from where the solver fails. */
 static void predict_run(ZpFit *fit, const double *z, double *fitted) {
   ZpActuatorDef def;
   bool set = set_fitted(fit, z, &def), runs = false;
@@ -218,7 +218,7 @@ static bool solve_small(int n, double A[ZP_FIT_MOST][ZP_FIT_MOST], double *b) {
   return true;
 }
 
-/* The Gauss-Newton step; what stands at a bound and would leave it stays. */
+/* The Gauss-Newton step; what is at a bound and would leave it stays. */
 static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted, const double *J, double *step) {
   int n = fit->n, free_key[ZP_FIT_MOST] = {0}, used = 0;
   double A[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, b[ZP_FIT_MOST] = {0}, g[ZP_FIT_MOST] = {0};

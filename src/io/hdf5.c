@@ -341,7 +341,8 @@ ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err) {
   void *image = build_silently(report, scenario, &size);
   free(scenario);
   if (!image)
-    return zp_fail(err, ZP_MACHINE, "cannot make %s/results.h5: HDF5 could not build it in memory", report->directory);
+    return zp_fail(err, ZP_MACHINE, "cannot create %s/results.h5: HDF5 could not build it in memory",
+                   report->directory);
   status = zp_atomic_open(&out, report->directory, "results.h5", err);
   if (status == ZP_OK) {
     fwrite(image, 1, size, out.file); /* the commit finds what goes wrong here */

@@ -141,8 +141,8 @@ void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *
 
 const char *zp_plot_drag_note(const ZpPlot *plot) {
   return plot->def.damping.drag > 0
-             ? "no drag of the liquid is modelled but c |v| v on each particle: the times are not a prediction"
-             : "no drag of the liquid is modelled: the times are not a prediction";
+             ? "the only drag is c |v| v on each particle, not that of the liquid: times are not predictions"
+             : "the drag of the liquid is not modelled: times are not predictions";
 }
 
 void zp_plot_foot(const ZpPlot *plot, FILE *file, const char *more) {

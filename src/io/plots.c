@@ -22,7 +22,7 @@ static void say(const ZpDrawing *drawing, const char *name, const char *reason) 
   char message[512];
   if (!drawing->notice) return;
   if (drawing->missing)
-    snprintf(message, sizeof message, "gnuplot was not found: no pictures, only their scripts %s/*.gp",
+    snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp",
              drawing->folder);
   else
     snprintf(message, sizeof message, "%s/%s was not drawn: %s", drawing->folder, name, reason);
@@ -145,7 +145,7 @@ static ZpStatus for_all(ZpDrawing *drawing, const ZpPicture *const *table, size_
 ZpStatus zp_plots_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err) {
   ZpStatus status = ZP_OK;
   if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
-    status = zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", drawing->folder, strerror(errno));
+    status = zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
   /* pictures of different studies may have the same name: remove all before any is made */
   if (status == ZP_OK) status = for_all(drawing, table, tables, remove_picture, err);
   if (status == ZP_OK) status = for_all(drawing, table, tables, make_picture, err);

@@ -103,7 +103,7 @@ static ZpStatus make_one(const char *path, ZpError *err) {
   struct stat info;
   if (mkdir(path, 0777) == 0) return ZP_OK;
   int error = errno;
-  if (stat(path, &info) != 0) return zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", path, strerror(error));
+  if (stat(path, &info) != 0) return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", path, strerror(error));
   if (S_ISDIR(info.st_mode)) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "cannot write results to %s: it is a file, not a folder", path);
 }

@@ -86,7 +86,7 @@ static bool set_rows(json_t *object, const ZpReport *report) {
   return zp_json_set(object, "rows", rows) && done;
 }
 
-/* The run that speaks for all: the first that ended badly, else the first. NULL if there is none. */
+/* The run that speaks for all: the first that failed, else the first. NULL if there is none. */
 static const ZpResult *spokesman(const ZpReport *report) {
   for (size_t i = 0; i < report->count; i++)
     if (!zp_outcome_good(report->result[i]->outcome)) return report->result[i];

@@ -157,7 +157,7 @@ static ZpStatus write_shapes(const ZpReport *report, const ZpShapes *shapes, con
   if (status == ZP_OK) status = remove_frames(folder, shapes ? shapes->frames : 0, err);
   if (status != ZP_OK || !shapes) return status;
   if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-    return zp_fail(err, ZP_MACHINE, "cannot make the folder %s: %s", folder, strerror(errno));
+    return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", folder, strerror(errno));
   status = write_frames(folder, shapes, err);
   return status == ZP_OK ? write_collection(report, shapes, err) : status;
 }

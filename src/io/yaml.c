@@ -159,7 +159,7 @@ static ZpStatus read_node(Walk *walk, struct fy_event *event, int depth, int lin
     if (depth > DEEPEST) return fail_here(walk, "nested deeper than %d", DEEPEST);
     return read_mapping(walk, depth, line);
   default:
-    return fail_here(walk, "a value, a list or a group of keys must stand here");
+    return fail_here(walk, "a value, a list or a group of keys is expected here");
   }
 }
 
@@ -223,7 +223,7 @@ static bool is_empty_scalar(const struct fy_event *event) {
 /* The root of a scenario: keys, or nothing. */
 static ZpStatus read_root(Walk *walk, struct fy_event *event) {
   if (is_empty_scalar(event)) return ZP_OK;
-  if (event->type != FYET_MAPPING_START) return fail_here(walk, "a scenario is made of lines \"key: value\"");
+  if (event->type != FYET_MAPPING_START) return fail_here(walk, "a scenario consists of lines \"key: value\"");
   return read_mapping(walk, 0, walk->line);
 }
 

@@ -6,7 +6,22 @@
 
 #include "reproduce/runs.h"
 
-#define ZP_REASON(id, title, section, sentence) id,
+#define ZP_VERDICT(id, word, judged, title) id,
+typedef enum ZpVerdict {
+#include "reproduce/verdicts.def"
+  ZP_VERDICT_COUNT
+} ZpVerdict;
+#undef ZP_VERDICT
+
+typedef struct ZpVerdictInfo {
+  const char *word;  /* in files */
+  bool judged;       /* by the tolerance; false: given whatever the numbers are */
+  const char *title; /* on the page, after "N numbers" */
+} ZpVerdictInfo;
+
+const ZpVerdictInfo *zp_verdict_info(ZpVerdict verdict);
+
+#define ZP_REASON(id, verdict, title, section, sentence) id,
 typedef enum ZpReasonId {
 #include "reproduce/reasons.def"
   ZP_REASON_COUNT
@@ -14,6 +29,7 @@ typedef enum ZpReasonId {
 #undef ZP_REASON
 
 typedef struct ZpReason {
+  ZpVerdict verdict; /* on numbers that differ for this reason */
   const char *title, *section, *sentence;
 } ZpReason;
 
@@ -29,6 +45,7 @@ typedef struct ZpSubject {
   double (*ours)(const ZpRuns *runs, const ZpPublished *published);
   ZpReasonId reason;                             /* why it may differ */
   double (*slack)(const ZpPublished *published); /* that the printed digits leave; NULL: one of the last digit */
+  bool any_nodes;                                /* the same for all N, and compared once */
 } ZpSubject;
 
 /* All subjects; the last has no title. */
@@ -41,16 +58,24 @@ extern const ZpSubject zp_subjects[];
 typedef struct ZpComparison {
   const ZpSubject *subject;
   const ZpPublished *published;
+  int nodes;         /* N; 0 where it does not matter */
   double ours;       /* in the unit of the published number; NAN: not run */
   double difference; /* ours / published - 1 */
-  bool agrees;
+  double tolerance;  /* |ours - published| that still agrees, in the same unit; NAN where nothing is judged */
+  ZpVerdict verdict;
 } ZpComparison;
+
+/* Is there a number of ours, and does it neither agree nor lack a judgement? The reason is then the subject's. */
+bool zp_comparison_has_reason(const ZpComparison *comparison);
 
 /* All comparisons, subject after subject. */
 typedef struct ZpComparisons {
   ZpComparison *item; /* [count] */
   size_t count;
 } ZpComparisons;
+
+/* How many of them came to `verdict`. */
+size_t zp_comparisons_count(const ZpComparisons *comparisons, ZpVerdict verdict);
 
 /* To be freed (item) whatever the status. */
 ZpStatus zp_compare(const ZpRuns *runs, ZpComparisons *comparisons, ZpError *err);

@@ -31,14 +31,16 @@ static ZpStatus write_csv(const char *directory, const ZpComparisons *comparison
   ZpAtomic out;
   ZpStatus status = zp_atomic_open(&out, directory, "comparison.csv", err);
   if (status != ZP_OK) return status;
-  fputs("place,quantity,nodes,load_g,unit,paper,ours,relative_difference,agrees,why\n", out.file);
+  fputs("place,quantity,nodes,load_g,unit,paper,ours,relative_difference,tolerance,verdict,why\n", out.file);
   for (size_t i = 0; i < comparisons->count; i++) {
     const ZpComparison *c = &comparisons->item[i];
-    fprintf(out.file, "%s,%s,%d,%g,%s,%s,", c->subject->place, c->subject->title, c->published->nodes,
-            c->published->load, c->subject->unit, c->published->text);
+    fprintf(out.file, "%s,%s,%d,%g,%s,%s,", c->subject->place, c->subject->title, c->nodes, c->published->load,
+            c->subject->unit, c->published->text);
     put_number(out.file, c->ours);
     put_number(out.file, c->difference);
-    fprintf(out.file, "%s,%s\n", c->agrees ? "true" : "false", c->agrees ? "" : zp_reason(c->subject->reason)->title);
+    put_number(out.file, c->tolerance);
+    fprintf(out.file, "%s,%s\n", zp_verdict_info(c->verdict)->word,
+            zp_comparison_has_reason(c) ? zp_reason(c->subject->reason)->title : "");
   }
   return zp_atomic_commit(&out, err);
 }
@@ -49,14 +51,15 @@ static json_t *row_of(const ZpComparison *c) {
   json_t *row = json_object();
   bool done = zp_json_set(row, "place", json_string(c->subject->place));
   done = zp_json_set(row, "quantity", json_string(c->subject->title)) && done;
-  done = zp_json_set(row, "nodes", json_integer(c->published->nodes)) && done;
+  done = zp_json_set(row, "nodes", json_integer(c->nodes)) && done;
   done = zp_json_set(row, "load_g", json_real(c->published->load)) && done;
   done = zp_json_set(row, "unit", json_string(c->subject->unit)) && done;
   done = zp_json_set(row, "paper", json_real(c->published->value)) && done;
   done = zp_json_set(row, "ours", zp_json_number(c->ours, "1")) && done;
   done = zp_json_set(row, "relative_difference", zp_json_number(c->difference, "1")) && done;
-  done = zp_json_set(row, "agrees", json_boolean(c->agrees)) && done;
-  json_t *why = c->agrees ? json_null() : json_string(zp_reason(c->subject->reason)->title);
+  done = zp_json_set(row, "tolerance", zp_json_number(c->tolerance, "1")) && done;
+  done = zp_json_set(row, "verdict", json_string(zp_verdict_info(c->verdict)->word)) && done;
+  json_t *why = zp_comparison_has_reason(c) ? json_string(zp_reason(c->subject->reason)->title) : json_null();
   done = zp_json_set(row, "why", why) && done;
   if (done) return row;
   json_decref(row);
@@ -65,27 +68,34 @@ static json_t *row_of(const ZpComparison *c) {
 
 static const char *message_of(ZpOutcome outcome) {
   if (outcome == ZP_INTERRUPTED) return "interrupted; what was done is kept";
-  return zp_outcome_good(outcome) ? "all runs done" : "a run ended badly: see its summary.json";
+  return zp_outcome_good(outcome) ? "all runs done" : "a run failed: see its summary.json";
+}
+
+/* {"agrees": 81, ...}: how many comparisons came to each verdict. NULL if there is no memory. */
+static json_t *verdicts_of(const ZpComparisons *comparisons) {
+  json_t *object = json_object();
+  bool done = true;
+  for (int i = 0; i < ZP_VERDICT_COUNT; i++) {
+    const size_t count = zp_comparisons_count(comparisons, (ZpVerdict)i);
+    done = zp_json_set(object, zp_verdict_info((ZpVerdict)i)->word, json_integer((json_int_t)count)) && done;
+  }
+  if (done) return object;
+  json_decref(object);
+  return NULL;
 }
 
 /* NULL if there is no memory. */
 static json_t *summary_of(const ZpComparisons *comparisons, ZpOutcome outcome, double wall_time) {
   json_t *object = json_object(), *rows = json_array();
-  json_int_t compared = 0, agreeing = 0;
   bool done = true;
-  for (size_t i = 0; i < comparisons->count; i++) {
-    const ZpComparison *c = &comparisons->item[i];
-    compared += !isnan(c->ours);
-    agreeing += c->agrees;
-    done = json_array_append_new(rows, row_of(c)) == 0 && done;
-  }
+  for (size_t i = 0; i < comparisons->count; i++)
+    done = json_array_append_new(rows, row_of(&comparisons->item[i])) == 0 && done;
   done = zp_json_set(object, "version", json_string(ZP_VERSION)) && done;
   done = zp_json_set(object, "study", json_string("reproduce")) && done;
   done = zp_json_set(object, "outcome", json_string(zp_outcome_name(outcome))) && done;
   done = zp_json_set(object, "message", json_string(message_of(outcome))) && done;
   done = zp_json_set(object, "wall_time_s", zp_json_number(wall_time, "s")) && done;
-  done = zp_json_set(object, "compared", json_integer(compared)) && done;
-  done = zp_json_set(object, "agreeing", json_integer(agreeing)) && done;
+  done = zp_json_set(object, "verdicts", verdicts_of(comparisons)) && done;
   done = zp_json_set(object, "rows", rows) && done;
   if (done) return object;
   json_decref(object);

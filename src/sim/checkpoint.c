@@ -135,7 +135,7 @@ static bool is_state(const ZpCheckpoint *checkpoint) {
 ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_keys(&checkpoint->def, def, err);
   if (status != ZP_OK) return status;
-  if (!is_state(checkpoint)) return zp_fail(err, ZP_BAD_INPUT, "its numbers are no state of an actuator");
+  if (!is_state(checkpoint)) return zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator");
   double t = checkpoint->number[0];
   if (def->solver.end_time > t) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "it stands at %.9g s already; solver.end_time is %.9g s", t, def->solver.end_time);

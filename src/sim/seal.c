@@ -50,7 +50,7 @@ ZpStatus zp_sim_unseal(ZpSim *sim, const void *sealed, size_t size, ZpError *err
   const char *byte = sealed;
   uint64_t fingerprint, sum;
   if (size < HEAD || memcmp(byte, magic, sizeof magic) != 0)
-    return zp_fail(err, ZP_BAD_INPUT, "state: not one of a zipact simulation");
+    return zp_fail(err, ZP_BAD_INPUT, "state: not from a zipact simulation");
   memcpy(&fingerprint, byte + FINGERPRINT, sizeof fingerprint);
   memcpy(&sum, byte + SUM, sizeof sum);
   if (fingerprint != fingerprint_of(sim->model))

@@ -430,7 +430,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     snprintf(text, size, "interrupted at %g s; what was done is kept", t);
     break;
   case ZP_NOT_SETTLED:
-    snprintf(text, size, "no hanging equilibrium found: %g of the weight still unbalanced after %lld steps",
+    snprintf(text, size, "no hanging equilibrium found: %g of the weight is still unbalanced after %lld steps",
              sim->settle_residual, (long long)sim->settle_steps);
     break;
   case ZP_DIVERGED:
@@ -524,7 +524,7 @@ void zp_sim_save(const ZpSim *sim, void *state) {
 
 ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err) {
   if (size != zp_state_size(sim->model))
-    return zp_fail(err, ZP_BAD_INPUT, "state of %zu bytes: this model's has %zu", size, zp_state_size(sim->model));
+    return zp_fail(err, ZP_BAD_INPUT, "state of %zu bytes: this model needs %zu", size, zp_state_size(sim->model));
   memcpy(sim->state, state, size);
   zp_sim_resume(sim);
   return ZP_OK;

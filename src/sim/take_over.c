@@ -8,7 +8,8 @@
 ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   const ZpModel *model = sim->model, *other = from->model;
   if (model->s != other->s || model->nodes != other->nodes)
-    return zp_fail(err, ZP_BAD_INPUT, "mesh.nodes = %zu: the simulation to take over from has %zu, on %zu ribbons",
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "mesh.nodes = %zu: the simulation to take over from has %zu nodes on each of %zu ribbons",
                    model->nodes, other->nodes, other->s);
   ZpState *state = sim->state;
   double opening0 = state->opening0, stretch = model->L / other->L;

@@ -66,7 +66,7 @@ static void warn(const ZpModel *model, const ZpActuatorDef *def, ZpResult *resul
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON) return;
   zp_result_warn_insulator(result, model);
   if (isfinite(zp_result_get(result, "zip_time_s")))
-    zp_result_warn(result, "zip times hold no drag of the liquid, which is not modelled: they are no prediction");
+    zp_result_warn(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
 }
 
 static void summarize(const ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {

@@ -177,7 +177,7 @@ static void describe(Follower *f, double pull_in, double release) {
   else if (isnan(release))
     snprintf(r->message, size, "pulls in at %.4g V", pull_in);
   else
-    snprintf(r->message, size, "pulls in at %.4g V, lets go at %.4g V", pull_in, release);
+    snprintf(r->message, size, "pulls in at %.4g V, releases at %.4g V", pull_in, release);
 }
 
 static ZpStatus run(Follower *f, ZpError *err) {

@@ -4,8 +4,8 @@
  * The state at a voltage is the first one there on the branch of equilibria that starts from the unpowered shape.
  * While that branch rises, this is the state that a slowly rising voltage leads to. Where it turns back (a limit
  * point), the state jumps; the branch is followed through the turn until it is stable and above the voltage of the
- * turn again: there the jump lands. Where the branch never comes there, the state is let go at the turn and lands where
- * slow motion against a resistance ends. Theory, section 13. */
+ * turn again: there the jump lands. Where the branch never comes there, the state is released at the turn and lands
+ * where slow motion against a resistance ends. Theory, section 13. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -154,7 +154,7 @@ static End follow(Holder *h) {
   return LOST;
 }
 
-/* Let go at the last turn, just above its voltage. */
+/* Release at the last turn, just above its voltage. */
 static bool fall(Holder *h) {
   static const double above = 1e-3, longest = 4e-3; /* 2 mrad: overlaps of faces stay below what insulates them */
   enum { MOST = 20000 };
@@ -244,11 +244,10 @@ static void warn(Holder *h) {
                    "so: more mesh.nodes show whether they are real",
                    h->jumps, h->leap);
   if (h->others > 0)
-    zp_result_warn(
-        r,
-        "%d more stable states at drive.voltage (force %.4g N at the last): reached from a higher voltage, or "
-        "by a sudden one",
-        h->others, h->other_force);
+    zp_result_warn(r,
+                   "%d more stable states at drive.voltage (force %.4g N in the last): a higher or a suddenly applied "
+                   "voltage may lead to them",
+                   h->others, h->other_force);
 }
 
 static void describe(Holder *h) {

@@ -190,7 +190,8 @@ static void run(Problem *p, ZpResult *result) {
   bool found = solve(p, modes);
   result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
   if (!found)
-    snprintf(result->message, sizeof result->message, "modes not found in %d rounds", MOST_ROUNDS);
+    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged in %d rounds",
+             MOST_ROUNDS);
   else
     snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz",
              sqrt(p->omega2[0]) / 6.283185307179586);

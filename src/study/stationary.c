@@ -37,15 +37,15 @@ static const char *words_of(ZpNewtonEnd end) {
   case ZP_NEWTON_CONVERGED:
     return "residual below tolerance";
   case ZP_NEWTON_FLOOR:
-    return "residual at the floor of rounding";
+    return "residual at rounding level";
   case ZP_NEWTON_SINGULAR:
-    return "no equilibrium found: the stiffness has no inverse";
+    return "no equilibrium found: the stiffness matrix is singular";
   case ZP_NEWTON_DIVERGED:
-    return "no equilibrium found: numbers left all bounds";
+    return "no equilibrium found: the iteration diverged";
   case ZP_NEWTON_SLOW:
     break;
   }
-  return "no equilibrium found: most iterations done";
+  return "no equilibrium found within the largest number of iterations";
 }
 
 static bool run(ZpStatics *s, ZpResult *result) {

@@ -109,7 +109,7 @@ export class Core {
     this.#check(this.#c.zp_web_set_voltage(this.#web, voltage));
   }
 
-  /** Run until `time`, s. => null, or how the numerics ended badly. */
+  /** Run until `time`, s. => null, or how the solver failed. */
   run(time) {
     const outcome = this.#c.zp_web_run(this.#web, time);
     return this.#c.zp_web_good(outcome) ? null : this.#get();

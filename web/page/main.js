@@ -59,7 +59,7 @@ function holdingVoltage() {
   return Math.ceil((1.25 * view.release) / 10) * 10;
 }
 
-/** Step begins anew from hanging, as the command does; hold and release change the voltage of what is. */
+/** Step starts again from hanging, as the command does; hold and release change the voltage of what is. */
 function press(button) {
   pressed = button;
   if (button === 'hold') held = holdingVoltage();
@@ -75,7 +75,7 @@ function showButtons() {
   $('step').lastChild.textContent = pretty(core.print('drive.voltage', core.value('drive.voltage')));
   $('hold').disabled = !known;
   $('hold').lastChild.textContent = known ? `${fixed((pressed === 'hold' ? held : holdingVoltage()) / 1e3, 2)} kV` : '–';
-  $('hold').title = known ? 'A quarter more than the voltage at which it lets go' : 'There is no voltage at which it lets go';
+  $('hold').title = known ? 'A quarter more than the voltage at which it opens again' : 'There is no voltage at which it opens again';
 }
 
 function pause(now) {

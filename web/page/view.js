@@ -15,7 +15,7 @@ const tiles = {
   time: {label: 'Time', unit: 'ms', title: 'simulated, since the last button'},
   zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
   pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips, raised slowly', study: true},
-  letgo: {label: 'Lets go', unit: 'kV', title: 'voltage at which it opens again, lowered slowly', study: true},
+  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which it opens again, lowered slowly', study: true},
 };
 
 const $ = (id) => document.getElementById(id);
@@ -23,7 +23,7 @@ const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
   hanging = NaN; // m, opening without voltage
-  release = NaN; // V, where it lets go
+  release = NaN; // V, where it opens again
   #time; // what the plots show
   #rest;
   #profile = {length: 1, force: new Float64Array(2), field: new Float64Array(2), largest: 1};
