@@ -41,10 +41,14 @@ typedef struct Progress {
   size_t index, of;
   double last; /* wall time of the last line, s */
 } Progress;
-void cli_watch_interrupts(void);
-bool cli_interrupted(void);
 ZpHooks cli_hooks(Progress *progress);
 void cli_progress_end(Progress *progress);
+
+/* From now on, the first Ctrl-C asks to stop, the second ends the program at once. */
+void cli_watch_interrupts(void);
+
+/* Whether one has come since then. */
+bool cli_interrupted(void);
 double cli_wall_clock(void *unused);
 
 #endif

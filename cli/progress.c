@@ -16,6 +16,7 @@ static void on_interrupt(int signal_number) {
 }
 
 void cli_watch_interrupts(void) {
+  interrupted = 0;
   struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = SA_RESTART};
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);

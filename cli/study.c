@@ -100,36 +100,54 @@ static void print_summary(const ZpBatch *batch, const char *directory) {
 }
 
 static int exit_status(const ZpBatch *batch) {
-  if (batch->interrupted) return EXIT_INTERRUPTED;
+  if (batch->interrupted || cli_interrupted()) return EXIT_INTERRUPTED;
   return zp_batch_good(batch) ? EXIT_DONE : EXIT_NUMERICS;
 }
 
-static int report(const ZpBatch *batch, const Options *o, const char *directory, double wall_time) {
+/* A folder that is open, and where it is. */
+typedef struct Place {
+  const char *directory;
+  ZpFolder *folder;
+} Place;
+
+static int report(const ZpBatch *batch, const Options *o, const Place *place, double wall_time) {
   ZpError err;
-  ZpReport report = {directory, batch->scenario, batch->result, batch->done, wall_time};
+  Progress silent = {0};
+  const ZpHooks hooks = cli_hooks(&silent);
+  const ZpReport report = {place->directory, batch->scenario, batch->result, batch->done,
+                           wall_time,        place->folder,   &hooks};
+  if (batch->interrupted) cli_watch_interrupts(); /* what was done is still drawn, unless there is another Ctrl-C */
   if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
   } else if (!o->quiet) {
-    print_summary(batch, directory);
+    print_summary(batch, place->directory);
   }
   return exit_status(batch);
 }
 
-static int run_and_report(ZpBatch *batch, const Options *o) {
+static int run_and_report(ZpBatch *batch, const Options *o, const Place *place) {
+  ZpError err;
+  double start = cli_wall_clock(NULL);
+  cli_watch_interrupts();
+  ZpStatus status = run_all(batch, o, &err);
+  int exit_code = EXIT_DONE;
+  if (status == ZP_OK || batch->done > 0) exit_code = report(batch, o, place, cli_wall_clock(NULL) - start);
+  return status == ZP_OK ? exit_code : cli_fail(&err);
+}
+
+/* Have the folder for as long as the runs and their report take. */
+static int run_in_folder(ZpBatch *batch, const Options *o) {
   ZpError err;
   ZpActuatorDef def;
   if (zp_scenario_def(batch->scenario, 0, &def, &err) != ZP_OK) return cli_fail(&err);
   char directory[64];
   snprintf(directory, sizeof directory, "out/%s", zp_key(zp_key_find("study"))->choices[def.study].word);
-  const char *where = o->directory ? o->directory : directory;
-  if (zp_report_prepare(where, &err) != ZP_OK) return cli_fail(&err);
-  double start = cli_wall_clock(NULL);
-  cli_watch_interrupts();
-  ZpStatus status = run_all(batch, o, &err);
-  int exit_code = EXIT_DONE;
-  if (status == ZP_OK || batch->done > 0) exit_code = report(batch, o, where, cli_wall_clock(NULL) - start);
-  return status == ZP_OK ? exit_code : cli_fail(&err);
+  Place place = {o->directory ? o->directory : directory, NULL};
+  if (zp_folder_open(place.directory, &place.folder, &err) != ZP_OK) return cli_fail(&err);
+  int exit_code = run_and_report(batch, o, &place);
+  zp_folder_close(place.folder);
+  return exit_code;
 }
 
 int cli_study(const char *study, const Options *o) {
@@ -139,7 +157,7 @@ int cli_study(const char *study, const Options *o) {
   if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   ZpStatus status = read_scenario(study, o, scenario, &err);
   if (status == ZP_OK) status = zp_batch_create(scenario, &batch, &err);
-  int exit_code = status == ZP_OK ? run_and_report(&batch, o) : cli_fail(&err);
+  int exit_code = status == ZP_OK ? run_in_folder(&batch, o) : cli_fail(&err);
   zp_batch_free(&batch);
   zp_scenario_destroy(scenario);
   return exit_code;

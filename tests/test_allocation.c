@@ -719,7 +719,7 @@ static void make_report(const char *text) {
     ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
     ck_assert_msg(zp_study_run(&def, NULL, &result[i], &err) == ZP_OK, "%s", err.message);
   }
-  shared_report = (ZpReport){report_folder, scenario, result, count, 0.25};
+  shared_report = (ZpReport){report_folder, scenario, result, count, 0.25, NULL, NULL};
 }
 
 static void free_report(void) {

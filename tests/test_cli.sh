@@ -49,7 +49,7 @@ prints() { grep -q -e "$1" stdout || { echo "    stdout does not have: $1"; fals
 is_empty() { [ ! -s "$1" ]; }
 is_file() { [ -f "$1" ]; }
 is_absent() { [ ! -e "$1" ]; }
-no_temporaries() { [ -z "$(find "$1" -name '*.tmp')" ]; }
+no_temporaries() { [ -z "$(find "$1" -name '*.tmp' -o -name '.zipact-lock')" ]; }
 
 python=$(command -v python3)
 cat >is_json.py <<'END'
@@ -305,6 +305,74 @@ interrupt 1 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -
 ok "130: Ctrl-C in a sweep" status_is 130
 ok "130: the rows until then" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time", "interrupted"]'
 ok "130: and their files" complete interrupted-sweep
+
+# -- a gnuplot that hangs: it blocked for ever, swallowed the first Ctrl-C, and summary.json never came -----------
+
+wait_for_file() { # FILE: until it is there, five minutes at most
+  tries=3000
+  while [ ! -s "$1" ] && [ $tries -gt 0 ]; do
+    sleep 0.1
+    tries=$((tries - 1))
+  done
+}
+
+mkdir hanging-bin
+cat >hanging-bin/gnuplot <<'END'
+#!/bin/sh
+trap '' INT TERM HUP
+echo $$ >started
+sleep 1000
+sleep 1000
+END
+chmod 755 hanging-bin/gnuplot
+PATH=$PWD/hanging-bin:$PATH "$zipact" actuate $short --json -o hanging >stdout 2>stderr &
+pid=$!
+wait_for_file hanging/plots/started
+for file in scenario.yaml summary.json table.csv results.h5; do
+  ok "a gnuplot that hangs: $file is there" is_file hanging/$file
+done
+ok "and the scripts" is_file hanging/plots/stroke.gp
+kill -INT $pid
+wait $pid
+status=$?
+ok "130: Ctrl-C while gnuplot hangs" status_is 130
+ok "130: says which picture is missing" says 'hanging/plots/.*svg was not drawn: interrupted'
+ok "130: --json prints the numbers" cmp -s stdout hanging/summary.json
+ok "130: the numbers are whole, and nothing is half written" complete hanging
+ok "130: no gnuplot is left" [ -z "$(ps -eo stat=,pgid= | awk -v group="$(cat hanging/plots/started)" '$2 == group && $1 !~ /Z/')" ]
+
+# -- two runs into one folder: they mixed their files without a word ------------------------------------------------
+
+PATH=/nowhere "$zipact" actuate $long --quiet -o held >/dev/null 2>&1 &
+pid=$!
+wait_for_file held/.zipact-lock
+zp actuate $short -o held
+ok "3: another run has the folder" status_is 3
+ok "3: says which process" says "held: process $pid on .* is writing there"
+zp stationary $short -o held
+ok "3: another study, too" status_is 3
+ok "3: nothing was written" is_absent held/scenario.yaml
+zp actuate $short -o beside-held
+ok "another folder is free" status_is 0
+kill -KILL $pid
+wait $pid 2>/dev/null
+echo half >held/.table.csv.zipact-$pid.tmp
+echo mine >held/.mine.csv.12.tmp
+zp actuate $short -o held
+ok "a killed run is not in the way" status_is 0
+ok "what it left is gone" [ -z "$(find held -name '.*zipact*')" ]
+ok "what is not ours stays" grep -q mine held/.mine.csv.12.tmp
+rm held/.mine.csv.12.tmp
+mkdir -p held-report
+PATH=/nowhere "$zipact" reproduce --quiet -o held-report >/dev/null 2>&1 &
+pid=$!
+wait_for_file held-report/.zipact-lock
+zp reproduce -o held-report
+ok "3: another reproduce has the folder" status_is 3
+ok "3: says which process, too" says "held-report: process $pid on"
+kill -INT $pid
+wait $pid
+rm -rf held-report
 
 # -- checkpoints -------------------------------------------------------------------------------------------------
 

@@ -4,20 +4,27 @@
 #include <check.h>
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <ftw.h>
 #include <hdf5.h>
 #include <jansson.h>
 #include <math.h>
+#include <sched.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <zipact/io.h>
 
+#include "io/atomic.h"
+#include "io/gnuplot.h"
 #include "io/number.h"
+#include "io/plot.h"
 
 #define NODES    61
 #define HALF     45e-3
@@ -179,7 +186,7 @@ static ZpScenario *scenario_of(const char *assignment) {
 static void write_single(const char *name, const char *assignment, ZpResult *result, double wall_time) {
   ZpScenario *scenario = scenario_of(assignment);
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time};
+  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   zp_result_destroy(result);
@@ -197,7 +204,7 @@ static void write_sweep(const char *name, const char *assignment, size_t count) 
   if (count > 1) result[1]->outcome = ZP_DIVERGED;
   if (count > 1) result[1]->scalar[1].value = NAN;
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, result, count, 2.5};
+  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
@@ -221,7 +228,7 @@ static void write_study(const char *name, const char *study, const char *assignm
     ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
     ck_assert_msg(zp_study_run(&def, NULL, &result[i], &err) == ZP_OK, "%s", err.message);
   }
-  const ZpReport report = {in_base(name), scenario, result, count, 0.5};
+  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
     zp_result_destroy(result[i]);
@@ -245,6 +252,17 @@ static size_t count_files(const char *name) {
   nftw(in_base(name), count_entry, 16, FTW_PHYS);
   ck_assert_uint_eq(temporaries_seen, 0);
   return files_seen;
+}
+
+/* How many entries base/name has. */
+static int entries(const char *name) {
+  int count = 0;
+  DIR *list = opendir(in_base(name));
+  ck_assert_ptr_nonnull(list);
+  while (readdir(list))
+    count++;
+  closedir(list);
+  return count - 2;
 }
 
 static const char *first_root, *second_root;
@@ -520,7 +538,7 @@ END_TEST
 START_TEST(interrupted_before_the_first_run) {
   ZpScenario *scenario = scenario_of("drive.voltage=[6 kV, 8 kV]");
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5};
+  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   json_t *json = load_json("out/summary.json");
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "interrupted");
@@ -705,14 +723,16 @@ END_TEST
 
 START_TEST(folder_that_cannot_be) {
   ZpError err = {0};
+  ZpFolder *folder;
   put_file("file", "mine");
-  ck_assert_int_eq(zp_report_prepare(in_base("file"), &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_folder_open(in_base("file"), &folder, &err), ZP_MACHINE);
   ck_assert_ptr_nonnull(strstr(err.message, "/file"));
-  ck_assert_int_eq(zp_report_prepare(in_base("file/deep/er"), &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_folder_open(in_base("file/deep/er"), &folder, &err), ZP_MACHINE);
   ck_assert_ptr_nonnull(strstr(err.message, "/file"));
-  ck_assert_int_eq(zp_report_prepare("/proc/zipact", &err), ZP_MACHINE);
-  ck_assert_int_eq(zp_report_prepare("", &err), ZP_MACHINE);
-  ck_assert_msg(zp_report_prepare(in_base("a/b/c/"), &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(zp_folder_open("/proc/zipact", &folder, &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_folder_open("", &folder, &err), ZP_MACHINE);
+  ck_assert_msg(zp_folder_open(in_base("a/b/c/"), &folder, &err) == ZP_OK, "%s", err.message);
+  zp_folder_close(folder);
   ck_assert_uint_eq(count_files("a"), 0);
 }
 END_TEST
@@ -721,8 +741,8 @@ START_TEST(name_taken_by_a_folder) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1};
-  ck_assert_int_eq(zp_report_prepare(report.directory, &err), ZP_OK);
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL};
+  ck_assert_int_eq(mkdir(in_base("out"), 0777), 0);
   ck_assert_int_eq(mkdir(in_base("out/results.h5"), 0777), 0);
   ck_assert_int_eq(zp_report_write(&report, note, &err), ZP_MACHINE);
   ck_assert_ptr_nonnull(strstr(err.message, "results.h5"));
@@ -737,7 +757,7 @@ START_TEST(summary_to_a_full_device) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {"unused", scenario, &result, 1, 1};
+  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL};
   FILE *full = fopen("/dev/full", "w");
   if (full) {
     ck_assert_int_eq(zp_summary_write(&report, full, &err), ZP_MACHINE);
@@ -767,7 +787,7 @@ static bool write_on_small_disk(int kilobytes) {
   ZpError err = {0};
   snprintf(option, sizeof option, "size=%dk", kilobytes);
   ck_assert_int_eq(mount("none", in_base("disk"), "tmpfs", 0, option), 0);
-  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1};
+  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK || strstr(err.message, strerror(ENOSPC)), "%s", err.message);
   ck_assert_msg(status == ZP_OK || strstr(err.message, "disk/out"), "no file name: %s", err.message);
@@ -819,6 +839,179 @@ START_TEST(broken_gnuplot) {
 }
 END_TEST
 
+/* -- a gnuplot that hangs blocked for ever, swallowed the first Ctrl-C, and summary.json never came ---------------- */
+
+/* A gnuplot that says where it is, ignores what can be ignored, leaves the work to a child and never ends. */
+static void put_hanging_gnuplot(void) {
+  ck_assert_int_eq(mkdir(in_base("bin"), 0777), 0);
+  put_file("bin/gnuplot", "#!/bin/sh\ntrap '' INT TERM HUP\necho $$ >started\nsleep 1000\nsleep 1000\n");
+  ck_assert_int_eq(chmod(in_base("bin/gnuplot"), 0755), 0);
+  char path[2600];
+  snprintf(path, sizeof path, "%s:%s", in_base("bin"), getenv("PATH"));
+  ck_assert_int_eq(setenv("PATH", path, 1), 0);
+}
+
+static bool nothing_runs(const char *started) {
+  size_t size;
+  char *text = read_whole(in_base(started), &size);
+  pid_t group = (pid_t)strtol(text, NULL, 10);
+  free(text);
+  ck_assert_int_gt(group, 1);
+  for (int i = 0; i < 1000 && kill(-group, 0) == 0; i++) /* its child is someone else's to bury */
+    usleep(10000);
+  return kill(-group, 0) != 0 && errno == ESRCH;
+}
+
+START_TEST(hanging_gnuplot_is_given_up) {
+  put_hanging_gnuplot();
+  char reason[128];
+  const ZpGnuplotJob job = {base, "a.gp", "a.svg", 2, NULL};
+  ck_assert_int_eq(zp_gnuplot_run(&job, reason, sizeof reason), ZP_GNUPLOT_HANGS);
+  ck_assert_str_eq(reason, "gnuplot took longer than 2 s");
+  ck_assert(nothing_runs("started"));
+}
+END_TEST
+
+static bool always(const ZpPlot *plot) {
+  (void)plot;
+  return true;
+}
+
+static void no_script(const ZpPlot *plot, FILE *file) {
+  (void)plot;
+  fputs("# nothing\n", file);
+}
+
+START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
+  static const ZpPicture two[] = {{"a", "svg", always, no_script, NULL}, {"b", "svg", always, no_script, NULL}, {0}};
+  static const ZpPicture *const table[] = {two};
+  const ZpPlot plot = {0};
+  ZpError err;
+  put_hanging_gnuplot();
+  ZpDrawing drawing = {&plot, in_base("plots"), note, 1, NULL, false};
+  ck_assert_int_eq(zp_drawing_prepare(&drawing, table, 1, &err), ZP_OK);
+  zp_drawing_draw(&drawing, table, 1);
+  ck_assert_ptr_nonnull(strstr(notices, "plots/a.svg was not drawn: gnuplot took longer than 1 s; no more pictures"));
+  ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
+  ck_assert(exists("plots/a.gp") && exists("plots/b.gp") && !exists("plots/a.svg"));
+  count_files("plots");
+}
+END_TEST
+
+/* Asks to stop once summary.json is there: a report that draws before it writes numbers never ends. */
+static bool stop_with_numbers(void *user, const char *stage, double fraction) {
+  (void)user, (void)stage, (void)fraction;
+  return exists("out/summary.json") && exists("out/table.csv") && exists("out/results.h5") &&
+         exists("out/plots/started");
+}
+
+START_TEST(numbers_come_before_pictures) {
+  put_hanging_gnuplot();
+  ZpScenario *scenario = scenario_of(NULL);
+  ZpResult *result = made_up(50, 10, false, 8e3, 1);
+  ZpError err = {0};
+  const ZpHooks hooks = {.progress = stop_with_numbers};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks};
+  ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
+  ck_assert_ptr_nonnull(strstr(notices, "was not drawn: interrupted; no more pictures"));
+  ck_assert(nothing_runs("out/plots/started"));
+  count_files("out");
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* -- two runs into one folder mixed their files without a word --------------------------------------------------- */
+
+START_TEST(folder_of_another_run_is_refused) {
+  ZpError err = {0};
+  ZpFolder *folder, *other;
+  char text[64];
+  ck_assert_msg(zp_folder_open(in_base("out"), &folder, &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(zp_folder_open(in_base("out"), &other, &err), ZP_MACHINE);
+  ck_assert_ptr_null(other);
+  snprintf(text, sizeof text, "/out: process %ld on ", (long)getpid());
+  ck_assert_msg(strstr(err.message, text) != NULL, "%s", err.message);
+  ck_assert_msg(zp_folder_open(in_base("another"), &other, &err) == ZP_OK, "%s", err.message);
+  zp_folder_close(other);
+  zp_folder_close(folder);
+  ck_assert_msg(zp_folder_open(in_base("out"), &folder, &err) == ZP_OK, "%s", err.message);
+  zp_folder_close(folder);
+  ck_assert_uint_eq(count_files("out"), 0);
+}
+END_TEST
+
+/* Take the folder, begin a file, and die. */
+static void die_while_writing(const char *directory) {
+  ZpFolder *folder;
+  ZpAtomic out;
+  ZpError err;
+  char plots[1400];
+  snprintf(plots, sizeof plots, "%s/plots", directory);
+  bool begun = zp_folder_open(directory, &folder, &err) == ZP_OK && mkdir(plots, 0777) == 0 &&
+               zp_atomic_open(&out, directory, "table.csv", &err) == ZP_OK &&
+               zp_atomic_reserve(&out, plots, "stroke.svg", &err) == ZP_OK;
+  if (begun) raise(SIGKILL);
+  _exit(1);
+}
+
+START_TEST(what_a_killed_run_left_is_cleaned_up) {
+  const char *const mine[] = {"out/.notes.12.tmp", "out/.a.zipact-12.tmp.bak", "out/x.zipact-12.tmp", "out/12.tmp"};
+  int status = 0;
+  ZpError err = {0};
+  ZpFolder *folder;
+  pid_t child = fork();
+  if (child == 0) die_while_writing(in_base("out"));
+  ck_assert_int_eq(waitpid(child, &status, 0), child);
+  ck_assert(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  ck_assert_int_eq(entries("out"), 3);       /* lock, table.csv to be, plots */
+  ck_assert_int_eq(entries("out/plots"), 1); /* stroke.svg to be */
+  for (size_t i = 0; i < sizeof mine / sizeof mine[0]; i++)
+    put_file(mine[i], "mine");
+  ck_assert_msg(zp_folder_open(in_base("out"), &folder, &err) == ZP_OK, "%s", err.message);
+  zp_folder_close(folder);
+  ck_assert_int_eq(entries("out"), 1 + (int)(sizeof mine / sizeof mine[0]));
+  ck_assert_int_eq(entries("out/plots"), 0);
+  for (size_t i = 0; i < sizeof mine / sizeof mine[0]; i++)
+    ck_assert(exists(mine[i]));
+}
+END_TEST
+
+/* Many processes take a folder in turn; each looks whether it is alone there. */
+static int alone_each_time(const char *directory) {
+  char path[1400];
+  snprintf(path, sizeof path, "%s/alone", directory);
+  for (int taken = 0; taken < 100;) {
+    ZpFolder *folder;
+    if (zp_folder_open(directory, &folder, NULL) != ZP_OK) {
+      sched_yield();
+      continue;
+    }
+    int fd = open(path, O_CREAT | O_EXCL | O_WRONLY, 0666);
+    if (fd < 0) return 2;
+    close(fd);
+    sched_yield();
+    if (unlink(path) != 0) return 3;
+    zp_folder_close(folder);
+    taken++;
+  }
+  return 0;
+}
+
+START_TEST(only_one_process_has_a_folder) {
+  enum { PROCESSES = 6 };
+  const char *directory = in_base("out");
+  for (int i = 0; i < PROCESSES; i++)
+    if (fork() == 0) _exit(alone_each_time(directory));
+  for (int i = 0; i < PROCESSES; i++) {
+    int status = -1;
+    ck_assert_int_gt(wait(&status), 0);
+    ck_assert_msg(status == 0, "a process ended with %d", WEXITSTATUS(status));
+  }
+  ck_assert_int_eq(entries("out"), 0);
+}
+END_TEST
+
 static Suite *suite_of_report(void) {
   const TTest *const test[] = {numbers_are_short_and_exact,
                                numbers_read_back,
@@ -847,7 +1040,13 @@ static Suite *suite_of_report(void) {
                                summary_to_a_full_device,
                                full_disk,
                                no_gnuplot,
-                               broken_gnuplot};
+                               broken_gnuplot,
+                               hanging_gnuplot_is_given_up,
+                               after_a_hanging_gnuplot_no_other_is_started,
+                               numbers_come_before_pictures,
+                               folder_of_another_run_is_refused,
+                               what_a_killed_run_left_is_cleaned_up,
+                               only_one_process_has_a_folder};
   Suite *suite = suite_create("report");
   TCase *part = tcase_create("files");
   tcase_add_checked_fixture(part, set_up, tear_down);

@@ -60,6 +60,17 @@ ZpStatus zp_checkpoint_write(const ZpCheckpoint *checkpoint, FILE *file, ZpError
  * version. Whether it fits a model, zp_checkpoint_check says. */
 ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err);
 
+/* A folder for results that one run has for itself. */
+typedef struct ZpFolder ZpFolder;
+
+/* Make `directory` and its parents, make sure, before a long run, that results can be written there, and lock it until
+ * zp_folder_close. What killed runs left half written is removed. ZP_MACHINE if it cannot be written, or if another run
+ * holds it: then the message says which process. *out is NULL on failure. */
+ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *err);
+
+/* Unlock it; NULL is allowed. */
+void zp_folder_close(ZpFolder *folder);
+
 /* Where results go, and what was run. */
 typedef struct ZpReport {
   const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
@@ -67,19 +78,19 @@ typedef struct ZpReport {
   ZpResult *const *result;    /* [count] */
   size_t count;               /* zp_scenario_count, fewer if interrupted */
   double wall_time;           /* of all, s */
+  const ZpFolder *folder;     /* `directory`, opened by the caller; NULL: zp_report_write opens and closes it */
+  const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
 } ZpReport;
 
 /* Write summary.json (also what --json prints) to `file`. */
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
 
-/* Write scenario.yaml, summary.json, table.csv, results.h5, shapes.pvd with its .vtp files, plots/ and, of one run in
- * time, checkpoint.zps.
- * Each file appears under its name when it is complete. Without gnuplot the pictures are left out, the
- * .gp files stay, and `notice` (may be NULL) says so. */
+/* Write scenario.yaml, table.csv, results.h5, shapes.pvd with its .vtp files, of one run in time checkpoint.zps, then
+ * summary.json, at last the pictures in plots/.
+ * Each file appears under its name when it is complete. A picture that cannot be drawn is no failure: without gnuplot,
+ * or where it fails or takes longer than a minute, the picture is left out, its .gp file stays, and `notice` (may be
+ * NULL) says so. */
 ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
-
-/* Make sure, before a long run, that results can be written to `directory` (and its parents made). */
-ZpStatus zp_report_prepare(const char *directory, ZpError *err);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
  * since some file systems tell of a full disk only then. */
 #include "io/atomic.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -29,12 +30,46 @@ static void forget(ZpAtomic *atomic) {
   *atomic = (ZpAtomic){0};
 }
 
+/* Between the name of a file and the process id in its temporary name: no one else names files so. */
+#define MARK ".zipact-"
+
 /* The process id keeps two programs that write to one folder apart. The name begins with a point so that
  * patterns such as *.csv do not meet it. */
 static bool make_names(ZpAtomic *atomic, const char *directory, const char *name) {
   *atomic = (ZpAtomic){.path = zp_path_join(directory, name)};
-  if (asprintf(&atomic->temporary, "%s/.%s.%ld.tmp", directory, name, (long)getpid()) < 0) atomic->temporary = NULL;
+  if (asprintf(&atomic->temporary, "%s/.%s" MARK "%ld.tmp", directory, name, (long)getpid()) < 0)
+    atomic->temporary = NULL;
   return atomic->path && atomic->temporary;
+}
+
+/* Whether make_names, in some process, has made this name. */
+static bool is_temporary(const char *name) {
+  const char *mark = name[0] == '.' ? strstr(name + 1, MARK) : NULL;
+  if (!mark || mark == name + 1) return false;
+  const char *id = mark + strlen(MARK);
+  size_t digits = strspn(id, "0123456789");
+  return digits > 0 && strcmp(id + digits, ".tmp") == 0;
+}
+
+ZpStatus zp_atomic_clean(const char *directory, ZpError *err) {
+  DIR *list = opendir(directory);
+  if (!list && (errno == ENOENT || errno == ENOTDIR)) return ZP_OK;
+  if (!list) return zp_fail(err, ZP_MACHINE, "cannot read the folder %s: %s", directory, strerror(errno));
+  ZpStatus status = ZP_OK;
+  for (struct dirent *entry = readdir(list); entry && status == ZP_OK; entry = readdir(list))
+    if (is_temporary(entry->d_name)) status = zp_remove_file(directory, entry->d_name, err);
+  closedir(list);
+  return status;
+}
+
+ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err) {
+  char *path = zp_path_join(directory, name);
+  if (!path) return zp_fail_memory(err);
+  ZpStatus status = ZP_OK;
+  if (unlink(path) != 0 && errno != ENOENT && errno != ENOTDIR)
+    status = zp_fail(err, ZP_MACHINE, "cannot replace %s: %s", path, strerror(errno));
+  free(path);
+  return status;
 }
 
 /* A new file; one of the same temporary name can only be what a killed process of our number left. */

@@ -34,6 +34,13 @@ ZpStatus zp_atomic_finish(ZpAtomic *atomic, ZpStatus status, ZpError *err);
 /* Remove the temporary file. Nothing happens if none is open. */
 void zp_atomic_abandon(ZpAtomic *atomic);
 
+/* Remove from `directory`, which need not exist, the temporary files that killed processes left there. Only for who has
+ * the folder for himself: those of a process that still writes are removed, too. */
+ZpStatus zp_atomic_clean(const char *directory, ZpError *err);
+
+/* Remove the file `name` of an earlier report; it need not exist. */
+ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err);
+
 /* "directory/name", to be freed by the caller; NULL if there is no memory. */
 char *zp_path_join(const char *directory, const char *name);
 

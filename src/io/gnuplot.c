@@ -1,12 +1,14 @@
 /* Running gnuplot as a child process.
  *
- * Arguments go as a vector, so no shell reads file names. The child has a process group of its own: a
- * Ctrl-C at the terminal is for the simulation, and what was done is still drawn. What it prints on
+ * Arguments go as a vector, so no shell reads file names. The child has a process group of its own: a Ctrl-C at the
+ * terminal is for us, who decide whether to wait on, and what the child has started dies with it. It writes to a
+ * temporary file only, so it may be killed at any time, by the signal that no program can ignore. What it prints on
  * stderr is read through a pipe; what it prints on stdout is dropped, since stdout may carry JSON. */
 #include "io/gnuplot.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdbool.h>
@@ -14,10 +16,22 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 /* What is kept of stderr: more than enough for the first complaint. */
 #define KEPT 4096
+
+/* How long to wait before the hooks are asked again, ms. */
+#define PULSE 20
+
+/* A gnuplot that runs. */
+typedef struct Child {
+  pid_t id;
+  int errors; /* its stderr, read without waiting; -1 when it has closed it */
+  char kept[KEPT];
+  size_t used; /* bytes of `kept`, which ends with a 0 */
+} Child;
 
 /* => 0 or an errno. stderr of the child goes to `error_pipe`. */
 static int set_files(posix_spawn_file_actions_t *actions, const char *folder, int error_pipe) {
@@ -57,26 +71,60 @@ static int spawn(pid_t *child, const char *folder, const char *script, char *set
   return error;
 }
 
-/* Read until the child closes its end; keep the first KEPT bytes. */
-static void read_all(int fd, char *kept) {
+/* Read what is there; keep the first KEPT bytes. */
+static void read_errors(Child *child) {
   char part[1024];
-  size_t used = 0;
   for (;;) {
-    ssize_t got = read(fd, part, sizeof part);
+    ssize_t got = read(child->errors, part, sizeof part);
     if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EAGAIN) return;
     if (got <= 0) break;
-    size_t take = (size_t)got < KEPT - 1 - used ? (size_t)got : KEPT - 1 - used;
-    memcpy(kept + used, part, take);
-    used += take;
+    size_t room = KEPT - 1 - child->used, take = (size_t)got < room ? (size_t)got : room;
+    memcpy(child->kept + child->used, part, take);
+    child->used += take;
+    child->kept[child->used] = 0;
   }
-  kept[used] = 0;
+  close(child->errors);
+  child->errors = -1;
 }
 
-static bool ended_well(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return true; /* someone else waits for children; the picture will tell */
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+/* Wait until it says something or ends, a PULSE at most. */
+static void wait_a_little(Child *child) {
+  struct pollfd stream = {.fd = child->errors, .events = POLLIN};
+  poll(&stream, 1, child->errors >= 0 ? PULSE : 1); /* it closes its stderr when it ends */
+  if (child->errors >= 0) read_errors(child);
+}
+
+static double wall_clock(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool asked_to_stop(const ZpHooks *hooks) {
+  return hooks && hooks->progress && hooks->progress(hooks->user, "pictures", 1);
+}
+
+static void kill_group(Child *child) {
+  kill(-child->id, SIGKILL);
+  while (waitpid(child->id, NULL, 0) < 0 && errno == EINTR)
+    continue;
+}
+
+static ZpGnuplot wait_for(Child *child, const ZpGnuplotJob *job) {
+  const double end = wall_clock() + job->patience;
+  for (;;) {
+    int status = 0;
+    wait_a_little(child);
+    pid_t ended = waitpid(child->id, &status, WNOHANG);
+    if (ended < 0 && errno != EINTR)
+      return ZP_GNUPLOT_DONE; /* someone else waits for children; the picture will tell */
+    if (ended > 0) return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ZP_GNUPLOT_DONE : ZP_GNUPLOT_FAILED;
+    bool stop = asked_to_stop(job->hooks);
+    if (!stop && wall_clock() < end) continue;
+    kill_group(child);
+    return stop ? ZP_GNUPLOT_INTERRUPTED : ZP_GNUPLOT_HANGS;
+  }
 }
 
 /* The first line that says something: not empty, not the mark under a quoted command, no mere warning. */
@@ -90,28 +138,33 @@ static void first_complaint(char *text, char *reason, size_t size) {
   }
 }
 
-ZpGnuplot zp_gnuplot_run(const char *folder, const char *script, const char *output, char *reason, size_t size) {
-  char kept[KEPT], *set_out = NULL;
+/* => 0 and the child, or an errno. */
+static int start(const ZpGnuplotJob *job, Child *child) {
+  char *set_out = NULL;
   int ends[2];
-  pid_t child = 0;
-  snprintf(reason, size, "gnuplot gave no reason");
-  if (pipe2(ends, O_CLOEXEC) != 0) {
-    snprintf(reason, size, "%s", strerror(errno));
-    return ZP_GNUPLOT_FAILED;
-  }
-  int error = asprintf(&set_out, "out = '%s'", output) < 0 ? ENOMEM : 0;
+  *child = (Child){.errors = -1};
+  if (pipe2(ends, O_CLOEXEC) != 0) return errno;
+  int error = asprintf(&set_out, "out = '%s'", job->output) < 0 ? ENOMEM : 0;
   if (!error) {
-    error = spawn(&child, folder, script, set_out, ends[1]);
+    error = spawn(&child->id, job->folder, job->script, set_out, ends[1]);
     free(set_out);
   }
   close(ends[1]);
-  if (!error) read_all(ends[0], kept);
-  close(ends[0]);
-  if (error) {
-    snprintf(reason, size, "%s", strerror(error));
-    return error == ENOENT ? ZP_GNUPLOT_MISSING : ZP_GNUPLOT_FAILED;
-  }
-  bool well = ended_well(child);
-  first_complaint(kept, reason, size);
-  return well ? ZP_GNUPLOT_DONE : ZP_GNUPLOT_FAILED;
+  if (!error && fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0) child->errors = ends[0];
+  if (child->errors < 0) close(ends[0]);
+  return error;
+}
+
+ZpGnuplot zp_gnuplot_run(const ZpGnuplotJob *job, char *reason, size_t size) {
+  Child child;
+  int error = start(job, &child);
+  snprintf(reason, size, "%s", error ? strerror(error) : "gnuplot gave no reason");
+  if (error) return error == ENOENT ? ZP_GNUPLOT_MISSING : ZP_GNUPLOT_FAILED;
+  ZpGnuplot end = wait_for(&child, job);
+  if (child.errors >= 0) read_errors(&child);
+  if (child.errors >= 0) close(child.errors);
+  first_complaint(child.kept, reason, size);
+  if (end == ZP_GNUPLOT_HANGS) snprintf(reason, size, "gnuplot took longer than %g s", job->patience);
+  if (end == ZP_GNUPLOT_INTERRUPTED) snprintf(reason, size, "interrupted");
+  return end;
 }

@@ -25,17 +25,24 @@ typedef struct ZpPicture {
   void (*data)(const ZpPlot *plot, FILE *file);   /* writes the .dat; NULL if there is none */
 } ZpPicture;
 
+/* Wall time after which gnuplot counts as hanging, s. The animation takes 2 s on an idle machine. */
+#define ZP_PLOT_PATIENCE 60.0
+
 /* Where pictures go. */
 typedef struct ZpDrawing {
   const ZpPlot *plot;
   const char *folder;                  /* made if needed */
   void (*notice)(const char *message); /* NULL: silent */
-  bool missing;                        /* there is no gnuplot */
+  double patience;                     /* ZP_PLOT_PATIENCE, s */
+  const ZpHooks *hooks;                /* asked while gnuplot runs: true ends it. May be NULL */
+  bool over;                           /* no more pictures: there is no gnuplot, it hangs, or a hook said so */
 } ZpDrawing;
 
-/* Remove, then draw the pictures of `tables` that there is something to draw for. A picture that gnuplot cannot draw is
- * no failure: its script stays and the notice says why. */
-ZpStatus zp_plots_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err);
+/* Remove the pictures of `tables` and write scripts and data of those that there is something to draw for. */
+ZpStatus zp_drawing_prepare(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err);
+
+/* Let gnuplot draw them. A picture that it cannot draw is no failure: its script stays and the notice says why. */
+void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables);
 
 /* All pictures that any report may have; the last has no name. */
 extern const ZpPicture zp_series_pictures[];

@@ -1,9 +1,9 @@
 /* plots/: each picture with the gnuplot script that drew it and the data it was drawn from, so that
  * `gnuplot NAME.gp` there makes the same picture again.
  *
- * A picture is worth less than the numbers: without gnuplot, or where it fails, the scripts stay, a
- * notice says so, and the report goes on. Pictures of an earlier report are removed first, so none shows
- * what is not in the table. */
+ * A picture is worth less than the numbers: these are on the disk before gnuplot runs. Without gnuplot, or where it
+ * fails or hangs, the scripts stay and a notice says so. Pictures of an earlier report are removed first, so none
+ * shows what is not in the table. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,14 +19,16 @@
 #define NAME_SIZE 64
 
 static void say(const ZpDrawing *drawing, const char *name, const char *reason) {
-  char message[512];
-  if (!drawing->notice) return;
-  if (drawing->missing)
-    snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp",
-             drawing->folder);
-  else
-    snprintf(message, sizeof message, "%s/%s was not drawn: %s", drawing->folder, name, reason);
-  drawing->notice(message);
+  char message[1024];
+  const char *more = drawing->over ? "; the rest are not drawn either; their scripts are there" : "";
+  snprintf(message, sizeof message, "%s/%s was not drawn: %s%s", drawing->folder, name, reason, more);
+  if (drawing->notice) drawing->notice(message);
+}
+
+static void say_missing(const ZpDrawing *drawing) {
+  char message[1024];
+  snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp", drawing->folder);
+  if (drawing->notice) drawing->notice(message);
 }
 
 /* gnuplot does not tell of a full disk, so look whether the file has its end: </svg>, or ; of a GIF. */
@@ -53,23 +55,39 @@ static ZpStatus write_text(const ZpDrawing *drawing, const ZpPicture *picture, c
   return zp_atomic_commit(&out, err);
 }
 
-static ZpStatus draw(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
-  ZpAtomic out;
-  char name[NAME_SIZE], script[NAME_SIZE], reason[256];
-  snprintf(name, sizeof name, "%s.%s", picture->name, picture->extension);
+/* Run the script of a picture. From then on no more are tried where gnuplot can draw none. */
+static ZpGnuplot run_script(ZpDrawing *drawing, const ZpPicture *picture, const char *output, char *reason,
+                            size_t size) {
+  char script[NAME_SIZE];
   snprintf(script, sizeof script, "%s.gp", picture->name);
-  ZpStatus status = zp_atomic_reserve(&out, drawing->folder, name, err);
-  if (status != ZP_OK) return status;
-  const char *temporary = strrchr(out.temporary, '/') + 1;
-  ZpGnuplot end = zp_gnuplot_run(drawing->folder, script, temporary, reason, sizeof reason);
-  if (end == ZP_GNUPLOT_DONE && is_complete(out.temporary, picture->extension)) return zp_atomic_commit(&out, err);
-  zp_atomic_abandon(&out);
-  drawing->missing = end == ZP_GNUPLOT_MISSING;
-  say(drawing, name, reason);
-  return ZP_OK;
+  const ZpGnuplotJob job = {drawing->folder, script, output, drawing->patience, drawing->hooks};
+  ZpGnuplot end = zp_gnuplot_run(&job, reason, size);
+  drawing->over = end != ZP_GNUPLOT_DONE && end != ZP_GNUPLOT_FAILED;
+  return end;
 }
 
-static ZpStatus remove_picture(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
+static void draw(ZpDrawing *drawing, const ZpPicture *picture) {
+  ZpAtomic out;
+  ZpError err;
+  char name[NAME_SIZE], reason[256];
+  snprintf(name, sizeof name, "%s.%s", picture->name, picture->extension);
+  if (zp_atomic_reserve(&out, drawing->folder, name, &err) != ZP_OK) {
+    say(drawing, name, err.message);
+    return;
+  }
+  ZpGnuplot end = run_script(drawing, picture, strrchr(out.temporary, '/') + 1, reason, sizeof reason);
+  if (end == ZP_GNUPLOT_DONE && is_complete(out.temporary, picture->extension)) {
+    if (zp_atomic_commit(&out, &err) != ZP_OK) say(drawing, name, err.message);
+    return;
+  }
+  zp_atomic_abandon(&out);
+  if (end == ZP_GNUPLOT_MISSING)
+    say_missing(drawing);
+  else
+    say(drawing, name, reason);
+}
+
+static ZpStatus remove_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   const char *const extension[] = {"gp", "dat", picture->extension};
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < 3 && status == ZP_OK; i++) {
@@ -80,11 +98,10 @@ static ZpStatus remove_picture(ZpDrawing *drawing, const ZpPicture *picture, ZpE
   return status;
 }
 
-static ZpStatus make_picture(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
+static ZpStatus prepare_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   if (!picture->has(drawing->plot)) return ZP_OK;
   ZpStatus status = write_text(drawing, picture, "gp", picture->script, err);
-  if (status == ZP_OK) status = write_text(drawing, picture, "dat", picture->data, err);
-  return status == ZP_OK && !drawing->missing ? draw(drawing, picture, err) : status;
+  return status == ZP_OK ? write_text(drawing, picture, "dat", picture->data, err) : status;
 }
 
 /* Add "name value" to the subtitle unless the key is swept: then the legend tells. */
@@ -133,8 +150,9 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus for_all(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables,
-                        ZpStatus (*act)(ZpDrawing *drawing, const ZpPicture *picture, ZpError *err), ZpError *err) {
+static ZpStatus for_all(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables,
+                        ZpStatus (*act)(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err),
+                        ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t t = 0; t < tables; t++)
     for (const ZpPicture *picture = table[t]; picture->name && status == ZP_OK; picture++)
@@ -142,25 +160,48 @@ static ZpStatus for_all(ZpDrawing *drawing, const ZpPicture *const *table, size_
   return status;
 }
 
-ZpStatus zp_plots_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err) {
+ZpStatus zp_drawing_prepare(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err) {
   ZpStatus status = ZP_OK;
   if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
     status = zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
   /* pictures of different studies may have the same name: remove all before any is made */
   if (status == ZP_OK) status = for_all(drawing, table, tables, remove_picture, err);
-  if (status == ZP_OK) status = for_all(drawing, table, tables, make_picture, err);
+  if (status == ZP_OK) status = for_all(drawing, table, tables, prepare_picture, err);
   return status;
 }
 
-ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
-  static const ZpPicture *const table[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures, zp_path_pictures,
-                                           zp_rest_pictures,   zp_fit_pictures,   zp_field_pictures};
+void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables) {
+  for (size_t t = 0; t < tables; t++)
+    for (const ZpPicture *picture = table[t]; picture->name && !drawing->over; picture++)
+      if (picture->has(drawing->plot)) draw(drawing, picture);
+}
+
+/* -- those of a report ----------------------------------------------------------------------------- */
+
+static const ZpPicture *const all[] = {zp_series_pictures, zp_shape_pictures, zp_sweep_pictures, zp_path_pictures,
+                                       zp_rest_pictures,   zp_fit_pictures,   zp_field_pictures};
+
+enum { TABLES = sizeof all / sizeof all[0] };
+
+ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {
   ZpPlot plot;
   char *folder = zp_path_join(report->directory, "plots");
   if (!folder) return zp_fail_memory(err);
-  ZpDrawing drawing = {.plot = &plot, .folder = folder, .notice = notice};
+  const ZpDrawing drawing = {.plot = &plot, .folder = folder};
   ZpStatus status = look_at(report, &plot, err);
-  if (status == ZP_OK) status = zp_plots_draw(&drawing, table, sizeof table / sizeof table[0], err);
+  if (status == ZP_OK) status = zp_drawing_prepare(&drawing, all, TABLES, err);
   free(folder);
   return status;
+}
+
+void zp_plots_write(const ZpReport *report, void (*notice)(const char *message)) {
+  ZpPlot plot;
+  ZpError err = {ZP_MACHINE, "no memory"};
+  char *folder = zp_path_join(report->directory, "plots");
+  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, false};
+  if (folder && look_at(report, &plot, &err) == ZP_OK)
+    zp_drawing_draw(&drawing, all, TABLES);
+  else if (notice)
+    notice(err.message);
+  free(folder);
 }

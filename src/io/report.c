@@ -1,15 +1,12 @@
 /* A report: all files that a study leaves in its folder, written in an order that keeps a promise.
  *
- * summary.json goes first when old results are replaced and comes last when new ones are written, so
- * where it stands the other files belong to it. */
+ * summary.json goes first when old results are replaced and comes after all other numbers when new ones are written,
+ * so where it stands the numbers are complete. Pictures come last: another program draws them. */
 #include "io/report.h"
 
-#include <errno.h>
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
@@ -89,57 +86,17 @@ ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err) {
   return status;
 }
 
-ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err) {
-  char *path = zp_path_join(directory, name);
-  if (!path) return zp_fail_memory(err);
-  ZpStatus status = ZP_OK;
-  if (unlink(path) != 0 && errno != ENOENT && errno != ENOTDIR)
-    status = zp_fail(err, ZP_MACHINE, "cannot replace %s: %s", path, strerror(errno));
-  free(path);
-  return status;
-}
-
-static ZpStatus make_one(const char *path, ZpError *err) {
-  struct stat info;
-  if (mkdir(path, 0777) == 0) return ZP_OK;
-  int error = errno;
-  if (stat(path, &info) != 0) return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", path, strerror(error));
-  if (S_ISDIR(info.st_mode)) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "cannot write results to %s: it is a file, not a folder", path);
-}
-
-/* Make every folder of the path, from the first on. `path` is cut and mended on the way. */
-static ZpStatus make_all(char *path, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  for (char *slash = strchr(path + 1, '/'); slash && status == ZP_OK; slash = strchr(slash + 1, '/')) {
-    *slash = 0;
-    status = make_one(path, err);
-    *slash = '/';
-  }
-  return status == ZP_OK ? make_one(path, err) : status;
-}
-
-/* Only a file that was really made tells of rights, read-only disks and quotas alike. */
-static ZpStatus try_writing(const char *directory, ZpError *err) {
-  ZpAtomic probe;
-  ZpStatus status = zp_atomic_open(&probe, directory, "summary.json", err);
-  if (status == ZP_OK) zp_atomic_abandon(&probe);
-  return status;
-}
-
-ZpStatus zp_report_prepare(const char *directory, ZpError *err) {
-  if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the folder for results is empty");
-  char *path = strdup(directory);
-  if (!path) return zp_fail_memory(err);
-  ZpStatus status = make_all(path, err);
-  free(path);
-  return status == ZP_OK ? try_writing(directory, err) : status;
-}
-
 static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
   ZpAtomic out;
-  ZpStatus status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
-  return status == ZP_OK ? zp_atomic_finish(&out, zp_scenario_write(report->scenario, out.file, err), err) : status;
+  char *text;
+  ZpStatus status = zp_scenario_text(report, &text, err);
+  if (status == ZP_OK) status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
+  if (status == ZP_OK) {
+    fputs(text, out.file); /* the commit finds what goes wrong here */
+    status = zp_atomic_commit(&out, err);
+  }
+  free(text);
+  return status;
 }
 
 static ZpStatus write_summary(const ZpReport *report, ZpError *err) {
@@ -155,20 +112,27 @@ static ZpStatus write_all(const ZpReport *report, void (*notice)(const char *mes
   if (status == ZP_OK) status = zp_hdf5_write(report, err);
   if (status == ZP_OK) status = zp_vtk_write(report, err);
   if (status == ZP_OK) status = zp_checkpoint_report(report, err);
-  if (status == ZP_OK) status = zp_plots_write(report, notice, err);
+  if (status == ZP_OK) status = zp_plots_prepare(report, err);
   if (status == ZP_OK) status = write_summary(report, err);
+  if (status == ZP_OK) zp_plots_write(report, notice);
   return status;
 }
 
 /* The caller's locale may write 0.5 as 0,5: files must not. */
-ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
-  ZpStatus status = zp_report_prepare(report->directory, err);
-  if (status != ZP_OK) return status;
+static ZpStatus write_plainly(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) return zp_fail_memory(err);
   locale_t before = uselocale(plain);
-  status = write_all(report, notice, err);
+  ZpStatus status = write_all(report, notice, err);
   uselocale(before);
   freelocale(plain);
+  return status;
+}
+
+ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
+  ZpFolder *own = NULL;
+  ZpStatus status = report->folder ? ZP_OK : zp_folder_open(report->directory, &own, err);
+  if (status == ZP_OK) status = write_plainly(report, notice, err);
+  zp_folder_close(own);
   return status;
 }

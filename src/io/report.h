@@ -38,15 +38,16 @@ const char *zp_key_word(int key, double value);
 /* scenario.yaml as text, to be freed by the caller. */
 ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err);
 
-/* Remove the file `name` of an earlier report; it need not exist. */
-ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err);
-
 /* The writers. Each replaces its own files in report->directory and removes those that an earlier report
  * left and this one does not have. */
 ZpStatus zp_csv_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err);
 ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err);
-ZpStatus zp_plots_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
+
+/* Pictures: first those of an earlier report are removed and the scripts and data of this one are written; then, when
+ * all numbers are on the disk, gnuplot draws. What cannot be drawn, the notice says. */
+ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err);
+void zp_plots_write(const ZpReport *report, void (*notice)(const char *message));
 
 #endif

@@ -142,12 +142,15 @@ static const ZpPicture pictures[] = {
     {.name = NULL},
 };
 
-ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, void (*notice)(const char *message), ZpError *err) {
+ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, const ZpHooks *hooks,
+                         void (*notice)(const char *message), ZpError *err) {
+  const ZpPicture *const table[] = {pictures};
   char *folder = zp_path_join(directory, "plots");
   if (!folder) return zp_fail_memory(err);
   const ZpPlot plot = {.runs = runs};
-  ZpDrawing drawing = {.plot = &plot, .folder = folder, .notice = notice};
-  ZpStatus status = zp_plots_draw(&drawing, (const ZpPicture *const[]){pictures}, 1, err);
+  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, hooks, false};
+  ZpStatus status = zp_drawing_prepare(&drawing, table, 1, err);
+  if (status == ZP_OK) zp_drawing_draw(&drawing, table, 1);
   free(folder);
   return status;
 }

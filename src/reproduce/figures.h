@@ -4,7 +4,9 @@
 
 #include "reproduce/runs.h"
 
-/* Draw figs. 6 to 8 into `directory`/plots; others are pictures of a single run and lie with it. */
-ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, void (*notice)(const char *message), ZpError *err);
+/* Draw figs. 6 to 8 into `directory`/plots; others are pictures of a single run and lie with it.
+ * `hooks` are asked while gnuplot runs. */
+ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, const ZpHooks *hooks,
+                         void (*notice)(const char *message), ZpError *err);
 
 #endif

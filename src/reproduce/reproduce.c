@@ -118,9 +118,10 @@ static ZpStatus write_page(const ZpPage *page, ZpError *err) {
   return zp_atomic_commit(&out, err);
 }
 
-static ZpStatus write_all(const ZpPage *page, void (*notice)(const char *message), FILE *summary, ZpError *err) {
+static ZpStatus write_all(const ZpPage *page, const ZpHooks *hooks, void (*notice)(const char *message), FILE *summary,
+                          ZpError *err) {
   ZpStatus status = write_csv(page->directory, page->comparisons, err);
-  if (status == ZP_OK) status = zp_figures_draw(page->directory, page->runs, notice, err);
+  if (status == ZP_OK) status = zp_figures_draw(page->directory, page->runs, hooks, notice, err);
   if (status == ZP_OK) status = write_page(page, err);
   if (status != ZP_OK) return status;
   json_t *tree = summary_of(page->comparisons, page->runs->outcome, page->wall_time);
@@ -141,7 +142,7 @@ static ZpStatus run_and_write(const char *directory, const ZpHooks *hooks, void 
   if (status == ZP_OK) status = zp_compare(&runs, &comparisons, err);
   const double wall_time = timed ? hooks->clock(hooks->user) - start : (double)NAN;
   const ZpPage page = {directory, &runs, &comparisons, wall_time};
-  if (status == ZP_OK) status = write_all(&page, notice, summary, err);
+  if (status == ZP_OK) status = write_all(&page, hooks, notice, summary, err);
   *outcome = runs.outcome;
   free(comparisons.item);
   zp_runs_free(&runs);
@@ -149,16 +150,24 @@ static ZpStatus run_and_write(const char *directory, const ZpHooks *hooks, void 
 }
 
 /* The caller's locale may write 0.5 as 0,5: files must not. */
-ZpStatus zp_reproduce(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message), FILE *summary,
-                      ZpOutcome *outcome, ZpError *err) {
-  ZpStatus status = zp_report_prepare(directory, err);
-  if (status == ZP_OK) status = zp_remove_file(directory, "summary.json", err);
-  if (status != ZP_OK) return status;
+static ZpStatus reproduce_plainly(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message),
+                                  FILE *summary, ZpOutcome *outcome, ZpError *err) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) return zp_fail_memory(err);
   locale_t before = uselocale(plain);
-  status = run_and_write(directory, hooks, notice, summary, outcome, err);
+  ZpStatus status = run_and_write(directory, hooks, notice, summary, outcome, err);
   uselocale(before);
   freelocale(plain);
+  return status;
+}
+
+ZpStatus zp_reproduce(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message), FILE *summary,
+                      ZpOutcome *outcome, ZpError *err) {
+  ZpFolder *folder;
+  ZpStatus status = zp_folder_open(directory, &folder, err);
+  if (status != ZP_OK) return status;
+  status = zp_remove_file(directory, "summary.json", err);
+  if (status == ZP_OK) status = reproduce_plainly(directory, hooks, notice, summary, outcome, err);
+  zp_folder_close(folder);
   return status;
 }

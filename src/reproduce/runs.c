@@ -132,19 +132,30 @@ static ZpStatus run_batch(ZpRunId id, ZpRun *run, const ZpHooks *outer, double *
   return status;
 }
 
-static ZpStatus make_run(ZpRunId id, const char *folder, const ZpHooks *hooks, void (*notice)(const char *message),
-                         ZpRun *run, ZpError *err) {
+/* The run and its report in the folder `where`, which is open. */
+static ZpStatus run_and_report(ZpRunId id, const char *where, const ZpFolder *folder, const ZpHooks *hooks,
+                               void (*notice)(const char *message), ZpRun *run, ZpError *err) {
   double wall_time;
-  run->scenario = zp_scenario_create();
-  if (!run->scenario) return zp_fail_memory(err);
-  ZpStatus status = zp_report_prepare(folder, err);
-  if (status == ZP_OK)
-    status = zp_scenario_parse(run->scenario, spec[id].scenario, strlen(spec[id].scenario), spec[id].name, err);
-  if (status == ZP_OK) status = add_published(id, run->scenario, folder, err);
+  ZpStatus status = zp_scenario_parse(run->scenario, spec[id].scenario, strlen(spec[id].scenario), spec[id].name, err);
+  if (status == ZP_OK) status = add_published(id, run->scenario, where, err);
   if (status == ZP_OK) status = run_batch(id, run, hooks, &wall_time, err);
   if (status != ZP_OK) return status;
-  const ZpReport report = {folder, run->scenario, run->batch.result, run->batch.done, wall_time};
+  Inner done = {hooks, spec[id].name, share_before(id + 1), 0};
+  const ZpHooks drawing = {.user = &done, .progress = on_progress};
+  const ZpReport report = {where, run->scenario, run->batch.result, run->batch.done, wall_time, folder, &drawing};
   return zp_report_write(&report, notice, err);
+}
+
+static ZpStatus make_run(ZpRunId id, const char *where, const ZpHooks *hooks, void (*notice)(const char *message),
+                         ZpRun *run, ZpError *err) {
+  ZpFolder *folder;
+  run->scenario = zp_scenario_create();
+  if (!run->scenario) return zp_fail_memory(err);
+  ZpStatus status = zp_folder_open(where, &folder, err);
+  if (status != ZP_OK) return status;
+  status = run_and_report(id, where, folder, hooks, notice, run, err);
+  zp_folder_close(folder);
+  return status;
 }
 
 static ZpOutcome outcome_of(const ZpBatch *batch) {
