@@ -1,0 +1,528 @@
+/* Every key of keys.def acts: in a scene where it is in use another value changes the output that it should, by what
+ * a closed form or a law of scaling says, else by far more than rounding; and leaves alone what it should. A new key
+ * without a row here fails. */
+#include "check_util.h"
+
+#include <zipact/calibrate.h>
+#include <zipact/io.h>
+
+/* -- scenes ---------------------------------------------------------------------------------------- */
+
+/* A weightless strip 0.1 m long, clamped at the left, under 10 mg at its guided end: it bends by 0.3 mm, linearly. */
+#define STRIP                                                                                                          \
+  "study=stationary actuator.kind=ribbon actuator.right_end=guided ribbon.density=0 load.mass=10mg mesh.nodes=21"
+#define CANTILEVER                                                                                                     \
+  "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 load.mass=2mg mesh.nodes=21"
+
+/* Two weightless strips, 45 mm flexible, that part by 0.2 mm. */
+#define PAIR "study=stationary ribbon.density=0 load.mass=0.1g mesh.nodes=21 drive.voltage=1V"
+
+/* Frequencies of a strip in no gravity. */
+#define TUNED                                                                                                          \
+  "study=modes actuator.kind=ribbon actuator.right_end=guided gravity=0 load.mass=0 ribbon.length=20mm mesh.nodes=21"
+
+/* Closed all along, the platform too, looked at before anything moves: a plane capacitor of two insulators. */
+#define CLOSED   "study=actuate initial.state=straight mesh.nodes=5 solver.end_time=1ns"
+#define UNCAPPED CLOSED " drive.voltage=1kV electro.breakdown_cap=false"
+
+/* One ribbon, 20 mm long, below a flat electrode. */
+#define FLANGE "actuator.kind=flange actuator.right_end=guided load.mass=0 ribbon.length=20mm mesh.nodes=21"
+
+/* What the source does is looked at; nothing much moves. */
+#define DRIVEN "study=actuate initial.state=straight mesh.nodes=5 drive.voltage=2kV"
+
+/* The default actuator from hanging, on a coarse mesh. */
+#define HANGING "study=actuate mesh.nodes=11"
+
+/* The paper's particles, zipping one after the other. */
+#define PARTICLES                                                                                                      \
+  "study=actuate mesh.nodes=11 ribbon.model=mass_spring mass_spring.axial=code solver.integrator=explicit "            \
+  "contact.model=sequential"
+#define BEZIER PARTICLES " electro.surface=bezier"
+
+/* A limp strand let go from straight falls freely. */
+#define STRAND                                                                                                         \
+  "study=actuate actuator.kind=ribbon actuator.right_end=free initial.state=straight ribbon.length=45mm load.mass=0 "  \
+  "mesh.nodes=21 ribbon.model=mass_spring mass_spring.shear_coefficient=0 mass_spring.axial=code "                     \
+  "solver.integrator=explicit solver.end_time=5ms"
+
+/* A strip let go from straight swings in its first mode, mostly. */
+#define SWING                                                                                                          \
+  "study=actuate actuator.kind=ribbon actuator.right_end=guided initial.state=straight ribbon.length=45mm "            \
+  "load.mass=0 mesh.nodes=11 solver.end_time=40ms"
+
+#define HELD    "study=isometric isometric.separation=2mm load.mass=0 mesh.nodes=21 drive.voltage=1V"
+#define PROFILE "study=profile profile.shape=cubic isometric.separation=1mm mesh.nodes=21 electro.breakdown_cap=false"
+
+/* Strokes of the strip that hold for 100 GPa are fitted. */
+#define FITTED                                                                                                         \
+  "study=calibrate actuator.kind=ribbon actuator.right_end=guided ribbon.density=0 mesh.nodes=21 data.file=soft.csv "  \
+  "calibrate.fit=ribbon.young_modulus"
+
+/* -- what they lead to ----------------------------------------------------------------------------- */
+
+typedef enum Change {
+  TIMES,   /* the output is `expected` times that before, within `tolerance` */
+  PLUS,    /* it is `expected` more, within `tolerance` of that */
+  BECOMES, /* it is `expected` */
+  MORE,    /* it is more than `expected` times that before */
+  LESS,    /* less than `expected` times that before */
+  SAME     /* but for rounding */
+} Change;
+
+typedef struct Effect {
+  Change change;
+  const char *output;
+  double expected, tolerance;
+} Effect;
+
+enum { EFFECTS = 3 };
+
+typedef struct Row {
+  const char *key, *scene; /* the key, and what else is set */
+  const char *from, *to;   /* its value before and after */
+  Effect effect[EFFECTS];
+} Row;
+
+#define NU2             (0.285 * 0.285)            /* of the default steel */
+#define PLATES          (2 * 130e-6 * 2.75 / 4.62) /* d: liquid that stands for both insulators, m */
+#define CLOSED_AT_10_KV (10e3 / 20e6)              /* g + d at which breakdown sets in, m */
+#define LINE_MASS       (7850 * 12.7e-3 * 50e-6)   /* kg/m */
+#define CUBE(x)         ((x) * (x) * (x))
+#define EI              (200e9 * 12.7e-3 * CUBE(50e-6) / 12 / (1 - NU2))
+#define SQUARE(x)       ((x) * (x))
+
+/* Of FLANGE, 1 mm and 100 um of insulators below the electrode, at 500 V: what omega^2 loses over 4 pi^2, and its
+ * first two frequencies, Hz (roots 2.36502 and 5.49780 of a clamped, guided strip). */
+#define SOFTENING   (8.8541878e-12 * 2.75 * 12.7e-3 * SQUARE(500) / CUBE(1.1e-3) / LINE_MASS / SQUARE(2 * 3.14159265))
+#define FIRST_MODE  (169.15)
+#define SECOND_MODE (914.10)
+
+static const Row rows[] = {
+    {"study", HANGING " drive.voltage=3kV", "stationary", "equilibrium", {{MORE, "rows", 1.5, 0}}},
+    {"preset", "study=stationary", "none", "paper-fe", {{BECOMES, "stroke_m", 2.592e-3, 2e-3}}},
+    /* 45 mm of each strip of the pair under half the load, against 100 mm */
+    {"actuator.kind",
+     "study=stationary ribbon.density=0 load.mass=10mg load.share=0.5 mesh.nodes=21 drive.voltage=1V",
+     "electro_ribbon",
+     "ribbon",
+     {{TIMES, "stroke_m", CUBE(100.0 / 45), 1e-3}}},
+    {"actuator.right_end", STRIP, "guided", "free", {{TIMES, "y_m", 4 * (1 + 1.0 / 800) / (1 + 1.0 / 200), 5e-4}}},
+    {"ribbon.length", STRIP, "0.1m", "0.05m", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
+    {"ribbon.width", STRIP, "10mm", "20mm", {{TIMES, "y_m", 0.5, 1e-4}}},
+    {"ribbon.thickness", STRIP, "50um", "100um", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
+    {"ribbon.young_modulus", STRIP, "100GPa", "200GPa", {{TIMES, "y_m", 0.5, 1e-4}}},
+    {"ribbon.poisson_ratio", STRIP, "0", "0.4", {{TIMES, "y_m", 1 - 0.16, 1e-4}}},
+    {"ribbon.poisson_ratio", STRIP " ribbon.plane=stress", "0", "0.4", {{SAME, "y_m", 0, 0}}},
+    {"ribbon.density",
+     TUNED,
+     "2000kg/m3",
+     "8000kg/m3",
+     {{TIMES, "frequency_1_Hz", 0.5, 1e-6}, {TIMES, "frequency_5_Hz", 0.5, 1e-6}}},
+    {"ribbon.plane", STRIP, "stress", "strain", {{TIMES, "y_m", 1 - NU2, 1e-4}}},
+    /* deflections of the discrete cantilevers: sums of squared moments over the joints */
+    {"ribbon.model", CANTILEVER, "rod", "mass_spring", {{TIMES, "y_m", 41.0 / 44 / (1 + 1.0 / 800), 1e-4}}},
+
+    /* 40 mm at the clamp are twice as thick; the compliances add */
+    {"segment_1.length",
+     CANTILEVER " segment_1.thickness=100um",
+     "0",
+     "40mm",
+     {{TIMES, "y_m", (1 - CUBE(0.6)) / 8 + CUBE(0.6), 4e-3}}},
+    {"segment_1.thickness",
+     CANTILEVER " segment_1.length=40mm",
+     "50um",
+     "100um",
+     {{TIMES, "y_m", (1 - CUBE(0.6)) / 8 + CUBE(0.6), 4e-3}}},
+    /* a bow of the piece from a to b lifts the end by k ((L - a)^2 - (L - b)^2) / 2 */
+    {"segment_1.curvature",
+     CANTILEVER " segment_1.length=20mm",
+     "0",
+     "0.1",
+     {{PLUS, "y_m", 0.1 * (SQUARE(0.1) - SQUARE(0.08)) / 2, 1e-3}}},
+    {"segment_2.length",
+     CANTILEVER " segment_1.length=20mm segment_2.thickness=100um",
+     "0",
+     "30mm",
+     {{TIMES, "y_m", 1 - (CUBE(0.8) - CUBE(0.5)) * 7 / 8, 4e-3}}},
+    {"segment_2.thickness",
+     CANTILEVER " segment_1.length=20mm segment_2.length=30mm",
+     "50um",
+     "100um",
+     {{TIMES, "y_m", 1 - (CUBE(0.8) - CUBE(0.5)) * 7 / 8, 4e-3}}},
+    {"segment_2.curvature",
+     CANTILEVER " segment_1.length=20mm segment_2.length=30mm",
+     "0",
+     "0.1",
+     {{PLUS, "y_m", 0.1 * (SQUARE(0.08) - SQUARE(0.05)) / 2, 1e-3}}},
+    {"segment_3.length",
+     CANTILEVER " segment_1.length=20mm segment_2.length=30mm segment_3.thickness=25um",
+     "0",
+     "40mm",
+     {{TIMES, "y_m", 1 + (CUBE(0.5) - CUBE(0.1)) * 7, 4e-3}}},
+    {"segment_3.thickness",
+     CANTILEVER " segment_1.length=20mm segment_2.length=30mm segment_3.length=40mm",
+     "50um",
+     "25um",
+     {{TIMES, "y_m", 1 + (CUBE(0.5) - CUBE(0.1)) * 7, 4e-3}}},
+    {"segment_3.curvature",
+     CANTILEVER " segment_1.length=20mm segment_2.length=30mm segment_3.length=40mm",
+     "0",
+     "0.1",
+     {{PLUS, "y_m", 0.1 * (SQUARE(0.05) - SQUARE(0.01)) / 2, 1e-3}}},
+
+    {"platform.length", PAIR, "10mm", "20mm", {{TIMES, "opening_m", CUBE(40.0 / 45), 1e-3}}},
+    {"platform.electrode",
+     UNCAPPED,
+     "true",
+     "false",
+     {{TIMES, "capacitance_F", 0.9, 1e-6}, {TIMES, "force_N", 0.9, 1e-6}, {TIMES, "charge_C", 0.9, 1e-6}}},
+
+    {"insulator.thickness",
+     UNCAPPED,
+     "100um",
+     "200um",
+     {{TIMES, "capacitance_F", 0.5, 1e-6}, {TIMES, "force_N", 0.25, 1e-6}}},
+    {"insulator.permittivity", UNCAPPED, "3", "6", {{TIMES, "capacitance_F", 2, 1e-6}, {TIMES, "force_N", 4, 1e-6}}},
+    {"insulator.density",
+     TUNED " insulator.thickness=100um",
+     "0",
+     "3925kg/m3",
+     {{TIMES, "frequency_1_Hz", 0.70710678, 1e-6}}},
+    /* two layers as thick, as stiff and without lateral strain: the neutral axis lies between them, E I is eightfold */
+    {"insulator.young_modulus",
+     STRIP " ribbon.poisson_ratio=0 insulator.thickness=50um ribbon.young_modulus=100GPa",
+     "0",
+     "100GPa",
+     {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
+    {"insulator.breakdown_field", CLOSED, "100MV/m", "10MV/m", {{MORE, "warnings", 0, 0}, {SAME, "force_N", 0, 1e-12}}},
+    /* closed faces have no liquid between them: only the force on it, eps E^2 / 2, knows that it is there */
+    {"medium.permittivity", UNCAPPED, "2", "4", {{TIMES, "force_N", 0.5, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
+    {"medium.breakdown_field",
+     CLOSED " drive.voltage=10kV electro.breakdown_cap=true",
+     "10MV/m",
+     "20MV/m",
+     {{TIMES, "force_N", 4, 1e-6}, {TIMES, "charge_C", 2, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
+
+    {"load.mass", STRIP, "10mg", "5mg", {{TIMES, "y_m", 0.5, 1e-4}}},
+    {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
+    {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
+    /* a discrete cantilever of rods is too soft by 1 / (2 (N - 1)^2) */
+    {"mesh.nodes", CANTILEVER, "9", "5", {{TIMES, "y_m", (1 + 1.0 / 32) / (1 + 1.0 / 128), 1e-4}}},
+
+    {"mass_spring.shear_coefficient", STRIP " ribbon.model=mass_spring", "4000", "8000", {{TIMES, "y_m", 0.5, 1e-4}}},
+    /* (N - 1)^2 times softer under the same tension */
+    {"mass_spring.axial",
+     "study=actuate actuator.kind=ribbon ribbon.model=mass_spring mesh.nodes=11 solver.end_time=1ns",
+     "text",
+     "code",
+     {{TIMES, "axial_energy_J", 100, 1e-2}}},
+
+    /* an independent solution of 126 000 unknowns has 1.0008 */
+    {"electro.model",
+     PROFILE " isometric.separation=17mm",
+     "plates",
+     "field",
+     {{TIMES, "force_N", 1.0008, 5e-4}, {SAME, "plates_force_N", 0, 0}}},
+    {"electro.surface", PARTICLES " solver.end_time=5ms", "polyline", "bezier", {{MORE, "kinetic_energy_J", 1.1, 0}}},
+    /* C over that of plates, independent study: 1.030 */
+    {"electro.edges", UNCAPPED " ribbon.thickness=100um", "false", "true", {{TIMES, "capacitance_F", 1.030, 5e-4}}},
+    {"electro.force_scale", UNCAPPED, "1", "3", {{TIMES, "force_N", 3, 1e-6}, {TIMES, "charge_C", 3, 1e-6}}},
+    {"electro.voltage_share", UNCAPPED, "1", "0.5", {{TIMES, "force_N", 0.25, 1e-6}}},
+    {"electro.voltage_share", CLOSED " drive.voltage=20kV", "1", "0.5", {{SAME, "force_N", 0, 1e-12}}},
+    {"electro.insulator_offset",
+     UNCAPPED,
+     "100um",
+     "200um",
+     {{TIMES, "force_N", 0.25, 1e-6}, {TIMES, "capacitance_F", 0.5, 1e-6}}},
+    {"electro.gap_offset",
+     "study=actuate initial.state=straight solver.end_time=1ns drive.voltage=100V "
+     "electro.insulator_offset=100um " FLANGE,
+     "0",
+     "100um",
+     {{TIMES, "capacitance_F", 0.5, 1e-6}, {TIMES, "force_N", 0.25, 1e-6}}},
+    {"electro.breakdown_cap",
+     CLOSED " drive.voltage=10kV",
+     "true",
+     "false",
+     {{TIMES, "force_N", SQUARE(CLOSED_AT_10_KV / PLATES), 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
+    {"electro.switch_offset",
+     BEZIER " solver.end_time=5ms electro.breakdown_cap=false",
+     "0",
+     "300um",
+     {{LESS, "kinetic_energy_J", 0.9, 0}}},
+    /* further off than U / E_bd it never acts */
+    {"electro.switch_offset",
+     BEZIER " solver.end_time=5ms electro.breakdown_cap=false",
+     "0",
+     "501um",
+     {{SAME, "kinetic_energy_J", 0, 0}}},
+    {"electro.refresh_period", BEZIER " solver.end_time=9ms", "0", "10ms", {{LESS, "kinetic_energy_J", 0.999, 0}}},
+    {"electro.refresh_change",
+     HANGING " electro.model=field solver.end_time=8ms",
+     "0.1",
+     "0.5",
+     {{MORE, "opening_m", 1.00001, 0}}},
+
+    /* pairs that join and stay need not be pressed down */
+    {"contact.model",
+     HANGING " solver.integrator=explicit drive.voltage=10kV",
+     "unilateral",
+     "sequential",
+     {{LESS, "zip_time_s", 0.95, 0}}},
+    {"contact.complete_margin",
+     PARTICLES " electro.breakdown_cap=false drive.voltage=15kV",
+     "0",
+     "8",
+     {{LESS, "zip_time_s", 0.9, 0}}},
+
+    {"drive.voltage",
+     UNCAPPED,
+     "1kV",
+     "2kV",
+     {{TIMES, "force_N", 4, 1e-6}, {TIMES, "charge_C", 2, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
+    /* a quarter of a cycle after the start the sine is half way up, the square wave on */
+    {"drive.waveform",
+     DRIVEN " drive.frequency=100Hz solver.end_time=2.5ms",
+     "sine",
+     "square",
+     {{TIMES, "voltage_V", 2, 1e-9}}},
+    {"drive.offset",
+     DRIVEN " drive.waveform=ramp drive.rise_time=4ms solver.end_time=1ms",
+     "0",
+     "-1kV",
+     {{PLUS, "voltage_V", -750, 1e-9}}},
+    {"drive.rise_time",
+     DRIVEN " drive.waveform=ramp solver.end_time=1ms",
+     "2ms",
+     "4ms",
+     {{TIMES, "voltage_V", 0.5, 1e-9}}},
+    {"drive.rise_time",
+     DRIVEN " drive.waveform=square drive.frequency=100Hz solver.end_time=1ms",
+     "2ms",
+     "4ms",
+     {{TIMES, "voltage_V", 0.5, 1e-9}}},
+    {"drive.frequency",
+     DRIVEN " drive.waveform=sine solver.end_time=2.5ms",
+     "100Hz",
+     "200Hz",
+     {{TIMES, "voltage_V", 2, 1e-9}}},
+    {"drive.duty",
+     DRIVEN " drive.waveform=square drive.frequency=100Hz drive.offset=1kV solver.end_time=4ms",
+     "0.5",
+     "0.3",
+     {{TIMES, "voltage_V", 0.5, 1e-9}}},
+    {"drive.table",
+     DRIVEN " drive.waveform=table solver.end_time=1ms",
+     "0ms=0kV,2ms=2kV",
+     "0ms=0kV,4ms=2kV",
+     {{TIMES, "voltage_V", 0.5, 1e-9}}},
+    {"drive.file",
+     DRIVEN " drive.waveform=table solver.end_time=1ms",
+     "fast.csv",
+     "slow.csv",
+     {{TIMES, "voltage_V", 0.5, 1e-9}}},
+
+    /* at v = g t each of the 20 free particles loses c v^3 a second */
+    {"damping.drag", STRAND, "0", "1e-5", {{PLUS, "drag_loss_J", 20e-5 * CUBE(9.81) * 625e-12 / 4, 1e-2}}},
+    {"damping.internal", SWING, "1us", "2us", {{TIMES, "internal_loss_J", 2, 2e-2}}},
+
+    {"solver.integrator",
+     SWING " ribbon.length=0.2m damping.internal=0",
+     "explicit",
+     "implicit",
+     {{LESS, "steps", 0.1, 0}, {TIMES, "stroke_m", 1, 1e-2}}},
+    {"solver.end_time", SWING, "2ms", "4ms", {{TIMES, "simulated_time_s", 2, 1e-12}}},
+    /* the local error is of third order */
+    {"solver.tolerance", SWING, "1e-4", "1e-6", {{TIMES, "steps", 4.64, 0.25}}},
+    {"solver.time_step", SWING " solver.end_time=2ms", "20us", "10us", {{TIMES, "steps", 2, 2e-2}}},
+    {"solver.max_steps", SWING, "20", "7", {{BECOMES, "steps", 7, 0}}},
+
+    {"initial.state",
+     HANGING " solver.end_time=1ns",
+     "equilibrium",
+     "straight",
+     {{LESS, "opening_m", 1e-6, 0}, {SAME, "frames", 0, 0}}},
+    {"initial.file",
+     HANGING " initial.state=checkpoint solver.end_time=4ms",
+     "early.zps",
+     "late.zps",
+     {{PLUS, "simulated_time_s", -1e-3, 0.1}}},
+
+    {"data.file", FITTED, "soft.csv", "stiff.csv", {{TIMES, "ribbon.young_modulus", 4, 1e-3}}},
+    {"calibrate.fit",
+     FITTED " data.file=stiff.csv",
+     "ribbon.young_modulus",
+     "load.share",
+     {{BECOMES, "load.share", 0.5, 1e-2}}},
+    {"calibrate.x",
+     FITTED,
+     "load_mg",
+     "ribbon.width_mm",
+     {{BECOMES, "ribbon.width_m", 12.7e-3, 1e-9}, {SAME, "ribbon.young_modulus", 0, 1e-6}}},
+    {"calibrate.y", FITTED, "stroke_mm", "stroke_um", {{TIMES, "ribbon.young_modulus", 2, 1e-3}}},
+    {"calibrate.lower", FITTED, "0.2", "0.8", {{TIMES, "ribbon.young_modulus", 1.6 / 1.005, 1e-3}}},
+    {"calibrate.upper",
+     FITTED " data.file=stiff.csv",
+     "5",
+     "1.5",
+     {{TIMES, "ribbon.young_modulus", 0.75 / 1.005, 1e-3}}},
+
+    /* along a uniform gap the field softens a strip by 2 W / h per length, as much in every mode */
+    {"modes.voltage",
+     "study=modes electro.breakdown_cap=false electro.gap_offset=1mm electro.insulator_offset=100um " FLANGE,
+     "0",
+     "500V",
+     {{PLUS, "frequency_1_Hz", -SOFTENING / (2 * FIRST_MODE), 2e-2},
+      {PLUS, "frequency_2_Hz", -SOFTENING / (2 * SECOND_MODE), 6e-2}}},
+
+    /* linear: what bends the ribbons apart */
+    {"isometric.separation",
+     HELD " ribbon.density=0",
+     "0.2mm",
+     "0.4mm",
+     {{TIMES, "force_unpowered_N", 2, 1e-3}, {TIMES, "opening_m", 2, 1e-6}}},
+    /* a strip that is hardly bent is a cubic, one that is bent far is not */
+    {"profile.shape",
+     PROFILE " isometric.separation=0.2mm gravity=0 drive.voltage=1V mesh.nodes=61",
+     "cubic",
+     "held",
+     {{TIMES, "force_N", 1, 1e-3}}},
+    {"profile.shape", PROFILE " isometric.separation=20mm", "cubic", "held", {{LESS, "force_N", 0.98, 0}}},
+    {"profile.paper_factor",
+     PROFILE,
+     "false",
+     "true",
+     {{BECOMES, "paper_factor", 6.04, 2e-3}, {SAME, "force_N", 0, 1e-12}}},
+
+    {"output.samples", SWING, "40", "20", {{LESS, "rows", 0.75, 0}, {SAME, "stroke_m", 0, 0}}},
+    {"output.shapes", SWING, "40", "20", {{LESS, "frames", 0.75, 0}, {SAME, "stroke_m", 0, 0}}},
+};
+
+/* -- how they are run ------------------------------------------------------------------------------ */
+
+/* "key=value key=value" into the scenario; what stands later wins. */
+static void set_all(ZpScenario *scenario, const char *settings) {
+  char copy[1024], *rest = NULL;
+  ZpError err;
+  ck_assert_uint_lt(strlen(settings), sizeof copy);
+  memcpy(copy, settings, strlen(settings) + 1);
+  for (char *word = strtok_r(copy, " ", &rest); word; word = strtok_r(NULL, " ", &rest))
+    ck_assert_msg(zp_scenario_set(scenario, word, &err) == ZP_OK, "%s: %s", word, err.message);
+}
+
+/* The study of a scene with key = value. */
+static ZpResult *run_scene(const char *scene, const char *key, const char *value) {
+  ZpScenario *scenario = zp_scenario_create();
+  ZpActuatorDef def;
+  ZpResult *result;
+  ZpError err = {ZP_OK, ""};
+  char setting[256];
+  snprintf(setting, sizeof setting, "%s=%s", key, value);
+  set_all(scenario, scene);
+  set_all(scenario, setting);
+  ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s %s: %s", scene, setting, err.message);
+  ck_assert_msg(zp_data_study_run(&def, NULL, &result, &err) == ZP_OK, "%s %s: %s", scene, setting, err.message);
+  zp_scenario_destroy(scenario);
+  return result;
+}
+
+/* A number of the summary, how much of something there is, or what a column ends with. */
+static double output_of(const ZpResult *result, const char *name) {
+  if (strcmp(name, "rows") == 0) return (double)result->series->rows;
+  if (strcmp(name, "frames") == 0) return (double)result->shapes->frames;
+  if (strcmp(name, "warnings") == 0) return (double)result->warnings;
+  double value = zp_result_get(result, name);
+  return isnan(value) ? zp_table_get(result->series, result->series->rows - 1, name) : value;
+}
+
+static bool has_effect(const Effect *effect, double from, double to) {
+  double expected = effect->expected, off = effect->tolerance * fabs(expected);
+  switch (effect->change) {
+  case TIMES:
+    return from != 0 && fabs(to / from - expected) <= off;
+  case PLUS:
+    return fabs(to - from - expected) <= off;
+  case BECOMES:
+    return !(from == to) && fabs(to - expected) <= off;
+  case MORE:
+    return to > expected * from;
+  case LESS:
+    return to < expected * from;
+  case SAME:
+    return fabs(to - from) <= effect->tolerance * fabs(from);
+  }
+  return false;
+}
+
+START_TEST(key_acts) {
+  const Row *row = &rows[_i];
+  ZpResult *from = run_scene(row->scene, row->key, row->from), *to = run_scene(row->scene, row->key, row->to);
+  for (int k = 0; k < EFFECTS && row->effect[k].output; k++) {
+    const Effect *effect = &row->effect[k];
+    double a = output_of(from, effect->output), b = output_of(to, effect->output);
+    ck_assert_msg(has_effect(effect, a, b), "%s, %s => %s: %s %.10g => %.10g, ratio %.10g, expected %.10g within %g",
+                  row->key, row->from, row->to, effect->output, a, b, b / a, effect->expected, effect->tolerance);
+  }
+  zp_result_destroy(from);
+  zp_result_destroy(to);
+}
+END_TEST
+
+/* -- every key has a row --------------------------------------------------------------------------- */
+
+START_TEST(key_has_a_row) {
+  const char *key = zp_key(_i)->name;
+  bool found = false;
+  for (size_t i = 0; i < LENGTH_OF(rows); i++)
+    found |= strcmp(rows[i].key, key) == 0 && rows[i].effect[0].output;
+  ck_assert_msg(found, "%s has no row: which output does it change, by how much?", key);
+}
+END_TEST
+
+/* -- files ----------------------------------------------------------------------------------------- */
+
+static void write_text(const char *name, const char *text) {
+  FILE *file = fopen(name, "w");
+  ck_assert(file && fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+/* Where a run stands that began to hang and was cut. */
+static void write_checkpoint(const char *name, const char *end_time) {
+  ZpResult *result = run_scene(HANGING, "solver.end_time", end_time);
+  FILE *file = fopen(name, "wb");
+  ck_assert(file && zp_checkpoint_write(result->checkpoint, file, NULL) == ZP_OK && fclose(file) == 0);
+  zp_result_destroy(result);
+}
+
+/* Strokes of STRIP at two loads, by P L^3 / (12 E I), in mm; half of them as another column. */
+static void write_strokes(const char *name, double E) {
+  FILE *file = fopen(name, "w");
+  ck_assert_ptr_nonnull(file);
+  fprintf(file, "load_mg, stroke_mm, stroke_um, ribbon.width_mm\n");
+  for (int mg = 5; mg <= 10; mg += 5) {
+    double mm = 1e3 * mg * 1e-6 * 9.81 * CUBE(0.1) / (12 * EI * E / 200e9);
+    fprintf(file, "%d, %.12g, %.12g, 12.7\n", mg, mm, 500 * mm);
+  }
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+static void write_files(void) {
+  write_text("fast.csv", "time_ms,voltage_kV\n0,0\n2,2\n");
+  write_text("slow.csv", "time_ms,voltage_kV\n0,0\n4,2\n");
+  write_checkpoint("early.zps", "1ms");
+  write_checkpoint("late.zps", "2ms");
+  write_strokes("soft.csv", 100e9);
+  write_strokes("stiff.csv", 400e9);
+}
+
+int main(void) {
+  Suite *suite = suite_create("keys act");
+  TCase *c = tcase_create("keys");
+  tcase_set_timeout(c, 120);
+  tcase_add_unchecked_fixture(c, write_files, NULL);
+  tcase_add_loop_test(c, key_acts, 0, (int)LENGTH_OF(rows));
+  tcase_add_loop_test(c, key_has_a_row, 0, zp_key_count());
+  suite_add_tcase(suite, c);
+  return run_suite(suite);
+}
