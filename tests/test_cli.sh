@@ -14,6 +14,7 @@ if [ ! -x "$zipact" ] || [ -z "$scratch" ]; then
   exit 2
 fi
 case $zipact in /*) ;; *) zipact=$PWD/$zipact ;; esac
+repository=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$scratch" && cd "$scratch" || exit 2
 rm -rf cli-test && mkdir cli-test && cd cli-test || exit 2
 
@@ -116,6 +117,11 @@ zp actuate $short -o defaults
 ok "defaults run" status_is 0
 ok "the starter scenario is the defaults" cmp -s starter/scenario.yaml defaults/scenario.yaml
 ok "the starter scenario gives the table of the defaults" cmp -s starter/table.csv defaults/table.csv
+
+readme=$(sed -n 's|^    build/zipact \(.*[^ ]\)  *#.*|\1|p' "$repository/README.md")
+eval "zp $readme"
+ok "the command of the README runs" status_is 0
+ok "and says what the README asks" prints 'pull_in_voltage_V'
 
 # -- the default run, with pictures ------------------------------------------------------------------------
 

@@ -25,3 +25,13 @@ def test_hold(tmp_path):
     worst, highest, pull_in = (float(text) for text in re.findall(r"([\d.]+) (?:um|V)", said))
     assert worst < 30 and highest < pull_in
     assert os.path.getsize(tmp_path / "hold.svg") > 5000
+
+
+def test_readme():
+    """The five lines of the README, as they stand there."""
+    with open(os.path.join(PYTHON, "..", "README.md"), encoding="utf-8") as file:
+        lines = [line[4:] for line in re.search(r"(    import zipact.*\n(?:    .*\n)+)", file.read()).group(1).splitlines()]
+    assert len(lines) == 5
+    said = subprocess.run([sys.executable, "-c", "\n".join(lines)], check=True, capture_output=True, text=True).stdout
+    pull_in, release = map(float, said.split())
+    assert 0 < release < pull_in

@@ -62,8 +62,7 @@ static double fitted_shear(const ZpRuns *runs, const ZpPublished *p) {
   return fitted(runs, p, "mass_spring.shear_coefficient");
 }
 
-/* K_S goes with the inverse of the stroke that it is fitted to, which is rounded to 0.01 mm; and K_S itself is cut off.
- */
+/* K_S is cut off, and goes with the inverse of the stroke that it is fitted to, which is rounded to 0.01 mm. */
 static double fitted_shear_slack(const ZpPublished *p) {
   double rounded = 0.005 / zp_published(ZP_TABLE_1_STROKE, p->nodes, p->load);
   return fmax(last_digit(p->text), rounded * p->value);
@@ -258,15 +257,14 @@ const ZpSubject zp_subjects[] = {
     {.title = NULL},
 };
 
-/* What agrees within `tolerance` agrees; else the reason decides, and where it says that nothing can be judged, at
- * once. */
+/* Nothing is within a tolerance of NAN: there, and where the difference is larger, the reason decides. */
 static ZpVerdict verdict_on(const ZpSubject *subject, double ours, double published, double tolerance) {
   const ZpVerdict otherwise = reason[subject->reason].verdict;
   if (isnan(ours)) return ZP_VERDICT_NOT_RUN;
   return fabs(ours - published) <= tolerance ? ZP_VERDICT_AGREES : otherwise;
 }
 
-/* NAN, within which nothing agrees, where nothing is judged. */
+/* |ours - published| that still agrees; NAN where the reason says that nothing can be judged. */
 static double tolerance_of(const ZpSubject *subject, const ZpPublished *published) {
   if (!verdict_info[reason[subject->reason].verdict].judged) return NAN;
   double slack = subject->slack ? subject->slack(published) : last_digit(published->text);

@@ -16,7 +16,7 @@ typedef enum ZpVerdict {
 typedef struct ZpVerdictInfo {
   const char *word;  /* in files */
   bool judged;       /* by the tolerance; false: given whatever the numbers are */
-  const char *title; /* on the page, after "N numbers" */
+  const char *title; /* on the page, after their count */
 } ZpVerdictInfo;
 
 const ZpVerdictInfo *zp_verdict_info(ZpVerdict verdict);
@@ -65,7 +65,7 @@ typedef struct ZpComparison {
   ZpVerdict verdict;
 } ZpComparison;
 
-/* Is there a number of ours, and does it neither agree nor lack a judgement? The reason is then the subject's. */
+/* Is the reason of its subject needed? Yes, if it was run and does not agree. */
 bool zp_comparison_has_reason(const ZpComparison *comparison);
 
 /* All comparisons, subject after subject. */
