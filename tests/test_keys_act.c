@@ -230,6 +230,8 @@ static const Row rows[] = {
     {"electro.force_scale", UNCAPPED, "1", "3", {{TIMES, "force_N", 3, 1e-6}, {TIMES, "charge_C", 3, 1e-6}}},
     {"electro.voltage_share", UNCAPPED, "1", "0.5", {{TIMES, "force_N", 0.25, 1e-6}}},
     {"electro.voltage_share", CLOSED " drive.voltage=20kV", "1", "0.5", {{SAME, "force_N", 0, 1e-12}}},
+    {"electro.force_scale", PROFILE " electro.model=field", "1", "3", {{TIMES, "force_N", 3, 1e-6}}},
+    {"electro.voltage_share", PROFILE " electro.model=field", "1", "0.5", {{TIMES, "force_N", 0.25, 1e-6}}},
     {"electro.insulator_offset",
      UNCAPPED,
      "100um",
