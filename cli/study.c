@@ -93,8 +93,8 @@ static void print_summary(const ZpBatch *batch, const char *directory) {
     printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
     for (size_t i = 0; i < result->scalars; i++)
       print_scalar(&result->scalar[i]);
-    for (size_t i = 0; i < result->warnings; i++)
-      printf("  note: %s\n", result->warning[i]);
+    for (size_t i = 0; i < result->notes; i++)
+      printf("  note: %s\n", result->note[i]);
   }
   printf("results: %s/ (summary.json, table.csv, results.h5, plots/)\n", directory);
 }

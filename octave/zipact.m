@@ -16,7 +16,7 @@
 %   ZIPACT(STUDY, FILE, ...) takes a scenario file first, ZIPACT(STUDY, KEYS, ...) a struct:
 %   keys.load.mass = '20 g'. ZIPACT('run', FILE) runs the study that the file names.
 %
-%   Fields of RESULT: study, outcome, good (is it an answer?), message, warnings, the numbers
+%   Fields of RESULT: study, outcome, good (is it an answer?), message, notes, the numbers
 %   of the study, and where there are any
 %      series      table.csv: a column vector for each column
 %      shapes      time_s, voltage_V, zipped, x_m and y_m [nodes x ribbons x frames], gap_m and

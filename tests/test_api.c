@@ -1,5 +1,6 @@
 /* The library as its user meets it: a small program on the public headers alone; and every
  * call that takes err, hooks or info with NULL there. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -287,6 +288,99 @@ START_TEST(reading_is_a_row) {
 }
 END_TEST
 
+static ZpSim *sim_of(const ZpActuatorDef *def, ZpModel **model) {
+  ZpSim *sim = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_model_create(def, model, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_sim_create(*model, NULL, &sim, &err) == ZP_OK, "%s", err.message);
+  return sim;
+}
+
+/* Times that make no sense answered "end_time": now nothing moves, and outcome and message say so. */
+START_TEST(bad_times_move_nothing) {
+  ZpActuatorDef def = coarse_def();
+  ZpModel *model;
+  ZpSim *sim = sim_of(&def, &model);
+  ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, NULL), ZP_REACHED_END);
+  size_t size = zp_sim_state_size(sim);
+  char *before = malloc(size), *after = malloc(size);
+  zp_sim_save(sim, before);
+  const double ends[] = {NAN, -INFINITY, -1, 0, 0.9e-3}, steps[] = {NAN, -INFINITY, -1e-3, -0.0, 0, 1e-30, INFINITY};
+  for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+    ZpRunInfo info = {.steps = 7};
+    ck_assert_int_eq(zp_sim_run(sim, ends[k], true, NULL, &info), ZP_BAD_ARGUMENT);
+    ck_assert(info.outcome == ZP_BAD_ARGUMENT && info.steps == 0 && info.simulated_time == 0);
+    ck_assert_msg(strncmp(info.message, "end_time = ", 11) == 0 && strstr(info.message, "0.001 s"), "%s", info.message);
+    ck_assert_int_eq(zp_sim_run(sim, ends[k], true, NULL, NULL), ZP_BAD_ARGUMENT);
+  }
+  for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
+    ZpRunInfo info = {.steps = 7};
+    ck_assert_int_eq(zp_sim_step(sim, steps[k], NULL, &info), ZP_BAD_ARGUMENT);
+    ck_assert_msg(strncmp(info.message, "dt = ", 5) == 0, "%s", info.message);
+  }
+  ck_assert(!zp_outcome_good(ZP_BAD_ARGUMENT));
+  zp_sim_save(sim, after);
+  ck_assert(memcmp(before, after, size) == 0);
+  ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, NULL), ZP_REACHED_END); /* is reached already */
+  ck_assert_int_eq(zp_sim_run(sim, INFINITY, true, NULL, NULL), ZP_ZIPPED);
+  free(before);
+  free(after);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* zp_outcome_name(999) read beyond its list. */
+START_TEST(words_of_no_outcome) {
+  const int beyond[] = {999, -1, INT_MAX, INT_MIN, ZP_SHORT_CIRCUIT + 1};
+  for (size_t k = 0; k < sizeof beyond / sizeof beyond[0]; k++)
+    ck_assert_str_eq(zp_outcome_name((ZpOutcome)beyond[k]), "unknown");
+  ck_assert_str_eq(zp_outcome_name(ZP_SHORT_CIRCUIT), "short_circuit");
+  ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_COUNT), "unknown");
+  ck_assert_str_eq(zp_step_limit_name((ZpStepLimit)-1), "unknown");
+}
+END_TEST
+
+static double stopped_clock(void *user) {
+  (void)user;
+  return 1;
+}
+
+/* A clock too coarse for the run gave an infinite factor: there is none. */
+START_TEST(no_real_time_factor_without_wall_time) {
+  ZpActuatorDef def = coarse_def();
+  def.solver.end_time = 1e-4;
+  ZpResult *result;
+  ck_assert_int_eq(zp_study_run(&def, &(ZpHooks){.clock = stopped_clock}, &result, NULL), ZP_OK);
+  ck_assert(isnan(zp_result_get(result, "real_time_factor")));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A simulation that should go on from a checkpoint and gets none ran from the straight shape. */
+START_TEST(no_motion_without_the_checkpoint) {
+  ZpActuatorDef def = coarse_def();
+  ZpModel *model, *other;
+  ZpSim *first = sim_of(&def, &model);
+  ck_assert_int_eq(zp_sim_run(first, 1e-3, false, NULL, NULL), ZP_REACHED_END);
+  ZpCheckpoint *checkpoint;
+  ck_assert_int_eq(zp_sim_checkpoint(first, &checkpoint, NULL), ZP_OK);
+  def.initial.state = ZP_INITIAL_CHECKPOINT;
+  ZpSim *second = sim_of(&def, &other);
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, &info), ZP_BAD_ARGUMENT);
+  ck_assert_msg(strstr(info.message, "initial.state = checkpoint"), "%s", info.message);
+  ck_assert_double_eq(zp_sim_get(second, "time"), 0);
+  ck_assert_int_eq(zp_sim_continue(second, checkpoint, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, &info), ZP_REACHED_END);
+  zp_checkpoint_destroy(checkpoint);
+  zp_sim_destroy(first);
+  zp_sim_destroy(second);
+  zp_model_destroy(model);
+  zp_model_destroy(other);
+}
+END_TEST
+
 START_TEST(three_ways_to_fill_a_def) {
   ZpActuatorDef by_field = zp_actuator_def_default(), by_key = by_field, resolved;
   int mass = zp_key_find("load.mass"), electrode = zp_key_find("platform.electrode");
@@ -316,6 +410,10 @@ int main(void) {
   tcase_add_test(c, every_name_answers);
   tcase_add_test(c, reading_is_a_row);
   tcase_add_test(c, steps_by_hand_are_even);
+  tcase_add_test(c, bad_times_move_nothing);
+  tcase_add_test(c, words_of_no_outcome);
+  tcase_add_test(c, no_real_time_factor_without_wall_time);
+  tcase_add_test(c, no_motion_without_the_checkpoint);
   tcase_add_test(c, three_ways_to_fill_a_def);
   tcase_set_timeout(c, 60);
   suite_add_tcase(suite, c);

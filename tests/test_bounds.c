@@ -164,6 +164,7 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->actuator.kind = ZP_KIND_RIBBON;
     def->ribbon.length = value;
   }
+  if (strcmp(key, "insulator.thickness") == 0 && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;
   bool of_bezier = strcmp(key, "electro.switch_offset") == 0 || strcmp(key, "electro.refresh_period") == 0;
   if (of_bezier) def->electro.surface = ZP_SURFACE_BEZIER;
@@ -369,11 +370,11 @@ static const char *const combinations[] = {
     "load.share=0",
     "load.share=0 ribbon.density=1kg/m3",
     "load.mass=1000kg ribbon.density=1kg/m3",
-    "insulator.thickness=0",
-    "insulator.thickness=0 drive.voltage=1MV",
-    "insulator.thickness=0 initial.state=straight",
-    "insulator.thickness=0 electro.surface=bezier contact.model=sequential solver.integrator=explicit",
     "insulator.thickness=0 drive.voltage=0",
+    "insulator.thickness=0 drive.voltage=0 initial.state=straight",
+    "insulator.thickness=0 drive.voltage=0 electro.surface=bezier contact.model=sequential solver.integrator=explicit",
+    "actuator.kind=flange insulator.thickness=0 electro.gap_offset=1mm drive.voltage=1MV",
+    "actuator.kind=flange insulator.thickness=0 electro.gap_offset=1um electro.breakdown_cap=false",
     "electro.insulator_offset=0 drive.voltage=1MV",
     "electro.insulator_offset=1cm electro.force_scale=1000 drive.voltage=1MV",
     "platform.length=0",
@@ -468,6 +469,10 @@ static const struct {
     {"platform.length=91mm", "platform.length"},
     {"ribbon.length=1mm", "platform.length"},
     {"insulator.thickness=0 electro.breakdown_cap=false", "insulator.thickness"},
+    {"insulator.thickness=0", "short circuit"},
+    {"actuator.kind=flange insulator.thickness=0", "short circuit"},
+    {"actuator.kind=flange contact.model=sequential", "contact.model"},
+    {"actuator.kind=flange electro.surface=bezier", "electro.surface"},
     {"electro.insulator_offset=0 electro.breakdown_cap=false", "electro.breakdown_cap"},
     {"contact.complete_margin=4", "contact.complete_margin"},
     {"electro.switch_offset=1um", "electro.switch_offset"},

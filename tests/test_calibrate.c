@@ -163,8 +163,8 @@ START_TEST(bounds_are_kept) {
   assert_near(zp_result_get(result, "ribbon.young_modulus"), 160e9, 1e-6);
   ck_assert(zp_result_get(result, "ribbon.young_modulus") >= 160e9);
   ck_assert(isnan(zp_result_get(result, "ribbon.young_modulus_standard_error")));
-  ck_assert_uint_eq(result->warnings, 1);
-  ck_assert_ptr_nonnull(strstr(result->warning[0], "bound"));
+  ck_assert_uint_eq(result->notes, 1);
+  ck_assert_ptr_nonnull(strstr(result->note[0], "bound"));
   zp_result_destroy(result);
   truth.load.share = 0.5;
   set_text(&def, "calibrate.fit", "load.share"); /* the key's own range ends at 1, not at 5 * 0.5 */

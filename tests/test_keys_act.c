@@ -433,7 +433,7 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
 static double output_of(const ZpResult *result, const char *name) {
   if (strcmp(name, "rows") == 0) return (double)result->series->rows;
   if (strcmp(name, "frames") == 0) return (double)result->shapes->frames;
-  if (strcmp(name, "warnings") == 0) return (double)result->warnings;
+  if (strcmp(name, "warnings") == 0) return (double)result->notes;
   double value = zp_result_get(result, name);
   return isnan(value) ? zp_table_get(result->series, result->series->rows - 1, name) : value;
 }

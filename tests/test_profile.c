@@ -271,14 +271,14 @@ START_TEST(test_fields_at_the_clip) {
   ZpResult *result = run(&def);
   ck_near(get(result, "max_field_V_per_m"), 10.5e3 / (2 * 130e-6 * 2.75 / 4.62), 1e-3);
   ck_near(get(result, "insulator_field_V_per_m"), 10.5e3 / 260e-6, 1e-3);
-  ck_assert_uint_eq(result->warnings, 1); /* 40.4 MV/m */
-  ck_assert_ptr_nonnull(strstr(result->warning[0], "insulator's field reaches 40.4 MV/m"));
+  ck_assert_uint_eq(result->notes, 1); /* 40.4 MV/m */
+  ck_assert_ptr_nonnull(strstr(result->note[0], "insulator's field reaches 40.4 MV/m"));
   zp_result_destroy(result);
   def.drive.voltage = 6e3;
   def.electro.breakdown_cap = false;
   result = run(&def);
-  ck_assert_uint_eq(result->warnings, 1);
-  ck_assert_ptr_nonnull(strstr(result->warning[0], "electro.breakdown_cap is false"));
+  ck_assert_uint_eq(result->notes, 1);
+  ck_assert_ptr_nonnull(strstr(result->note[0], "electro.breakdown_cap is false"));
   zp_result_destroy(result);
 }
 END_TEST

@@ -158,7 +158,7 @@ static ZpResult *made_up(size_t rows, size_t frames, bool ribbon, double voltage
   result->study = ZP_STUDY_ACTUATE;
   result->outcome = ZP_ZIPPED;
   strcpy(result->message, "zipped after 75 ms");
-  strcpy(result->warning[result->warnings++], "the field in the insulator was above insulator.breakdown_field");
+  strcpy(result->note[result->notes++], "the field in the insulator was above insulator.breakdown_field");
   add_scalar(result, "contraction", "1", 0.1 + 0.2, false);
   add_scalar(result, "zip_time_s", "s", ribbon ? (double)NAN : ZIP_TIME * slowness, false);
   add_scalar(result, "steps", "count", 123456789, false);
@@ -381,7 +381,7 @@ START_TEST(summary_of_a_run) {
   ck_assert(json_number_of(json, "real_time_factor") == 0.01);
   ck_assert(json_is_integer(json_object_get(json, "steps")));
   ck_assert(json_is_null(json_object_get(json, "zip_time_s")));
-  ck_assert_uint_eq(json_array_size(json_object_get(json, "warnings")), 1);
+  ck_assert_uint_eq(json_array_size(json_object_get(json, "notes")), 1);
   ck_assert_ptr_null(json_object_get(json, "rows"));
   json_decref(json);
 }
@@ -485,7 +485,7 @@ START_TEST(summary_of_a_sweep) {
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "diverged");
   ck_assert_int_eq(json_integer_value(json_object_get(row, "mesh.nodes")), 61);
   ck_assert(json_number_of(row, "contraction") == 0.1 + 0.2);
-  ck_assert_uint_eq(json_array_size(json_object_get(json, "warnings")), 1);
+  ck_assert_uint_eq(json_array_size(json_object_get(json, "notes")), 1);
   json_decref(json);
 }
 END_TEST

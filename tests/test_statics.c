@@ -144,6 +144,7 @@ START_TEST(test_natural_curvature) {
   ZpResult *result = rest_of(&def);
   ck_near(zp_table_get(result->series, 60, "x_m"), sin(k * L) / k, 1e-3);
   ck_near(zp_table_get(result->series, 60, "y_m"), (1 - cos(k * L)) / k, 1e-3);
+  ck_near(zp_result_get(result, "stroke_m"), -(1 - cos(k * L)) / k, 1e-3); /* the end is above the clamp */
   zp_result_destroy(result);
 }
 END_TEST
@@ -294,10 +295,10 @@ START_TEST(test_pull_in) {
   ZpResult *result = study_of(&def);
   double V = def.drive.voltage / 1.2, found = zp_result_get(result, "pull_in_voltage_V");
   Point limit = limit_of(&def);
-  printf("%s: b %.5f, travel %.4f g\n", _i ? "free" : "guided", b[_i] * found * found / (V * V), limit.stroke / g);
+  printf("%s: b %.5f, travel %.4f g\n", _i ? "free" : "guided", b[_i] * found * found / (V * V), -limit.stroke / g); /* drawn up */
   ck_near(found * found / (V * V), 1, 2e-3);
   ck_near(limit.voltage, found, 1e-5);
-  ck_near(limit.stroke / g, travel[_i], 2e-3);
+  ck_near(-limit.stroke / g, travel[_i], 2e-3);
   zp_result_destroy(result);
 }
 END_TEST

@@ -242,12 +242,12 @@ EXPORT double zp_web_scalar(ZpWeb *web) {
   return zp_result_get(web->result, web->text);
 }
 
-EXPORT int zp_web_warnings(const ZpWeb *web) {
-  return (int)web->result->warnings;
+EXPORT int zp_web_notes(const ZpWeb *web) {
+  return (int)web->result->notes;
 }
 
-EXPORT const char *zp_web_warning(const ZpWeb *web, int index) {
-  return web->result->warning[index];
+EXPORT const char *zp_web_note(const ZpWeb *web, int index) {
+  return web->result->note[index];
 }
 
 EXPORT int zp_web_rows(const ZpWeb *web) {

@@ -130,8 +130,17 @@ ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpErro
  * user and it is not given. */
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
 
-/* Check the range of every key and what keys ask of one another. */
+/* Check the range of every key, what keys ask of one another, and what def->study asks. ZP_BAD_INPUT names the key. */
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
+
+/* Check what motion asks of integrator, contact, mechanics and mass, whatever def->study is; zp_sim_create does.
+ * ZP_BAD_INPUT names the key. Of a Def that zp_def_check has passed. */
+ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
+
+/* Check that `voltage` (V, any sign) is no short circuit: without an insulator (insulator.thickness 0) only 0 V is
+ * allowed where electrodes touch even at rest, at the clip of electro_ribbon or the clamp of a flange without a gap. A
+ * flange with a gap may have none; a study then ends where it touches. ZP_BAD_INPUT says so. */
+ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 
 #ifdef __cplusplus
 }

@@ -15,18 +15,20 @@ typedef struct ZpSim ZpSim;
 
 /* How the solver ended. */
 typedef enum ZpOutcome {
-  ZP_REACHED_END, /* "end_time": the time asked for was reached */
-  ZP_ZIPPED,      /* "zipped": the actuator has closed */
-  ZP_INTERRUPTED, /* "interrupted": the progress hook asked to stop */
-  ZP_NOT_SETTLED, /* "not_settled": no equilibrium to start from was found */
-  ZP_DIVERGED,    /* "diverged": numbers left all bounds */
-  ZP_STEP_LIMIT,  /* "step_limit": solver.max_steps were not enough */
-  ZP_CONVERGED,   /* "converged": an equilibrium was found */
-  ZP_FOLLOWED,    /* "followed": a branch of equilibria was followed to its end */
-  ZP_BRANCH_LOST  /* "branch_lost": a branch could not be followed further */
+  ZP_REACHED_END,  /* "end_time": the time asked for was reached */
+  ZP_ZIPPED,       /* "zipped": the actuator has closed */
+  ZP_INTERRUPTED,  /* "interrupted": the progress hook asked to stop */
+  ZP_NOT_SETTLED,  /* "not_settled": no equilibrium to start from was found */
+  ZP_DIVERGED,     /* "diverged": numbers left all bounds */
+  ZP_STEP_LIMIT,   /* "step_limit": solver.max_steps were not enough */
+  ZP_CONVERGED,    /* "converged": an equilibrium was found */
+  ZP_FOLLOWED,     /* "followed": a branch of equilibria was followed to its end */
+  ZP_BRANCH_LOST,  /* "branch_lost": a branch could not be followed further */
+  ZP_BAD_ARGUMENT, /* "bad_argument": a call asked for what cannot be; nothing was done */
+  ZP_SHORT_CIRCUIT /* "short_circuit": electrodes without an insulator touched under a voltage */
 } ZpOutcome;
 
-/* The word for an outcome, as in summary.json. */
+/* The word for an outcome, as in summary.json; "unknown" of any other number. */
 const char *zp_outcome_name(ZpOutcome outcome);
 
 /* True if the outcome is an answer, false if the solver failed (or was interrupted). */
@@ -53,7 +55,7 @@ typedef enum ZpStepLimit {
   ZP_LIMIT_COUNT
 } ZpStepLimit;
 
-/* The word for a step limit, as in summary.json. */
+/* The word for a step limit, as in summary.json; "unknown" of any other number. */
 const char *zp_step_limit_name(ZpStepLimit limit);
 
 /* How a run went. */
@@ -75,8 +77,10 @@ typedef struct ZpRunInfo {
 /* A new simulation at its initial state, at t = 0, the voltage that of the
  * waveform there. `model` must outlive it. Finds the
  * hanging equilibrium first, as the start and as the reference of contraction; if it is not found, the
- * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT if drive.waveform is table and the
- * model was made without one. */
+ * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT as zp_def_check_motion, whatever the
+ * study of the model's Def is; as zp_def_check_voltage at the highest voltage of the waveform; and if drive.waveform is
+ * table and the model was made without one. With initial.state checkpoint it moves only after zp_sim_continue, or
+ * another state has been given. */
 ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
 void zp_sim_destroy(ZpSim *sim);
 
@@ -84,16 +88,18 @@ void zp_sim_destroy(ZpSim *sim);
  * (zp_signal_columns). The caller keeps them. */
 void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 
-/* Run until `end_time` (s), or until zipped where `stop_when_zipped`. `hooks` and `info` may be NULL. */
+/* Run until `end_time` (s, from the time reached on; INFINITY: until another end), or until zipped where
+ * `stop_when_zipped`. At the time reached already nothing moves. ZP_BAD_ARGUMENT, and nothing is done, if end_time is
+ * before it or NAN. `hooks` and `info` may be NULL. */
 ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info);
 
-/* Run on by `dt` > 0 (s), for callers that come again and again, as control loops: explicit steps are then of equal
- * length. zp_sim_run ends with a shorter one, which, repeated, would shake what vibrates near the bound of stability
- * until the numbers diverge. */
+/* Run on by `dt` (s, finite and above 0; else ZP_BAD_ARGUMENT, and nothing is done), for callers that come again and
+ * again, as control loops: explicit steps are then of equal length. zp_sim_run ends with a shorter one, which,
+ * repeated, would shake what vibrates near the bound of stability until the numbers diverge. */
 ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
 /* Change the potential difference from now on; drive.waveform does not count any more. ZP_BAD_INPUT if it is out of the
- * range of drive.voltage. */
+ * range of drive.voltage, and as zp_def_check_voltage. */
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. */

@@ -16,8 +16,8 @@ typedef struct ZpScalar {
   bool timing;      /* follows from wall time: differs from run to run */
 } ZpScalar;
 
-#define ZP_MAX_SCALARS  64
-#define ZP_MAX_WARNINGS 8
+#define ZP_MAX_SCALARS 64
+#define ZP_MAX_NOTES   8
 
 /* The electric field around the ribbons, on a grid that follows them: node (i, j) is at [i * ny + j], i along the
  * ribbons, j upwards; cell (i, j) between the nodes (i, j) and (i + 1, j + 1) is at [i * (ny - 1) + j]. */
@@ -38,9 +38,9 @@ void zp_field_map_destroy(ZpFieldMap *map);
 typedef struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
-  char message[256];                  /* one sentence on how it ended */
-  char warning[ZP_MAX_WARNINGS][256]; /* sentences on limits of validity that were met */
-  size_t warnings;
+  char message[256];            /* one sentence on how it ended */
+  char note[ZP_MAX_NOTES][256]; /* [notes] sentences: breakdown, limits of the model and of the mesh that were met */
+  size_t notes;
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
   ZpTable *series;          /* the study's table; NULL if it has none */

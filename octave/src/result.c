@@ -151,11 +151,11 @@ static mxArray *map_struct(const ZpFieldMap *map) {
 
 /* -- results ------------------------------------------------------------------------------------------- */
 
-static mxArray *warnings_cell(const ZpResult *result) {
-  mxArray *warnings = mxCreateCellMatrix(result->warnings, result->warnings > 0);
-  for (size_t i = 0; i < result->warnings; i++)
-    mxSetCell(warnings, i, mxCreateString(result->warning[i]));
-  return warnings;
+static mxArray *notes_cell(const ZpResult *result) {
+  mxArray *notes = mxCreateCellMatrix(result->notes, result->notes > 0);
+  for (size_t i = 0; i < result->notes; i++)
+    mxSetCell(notes, i, mxCreateString(result->note[i]));
+  return notes;
 }
 
 /* frequency_1_Hz, ... together, as in summary.json; false if it is none of them. */
@@ -177,7 +177,7 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
   set(structs, index, "outcome", mxCreateString(zp_outcome_name(result->outcome)));
   set(structs, index, "good", mxCreateLogicalScalar(zp_outcome_good(result->outcome)));
   set(structs, index, "message", mxCreateString(result->message));
-  set(structs, index, "warnings", warnings_cell(result));
+  set(structs, index, "notes", notes_cell(result));
   for (size_t i = 0; i < result->scalars; i++)
     if (!set_frequency(structs, index, &result->scalar[i]))
       set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));

@@ -55,7 +55,6 @@ mxArray *simulation_open(int count, const mxArray *const *value) {
   read_scenario(count, value);
   if (zp_scenario_count(call.scenario) != 1) fail_input("open: takes one actuator, no lists of values");
   if (zp_scenario_def(call.scenario, 0, &def, &err) != ZP_OK) fail(&err);
-  def.study = ZP_STUDY_ACTUATE; /* what a motion asks of the keys is checked */
   Simulation made = {.next = simulations, .handle = new_handle()}, *simulation = malloc(sizeof made);
   if (!simulation) fail_memory();
   watch_begin();

@@ -30,7 +30,7 @@ function same_as_the_command(study, options, varargin)
   told = 0;
   for name = fieldnames(summary)'
     theirs = summary.(name{1});
-    if any(strcmp(name{1}, {'wall_time_s', 'real_time_factor', 'version', 'warnings', 'outcome', 'message', 'frequencies_Hz'}))
+    if any(strcmp(name{1}, {'wall_time_s', 'real_time_factor', 'version', 'notes', 'outcome', 'message', 'frequencies_Hz'}))
       continue
     end
     if isempty(theirs), theirs = NaN; end % null

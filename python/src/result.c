@@ -50,12 +50,12 @@ static PyObject *get_message(PyObject *self, void *unused) {
   return text_from(of(self)->message);
 }
 
-static PyObject *get_warnings(PyObject *self, void *unused) {
+static PyObject *get_notes(PyObject *self, void *unused) {
   (void)unused;
   const ZpResult *result = of(self);
-  PyObject *list = PyTuple_New((Py_ssize_t)result->warnings);
-  for (size_t i = 0; list && i < result->warnings; i++) {
-    PyObject *text = text_from(result->warning[i]);
+  PyObject *list = PyTuple_New((Py_ssize_t)result->notes);
+  for (size_t i = 0; list && i < result->notes; i++) {
+    PyObject *text = text_from(result->note[i]);
     if (!text || PyTuple_SetItem(list, (Py_ssize_t)i, text)) Py_CLEAR(list);
   }
   return list;
@@ -171,7 +171,7 @@ static PyGetSetDef getters[] = {
     {"outcome", get_outcome, NULL, "How the solver ended: a word.", NULL},
     {"good", get_good, NULL, "Whether the outcome is an answer.", NULL},
     {"message", get_message, NULL, "One sentence on how it ended.", NULL},
-    {"warnings", get_warnings, NULL, "Sentences on limits of validity that were reached.", NULL},
+    {"notes", get_notes, NULL, "Sentences: breakdown, limits of the model and of the mesh that were met.", NULL},
     {"scalars", get_scalars, NULL, "(name, unit, value, follows from wall time) of each number.", NULL},
     {"series", get_series, NULL, "((name, unit, help) of each column, rows), or None.", NULL},
     {"shapes", get_shapes, NULL, "Arrays of a film of shapes, or None.", NULL},

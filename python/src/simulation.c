@@ -25,10 +25,9 @@ typedef struct Simulation {
 
 static ZpStatus compile(Simulation *self, const ZpHooks *hooks, ZpError *err) {
   const Definition *definition = (Definition *)self->definition;
-  ZpActuatorDef def = definition->def;
-  def.study = ZP_STUDY_ACTUATE; /* what a motion asks of the keys is checked */
-  if (!definition->drive.rows) return zp_data_sim_create(&def, hooks, &self->model, &self->sim, err);
-  ZpStatus status = zp_model_create_driven(&def, &definition->drive, &self->model, err);
+  const ZpActuatorDef *def = &definition->def;
+  if (!definition->drive.rows) return zp_data_sim_create(def, hooks, &self->model, &self->sim, err);
+  ZpStatus status = zp_model_create_driven(def, &definition->drive, &self->model, err);
   return status == ZP_OK ? zp_sim_create(self->model, hooks, &self->sim, err) : status;
 }
 

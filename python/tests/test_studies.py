@@ -48,7 +48,7 @@ def test_same_bits_as_the_command(study, tmp_path):
     summary, (names, *rows) = command(actuator, study, tmp_path)
     result = actuator.run(study)
     assert (result.outcome, result.message) == (summary["outcome"], summary["message"])
-    assert list(result.warnings) == summary["warnings"]
+    assert list(result.notes) == summary["notes"]
     assert list(result.series) == names
     there = np.array([[float(cell) if cell else np.nan for cell in row] for row in rows])
     np.testing.assert_array_equal(result.series.values_2d, there)

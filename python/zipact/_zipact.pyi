@@ -23,7 +23,7 @@ class Result:
     outcome: str
     good: bool
     message: str
-    warnings: tuple[str, ...]
+    notes: tuple[str, ...]
     scalars: tuple[tuple[str, str, float, bool], ...]
     series: tuple[tuple[tuple[str, str, str], ...], View] | None
     shapes: Mapping[str, Any] | None

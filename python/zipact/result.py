@@ -124,8 +124,8 @@ class Result(Mapping[str, float]):
         """whether the outcome is an answer"""
         self.message: str = found.message
         """one sentence on how it ended"""
-        self.warnings: tuple[str, ...] = found.warnings
-        """sentences on limits of validity that were met"""
+        self.notes: tuple[str, ...] = found.notes
+        """sentences: breakdown, limits of the model and of the mesh that were met"""
         self.units = {name: unit for name, unit, _, _ in found.scalars}
         """SI unit of each number; "1" for pure ones, "count" for whole ones"""
         self._numbers = {name: value for name, _, value, _ in found.scalars}
@@ -179,4 +179,4 @@ class Result(Mapping[str, float]):
         for name, value in self.items():
             unit = self.units[name]
             lines.append(f"  {name:<28} {value:14.6g} {unit if unit not in ('1', 'count') else ''}".rstrip())
-        return "\n".join(lines + [f"  note: {warning}" for warning in self.warnings])
+        return "\n".join(lines + [f"  note: {note}" for note in self.notes])

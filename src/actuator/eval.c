@@ -212,6 +212,7 @@ static bool cap_changed(const ZpModel *model, const ZpState *state, double share
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
   const ZpActuatorDef *def = &model->def;
   double share = def->electro.refresh_change;
+  if (!model->field) return false;
   if (model->field_solved)
     return isnan(state->refreshed) || cap_changed(model, state, share) || gaps_changed(model, state, share);
   return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);

@@ -323,13 +323,7 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: with electro.model field, faces that touch need an insulator between "
                    "the metals");
-  if (def->insulator.thickness < thinnest) return refuse_thin(def, err);
-  if (def->study == ZP_STUDY_MODES && def->modes.voltage > 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "modes.voltage = %g V: with electro.model field, frequencies are computed only without voltage; use plates",
-        def->modes.voltage);
-  return ZP_OK;
+  return def->insulator.thickness < thinnest ? refuse_thin(def, err) : ZP_OK;
 }
 
 static ZpStatus check_square(const ZpActuatorDef *def, ZpError *err) {
@@ -363,8 +357,6 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
   }
   if (*def->drive.table && *def->drive.file)
     return zp_fail(err, ZP_BAD_INPUT, "drive.table: drive.file is given as well; give only one of them");
-  if (kind == ZP_WAVEFORM_TABLE && def->study == ZP_STUDY_CALIBRATE)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: requires study actuate, not calibrate");
   if (kind == ZP_WAVEFORM_RAMP && def->drive.rise_time == 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.rise_time = 0 s: a ramp needs a rise time above 0; or use drive.waveform step");
@@ -422,10 +414,31 @@ static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
                  "infinite at the clip");
 }
 
-/* What the integrators ask of mechanics and contact. */
-static ZpStatus check_motion(const ZpActuatorDef *def, ZpError *err) {
+static ZpStatus check_mass(const ZpActuatorDef *def, ZpError *err) {
+  if (def->ribbon.density > 0 || def->insulator.density > 0) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a moving ribbon needs a mass");
+}
+
+/* What motion asks of a flange. */
+static ZpStatus check_flange_in_motion(const ZpActuatorDef *def, ZpError *err) {
+  if (def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
+    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: motion requires solver.integrator implicit");
+  if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "contact.model = sequential: motion requires actuator.kind electro_ribbon");
+  if (def->electro.surface == ZP_SURFACE_BEZIER)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.surface = bezier: motion requires actuator.kind electro_ribbon");
+  return ZP_OK;
+}
+
+ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool sequential = def->contact.model == ZP_CONTACT_SEQUENTIAL;
+  if (def->actuator.kind == ZP_KIND_FLANGE) {
+    ZpStatus status = check_flange_in_motion(def, err);
+    if (status != ZP_OK) return status;
+  }
   if (two && sequential && implicit)
     return zp_fail(err, ZP_BAD_INPUT, "contact.model = sequential: requires solver.integrator explicit");
   if (two && !sequential && def->electro.surface == ZP_SURFACE_BEZIER)
@@ -436,36 +449,80 @@ static ZpStatus check_motion(const ZpActuatorDef *def, ZpError *err) {
                    def->damping.internal);
   if (def->ribbon.model != ZP_RIBBON_ROD && def->damping.internal > 0)
     return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires ribbon.model rod", def->damping.internal);
-  return ZP_OK;
+  return check_mass(def, err);
+}
+
+/* Two ribbons touch at the clip, a flange without a gap at its clamp; a flange with a gap only beyond its pull-in. */
+ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
+  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
+  if (voltage == 0 || def->insulator.thickness > 0 || !touches) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "insulator.thickness = 0 m: %g V is a short circuit, for the electrodes touch at the %s; give an "
+                 "insulator or no voltage",
+                 voltage, two ? "clip" : "clamp (electro.gap_offset = 0 m)");
 }
 
 static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
-  bool goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
-  if (*def->initial.file && !goes_on)
+  if (*def->initial.file && def->initial.state != ZP_INITIAL_CHECKPOINT)
     return zp_fail(err, ZP_BAD_INPUT, "initial.file: requires initial.state checkpoint, but it is %s",
                    word_of("initial.state", (int)def->initial.state));
-  if (goes_on && def->study != ZP_STUDY_ACTUATE)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s",
-                   word_of("study", (int)def->study));
   return ZP_OK;
 }
 
-/* What is asked of one model or one study only. */
+/* What is asked of the model of the field. */
+static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
+  return status == ZP_OK && def->electro.edges ? check_edges(def, err) : status;
+}
+
+static ZpStatus check_actuate(const ZpActuatorDef *def, ZpError *err) {
+  bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
+  ZpStatus status = zp_def_check_motion(def, err);
+  if (status != ZP_OK || table) return status;
+  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
+}
+
+static ZpStatus check_modes(const ZpActuatorDef *def, ZpError *err) {
+  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
+        def->modes.voltage);
+  ZpStatus status = check_mass(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
+}
+
+static ZpStatus check_calibrate(const ZpActuatorDef *def, ZpError *err) {
+  if (def->drive.waveform != ZP_WAVEFORM_TABLE) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: requires study actuate, not calibrate");
+}
+
+/* What is asked of one study only. */
 static ZpStatus check_study(const ZpActuatorDef *def, ZpError *err) {
-  if (def->study == ZP_STUDY_ACTUATE) {
-    ZpStatus status = check_motion(def, err);
-    if (status != ZP_OK) return status;
+  if (def->initial.state == ZP_INITIAL_CHECKPOINT && def->study != ZP_STUDY_ACTUATE)
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s",
+                   word_of("study", (int)def->study));
+  ZpStatus status = ZP_OK;
+  switch (def->study) {
+  case ZP_STUDY_ACTUATE:
+    return check_actuate(def, err);
+  case ZP_STUDY_MODES:
+    return check_modes(def, err);
+  case ZP_STUDY_PROFILE:
+    return check_profile(def, err);
+  case ZP_STUDY_CALIBRATE:
+    return check_calibrate(def, err);
+  case ZP_STUDY_ISOMETRIC:
+    status = check_isometric(def, err);
+    return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
+  case ZP_STUDY_EQUILIBRIUM:
+    return zp_def_check_voltage(def, def->drive.voltage, err);
+  case ZP_STUDY_STATIONARY: /* has no voltage */
+  case ZpStudy_COUNT:
+    break;
   }
-  if (def->electro.model == ZP_ELECTRO_FIELD) {
-    ZpStatus status = check_field(def, err);
-    if (status != ZP_OK) return status;
-  }
-  if (def->electro.edges) {
-    ZpStatus status = check_edges(def, err);
-    if (status != ZP_OK) return status;
-  }
-  if (def->study == ZP_STUDY_PROFILE) return check_profile(def, err);
-  return def->study == ZP_STUDY_ISOMETRIC ? check_isometric(def, err) : ZP_OK;
+  return ZP_OK;
 }
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
@@ -485,11 +542,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
                    "force is infinite");
-  bool actuates = def->study == ZP_STUDY_ACTUATE;
-  if (def->actuator.kind == ZP_KIND_FLANGE && actuates && def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
-    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: motion requires solver.integrator implicit");
-  if (def->ribbon.density == 0 && def->insulator.density == 0 && (actuates || def->study == ZP_STUDY_MODES))
-    return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a moving ribbon needs a mass");
   double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   double segments = def->segment_1.length + def->segment_2.length + def->segment_3.length;
   if (segments > flexible * (1 + 1e-12))
@@ -510,5 +562,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    def->electro.refresh_period);
   ZpStatus status = check_drive(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
+  if (status == ZP_OK) status = check_electro(def, err);
   return status == ZP_OK ? check_study(def, err) : status;
 }

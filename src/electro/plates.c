@@ -78,6 +78,13 @@ void zp_plates_gaps(const ZpPlatesParams *p, const double *x, const double *y, Z
     gaps(p->nodes, x, y, e->gap, e->dx);
 }
 
+double zp_plates_least_gap(const ZpPlatesParams *p, const double *y) {
+  double least = INFINITY;
+  for (size_t i = 0; i < p->nodes; i++)
+    least = fmin(least, p->flat ? p->flat_height - y[i] : y[2 * i] - y[2 * i + 1]);
+  return least;
+}
+
 /* Law at the Gauss points of each element, weighted to its two ends. Error of the force on the paper's wedges up to
  * 4 mm, measured (test_electro): 3e-6, 1e-8, 3e-9 at N = 21, 61, 130 without cap; its kink makes it 2e-3, 6e-5, 3e-5.
  */

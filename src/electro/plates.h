@@ -55,6 +55,9 @@ void zp_plates_carve(const ZpPlatesParams *params, ZpPlatesEval *eval, ZpCarver 
 /* (x, y of interleaved upper and lower nodes) => eval->gap and eval->dx. */
 void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double *y, ZpPlatesEval *eval);
 
+/* (y of interleaved upper and lower nodes; flat: of one ribbon's) => the smallest gap of facing nodes, m. */
+double zp_plates_least_gap(const ZpPlatesParams *params, const double *y);
+
 /* (x, y of interleaved upper and lower nodes, voltage) => gaps and nodal forces, the exact gradient
  * of the potential in zp_plates_totals. */
 void zp_plates_polyline(const ZpPlatesParams *params, const double *x, const double *y, double voltage,

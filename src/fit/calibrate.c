@@ -10,6 +10,7 @@
 #include "fit/reference.h"
 #include "io/drive_table.h"
 
+#include "study/notes.h"
 #include "study/studies.h"
 
 /* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
@@ -93,10 +94,10 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
       zp_result_add(result, names[fit->key[k]].correlation[j], "1",
                     told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
     if (at_bound(fit, z, k))
-      zp_result_warn(result, "%s is at a bound of its range: it has no standard error", key->name);
+      zp_result_note(result, "%s is at a bound of its range: it has no standard error", key->name);
   }
   if (!told_apart && n > 0)
-    zp_result_warn(result, "the data cannot distinguish the fitted keys: they have no standard errors");
+    zp_result_note(result, "the data cannot distinguish the fitted keys: they have no standard errors");
 }
 
 static const ZpColumn over_time[4] = {
@@ -113,6 +114,25 @@ static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result)
   for (size_t i = 0; i < fit->rows; i++)
     zp_table_offer(result->series, (double[]){fit->x[i], fit->y[i], fitted[i], fitted[i] - fit->y[i]});
   return true;
+}
+
+/* The notes of the model as fitted, at the highest voltage of all rows. */
+static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpError *err) {
+  ZpActuatorDef def = *fit->def, row;
+  double highest = fit->x_key < 0 ? fmax(def.drive.voltage, fabs(def.drive.offset)) : -1, voltage;
+  for (size_t i = 0; i < fit->rows && fit->x_key >= 0; i++) {
+    if (!zp_fit_row(fit, z, i, &row, &voltage)) continue;
+    if (fit->held) voltage = row.drive.voltage;
+    if (voltage <= highest) continue;
+    highest = voltage;
+    def = row;
+  }
+  def.study = ZP_STUDY_STATIONARY; /* which asks for nothing else */
+  ZpModel *model;
+  if (zp_model_create(&def, &model, err) == ZP_MACHINE) return ZP_MACHINE;
+  if (model) zp_note_model(result, model, fmax(highest, 0), 0);
+  zp_model_destroy(model);
+  return ZP_OK;
 }
 
 static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult *result, ZpError *err) {
@@ -134,6 +154,7 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "some rows have no equilibrium within the bounds");
   report_keys(fit, z, has_J ? J : NULL, square, result);
+  if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   zp_result_add(result, fit->held ? "residual_rms_N" : "residual_rms_m", fit->held ? "N" : "m", rms);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);

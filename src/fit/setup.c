@@ -154,16 +154,25 @@ static ZpStatus read_others(ZpFit *fit, const ZpData *data, int x, int y, ZpErro
   return status;
 }
 
-/* Rows of held platforms must be possible ones. */
-static ZpStatus check_held(const ZpFit *fit, const ZpData *data, ZpError *err) {
+/* One run in time, through all rows. */
+static ZpStatus check_run(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = zp_def_check_motion(def, err);
+  if (status != ZP_OK) return status;
+  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
+}
+
+/* Rows must be possible ones: those of held platforms as study isometric says, others in their voltage. */
+static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
   double start[ZP_FIT_MOST], voltage;
   for (int k = 0; k < ZP_FIT_MOST; k++)
     start[k] = 1;
-  for (size_t i = 0; fit->held && i < fit->rows; i++) {
+  if (fit->x_key < 0) return check_run(fit->def, err);
+  for (size_t i = 0; i < fit->rows; i++) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
     if (!zp_fit_row(fit, start, i, &def, &voltage)) continue; /* read_column has said it */
-    if (zp_def_check(&def, &reason) != ZP_OK)
+    ZpStatus status = fit->held ? zp_def_check(&def, &reason) : zp_def_check_voltage(&def, voltage, &reason);
+    if (status != ZP_OK)
       return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, data->line[i + 1], reason.message);
   }
   return ZP_OK;
@@ -188,7 +197,7 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
     status = zp_data_number(data, i, (size_t)column, &fit->y[i], err);
     fit->y[i] = fit->y[i] * factor / divisor;
   }
-  return status == ZP_OK ? check_held(fit, data, err) : status;
+  return status == ZP_OK ? check_rows(fit, data, err) : status;
 }
 
 static bool is_length(const char *name) {

@@ -31,7 +31,8 @@ static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
     zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
     bool found = zp_newton_good(zp_statics_hang(&statics, &work).end);
     if (found && voltage > 0 && model->field) found = zp_statics_raise(&statics, voltage, &work);
-    if (found) value = fit->opening ? zp_statics_opening(&statics) : zp_statics_stroke(&statics);
+    if (found && !zp_statics_shorted(&statics))
+      value = fit->opening ? zp_statics_opening(&statics) : zp_statics_stroke(&statics);
   } else {
     fit->status = zp_fail_memory(fit->err);
   }

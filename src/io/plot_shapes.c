@@ -176,7 +176,7 @@ static double caption_value(const ZpPlot *plot, Caption what, const ZpShape *sha
   case CAPTION_CONTRACTION:
     return column_at(plot->single->series, "contraction", shape->time);
   case CAPTION_STROKE:
-    return is_path(plot) ? fabs(shape->y[end] - shape->y[0]) : column_at(plot->single->series, "stroke_m", shape->time);
+    return is_path(plot) ? shape->y[0] - shape->y[end] : column_at(plot->single->series, "stroke_m", shape->time);
   case CAPTION_END_X:
     return shape->x[end];
   default:

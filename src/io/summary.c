@@ -38,14 +38,14 @@ static bool set_scalars(json_t *object, const ZpResult *result) {
   return done;
 }
 
-/* Add the warnings of a run that are not in the array yet. */
-static bool add_warnings(json_t *array, const ZpResult *result) {
+/* Add the notes of a run that are not in the array yet. */
+static bool add_notes(json_t *array, const ZpResult *result) {
   bool done = true;
-  for (size_t i = 0; i < result->warnings; i++) {
+  for (size_t i = 0; i < result->notes; i++) {
     bool known = false;
     for (size_t k = 0; k < json_array_size(array) && !known; k++)
-      known = strcmp(json_string_value(json_array_get(array, k)), result->warning[i]) == 0;
-    if (!known) done = json_array_append_new(array, json_string(result->warning[i])) == 0 && done;
+      known = strcmp(json_string_value(json_array_get(array, k)), result->note[i]) == 0;
+    if (!known) done = json_array_append_new(array, json_string(result->note[i])) == 0 && done;
   }
   return done;
 }
@@ -64,15 +64,15 @@ static json_t *row_of(const ZpReport *report, size_t run) {
   const int *key = zp_scenario_lists(report->scenario, &keys);
   const ZpResult *result = report->result[run];
   ZpActuatorDef def;
-  json_t *row = json_object(), *warnings = json_array();
+  json_t *row = json_object(), *notes = json_array();
   bool done = zp_scenario_def(report->scenario, run, &def, NULL) == ZP_OK;
   for (size_t i = 0; i < keys && done; i++)
     done = zp_json_set(row, zp_key(key[i])->name, key_value(key[i], zp_def_get(&def, key[i])));
   done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
   done = done && zp_json_set(row, "message", json_string(result->message));
   done = done && set_scalars(row, result);
-  done = add_warnings(warnings, result) && done;
-  done = zp_json_set(row, "warnings", warnings) && done;
+  done = add_notes(notes, result) && done;
+  done = zp_json_set(row, "notes", notes) && done;
   if (done) return row;
   json_decref(row);
   return NULL;
@@ -103,14 +103,14 @@ static bool set_outcome(json_t *object, const ZpReport *report) {
 
 static json_t *summary_of(const ZpReport *report) {
   const ZpResult *single = zp_report_single(report);
-  json_t *object = json_object(), *warnings = json_array();
+  json_t *object = json_object(), *notes = json_array();
   bool done = zp_json_set(object, "version", json_string(ZP_VERSION));
   done = zp_json_set(object, "study", json_string(zp_report_study(report))) && done;
   done = set_outcome(object, report) && done;
   if (single) done = set_scalars(object, single) && done;
   for (size_t i = 0; i < report->count; i++)
-    done = add_warnings(warnings, report->result[i]) && done;
-  done = zp_json_set(object, "warnings", warnings) && done;
+    done = add_notes(notes, report->result[i]) && done;
+  done = zp_json_set(object, "notes", notes) && done;
   if (zp_report_is_sweep(report)) done = set_rows(object, report) && done;
   if (done) return object;
   json_decref(object);

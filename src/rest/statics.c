@@ -163,7 +163,7 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
 
 double zp_statics_stroke(const ZpStatics *s) {
   const double *y = s->q + s->model->stride;
-  return fabs(y[s->model->count - 1] - y[s->model->s - 1]);
+  return y[s->model->s - 1] - y[s->model->count - 1];
 }
 
 double zp_statics_opening(const ZpStatics *s) {
@@ -173,6 +173,12 @@ double zp_statics_opening(const ZpStatics *s) {
 
 size_t zp_statics_front(const ZpStatics *s) {
   return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap) : 0;
+}
+
+bool zp_statics_shorted(const ZpStatics *s) {
+  const ZpModel *model = s->model;
+  if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
+  return zp_plates_least_gap(&model->plates, s->q + model->stride) < contact_range;
 }
 
 static ZpPlatesTotals totals(const ZpStatics *s) {

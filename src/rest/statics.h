@@ -65,11 +65,14 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *w
 /* From the straight shape to the equilibrium at `voltage` with all faces closed. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
-/* The present point: |y of the right end - y of the clip or clamp| of the lower ribbon, m; distance of the
- * platforms' faces (NAN for one ribbon); how many stations from the clip on are closed, the clip not counted. */
+/* The present point: how far the right end of the lower or only ribbon is below the clip or clamp, signed, m; distance
+ * of the platforms' faces (NAN for one ribbon); how many stations from the clip on are closed, the clip not counted. */
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
 size_t zp_statics_front(const ZpStatics *statics);
+
+/* Do electrodes without an insulator touch under the present voltage? */
+bool zp_statics_shorted(const ZpStatics *statics);
 
 /* Why the field could not be solved where it was tried last; NULL if it was, or is not asked for. */
 const char *zp_statics_trouble(const ZpStatics *statics);

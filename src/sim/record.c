@@ -40,7 +40,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   ZpMotion motion = zp_state_motion(model, state);
   const double *y = motion.y;
   size_t s = model->s, end = model->count - 1;
-  row[SIGNAL_stroke] = fabs(y[end] - y[s - 1]);
+  row[SIGNAL_stroke] = y[s - 1] - y[end];
   row[SIGNAL_end_velocity] = motion.vy[end];
   row[SIGNAL_zipped_length] = (double)state->zip.front * model->l;
   row[SIGNAL_opening] = s == 2 ? y[end - 1] - y[end] : NAN;

@@ -100,8 +100,9 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
   double *q = sim->relax_work;
-  sim->settled = ZP_REACHED_END;
-  if (model->def.initial.state == ZP_INITIAL_CHECKPOINT) return true; /* which has its reference */
+  bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
+  sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
+  if (goes_on) return true;
   /* of one straight ribbon neither a start nor a reference is needed */
   if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;

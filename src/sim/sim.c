@@ -9,18 +9,21 @@
 #include "sim/sim_internal.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",   "zipped",    "interrupted", "not_settled", "diverged",
-                                      "step_limit", "converged", "followed",    "branch_lost"};
-  return names[outcome];
+  static const char *const names[] = {"end_time",    "zipped",       "interrupted",  "not_settled",
+                                      "diverged",    "step_limit",   "converged",    "followed",
+                                      "branch_lost", "bad_argument", "short_circuit"};
+  size_t index = (size_t)outcome;
+  return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
-  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED;
+  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
+         outcome == ZP_SHORT_CIRCUIT;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
   static const char *const names[] = {"time_step", "stability", "drag", "event", "error", "end"};
-  return names[limit];
+  return (size_t)limit < sizeof names / sizeof names[0] ? names[limit] : "unknown";
 }
 
 /* -- creation ------------------------------------------------------------------------------------- */
@@ -72,10 +75,19 @@ void zp_sim_start_account(ZpSim *sim) {
   state->base_field = e.field;
 }
 
-ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
-  *out = NULL;
+/* The study of the model's Def may be another, which asks less. */
+static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   if (model->def.drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0)
     return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: the model has none; zp_model_create_driven takes it");
+  ZpStatus status = zp_def_check_motion(&model->def, err);
+  if (status != ZP_OK) return status;
+  return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
+}
+
+ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
+  *out = NULL;
+  ZpStatus status = check_creation(model, err);
+  if (status != ZP_OK) return status;
   ZpSim *sim = zp_calloc(1, sizeof *sim);
   if (!sim) return zp_fail_memory(err);
   sim->model = model;
@@ -160,9 +172,10 @@ static void follow_waveform(ZpSim *sim, bool corner) {
 
 /* -- one step ------------------------------------------------------------------------------------- */
 
+static const double touch = 5e-7; /* m, as in contact at rest */
+
 /* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
 static ZpZipState touching(const ZpModel *model, const double *gap) {
-  static const double touch = 5e-7; /* m, as in contact at rest */
   ZpZipState zip = {0, false};
   while (zip.front + 1 < model->nodes && gap[zip.front + 1] < touch)
     zip.front++;
@@ -273,6 +286,12 @@ static bool closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin) return true;
   return state->zip.platform || zp_state_motion(model, state).vy[model->count - 1] <= 0;
+}
+
+/* Do electrodes without an insulator touch under a voltage? */
+static bool shorted(const ZpModel *model, const ZpState *state) {
+  if (state->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < touch;
 }
 
 static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner) {
@@ -410,6 +429,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
       note_bounds(sim, info);
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
+    if (shorted(model, state)) return ZP_SHORT_CIRCUIT;
     if (stop_when_zipped && model->field && closed(model, state)) return ZP_ZIPPED;
   }
   return diverged(model, state) ? ZP_DIVERGED : ZP_REACHED_END;
@@ -446,14 +466,35 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_STEP_LIMIT:
     snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps", t, sim->model->def.solver.max_steps);
     break;
+  case ZP_SHORT_CIRCUIT:
+    snprintf(text, size, "short circuit at %.4g ms: electrodes without an insulator touch at %g V", 1e3 * t,
+             sim->state->U);
+    break;
   case ZP_CONVERGED:
   case ZP_FOLLOWED:
   case ZP_BRANCH_LOST:
     break; /* of studies of rest */
+  case ZP_BAD_ARGUMENT:
+    snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
+    break;
   }
 }
 
+/* What was asked for cannot be: nothing is done, and `info` says so. */
+static ZpOutcome refuse(const ZpSim *sim, const char *name, double value, const char *need, ZpRunInfo *info) {
+  if (!info) return ZP_BAD_ARGUMENT;
+  *info = (ZpRunInfo){.outcome = ZP_BAD_ARGUMENT,
+                      .smallest_bound = {INFINITY, INFINITY, INFINITY},
+                      .wall_time = NAN,
+                      .settle_steps = sim->settle_steps,
+                      .settle_residual = sim->settle_residual};
+  snprintf(info->message, sizeof info->message, "%s = %g s: %s; the simulation stays at %.9g s", name, value, need,
+           sim->state->t);
+  return ZP_BAD_ARGUMENT;
+}
+
 ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *out) {
+  if (!(end_time >= sim->state->t)) return refuse(sim, "end_time", end_time, "not a time from the present one on", out);
   ZpRunInfo info = {.settle_steps = sim->settle_steps,
                     .settle_residual = sim->settle_residual,
                     .smallest_bound = {INFINITY, INFINITY, INFINITY}};
@@ -481,8 +522,10 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
 ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info) {
   static const double rounding = 1e-9; /* above that of the time reached: no sliver of a step is left at the end */
   double longest = fmin(sim->model->stable_step, sim->model->def.solver.time_step); /* NAN, auto, does not count */
+  double end = sim->state->t + dt;
+  if (!(end > sim->state->t) || isinf(dt)) return refuse(sim, "dt", dt, "not a finite time that moves on", info);
   sim->even = dt / ceil(dt / longest) * (1 + rounding);
-  ZpOutcome outcome = zp_sim_run(sim, sim->state->t + dt, false, hooks, info);
+  ZpOutcome outcome = zp_sim_run(sim, end, false, hooks, info);
   sim->even = INFINITY;
   return outcome;
 }
@@ -492,6 +535,7 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
   ZpActuatorDef scratch = sim->model->def;
   ZpStatus status = zp_def_set(&scratch, zp_key_find("drive.voltage"), voltage, err);
+  if (status == ZP_OK) status = zp_def_check_voltage(&sim->model->def, voltage, err);
   if (status != ZP_OK) return status;
   sim->state->by_hand = true;
   jump_to(sim, voltage);
@@ -509,6 +553,7 @@ void zp_sim_resume(ZpSim *sim) {
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   sim->row_time = state->t;
   sim->row_charge = zp_eval_charge(sim->model, state, &sim->eval);
+  if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (voltage != state->U) jump_to(sim, voltage);
   sim->cut = false;
   keep(sim);

@@ -6,6 +6,7 @@
 
 #include "actuator/model.h"
 #include "base/fail.h"
+#include "study/notes.h"
 #include "study/studies.h"
 
 /* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
@@ -59,14 +60,16 @@ static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
     zp_result_add(result, bound[k], "s", isfinite(info->smallest_bound[k]) ? info->smallest_bound[k] : NAN);
   zp_result_add(result, "settle_steps", "count", (double)info->settle_steps);
   zp_result_add(result, "settle_residual", "1", info->settle_residual);
-  zp_result_add_timing(result, "real_time_factor", "1", info->simulated_time / info->wall_time);
+  zp_result_add_timing(result, "real_time_factor", "1",
+                       info->wall_time > 0 ? info->simulated_time / info->wall_time : NAN);
 }
 
-static void warn(const ZpModel *model, const ZpActuatorDef *def, ZpResult *result) {
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON) return;
-  zp_result_warn_insulator(result, model);
+static void note(const ZpModel *model, ZpResult *result) {
+  double highest = zp_waveform_largest(&model->waveform);
+  zp_note_model(result, model, highest, result->shapes->frames);
+  if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   if (isfinite(zp_result_get(result, "zip_time_s")))
-    zp_result_warn(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
+    zp_result_note(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
 }
 
 static void summarize(const ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
@@ -83,7 +86,7 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
   if (goes_on && !start)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: there is none; zp_study_run_with takes it");
   if (start && !goes_on)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state: a checkpoint was given; it goes with initial.state checkpoint");
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state: a checkpoint was given; it requires initial.state checkpoint");
   return ZP_OK;
 }
 
@@ -98,7 +101,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpRunInfo info;
   zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
   summarize(sim, model, &info, result);
-  warn(model, def, result);
+  note(model, result);
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 

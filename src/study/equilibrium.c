@@ -6,11 +6,12 @@
 
 #include "base/fail.h"
 #include "rest/statics.h"
+#include "study/notes.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
     {"voltage_V", "V", "potential difference of the electrodes"},
-    {"stroke_m", "m", "height of the clip over the lower platform"},
+    {"stroke_m", "m", "height of the clip over the lower platform, signed"},
     {"opening_m", "m", "distance of the platforms' faces"},
     {"zipped_length_m", "m", "closed length from the clip, one half"},
     {"charge_C", "C", "charge on the electrodes"},
@@ -38,6 +39,7 @@ typedef struct Follower {
   double *line_force;
   double limit[MOST_LIMITS]; /* voltages at the limit points of the branch under way */
   int limits, points;
+  double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
   ZpOutcome outcome;
 } Follower;
 
@@ -117,8 +119,8 @@ static bool end_at(Follower *f, double voltage, int mark) {
   return true;
 }
 
-/* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage]. => false if it
- * was lost on the way. */
+/* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
+ * => false if it was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
   double top = f->model->def.drive.voltage;
   double tolerance = 2 * zp_statics_tolerance(&f->statics);
@@ -131,6 +133,10 @@ static bool follow(Follower *f, bool growing, int mark) {
     if (f->branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->branch));
     direction = f->branch.direction_m;
     if (f->statics.U < 0) return true;
+    if (zp_statics_shorted(&f->statics)) {
+      f->shorted = f->statics.U;
+      return true;
+    }
     if (f->statics.U > top) return end_at(f, top, mark);
     record(f, mark);
     if (asked_to_stop(f)) {
@@ -156,11 +162,21 @@ static void follow_both(Follower *f, double *pull_in, double *release) {
   if (f->limits > 0) *pull_in = f->limit[0];
   if (f->limits > 1) *release = f->limit[f->limits - 1];
   if (f->limits > 1 || !f->model->field || f->outcome != ZP_FOLLOWED) return;
+  if (f->model->def.insulator.thickness == 0) return; /* closed is a short circuit */
   if (!zp_newton_good(zp_statics_close(&f->statics, f->model->def.drive.voltage, &f->branch.newton).end)) return;
   if (!zp_statics_stable(&f->statics, &f->branch.newton)) return;
   if (!follow(f, false, 1)) f->outcome = ZP_BRANCH_LOST;
   smooth_limits(f);
   if (f->limits > 0) *release = f->limit[0];
+}
+
+static void note(Follower *f) {
+  ZpResult *r = f->result;
+  zp_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
+  if (!isnan(f->shorted))
+    zp_result_note(r, "at %.4g V electrodes without an insulator touch, a short circuit: the branch ends there",
+                   f->shorted);
 }
 
 static void describe(Follower *f, double pull_in, double release) {
@@ -172,6 +188,8 @@ static void describe(Follower *f, double pull_in, double release) {
   else if (f->outcome == ZP_BRANCH_LOST)
     snprintf(r->message, size, "lost the branch at %.4g V%s%s; what was found is kept", f->statics.U,
              trouble ? ": " : "", trouble ? trouble : "");
+  else if (isnan(pull_in) && !isnan(f->shorted))
+    snprintf(r->message, size, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
   else if (isnan(pull_in))
     snprintf(r->message, size, "no pull-in up to %g V", f->model->def.drive.voltage);
   else if (isnan(release))
@@ -194,6 +212,7 @@ static ZpStatus run(Follower *f, ZpError *err) {
   zp_result_add(f->result, "points", "count", f->points);
   f->result->outcome = f->outcome;
   describe(f, pull_in, release);
+  note(f);
   return ZP_OK;
 }
 
@@ -201,7 +220,7 @@ ZpStatus zp_study_equilibrium(const ZpActuatorDef *def, const ZpHooks *hooks, Zp
   ZpModel *model;
   ZpStatus status = zp_model_create(def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {.model = model, .hooks = hooks, .result = result, .outcome = ZP_FOLLOWED};
+  Follower f = {.model = model, .hooks = hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
   status = run(&f, err);
   zp_free(f.memory);
   zp_statics_destroy(&f.statics);

@@ -13,6 +13,7 @@
 #include "base/fail.h"
 #include "rest/statics.h"
 #include "solve/descend.h"
+#include "study/notes.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -234,17 +235,17 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
   zp_result_add(r, "residual", "1", isfinite(info->residual) ? info->residual : NAN);
 }
 
-static void warn(Holder *h) {
+static void note(Holder *h) {
   ZpResult *r = h->result;
-  zp_result_warn_insulator(r, h->model);
+  zp_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
   if (h->jumps > 0)
-    zp_result_warn(r,
+    zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
                    "front passes nodes "
                    "so: more mesh.nodes show whether they are real",
                    h->jumps, h->leap);
   if (h->others > 0)
-    zp_result_warn(r,
+    zp_result_note(r,
                    "%d more stable states at drive.voltage (force %.4g N in the last): a higher or a suddenly applied "
                    "voltage may lead to them",
                    h->others, h->other_force);
@@ -293,7 +294,7 @@ static void run(Holder *h) {
   }
   summarize(h, &info);
   describe(h);
-  warn(h);
+  note(h);
   h->result->outcome = h->outcome;
 }
 

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "math/eigen.h"
 #include "rest/statics.h"
+#include "study/notes.h"
 #include "study/studies.h"
 
 enum { MODES = 8, SUBSPACE = 16, MOST_ROUNDS = 200 };
@@ -181,6 +182,12 @@ static void run(Problem *p, ZpResult *result) {
              "no hanging equilibrium at modes.voltage = %g V: it pulls in before", voltage);
     return;
   }
+  if (zp_statics_shorted(&p->statics)) {
+    result->outcome = ZP_SHORT_CIRCUIT;
+    snprintf(result->message, sizeof result->message,
+             "short circuit at modes.voltage = %g V: electrodes without an insulator touch", voltage);
+    return;
+  }
   p->statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
   if (!zp_statics_stable(&p->statics, &p->newton) || !zp_band_factor(&p->newton.K, NULL)) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
@@ -209,10 +216,12 @@ ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult
   Problem *p = zp_calloc(1, sizeof *p);
   result->series = zp_table_create(columns, COLUMNS, MODES);
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
-  if (result->series && result->shapes && allocate(p, model))
+  if (result->series && result->shapes && allocate(p, model)) {
     run(p, result);
-  else
+    zp_note_model(result, model, def->modes.voltage, 1); /* the others are no shapes at rest */
+  } else {
     status = zp_fail_memory(err);
+  }
   if (p) {
     zp_free(p->memory);
     zp_statics_destroy(&p->statics);

@@ -12,6 +12,7 @@
 #include "rest/statics.h"
 #include "study/bookkeeping.h"
 #include "study/faces.h"
+#include "study/notes.h"
 #include "study/studies.h"
 
 /* A row per column of the grid from the clip's edge on. */
@@ -282,26 +283,18 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
   return ZP_OK;
 }
 
-static void warn(const Profiler *p) {
-  const ZpActuatorDef *def = &p->model->def;
-  double insulator = largest(p, INSULATOR), liquid = largest(p, LIQUID), off = difference(p);
-  double local = field_over(p, &p->right) - 1;
-  if (insulator > def->insulator.breakdown_field)
-    zp_result_warn(p->result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
-                   insulator / 1e6, def->insulator.breakdown_field / 1e6);
-  if (!def->electro.breakdown_cap && liquid > def->medium.breakdown_field)
-    zp_result_warn(p->result,
-                   "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
-                   "electro.breakdown_cap is false: the force is not limited",
-                   liquid / 1e6, def->medium.breakdown_field / 1e6);
+static void note(const Profiler *p) {
+  double off = difference(p), local = field_over(p, &p->right) - 1;
+  zp_note_breakdown(p->result, p->model, (ZpSeen){largest(p, INSULATOR), largest(p, LIQUID)});
+  if (p->model->def.profile.shape == ZP_PROFILE_HELD) zp_note_mesh(p->result, p->model, 0);
   if (fabs(local) > valid)
-    zp_result_warn(
+    zp_result_note(
         p->result,
         "the field pulls with %.3g times what any local plates law gives: the faces are too steep or too far "
         "apart for it",
         1 + local);
   if (fabs(off) > agreement)
-    zp_result_warn(p->result,
+    zp_result_note(p->result,
                    "force by traction and by virtual work differ by %.2g %%: too steep a wedge for the field's grid",
                    100 * fabs(off));
 }
@@ -372,7 +365,7 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   ZpResult *r = p->result;
   record(p);
   summarize(p);
-  warn(p);
+  note(p);
   r->outcome = ZP_CONVERGED;
   snprintf(r->message, sizeof r->message,
            "%g V attract a ribbon of one half with %.4g N; by the field without cap %.4g N", p->U,

@@ -25,12 +25,9 @@ ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult
 /* Electric force along the ribbons of one shape, by plates and by the field. */
 ZpStatus zp_study_profile(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err);
 
-/* Append a number to the summary; one that follows from wall time; a sentence of warning. */
+/* Append a number to the summary; one that follows from wall time; a sentence of note. */
 void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
-__attribute__((format(printf, 2, 3))) void zp_result_warn(ZpResult *result, const char *format, ...);
-
-/* Warn where closed faces' insulator would break down at the highest voltage. */
-void zp_result_warn_insulator(ZpResult *result, const ZpModel *model);
+__attribute__((format(printf, 2, 3))) void zp_result_note(ZpResult *result, const char *format, ...);
 
 #endif

@@ -103,18 +103,10 @@ void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, 
   result->scalar[result->scalars++] = (ZpScalar){name, unit, value, true};
 }
 
-void zp_result_warn(ZpResult *result, const char *format, ...) {
-  if (result->warnings == ZP_MAX_WARNINGS) return;
+void zp_result_note(ZpResult *result, const char *format, ...) {
+  if (result->notes == ZP_MAX_NOTES) return;
   va_list args;
   va_start(args, format);
-  vsnprintf(result->warning[result->warnings++], sizeof result->warning[0], format, args);
+  vsnprintf(result->note[result->notes++], sizeof result->note[0], format, args);
   va_end(args);
-}
-
-void zp_result_warn_insulator(ZpResult *result, const ZpModel *model) {
-  double field = zp_model_info(model).closed_insulator_field, most = zp_model_def(model)->insulator.breakdown_field;
-  if (field > most)
-    zp_result_warn(
-        result, "the insulator's field reaches %.3g MV/m where the faces touch, above its breakdown field of %.3g MV/m",
-        field / 1e6, most / 1e6);
 }

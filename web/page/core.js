@@ -139,7 +139,7 @@ export class Core {
 
   // -- studies
 
-  /** Run the scenario in study `name` => its message, whether it ended well, warnings, the scalars asked for, the columns
+  /** Run the scenario in study `name` => its message, whether it ended well, notes, the scalars asked for, the columns
    * of its table. */
   study(name, scalars) {
     const c = this.#c, web = this.#web;
@@ -152,7 +152,7 @@ export class Core {
     return {
       message,
       good,
-      warnings: Array.from({length: c.zp_web_warnings(web)}, (_, k) => this.#string(c.zp_web_warning(web, k))),
+      notes: Array.from({length: c.zp_web_notes(web)}, (_, k) => this.#string(c.zp_web_note(web, k))),
       scalars: Object.fromEntries(scalars.map((name) => {
         this.#put(name);
         return [name, c.zp_web_scalar(web)];

@@ -51,7 +51,7 @@ class Plot {
   #plot;
   #data;
 
-  constructor(place, axes, end, paint) {
+  constructor(place, axes, end, paint, start = () => ({})) {
     const scales = Object.keys(axes);
     this.place = place;
     this.#data = scales.map(() => [0, 1]);
@@ -60,7 +60,7 @@ class Plot {
       legend: {show: false},
       cursor: {show: false},
       padding: [8, 18, 0, 0],
-      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => [0, roundUp(end()[name] || 1)]}])),
+      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => [(start()[name] ?? 0) < 0 ? -roundUp(-start()[name]) : 0, roundUp(end()[name] || 1)]}])),
       series: scales.map((name) => (name === 'x' ? {} : {scale: name, paths: () => null, points: {show: false}})),
       axes: scales.map((name) => ({...axes[name], scale: name})),
       hooks: {draw: [paint]},
@@ -79,17 +79,22 @@ class Plot {
 
 const scaled = (values, factor) => Array.from(values, (value) => value * factor);
 
+/** The extreme of lists of strokes and of 0, mm: strokes are signed. */
+const extreme = (pick, lists) => 1e3 * lists.reduce((most, list) => list.reduce((a, b) => pick(a, b), most), 0);
+
 /** Stroke over time: the run that the command gives, and what is happening. */
 export function timePlot(place, data) {
+  const strokes = () => [data.run, data.trace].flatMap((c) => (c ? [c.stroke] : []));
   const end = () => ({
     x: Math.max(...[data.run, data.trace].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), 10),
-    y: Math.max(...[data.run, data.trace].map((c) => 1e3 * (c ? c.stroke.reduce((a, b) => Math.max(a, b), 0) : 0)), 1e-3),
+    y: Math.max(extreme(Math.max, strokes()), 1e-3),
   });
+  const start = () => ({y: extreme(Math.min, strokes())});
   return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('stroke / mm', {size: 44})}, end, (plot) => {
     if (data.run) curve(plot, scaled(data.run.time, 1e3), scaled(data.run.stroke, 1e3), {colour: 'soft', width: 1.5, dash: [5, 4]});
     curve(plot, scaled(data.trace.time, 1e3), scaled(data.trace.stroke, 1e3), {colour: 'accent', width: 2.5});
     dot(plot, 1e3 * data.trace.time.at(-1), 1e3 * data.trace.stroke.at(-1), 'accent');
-  });
+  }, start);
 }
 
 /** Runs of points of one branch that are all stable or all not; each takes the next one's first point along. */
@@ -106,10 +111,9 @@ function pieces({branch, stable}) {
 
 /** Stroke over voltage: all states of rest, and where it is now. */
 export function voltagePlot(place, data) {
-  const end = () => ({
-    x: data.highest / 1e3,
-    y: 1e3 * Math.max(data.rest?.stroke.reduce((a, b) => Math.max(a, b), 0) ?? 0, data.now.stroke),
-  });
+  const strokes = () => [data.rest?.stroke ?? [], [data.now.stroke]];
+  const end = () => ({x: data.highest / 1e3, y: extreme(Math.max, strokes())});
+  const start = () => ({y: extreme(Math.min, strokes())});
   return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('stroke / mm', {size: 44})}, end, (plot) => {
     if (data.rest) {
       const x = scaled(data.rest.voltage, 1e-3), y = scaled(data.rest.stroke, 1e3);
@@ -117,7 +121,7 @@ export function voltagePlot(place, data) {
         curve(plot, x.slice(from, to), y.slice(from, to), stable ? {colour: 'ink'} : {colour: 'warm', width: 1.5, dash: [4, 4]});
     }
     dot(plot, data.now.voltage / 1e3, 1e3 * data.now.stroke, 'accent');
-  });
+  }, start);
 }
 
 /** Attraction per length and field in the liquid, from the clip to the platform. */

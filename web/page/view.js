@@ -52,7 +52,7 @@ export class View {
     this.hanging = columns?.opening_m[0] ?? NaN;
     this.tiles.show('zip', digits(1e3 * (result?.scalars.zip_time_s ?? NaN)));
     $('time-note').textContent = refused ?? result.message;
-    $('warnings').replaceChildren(...(result?.warnings ?? []).map((words) => {
+    $('warnings').replaceChildren(...(result?.notes ?? []).map((words) => {
       const item = document.createElement('li');
       item.textContent = words;
       return item;

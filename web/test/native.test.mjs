@@ -53,7 +53,7 @@ for (const [name, changes] of Object.entries(fixedSteps)) {
     core.resolve(values);
     const ours = core.study('actuate', ['steps', 'contraction', 'energy_error']);
     assert.equal(ours.scalars.steps, theirs.steps);
-    assert.deepEqual(ours.warnings, theirs.warnings);
+    assert.deepEqual(ours.notes, theirs.notes);
     assert.ok(ours.scalars.contraction > 1e-3, 'it moves');
     for (const column of Object.keys(rows)) {
       const scale = derived[column];

@@ -1,0 +1,83 @@
+#include "study/notes.h"
+
+#include <math.h>
+
+#include "actuator/model.h"
+#include "study/studies.h"
+
+/* -- breakdown ------------------------------------------------------------------------------------- */
+
+ZpSeen zp_seen_at(const ZpModel *model, double voltage, double gap) {
+  const ZpActuatorDef *def = &model->def;
+  double U = fabs(voltage), liquid = fmax(gap, 0) / def->medium.permittivity;
+  double insulators = 2 * def->insulator.thickness / def->insulator.permittivity, both = liquid + insulators;
+  if (!(both > 0)) return (ZpSeen){0, 0};
+  return (ZpSeen){insulators > 0 ? U / both / def->insulator.permittivity : 0, U / both / def->medium.permittivity};
+}
+
+static ZpSeen stronger(ZpSeen a, ZpSeen b) {
+  return (ZpSeen){fmax(a.insulator, b.insulator), fmax(a.liquid, b.liquid)};
+}
+
+ZpSeen zp_seen_in(const ZpModel *model, double highest, const ZpShapes *film, size_t frames) {
+  ZpSeen seen = model->s == 2 ? zp_seen_at(model, highest, 0) : (ZpSeen){0, 0};
+  for (size_t i = 0; model->flat && film && i < film->frames && i < frames; i++) {
+    ZpShape shape = zp_shapes_get(film, i);
+    seen = stronger(seen, zp_seen_at(model, shape.voltage, zp_plates_least_gap(&model->plates, shape.y)));
+  }
+  return seen;
+}
+
+void zp_note_breakdown(ZpResult *result, const ZpModel *model, ZpSeen seen) {
+  const ZpActuatorDef *def = &model->def;
+  if (seen.insulator > def->insulator.breakdown_field)
+    zp_result_note(result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
+                   seen.insulator / 1e6, def->insulator.breakdown_field / 1e6);
+  if (!def->electro.breakdown_cap && seen.liquid > def->medium.breakdown_field)
+    zp_result_note(result,
+                   "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
+                   "electro.breakdown_cap is false: the force is not limited",
+                   seen.liquid / 1e6, def->medium.breakdown_field / 1e6);
+}
+
+/* -- the mesh -------------------------------------------------------------------------------------- */
+
+/* Length over which closed faces part by the range of their attraction, m, eq. (9.2). INFINITY where none zip. */
+static double front_length(const ZpModel *model, double voltage) {
+  const ZpActuatorDef *def = &model->def;
+  bool zips = model->s == 2 || (model->flat && def->electro.gap_offset == 0);
+  if (!zips || voltage == 0 || def->electro.surface != ZP_SURFACE_POLYLINE) return INFINITY;
+  ZpPlatesLaw closed = zp_plates_law(&model->plates, voltage, 0);
+  double bend = (model->s == 2 ? 1 : 2) * model->section.EI;
+  return closed.W > 0 ? sqrt(sqrt(bend * -closed.P)) / sqrt(closed.W) : INFINITY;
+}
+
+void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
+  static const double fewest = 6; /* elements: docs/theory.md, section 9, has what this and the other bound leave */
+  double front = front_length(model, voltage), elements = model->L / model->l;
+  if (elements < fewest)
+    zp_result_note(result, "mesh.nodes = %zu: with fewer than %g elements a shape at rest is off by some 5 %% or more",
+                   model->nodes, fewest);
+  if (model->l > front)
+    zp_result_note(result,
+                   "mesh.nodes = %zu: elements of %.3g mm are longer than the zip front, %.3g mm; pull-in, zip time and "
+                   "force are off by some 10 %% or more; mesh.nodes = %.0f leaves some 5 %%",
+                   model->nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
+}
+
+void zp_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames) {
+  if (model->field) zp_note_breakdown(result, model, zp_seen_in(model, highest, result->shapes, frames));
+  zp_note_mesh(result, model, highest);
+}
+
+/* -- the start ------------------------------------------------------------------------------------- */
+
+void zp_note_start(ZpResult *result, const ZpModel *model, double opening) {
+  double insulators = 2 * model->def.insulator.thickness;
+  if (opening < insulators)
+    zp_result_note(
+        result,
+        "it starts from an opening of %.3g um, less than both insulators (%.3g um): it is nearly closed from "
+        "the start, and when it closes says little",
+        1e6 * opening, 1e6 * insulators);
+}
