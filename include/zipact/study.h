@@ -63,7 +63,10 @@ typedef struct ZpStudyInput {
 ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult **result,
                            ZpError *err);
 
-/* Free a result; NULL is allowed. */
+/* A result without anything in it, for whoever fills one; NULL if there is no memory. */
+ZpResult *zp_result_create(void);
+
+/* Free a result with all that it holds; NULL is allowed. */
 void zp_result_destroy(ZpResult *result);
 
 /* The scalar called `name`, NAN if there is none. */

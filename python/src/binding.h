@@ -74,6 +74,23 @@ PyObject *read_scenario(PyObject *module, PyObject *path);
 /* Takes `result` over. */
 PyObject *result_new(State *state, ZpResult *result);
 
+/* A result that was pickled, and what its names are kept in. */
+typedef struct Unpacked {
+  ZpResult *result;
+  ZpColumn *column; /* of its series; malloc; NULL if it has none */
+  PyObject *words;  /* owns the texts */
+} Unpacked;
+
+/* What the getters of a result do not give, as plain values. */
+PyObject *result_pack(const ZpResult *result);
+
+/* ((what result_pack gave, message, notes, scalars, columns or None), definition of the run) => a result; false with an
+ * exception. */
+bool result_unpack(const State *state, PyObject *args, const ZpActuatorDef *def, Unpacked *unpacked);
+
+/* (definition, ... as in result_unpack) => Result. */
+PyObject *unpack_result(PyObject *module, PyObject *args);
+
 /* `count` doubles of `owner` as a read-only buffer of `ndim` <= 3 dimensions, without copying. */
 PyObject *view_new(State *state, PyObject *owner, const double *data, int ndim, const Py_ssize_t *shape,
                    const Py_ssize_t *strides);

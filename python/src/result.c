@@ -1,11 +1,14 @@
 /* What a study found, as plain Python values and buffers. */
 #include "binding.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct Result {
   PyObject_HEAD State *state;
   ZpResult *result;
+  ZpColumn *column; /* of one that was pickled: its columns, */
+  PyObject *words;  /* and the texts of all names; else NULL */
 } Result;
 
 PyObject *result_new(State *state, ZpResult *found) {
@@ -16,11 +19,33 @@ PyObject *result_new(State *state, ZpResult *found) {
   }
   self->state = state;
   self->result = found;
+  self->column = NULL;
+  self->words = NULL;
+  return (PyObject *)self;
+}
+
+PyObject *unpack_result(PyObject *module, PyObject *args) {
+  State *state = PyModule_GetState(module);
+  PyObject *definition, *parts;
+  if (!PyArg_ParseTuple(args, "O!O!", state->definition, &definition, &PyTuple_Type, &parts)) return NULL;
+  Unpacked unpacked;
+  if (!result_unpack(state, parts, &((Definition *)definition)->def, &unpacked)) return NULL;
+  Result *self = (Result *)result_new(state, unpacked.result);
+  if (!self) {
+    free(unpacked.column);
+    Py_DECREF(unpacked.words);
+    return NULL;
+  }
+  self->column = unpacked.column;
+  self->words = unpacked.words;
   return (PyObject *)self;
 }
 
 static void result_dealloc(PyObject *object) {
-  zp_result_destroy(((Result *)object)->result);
+  Result *self = (Result *)object;
+  zp_result_destroy(self->result);
+  free(self->column);
+  Py_XDECREF(self->words);
   free_object(object);
 }
 
@@ -166,6 +191,11 @@ static PyObject *result_save(PyObject *object, PyObject *args) {
   Py_RETURN_NONE;
 }
 
+static PyObject *result_pack_method(PyObject *self, PyObject *unused) {
+  (void)unused;
+  return result_pack(of(self));
+}
+
 static PyGetSetDef getters[] = {
     {"study", get_study, NULL, "Its word.", NULL},
     {"outcome", get_outcome, NULL, "How the solver ended: a word.", NULL},
@@ -180,6 +210,7 @@ static PyGetSetDef getters[] = {
 };
 static PyMethodDef methods[] = {
     {"save", result_save, METH_VARARGS, "save(directory, scenario): write the files of the command."},
+    {"pack", result_pack_method, METH_NOARGS, "What the attributes do not give, for unpack_result."},
     {NULL, NULL, 0, NULL},
 };
 static PyType_Slot slots[] = {

@@ -1,5 +1,6 @@
 """Runs on all cores."""
 
+import pickle
 import threading
 
 import numpy as np
@@ -55,10 +56,60 @@ def test_workers_overlap():
     assert not meeting.broken
 
 
-def test_one_that_fails_stops_all(tmp_path):
-    lost = zipact.Actuator(study="calibrate", data__file=tmp_path / "none.csv")
-    with pytest.raises(zipact.InputError, match="none.csv"):
-        zipact.run_batch([LONG, LONG, LONG, lost], workers=4)
+def with_one_lost(tmp_path):
+    """Three actuators, of which study calibrate refuses the second: it has no file."""
+    fine = zipact.Actuator(mesh__nodes=11, study="stationary")
+    return [fine, zipact.Actuator(study="calibrate", data__file=tmp_path / "none.csv"), fine.replace(load__mass="20 g")]
+
+
+def test_one_refused_keeps_the_others(tmp_path):
+    """One refused actuator lost the results of all."""
+    actuators = with_one_lost(tmp_path)
+    with pytest.raises(zipact.BatchError, match="1 of 3 runs raised an exception; the first, run 1: .*none.csv") as raised:
+        zipact.run_batch(actuators, workers=2)
+    assert isinstance(raised.value, zipact.Error) and isinstance(raised.value.__cause__, zipact.InputError)
+    batch = raised.value.batch
+    assert list(batch.errors) == [1] and isinstance(batch[1], zipact.InputError)
+    assert batch[0]["stroke_m"] == actuators[0].run()["stroke_m"] < batch[2]["stroke_m"]
+    np.testing.assert_array_equal(np.isnan(batch["stroke_m"]), [False, True, False])
+    again = pickle.loads(pickle.dumps(raised.value))
+    assert str(again) == str(raised.value) and again.batch[2]["stroke_m"] == batch[2]["stroke_m"]
+
+
+def test_exceptions_can_be_returned(tmp_path):
+    batch = zipact.run_batch(with_one_lost(tmp_path), return_exceptions=True)
+    assert len(batch) == 3 and "none.csv" in str(batch.errors[1]) and batch[1:].errors.keys() == {0}
+    assert repr(batch) == "<Batch of 3 results, 1 of them errors>"
+    only = batch[1:2]
+    assert np.isnan(only["stroke_m"]).all()
+    with pytest.raises(zipact.InputError, match="no number of study stationary"):
+        batch["zip_time_s"]
+
+
+def test_errors_in_the_dataframe(tmp_path):
+    pytest.importorskip("pandas")
+    frame = zipact.run_batch(with_one_lost(tmp_path), return_exceptions=True).to_dataframe()
+    assert list(frame["outcome"]) == ["converged", "error", "converged"] and "none.csv" in frame["error"][1]
+    assert list(frame["load.mass"]) == [0.008, 0.008, 0.02] and np.isnan(frame["stroke_m"][1])
+
+
+def test_error_of_a_long_batch_does_not_stop_it(tmp_path):
+    """It does not end what is under way, nor what is still to come."""
+    lost = with_one_lost(tmp_path)[1]
+    seen = []
+    batch = zipact.run_batch(
+        [lost, *sweep(study="stationary")], workers=1, return_exceptions=True, progress=lambda *at: seen.append(at)
+    )
+    assert seen == [(done, len(VOLTAGES) + 1) for done in range(1, len(VOLTAGES) + 2)]
+    assert batch.errors.keys() == {0} and all(result.good for result in batch[1:])
+
+
+def test_exception_of_progress_stops_all():
+    def progress(done, of):
+        raise LookupError("mine")
+
+    with pytest.raises(LookupError, match="mine"):
+        zipact.run_batch([zipact.Actuator(mesh__nodes=11, study="stationary"), LONG], workers=2, progress=progress)
 
 
 def test_progress_can_stop_the_rest():

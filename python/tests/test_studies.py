@@ -1,17 +1,22 @@
 """Every study: the command's numbers to the last bit, as arrays."""
 
+import copy
 import csv
 import json
+import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import threading
 import time
 import warnings
+from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 import pytest
 import zipact
+from zipact import _zipact
 
 COMMAND = os.environ["ZIPACT_COMMAND"]
 DATA = os.path.join(os.path.dirname(__file__), "..", "..", "examples", "data")
@@ -95,6 +100,72 @@ def test_arrays_drive_a_run(tmp_path):
     result.save(tmp_path)
     again = zipact.read_scenario(tmp_path / "scenario.yaml")[0].run()
     np.testing.assert_array_equal(result.series.values_2d, again.series.values_2d)
+
+
+def assert_same(one, other):
+    """Two results are the same to the last bit."""
+    assert (one.study, one.outcome, one.good, one.message) == (other.study, other.outcome, other.good, other.message)
+    assert (one.notes, one.units, one.timings, one.actuator) == (other.notes, other.units, other.timings, other.actuator)
+    assert list(one) == list(other)
+    np.testing.assert_array_equal(list(one.values()), list(other.values()))
+    assert (one.series.units, one.series.help) == (other.series.units, other.series.help)
+    np.testing.assert_array_equal(one.series.values_2d, other.series.values_2d)
+    for mine, theirs in ((one.shapes, other.shapes), (one.field, other.field)):
+        assert (mine is None) == (theirs is None)
+        for a, b in zip(mine or (), theirs or (), strict=True):
+            np.testing.assert_equal(a, b)
+
+
+def saved(result, folder):
+    result.save(folder)
+    files = [path for path in sorted(folder.rglob("*")) if path.is_file() and "plots" not in path.parts]
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}
+
+
+@pytest.mark.parametrize("study", CASES)
+def test_result_pickles(study, tmp_path):
+    """A Result could not be pickled. One that comes back is equal, and writes the same files."""
+    result = zipact.Actuator(mesh__nodes=21, **CASES[study]).run(study)
+    again = pickle.loads(pickle.dumps(result))
+    assert_same(again, result)
+    assert_same(copy.deepcopy(again), result)
+    assert repr(again) == repr(result)
+    if study in ("actuate", "profile"):  # of the others nothing else is written, and pictures take seconds
+        files = saved(again, tmp_path / "again")
+        assert files == saved(result, tmp_path / "first") and len(files) >= 5
+
+
+def test_results_come_back_from_processes():
+    actuators = zipact.Actuator(mesh__nodes=11).sweep(load__mass=["8 g", "20 g"])
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(2, mp_context=context) as pool:
+        for actuator, result in zip(actuators, pool.map(zipact.Actuator.run, actuators, ["stationary"] * 2), strict=True):
+            assert_same(result, actuator.run("stationary"))
+
+
+def test_damaged_pickle_is_refused():
+    result = zipact.Actuator(mesh__nodes=11, drive__voltage=3e3).run("profile")
+    definition, (packed, *words) = result.actuator._definition, result.__reduce__()[1][1]
+    version, study, outcome, series, shapes, field, checkpoint = packed
+    rows, numbers = series
+    wrong = [
+        (version, 99, outcome, series, shapes, field, checkpoint),
+        (version, study, outcome, (rows + 1, numbers), shapes, field, checkpoint),
+        (version, study, outcome, (-1, numbers), shapes, field, checkpoint),
+        (version, study, outcome, series, (2, 1 << 62, 1 << 62, b""), field, checkpoint),
+        (version, study, outcome, series, shapes[:3] + (shapes[3][:-1],), field, checkpoint),
+        (version, study, outcome, series, shapes, field[:2] + (b"",) * 5, checkpoint),
+        (version, study, outcome, series, shapes, field, b"123"),
+    ]
+    for parts in wrong:
+        with pytest.raises(zipact.InputError, match="result: damaged"):
+            _zipact.unpack_result(definition, (parts, *words))
+    with pytest.raises(zipact.InputError, match="result: pickled by zipact 0.0.0; this is"):
+        _zipact.unpack_result(definition, (("0.0.0", *packed[1:]), *words))
+    message, notes, scalars, columns = words
+    for wrong_words in ((1, notes, scalars, columns), (message, notes, scalars * 100, columns), (message, notes, scalars, ())):
+        with pytest.raises((zipact.InputError, TypeError)):
+            _zipact.unpack_result(definition, (packed, *wrong_words))
 
 
 def test_dataframe_has_units():

@@ -14,7 +14,7 @@ may have a unit.
 from ._zipact import Error, InputError, MachineError, NumericsError
 from ._zipact import version as __version__
 from .actuator import KEYS, Actuator, Key, read_scenario
-from .batch import Batch, run_batch
+from .batch import Batch, BatchError, run_batch
 from .result import FieldMap, Result, Shapes, Table
 from .simulation import SIGNALS, Shape, Signal, Simulation
 
@@ -23,6 +23,7 @@ __all__ = [
     "SIGNALS",
     "Actuator",
     "Batch",
+    "BatchError",
     "Error",
     "FieldMap",
     "InputError",

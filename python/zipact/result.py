@@ -111,7 +111,8 @@ def shapes_of(parts: Mapping[str, Any]) -> Shapes:
 
 
 class Result(Mapping[str, float]):
-    """What a study found. As a mapping it has its numbers: result["zip_time_s"]; nan where there is none."""
+    """What a study found. As a mapping it has its numbers: result["zip_time_s"]; nan where there is none. It can be pickled
+    and copied, within one version of zipact."""
 
     def __init__(self, found: _zipact.Result, actuator: "Actuator") -> None:
         self._found = found
@@ -174,9 +175,17 @@ class Result(Mapping[str, float]):
         os.makedirs(folder, exist_ok=True)
         self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario())
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        columns = None if self.series is None else self._found.series[0]
+        return _unpickle, (self.actuator, (self._found.pack(), self.message, self.notes, self._found.scalars, columns))
+
     def __repr__(self) -> str:
         lines = [f"{self.study}: {self.outcome}; {self.message}"]
         for name, value in self.items():
             unit = self.units[name]
             lines.append(f"  {name:<28} {value:14.6g} {unit if unit not in ('1', 'count') else ''}".rstrip())
         return "\n".join(lines + [f"  note: {note}" for note in self.notes])
+
+
+def _unpickle(actuator: "Actuator", parts: tuple[Any, ...]) -> Result:
+    return Result(_zipact.unpack_result(actuator._definition, parts), actuator)

@@ -165,7 +165,7 @@ static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResu
   ZpFit fit;
   ZpStatus status = zp_fit_open(def, &fit, err);
   fit.hooks = hooks;
-  ZpResult *result = status == ZP_OK ? zp_calloc(1, sizeof *result) : NULL;
+  ZpResult *result = status == ZP_OK ? zp_result_create() : NULL;
   double *fitted = status == ZP_OK ? calloc(fit.rows, sizeof *fitted) : NULL;
   double *J = status == ZP_OK ? calloc(fit.rows * (size_t)(fit.n + 1), sizeof *J) : NULL;
   if (status == ZP_OK && (!result || !fitted || !J)) status = zp_fail_memory(err);

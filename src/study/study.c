@@ -16,7 +16,7 @@ ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, 
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
   if (status != ZP_OK) return status;
-  ZpResult *result = zp_calloc(1, sizeof *result);
+  ZpResult *result = zp_result_create();
   if (!result) return zp_fail_memory(err);
   result->study = def->study;
   switch (def->study) {
@@ -48,6 +48,10 @@ ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, 
   else
     zp_result_destroy(result);
   return status;
+}
+
+ZpResult *zp_result_create(void) {
+  return zp_calloc(1, sizeof(ZpResult));
 }
 
 void zp_result_destroy(ZpResult *result) {
