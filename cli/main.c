@@ -124,6 +124,8 @@ static int dispatch(const char *word, const Options *o) {
 }
 
 int main(int argc, char **argv) {
+  ZpError err;
+  if (zp_hdf5_skip_exit(&err) != ZP_OK) return cli_fail(&err);
   if (argc < 2) return fail_usage("a study or command is missing", "");
   if (strcmp(argv[1], "--version") == 0) {
     puts("zipact " ZP_VERSION);

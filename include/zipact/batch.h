@@ -15,6 +15,7 @@ typedef struct ZpBatch {
   ZpResult **result; /* [done] */
   size_t count;      /* to run */
   size_t done;
+  size_t numbers;   /* in all results */
   bool interrupted; /* by a hook: the last result is what was reached */
 } ZpBatch;
 
@@ -26,7 +27,8 @@ void zp_batch_free(ZpBatch *batch);
 /* True while there is something to run. */
 bool zp_batch_open(const ZpBatch *batch);
 
-/* Run the next Def. `hooks` may be NULL. The results of a sweep keep their series, not their shapes. */
+/* Run the next Def. `hooks` may be NULL. The results of a sweep keep their series, not their shapes. ZP_MACHINE, too,
+ * when there would be no memory to write the report afterwards: what is done can be written. */
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err);
 
 /* True if every outcome is an answer (zp_outcome_good). */

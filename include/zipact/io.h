@@ -60,6 +60,15 @@ ZpStatus zp_checkpoint_write(const ZpCheckpoint *checkpoint, FILE *file, ZpError
  * version. Whether it fits a model, zp_checkpoint_check says. */
 ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err);
 
+/* Name of the library (libfyaml, UDUNITS-2, HDF5) that this thread is in, NULL if none. These libraries crash, or call
+ * exit, when an allocation fails. A program that defines malloc itself can end in order there. */
+const char *zp_library_at_work(void);
+
+/* Leave out what HDF5 does when the process exits, which crashes where there is no memory. For programs that use HDF5
+ * through this library only: it has closed all that it opened. To be called before any other use of HDF5. ZP_MACHINE if
+ * there is no memory. */
+ZpStatus zp_hdf5_skip_exit(ZpError *err);
+
 /* A folder for results that one run has for itself. */
 typedef struct ZpFolder ZpFolder;
 

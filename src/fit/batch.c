@@ -6,6 +6,11 @@
 #include <zipact/calibrate.h>
 
 #include "base/fail.h"
+#include "io/guard.h"
+#include "io/report.h"
+
+/* Bytes that a run may take while it lasts. */
+enum { MARGIN = 1 << 22 };
 
 ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err) {
   ZpActuatorDef def;
@@ -41,14 +46,27 @@ static void keep_the_series(ZpResult *result) {
   result->checkpoint = NULL;
 }
 
+/* A sweep ends while what it has computed can still be written: there must be room for the report of two more runs like
+ * those that are done, and for as much again as they hold. */
+static ZpStatus need_room(const ZpBatch *batch, ZpError *err) {
+  if (batch->done == 0) return ZP_OK;
+  size_t more = 2 * batch->numbers / batch->done;
+  size_t room = zp_report_room(batch->done + 2, batch->numbers + more) + more * sizeof(double) + MARGIN;
+  if (zp_has_room(room)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "no memory for run %zu of %zu; what was computed before is kept", batch->done + 1,
+                 batch->count);
+}
+
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
   ZpActuatorDef def;
   ZpResult *result;
-  ZpStatus status = zp_scenario_def(batch->scenario, batch->done, &def, err);
+  ZpStatus status = need_room(batch, err);
+  if (status == ZP_OK) status = zp_scenario_def(batch->scenario, batch->done, &def, err);
   if (status == ZP_OK) status = zp_data_study_run(&def, hooks, &result, err);
   if (status != ZP_OK) return status;
   if (batch->count > 1) keep_the_series(result);
   batch->result[batch->done++] = result;
+  batch->numbers += zp_result_numbers(result);
   batch->interrupted = result->outcome == ZP_INTERRUPTED;
   return ZP_OK;
 }

@@ -20,6 +20,7 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "io/guard.h"
 #include "io/report.h"
 
 /* The file grows in memory by this much at a time. */
@@ -332,22 +333,41 @@ static void *build_silently(const ZpReport *report, const char *scenario, size_t
   return image;
 }
 
+static ZpStatus build_guarded(const ZpReport *report, const char *scenario, void **image, size_t *size, ZpError *err) {
+  ZpGuard guard;
+  size_t numbers = 0;
+  for (size_t i = 0; i < report->count; i++)
+    numbers += zp_result_numbers(report->result[i]);
+  ZpStatus status = zp_guard_enter(&guard, "HDF5", zp_report_room(report->count, numbers), err);
+  if (status != ZP_OK) return status;
+  *image = build_silently(report, scenario, size);
+  zp_guard_leave(&guard);
+  if (*image) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "cannot create %s/results.h5: HDF5 could not build it in memory", report->directory);
+}
+
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err) {
   char *scenario;
+  void *image = NULL;
   size_t size = 0;
   ZpAtomic out;
   ZpStatus status = zp_scenario_text(report, &scenario, err);
-  if (status != ZP_OK) return status;
-  void *image = build_silently(report, scenario, &size);
+  if (status == ZP_OK) status = build_guarded(report, scenario, &image, &size, err);
   free(scenario);
-  if (!image)
-    return zp_fail(err, ZP_MACHINE, "cannot create %s/results.h5: HDF5 could not build it in memory",
-                   report->directory);
-  status = zp_atomic_open(&out, report->directory, "results.h5", err);
+  if (status == ZP_OK) status = zp_atomic_open(&out, report->directory, "results.h5", err);
   if (status == ZP_OK) {
     fwrite(image, 1, size, out.file); /* the commit finds what goes wrong here */
     status = zp_atomic_commit(&out, err);
   }
   free(image);
   return status;
+}
+
+ZpStatus zp_hdf5_skip_exit(ZpError *err) {
+  ZpGuard guard;
+  ZpStatus status = zp_guard_enter(&guard, "HDF5", 1 << 16, err);
+  if (status != ZP_OK) return status;
+  H5dont_atexit();
+  zp_guard_leave(&guard);
+  return ZP_OK;
 }

@@ -56,6 +56,22 @@ bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names
   return true;
 }
 
+size_t zp_result_numbers(const ZpResult *result) {
+  size_t numbers = 0;
+  if (result->series) numbers += result->series->rows * result->series->columns;
+  if (result->shapes) numbers += result->shapes->frames * result->shapes->frame_size;
+  if (result->map) numbers += 5 * result->map->nx * result->map->ny;
+  return numbers;
+}
+
+/* As measured of HDF5, which takes most: it keeps what it has freed up to 32 MB; of a run the places of its columns,
+ * and all numbers, are in memory twice, as the file and as its copy. */
+size_t zp_report_room(size_t runs, size_t numbers) {
+  const size_t base = 1 << 23, kept = 1 << 25, kept_of_run = 340000, places_of_run = 60000;
+  return base + (runs < kept / kept_of_run ? runs * kept_of_run : kept) + runs * places_of_run +
+         3 * sizeof(double) * numbers;
+}
+
 void zp_key_column(int key, char *text, size_t size) {
   const ZpKey *k = zp_key(key);
   bool bare = strcmp(k->unit, "1") == 0;

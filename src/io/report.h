@@ -29,6 +29,12 @@ const ZpResult *zp_report_single(const ZpReport *report);
  * free. False if there is no memory. */
 bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names);
 
+/* Numbers in the series, shapes and field of a result. */
+size_t zp_result_numbers(const ZpResult *result);
+
+/* (runs, numbers of all their results) => bytes of memory that writing their report takes, rather too many. */
+size_t zp_report_room(size_t runs, size_t numbers);
+
 /* (key index) => its column name, with the unit as interface names have it: "insulator.density_kg_per_m3". */
 void zp_key_column(int key, char *text, size_t size);
 

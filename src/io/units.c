@@ -3,7 +3,7 @@
  * UDUNITS parses with static variables of its own, so it is used under one lock. The database is read
  * when the first unit is met, so that scenarios in bare SI need none; it then stays for the life of the
  * process, because reading it takes some 5 ms and looking a unit up some 10 us. The lock and the database
- * are mutable globals, the only ones of io; nothing that is computed depends on who came first.
+ * are mutable globals (guard.c has the only other); nothing that is computed depends on who came first.
  *
  * UDUNITS reads more than a person means by a unit: "5 10 mm" (50 mm), "s since 1970", "mm @ 3", "Hz" as
  * the inverse of s. What is not a plain product of powers of named units is refused here. */
@@ -21,7 +21,11 @@
 #include <udunits2.h>
 
 #include "base/fail.h"
+#include "io/guard.h"
 #include "io/source.h"
+
+/* Bytes that reading a unit and the database may take. */
+enum { ROOM = 1 << 18, DATABASE_ROOM = 1 << 23 };
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static ut_system *database; /* guarded by `lock`; NULL until the first unit is met */
@@ -115,6 +119,18 @@ static ZpStatus scale_locked(const char *from, const char *to, ZpUnitScale *scal
   return status;
 }
 
+static ZpStatus scale_guarded(const char *from, const char *to, ZpUnitScale *scale, ZpError *err) {
+  ZpGuard guard;
+  ZpStatus status = zp_guard_enter(&guard, "UDUNITS-2", database ? ROOM : ROOM + DATABASE_ROOM, err);
+  if (status != ZP_OK) return status;
+  /* Its error messages would go to stderr; ours say the same with key and file. */
+  ut_error_message_handler before = ut_set_error_message_handler(ut_ignore);
+  status = scale_locked(from, to, scale, err);
+  ut_set_error_message_handler(before);
+  zp_guard_leave(&guard);
+  return status;
+}
+
 ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err) {
   if (strcmp(from, to) == 0) {
     *scale = (ZpUnitScale){.decimal = true, .factor = 1};
@@ -122,10 +138,7 @@ ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpE
   }
   if (!is_plain_unit(from)) return zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
   if (pthread_mutex_lock(&lock)) return zp_fail(err, ZP_MACHINE, "cannot lock the UDUNITS-2 database");
-  /* Its error messages would go to stderr; ours say the same with key and file. */
-  ut_error_message_handler before = ut_set_error_message_handler(ut_ignore);
-  ZpStatus status = scale_locked(from, to, scale, err);
-  ut_set_error_message_handler(before);
+  ZpStatus status = scale_guarded(from, to, scale, err);
   pthread_mutex_unlock(&lock);
   return status;
 }

@@ -15,11 +15,13 @@
 #include <libfyaml.h>
 
 #include "base/fail.h"
+#include "io/guard.h"
 #include "io/value.h"
 
 enum {
-  DEEPEST = 8,       /* mappings inside one another; keys have one point */
-  LONGEST_PATH = 256 /* bytes */
+  DEEPEST = 8,        /* mappings inside one another; keys have one point */
+  LONGEST_PATH = 256, /* bytes */
+  ROOM = 1 << 20      /* bytes that libfyaml may take, and 4 for each of the text */
 };
 
 /* A reading in progress. */
@@ -293,16 +295,24 @@ static ZpStatus open_parser(Walk *walk, const char *text, size_t size) {
   return ZP_OK;
 }
 
+static ZpStatus parse(Walk *walk, const char *text, size_t size, ReadRoot root) {
+  ZpStatus status = open_parser(walk, text, size);
+  if (status == ZP_OK) status = read_stream(walk, root);
+  if (walk->parser) fy_parser_destroy(walk->parser);
+  fy_diag_destroy(walk->diag);
+  free(walk->words);
+  return status;
+}
+
 static ZpStatus read_text(const ZpSource *source, const char *text, size_t size, ReadRoot root, ZpYamlVisit visitor,
                           void *user, ZpError *err) {
+  ZpGuard guard;
   ZpStatus status = check_text(source, text, size, err);
+  if (status == ZP_OK) status = zp_guard_enter(&guard, "libfyaml", ROOM + 4 * size, err);
   if (status != ZP_OK) return status;
   Walk walk = {.source = source, .visit = visitor, .user = user, .err = err, .line = 1};
-  status = open_parser(&walk, text, size);
-  if (status == ZP_OK) status = read_stream(&walk, root);
-  if (walk.parser) fy_parser_destroy(walk.parser);
-  fy_diag_destroy(walk.diag);
-  free(walk.words);
+  status = parse(&walk, text, size, root);
+  zp_guard_leave(&guard);
   return status;
 }
 
