@@ -1,0 +1,123 @@
+/* The assembled stiffness of a whole actuator against differences of its forces, entry by entry. A wrong entry shows
+ * nowhere else: equilibria are still found, in more iterations, and only their stability may come out wrong. */
+#include "check_util.h"
+
+#include "rest/statics.h"
+
+enum { MOST = 60 }; /* equations */
+
+typedef struct Case {
+  const char *name;
+  Setting setting[12];
+  size_t count;
+  double gap; /* of the faces, far from each other or within the range of contact, m */
+  double U;   /* V */
+  bool contact;
+} Case;
+#define SET(...) {__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting)
+
+/* Ribbons so soft that attraction is as stiff as they are. */
+#define SOFT                                                                                                           \
+  {"mesh.nodes", 8}, {"ribbon.young_modulus", 1e6}, {                                                                  \
+    "electro.breakdown_cap", 0                                                                                         \
+  }
+#define CAPPED                                                                                                         \
+  {"mesh.nodes", 8}, {"ribbon.young_modulus", 1e6}, {                                                                  \
+    "electro.breakdown_cap", 1                                                                                         \
+  }
+#define FLANGE                                                                                                         \
+  {"actuator.kind", ZP_KIND_FLANGE}, {                                                                                 \
+    "electro.gap_offset", 2e-4                                                                                         \
+  }
+
+static const Case cases[] = {
+    {"two ribbons", SET(SOFT), 1e-4, 0, false},
+    {"attraction", SET(SOFT), 1e-4, 5e3, false},
+    {"attraction with cap", SET(CAPPED), 1e-4, 5e3, false},
+    {"attraction with edges", SET(SOFT, {"electro.edges", 1}), 1e-4, 5e3, false},
+    {"faces in touch", SET(SOFT, {"drive.voltage", 10}), 4.5e-7, 0, true},
+    {"faces in touch under voltage", SET(SOFT, {"drive.voltage", 10}), 4.5e-7, 5e3, true},
+    {"particles", SET(SOFT, {"ribbon.model", ZP_RIBBON_MASS_SPRING}), 1e-4, 5e3, false},
+    {"flange", SET(SOFT, FLANGE), 1e-4, 1e3, false},
+    {"clamped flange", SET(SOFT, FLANGE, {"actuator.right_end", ZP_END_CLAMPED}), 1e-4, 1e3, true},
+    {"free ribbon", SET({"mesh.nodes", 8}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}), 0,
+     0, false},
+};
+
+/* Bent at random, gaps about `gap`: the present point of `s`. */
+static void bend(ZpStatics *s, double gap) {
+  const ZpModel *model = s->model;
+  uint64_t seed = 5;
+  double *x = s->q, *y = s->q + model->stride;
+  for (size_t j = 0; j < model->count; j++) {
+    size_t upper = model->s == 2 ? j - j % 2 : j;
+    bool lower = j != upper;
+    if (s->assembly.equation[2 * j] >= 0) x[j] += 0.1 * model->l * noise(&seed);
+    double rise = gap > 0 ? 0.3 * gap * noise(&seed) : 0.1 * model->l * noise(&seed);
+    y[j] = lower ? y[upper] - gap - rise : rise;
+    if (j == 1 && model->s == 2) x[1] = x[0], y[1] = y[0];
+  }
+}
+
+/* Move what equation `row` stands for. */
+static void shift(ZpStatics *s, size_t row, double by) {
+  for (size_t k = 0; k < 2 * s->model->count; k++)
+    if (s->assembly.equation[k] == (int)row) s->q[k / 2 + (k % 2) * s->model->stride] += by;
+}
+
+/* Largest difference between the stiffness K and forces r, column by column, over the largest entry. */
+static double worst_entry(ZpStatics *s, const ZpStaticSystem *system, const ZpBand *K, double by) {
+  double worst = 0, largest = 0, up[MOST], down[MOST];
+  for (size_t j = 0; j < system->n; j++) {
+    shift(s, j, by);
+    system->residual(s, up);
+    shift(s, j, -2 * by);
+    system->residual(s, down);
+    shift(s, j, by);
+    for (size_t i = 0; i < system->n; i++) {
+      bool inside = i + K->upper >= j && j + K->lower >= i;
+      double entry = inside ? *zp_band_at(K, i, j) : 0;
+      worst = fmax(worst, fabs(entry - (down[i] - up[i]) / (2 * by)));
+      largest = fmax(largest, fabs(entry));
+    }
+  }
+  return worst / largest;
+}
+
+START_TEST(stiffness_is_the_derivative_of_the_forces) {
+  const Case *c = &cases[_i];
+  ZpActuatorDef def = def_with(c->setting, c->count);
+  def.study = ZP_STUDY_STATIONARY;
+  ZpModel *model = model_of(&def);
+  ZpStatics s;
+  ZpNewtonWork work;
+  ZpCarver carver = {NULL, 0};
+  ck_assert(zp_statics_create(model, &s));
+  ZpStaticSystem system = zp_statics_system(&s);
+  ck_assert_uint_le(system.n, MOST);
+  zp_newton_carve(&work, system.n, s.assembly.bandwidth, &carver);
+  carver = (ZpCarver){calloc(1, carver.used), 0};
+  void *memory = carver.base;
+  zp_newton_carve(&work, system.n, s.assembly.bandwidth, &carver);
+  bend(&s, c->gap);
+  s.U = c->U;
+  s.contact_acts = c->contact;
+  system.residual(&s, work.r);
+  memcpy(s.tension, s.eval.edges.T, (model->count - model->s) * sizeof *s.tension);
+  system.stiffness(&s, &work.K);
+  double worst = worst_entry(&s, &system, &work.K, 1e-4 * (c->gap > 0 ? c->gap : 0.01 * model->l));
+  printf("%s: stiffness off by %.1e\n", c->name, worst);
+  ck_below(worst, 1e-6);
+  free(memory);
+  zp_statics_destroy(&s);
+  zp_model_destroy(model);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("stiffness");
+  TCase *c = tcase_create("stiffness");
+  tcase_add_loop_test(c, stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
+  suite_add_tcase(suite, c);
+  return run_suite(suite);
+}
