@@ -314,7 +314,6 @@ int main(void) {
   tcase_add_test(c, reading_is_a_row);
   tcase_add_test(c, steps_by_hand_are_even);
   tcase_add_test(c, three_ways_to_fill_a_def);
-  tcase_set_timeout(c, 60);
   suite_add_tcase(suite, c);
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);
