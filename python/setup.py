@@ -24,6 +24,9 @@ ROOT = os.path.dirname(HERE)
 LIBRARIES = ["libfyaml", "udunits", "jansson", "hdf5-serial", "nlopt"]
 WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wno-missing-field-initializers"]
 SANITIZE = os.environ.get("ZIPACT_SANITIZE", "")
+# as CMakeLists.txt has it
+HARDENED = ["-fstack-protector-strong", *([] if SANITIZE else ["-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=3"])]
+HARDENED_LINK = ["-Wl,-z,relro,-z,now"]
 
 
 def read(name):
@@ -55,7 +58,7 @@ class BuildExtension(build_ext):
         archives = self.build_library()
         extension.depends += archives
         extension.extra_objects = archives
-        extension.extra_link_args = ["-Wl,--exclude-libs,ALL", *pkg_config("--libs"), "-lm", "-lpthread"]
+        extension.extra_link_args = ["-Wl,--exclude-libs,ALL", *HARDENED_LINK, *pkg_config("--libs"), "-lm", "-lpthread"]
         if SANITIZE:
             extension.extra_compile_args.append("-fsanitize=" + SANITIZE)
             extension.extra_link_args.append("-fsanitize=" + SANITIZE)
@@ -122,7 +125,7 @@ setup(
             depends=["src/binding.h", *glob.glob("../include/zipact/*")],
             include_dirs=["../include"],
             define_macros=[("Py_LIMITED_API", "0x030b0000")],
-            extra_compile_args=["-std=c17", "-D_GNU_SOURCE", *WARNINGS],
+            extra_compile_args=["-std=c17", "-D_GNU_SOURCE", *HARDENED, *WARNINGS],
             py_limited_api=True,
         )
     ],

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs what zipact needs to build, test and draw. On Debian and Ubuntu by apt, with sudo if not root;
-# elsewhere it lists what is needed. Says what it installs; does nothing where all is there.
+# elsewhere it lists what is needed. Says what it downloads and how far it is, and waits while another program holds apt's
+# lock; does nothing where all is there.
 #   scripts/deps.sh          build, run and check
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --octave what the MEX function, its tests and pictures need
@@ -51,15 +52,51 @@ if [ "$(id -u)" -ne 0 ]; then
   fi
   as_root=sudo
 fi
-echo "installing:$missing"
-export DEBIAN_FRONTEND=noninteractive
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+watcher=""
+trap 'rm -f "$log"; [ -z "$watcher" ] || kill "$watcher" 2>/dev/null || true' EXIT
+trap 'exit 130' INT TERM
+
+# What apt-get is at, every 10 s.
+report() {
+  while sleep 10 >/dev/null; do
+    echo "  $(tail -n 1 "$log" | cut -c 1-110)"
+  done
+}
+
+# apt-get ARGUMENTS, output in the log; waits up to half an hour for whoever holds apt's lock.
+apt() {
+  waited=0
+  while true; do
+    report &
+    watcher=$!
+    status=0
+    $as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get "$@" >"$log" 2>&1 || status=$?
+    kill "$watcher" 2>/dev/null || true
+    watcher=""
+    if [ "$status" -eq 0 ]; then return 0; fi
+    if ! grep -q -E 'Could not get lock|Unable to (acquire|lock)|locked by another process' "$log" || [ "$waited" -ge 1800 ]; then return 1; fi
+    echo "  waiting for another program to finish: $(grep -m 1 -E 'lock' "$log" | cut -c 1-110)"
+    sleep 5
+    waited=$((waited + 5))
+  done
+}
+
+update() {
+  echo "reading the lists of packages"
+  apt update || { cat "$log" >&2; exit 1; }
+}
+
 install() {
   # shellcheck disable=SC2086
-  $as_root apt-get install -y --no-install-recommends $missing >"$log" 2>&1
+  apt install -y --no-install-recommends "$@" $missing
 }
-if ! install; then # an old package list is the usual reason
-  $as_root apt-get update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+
+install --print-uris || update # a new machine has no lists
+install --print-uris || { cat "$log" >&2; exit 1; }
+echo "installing:$missing"
+grep '^Need to get' "$log" || true
+if ! install; then # an old list is the usual reason
+  update
   install || { cat "$log" >&2; exit 1; }
 fi

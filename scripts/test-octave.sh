@@ -13,9 +13,11 @@ cp "$root"/octave/*.m "$folder"
 libraries=$(pkg-config --libs libfyaml udunits jansson hdf5-serial nlopt)
 cd "$folder"
 # shellcheck disable=SC2086
-CFLAGS="-std=c17 -D_GNU_SOURCE -O2 -fPIC -Wall -Wextra -Werror" mkoctfile --mex -o zipact_mex -I"$root/include" \
-  -Wl,--exclude-libs,ALL "$root"/octave/src/*.c "$build/libzipact-io.a" "$build/libzipact.a" $libraries -lm -lpthread
+CFLAGS="-std=c17 -D_GNU_SOURCE -O2 -fPIC -Wall -Wextra -Werror -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3" \
+  mkoctfile --mex -o zipact_mex -I"$root/include" -Wl,--exclude-libs,ALL -Wl,-z,relro,-z,now "$root"/octave/src/*.c \
+  "$build/libzipact-io.a" "$build/libzipact.a" $libraries -lm -lpthread
 rm -f ./*.o
+python3 "$root/tests/test_binaries.py" --fortified zipact_mex.mex
 
 export ZIPACT_COMMAND="$build/zipact"
 for test in "$root"/octave/tests/test_*.m; do

@@ -11,6 +11,7 @@
 #include <zipact/zipact.h>
 
 #include "actuator/eval.h"
+#include "math/elementary.h"
 #include "math/skyline.h"
 
 /* A NAN has many bit patterns, all of which mean the same. */
@@ -101,6 +102,19 @@ static void print_studies(void) {
   print_study("paper-code, field in every step", &def);
 }
 
+/* Without motion: naturally curved, the solved field, modes. */
+static void print_rests(void) {
+  static const ZpStudy study[] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES,
+                                  ZP_STUDY_PROFILE};
+  for (size_t k = 0; k < sizeof study / sizeof study[0]; k++) {
+    ZpActuatorDef def = zp_actuator_def_default();
+    def.study = study[k];
+    def.mesh.nodes = 9;
+    def.segment_3.curvature = 5;
+    print_study("at rest", &def);
+  }
+}
+
 /* Doubles between -1 and 1 from a linear congruential generator: the same everywhere. */
 static double next_random(uint64_t *seed) {
   *seed = *seed * 6364136223846793005u + 1442695040888963407u;
@@ -177,6 +191,14 @@ static void print_edges(void) {
   print_accelerations("edges", &def, 12);
 }
 
+static void print_elementary(void) {
+  uint64_t seed = 1;
+  for (int k = 0; k < 100; k++) {
+    double x = next_random(&seed), scale = k % 2 ? 1e-6 : 1e6;
+    put_array("cube root, tangent", (double[]){zp_cube_root(scale * fabs(x)), zp_tangent(1.5 * x)}, 2);
+  }
+}
+
 /* A ragged skyline, its factor and solutions. */
 static void print_skyline(void) {
   enum { N = 75 };
@@ -207,7 +229,9 @@ static void print_skyline(void) {
 int main(void) {
   print_kernels();
   print_edges();
+  print_elementary();
   print_skyline();
   print_studies();
+  print_rests();
   return 0;
 }

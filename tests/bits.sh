@@ -1,9 +1,10 @@
 #!/bin/sh
-# Same bits from every compiler and at every optimisation:  sh tests/bits.sh [CC...]
+# Same bits from every compiler, at every optimisation, on every processor:  sh tests/bits.sh [CC...]
 #
 # Builds the core and tests/bits.c with each compiler (gcc and clang, as far as they are there, unless named) at
 # -O0 and -O3 in a temporary folder, runs all, and compares what they print. The last line is
-# "N passed, N failed"; exit status 1 if any differs.
+# "N passed, N failed"; exit status 1 if any differs. What a compiler for another processor makes runs in qemu-user:
+#   sh tests/bits.sh gcc aarch64-linux-gnu-gcc
 
 repo=$(cd "$(dirname "$0")/.." && pwd) || exit 2
 if [ $# -eq 0 ]; then
@@ -20,14 +21,18 @@ sources=$(find "$repo/src" -name '*.c' ! -path '*/src/io/*' ! -path '*/src/fit/*
 
 passed=0
 failed=0
+here=$(uname -m)
 for cc in "$@"; do
+  target=$($cc -dumpmachine | cut -d - -f 1)
+  run="" static=""
+  [ "$target" = "$here" ] || { run=qemu-$target static=-static; }
   for level in -O0 -O3; do
     name=$(basename "$cc")$level
     # shellcheck disable=SC2086
-    if ! $cc $flags $level -I"$repo/include" -I"$repo/src" "$repo/tests/bits.c" $sources -lm -o "$folder/$name"; then
+    if ! $cc $flags $level -I"$repo/include" -I"$repo/src" "$repo/tests/bits.c" $sources $static -lm -o "$folder/$name"; then
       echo "$name: does not build"
       failed=$((failed + 1))
-    elif ! "$folder/$name" >"$folder/$name.txt"; then
+    elif ! $run "$folder/$name" >"$folder/$name.txt"; then
       echo "$name: failed: $(tail -n 1 "$folder/$name.txt" | cut -c 1-200)"
       failed=$((failed + 1))
     elif [ -z "$first" ]; then

@@ -65,6 +65,12 @@ CORE_CALLS = re.compile(
     r"(?<![\w.>])(v?f?printf|puts|fputs|putc|fputc|putchar|perror|fopen|fdopen|freopen|tmpfile|open|exit|_exit|_Exit|abort"
     r"|assert|getenv|setenv|system|signal|setlocale|time|clock|rand|srand)\s*\("
 )
+# What C libraries round differently: math/elementary.h has what is needed of it, the same everywhere.
+ROUNDED_BY_LIBM = re.compile(
+    r"(?<![\w.>])(hypot|pow|cbrt|exp2?|expm1|log|log2|log10|log1p|sin|cos|tan|asin|acos|atan2?|sinh|cosh|tanh|asinh|acosh|atanh"
+    r"|erfc?|[lt]gamma|fma)\s*\("
+)
+PROGRESS_ONLY = {("src/sim/settle.c", "log10")}  # in no result
 ALLOCATOR = re.compile(r"(?<![\w.>])(malloc|calloc|realloc|aligned_alloc|posix_memalign|strdup|strndup|free)\s*\(")
 
 
@@ -237,6 +243,17 @@ def rule_core_calls(repo, files):
         yield True, name, ""
         for found in bad:
             yield False, "%s:%d" % (name, line_at(code, found.start())), "the core may not call " + found.group(1)
+
+
+def rule_no_libm(repo, files):
+    """The core's bits depend on no C library."""
+    for name in filter(is_core, files):
+        code = code_of(read(repo, name))
+        yield True, name, ""
+        for found in ROUNDED_BY_LIBM.finditer(code):
+            if (name, found.group(1)) not in PROGRESS_ONLY:
+                what = found.group(1) + " has other bits on other machines: math/elementary.h"
+                yield False, "%s:%d" % (name, line_at(code, found.start())), what
 
 
 def is_mutable(declaration):
@@ -412,6 +429,7 @@ RULES = [
     rule_signals_documented,
     rule_public_functions_commented,
     rule_core_calls,
+    rule_no_libm,
     rule_no_mutable_globals,
     rule_no_paths_of_this_machine,
     rule_map,
@@ -435,6 +453,7 @@ def self_test():
     assert list(functions_of(code)) == [(3, 9, "f")], list(functions_of(code))
     assert not CORE_CALLS.search("snprintf(text); vsnprintf(t); reopen(x)")
     assert not CORE_CALLS.search("hooks->clock(user)") and CORE_CALLS.search("fprintf(stderr)") and CORE_CALLS.search("  exit (1)")
+    assert ROUNDED_BY_LIBM.search("x = cbrt(y)") and not ROUNDED_BY_LIBM.search("sqrt(x) + zp_cos(y) + a.exp(z)")
     assert not include_is_right("solve", '"', "ribbon/massspring.h")
     assert not include_is_right("contact", '"', "electro/plates.h")
     assert not include_is_right("math", "<", "zipact/sim.h")

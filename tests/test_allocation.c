@@ -826,8 +826,6 @@ int main(void) {
   tcase_add_test(files, writers_survive_every_failure);
   tcase_add_test(files, reports_survive_every_failure);
   tcase_add_test(files, keys_survive_failures_of_jansson);
-  tcase_set_timeout(core, 120);
-  tcase_set_timeout(files, 240);
   suite_add_tcase(suite, core);
   suite_add_tcase(suite, files);
   SRunner *runner = srunner_create(suite);

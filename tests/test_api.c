@@ -415,7 +415,6 @@ int main(void) {
   tcase_add_test(c, no_real_time_factor_without_wall_time);
   tcase_add_test(c, no_motion_without_the_checkpoint);
   tcase_add_test(c, three_ways_to_fill_a_def);
-  tcase_set_timeout(c, 60);
   suite_add_tcase(suite, c);
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);

@@ -697,7 +697,6 @@ int main(void) {
   tcase_add_loop_test(keys, test_check_crosses, 0, LENGTH_OF(crosses));
   suite_add_tcase(suite, keys);
   TCase *state = tcase_create("state");
-  tcase_set_timeout(state, 60);
   tcase_add_loop_test(state, test_restore_goes_on_bit_for_bit, 0, 2);
   tcase_add_test(state, test_sealed_state);
   tcase_add_test(state, test_looking_changes_nothing);

@@ -566,7 +566,6 @@ int main(void) {
   tcase_add_test(c, straight_without_voltage_opens);
   tcase_add_test(c, presets_end_at_every_size);
   tcase_add_test(c, presets_ask_for_what_they_lack);
-  tcase_set_timeout(c, 60.0 * SLOWER);
   suite_add_tcase(suite, c);
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);

@@ -435,7 +435,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("calibrate");
   TCase *fits = tcase_create("fits"), *areas = tcase_create("areas");
-  tcase_set_timeout(fits, 120);
   tcase_add_test(fits, one_key_is_found);
   tcase_add_test(fits, two_keys_are_found);
   tcase_add_test(fits, standard_error_follows_the_noise);

@@ -318,14 +318,12 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("checkpoint");
   TCase *same = tcase_create("continuation");
-  tcase_set_timeout(same, 600);
   tcase_add_loop_test(same, test_goes_on_to_the_same_bits, 0, 7);
   tcase_add_test(same, test_another_voltage);
   tcase_add_loop_test(same, test_bad_ends, 0, 2);
   tcase_add_test(same, test_diverged);
   suite_add_tcase(suite, same);
   TCase *refusals = tcase_create("refusals");
-  tcase_set_timeout(refusals, 600);
   tcase_add_test(refusals, test_cut_short_at_every_byte);
   tcase_add_test(refusals, test_every_byte_damaged);
   tcase_add_test(refusals, test_another_model);

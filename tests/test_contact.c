@@ -400,7 +400,6 @@ int main(void) {
   tcase_add_test(machine, test_opening);
   suite_add_tcase(suite, machine);
   TCase *runs = tcase_create("runs");
-  tcase_set_timeout(runs, 120);
   tcase_add_test(runs, test_loss_of_joining);
   tcase_add_test(runs, test_invariants_while_zipping);
   tcase_add_test(runs, test_opens_without_voltage);

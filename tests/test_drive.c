@@ -583,8 +583,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("drive");
   TCase *waveforms = tcase_create("waveforms"), *runs = tcase_create("runs"), *inputs = tcase_create("inputs");
-  tcase_set_timeout(runs, 300);
-  tcase_set_timeout(inputs, 300);
   tcase_add_test(waveforms, step_and_ramp);
   tcase_add_test(waveforms, sine_is_a_sine);
   tcase_add_test(waveforms, square_corners);

@@ -814,7 +814,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("dynamics");
   TCase *forces = tcase_create("forces");
-  tcase_set_timeout(forces, 60);
   tcase_add_loop_test(forces, test_rod_work, 0, LENGTH_OF(kinds));
   tcase_add_test(forces, test_rod_turned_as_a_whole);
   tcase_add_loop_test(forces, test_rod_exchange, 0, LENGTH_OF(kinds));
@@ -823,14 +822,12 @@ int main(void) {
   tcase_add_loop_test(forces, test_plates_derivative, 0, LENGTH_OF(laws));
   suite_add_tcase(suite, forces);
   TCase *ribbon = tcase_create("ribbon");
-  tcase_set_timeout(ribbon, 120);
   tcase_add_test(ribbon, test_swing_keeps_energy);
   tcase_add_test(ribbon, test_frequency_is_that_of_modes);
   tcase_add_test(ribbon, stroke_changes_sign_smoothly);
   tcase_add_test(ribbon, test_decrement);
   suite_add_tcase(suite, ribbon);
   TCase *two = tcase_create("two ribbons");
-  tcase_set_timeout(two, 240);
   tcase_add_test(two, test_zip_time);
   tcase_add_test(two, test_zip_otherwise);
 #ifndef __SANITIZE_ADDRESS__ /* a minute each there, of code that the others run, too */

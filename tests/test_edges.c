@@ -525,7 +525,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("edges");
   TCase *section = tcase_create("section");
-  tcase_set_timeout(section, 300);
   tcase_add_test(section, test_capacitance_table);
   tcase_add_test(section, test_thin_strips);
   tcase_add_test(section, test_wide_strips);
@@ -534,7 +533,6 @@ int main(void) {
   tcase_add_test(section, test_extremes);
   suite_add_tcase(suite, section);
   TCase *law = tcase_create("law");
-  tcase_set_timeout(law, 300);
   tcase_add_test(law, test_law_derivatives);
   tcase_add_test(law, test_law_is_continuous);
   tcase_add_test(law, test_scales);
@@ -543,7 +541,6 @@ int main(void) {
   tcase_add_test(law, test_wedge);
   suite_add_tcase(suite, law);
   TCase *whole = tcase_create("whole");
-  tcase_set_timeout(whole, 300);
   tcase_add_test(whole, test_with_solved_field);
   tcase_add_test(whole, test_pull_in);
   tcase_add_test(whole, test_run_balances);

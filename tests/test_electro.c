@@ -570,13 +570,11 @@ int main(void) {
   tcase_add_test(law, test_bare_faces);
   suite_add_tcase(suite, law);
   TCase *polyline = tcase_create("polyline");
-  tcase_set_timeout(polyline, 60);
   tcase_add_test(polyline, test_polyline_force_is_gradient);
   tcase_add_test(polyline, test_polyline_momentum);
   tcase_add_test(polyline, test_quadrature);
   suite_add_tcase(suite, polyline);
   TCase *bezier = tcase_create("bezier");
-  tcase_set_timeout(bezier, 120);
   tcase_add_test(bezier, test_cubic);
   tcase_add_test(bezier, test_fit_recovers_cubic);
   tcase_add_test(bezier, test_fit_of_few_points);

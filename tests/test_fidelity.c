@@ -170,11 +170,9 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("fidelity");
   TCase *statics = tcase_create("statics");
-  tcase_set_timeout(statics, 120);
   tcase_add_loop_test(statics, test_settled_stroke, 0, LENGTH_OF(strokes));
   suite_add_tcase(suite, statics);
   TCase *zipping = tcase_create("zipping");
-  tcase_set_timeout(zipping, 120);
   tcase_add_test(zipping, test_zipping_10_kV);
   tcase_add_test(zipping, test_zipping_6_kV);
   tcase_add_loop_test(zipping, test_drag_sets_the_time, 0, 4);

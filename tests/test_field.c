@@ -497,7 +497,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("field");
   TCase *grid = tcase_create("grid");
-  tcase_set_timeout(grid, 600);
   tcase_add_test(grid, test_ring_converges_with_the_fourth_power);
   tcase_add_test(grid, test_node_forces_are_the_gradient);
   tcase_add_test(grid, test_folded_grid_is_refused);

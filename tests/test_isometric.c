@@ -363,7 +363,6 @@ int main(void) {
   tcase_add_test(force, test_mass_spring);
   tcase_add_test(force, test_no_voltage);
   tcase_add_test(force, test_refused);
-  tcase_set_timeout(force, 60);
   suite_add_tcase(suite, force);
   return run_suite(suite);
 }

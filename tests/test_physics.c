@@ -503,7 +503,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("physics");
   TCase *energy = tcase_create("energy");
-  tcase_set_timeout(energy, 180);
   tcase_add_test(energy, test_energy_of_chain);
   tcase_add_test(energy, test_energy_of_zipping);
   tcase_add_test(energy, test_energy_of_bezier);
@@ -513,7 +512,6 @@ int main(void) {
   tcase_add_test(energy, test_balance_over_voltage_step);
   suite_add_tcase(suite, energy);
   TCase *motion = tcase_create("motion");
-  tcase_set_timeout(motion, 180);
   tcase_add_test(motion, test_drag_law);
   tcase_add_test(motion, test_terminal_velocity);
   tcase_add_test(motion, test_free_fall);
@@ -521,7 +519,6 @@ int main(void) {
   tcase_add_loop_test(motion, test_same_bits, 0, LENGTH_OF(presets));
   suite_add_tcase(suite, motion);
   TCase *ends = tcase_create("ends");
-  tcase_set_timeout(ends, 120);
   tcase_add_test(ends, test_good_ends);
   tcase_add_test(ends, test_reasons_of_steps);
   tcase_add_test(ends, test_not_settled);

@@ -502,7 +502,6 @@ int main(void) {
   tcase_add_test(tests, test_refusals);
   tcase_add_test(tests, test_shape_that_runs_back);
   tcase_add_loop_test(tests, test_ends_at_the_bounds, 0, zp_key_count());
-  tcase_set_timeout(tests, 120);
   suite_add_tcase(suite, tests);
   return run_suite(suite);
 }

@@ -1050,7 +1050,6 @@ static Suite *suite_of_report(void) {
   Suite *suite = suite_create("report");
   TCase *part = tcase_create("files");
   tcase_add_checked_fixture(part, set_up, tear_down);
-  tcase_set_timeout(part, 120);
   for (size_t i = 0; i < sizeof test / sizeof test[0]; i++)
     tcase_add_test(part, test[i]);
   suite_add_tcase(suite, part);

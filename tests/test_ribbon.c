@@ -470,7 +470,6 @@ int main(void) {
   tcase_add_test(forces, test_frequency_bound_holds);
   suite_add_tcase(suite, forces);
   TCase *beams = tcase_create("beams");
-  tcase_set_timeout(beams, 120);
   tcase_add_test(beams, test_guided_beam_exact);
   tcase_add_test(beams, test_cantilever_converges);
   suite_add_tcase(suite, beams);

@@ -735,7 +735,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("scenario");
   TCase *values = tcase_create("values");
-  tcase_set_timeout(values, 60);
   tcase_add_loop_test(values, test_good_value, 0, LENGTH_OF(good_values));
   tcase_add_loop_test(values, test_bad_value, 0, LENGTH_OF(bad_values));
   tcase_add_test(values, test_long_value);
@@ -746,7 +745,6 @@ int main(void) {
   tcase_add_test(values, test_locale);
   suite_add_tcase(suite, values);
   TCase *scenarios = tcase_create("scenarios");
-  tcase_set_timeout(scenarios, 60);
   tcase_add_loop_test(scenarios, test_good_text, 0, LENGTH_OF(good_texts));
   tcase_add_loop_test(scenarios, test_bad_text, 0, LENGTH_OF(bad_texts));
   tcase_add_loop_test(scenarios, test_bad_argument, 0, LENGTH_OF(bad_arguments));

@@ -502,7 +502,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("solve");
   TCase *euler = tcase_create("explicit");
-  tcase_set_timeout(euler, 60);
   tcase_add_test(euler, test_order_one);
   tcase_add_test(euler, test_no_drift);
   tcase_add_test(euler, test_unstable_beyond_two);
@@ -511,7 +510,6 @@ int main(void) {
   tcase_add_test(euler, test_event_beyond);
   suite_add_tcase(suite, euler);
   TCase *relax = tcase_create("relax");
-  tcase_set_timeout(relax, 60);
   tcase_add_loop_test(relax, test_chain_rests, 0, LENGTH_OF(stiffness));
   tcase_add_test(relax, test_relax_at_rest_at_once);
   tcase_add_test(relax, test_relax_step_limit);
@@ -519,7 +517,6 @@ int main(void) {
   tcase_add_test(relax, test_relax_stops);
   suite_add_tcase(suite, relax);
   TCase *implicit = tcase_create("implicit");
-  tcase_set_timeout(implicit, 60);
   tcase_add_test(implicit, test_implicit_order_two);
   tcase_add_test(implicit, test_implicit_keeps_energy);
   tcase_add_test(implicit, test_implicit_stiff);

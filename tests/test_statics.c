@@ -500,7 +500,6 @@ int main(void) {
   tcase_add_test(voltage, test_heavy_load);
   tcase_add_test(voltage, test_faces_do_not_cross);
   tcase_add_loop_test(voltage, test_extremes, 0, 3);
-  tcase_set_timeout(voltage, 60);
   suite_add_tcase(suite, voltage);
   return run_suite(suite);
 }

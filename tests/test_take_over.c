@@ -99,7 +99,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("take over");
   TCase *all = tcase_create("take over");
-  tcase_set_timeout(all, 120);
   tcase_add_test(all, test_goes_on_with_another_load);
   tcase_add_test(all, test_stretches_to_another_length);
   tcase_add_test(all, test_the_same_model_goes_on_as_if_nothing_was);

@@ -5,6 +5,7 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "base/kernel.h"
+#include "math/elementary.h"
 
 static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   ZpLayer layers[2] = {
@@ -216,7 +217,7 @@ static void fill_rod(ZpModel *model, Arrays *a) {
       a->rod_S[j] = right.section.EA / l;
     }
     a->rod_B[j] = station + 1 == N && !right_slope ? 0 : 1 / compliance;
-    a->rod_k0[j] = 2 * tan(0.5 * turn);
+    a->rod_k0[j] = 2 * zp_tangent(0.5 * turn);
   }
   model->rod = (ZpRodParams){s, N, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
 }
@@ -284,8 +285,8 @@ static void derive(ZpModel *model) {
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part
    * from step to step pump energy into what is near the limit */
   bool joins_at_will = two && def->contact.model == ZP_CONTACT_UNILATERAL;
-  double fastest = frequency_bound(model);
-  model->stable_step = joins_at_will ? 0.5 * 2 / hypot(fastest, contact_frequency(model)) : 0.8 * 2 / fastest;
+  double fastest = frequency_bound(model), contact = joins_at_will ? contact_frequency(model) : 0;
+  model->stable_step = (joins_at_will ? 0.5 : 0.8) * 2 / sqrt(fastest * fastest + contact * contact);
 }
 
 static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err) {

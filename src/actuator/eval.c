@@ -255,11 +255,11 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, con
   double c = model->def.damping.drag;
   const double *bx = edges->ux - s, *by = edges->uy - s;
   for (size_t j = 0; j < count; j++) {
-    double speed = hypot(motion.vx[j], motion.vy[j]);
+    double vx = motion.vx[j], vy = motion.vy[j], speed = sqrt(vx * vx + vy * vy);
     bounds.drag = fmin(bounds.drag, ratio_bound(model->mass[j], c * speed));
     if (j + s >= count) continue;
-    double shear = fabs(bx[j] * edges->dpy[j] - by[j] * edges->dpx[j]);
-    bounds.axial = fmin(bounds.axial, ratio_bound(hypot(edges->dpx[j], edges->dpy[j]), speed));
+    double dx = edges->dpx[j], dy = edges->dpy[j], shear = fabs(bx[j] * dy - by[j] * dx);
+    bounds.axial = fmin(bounds.axial, ratio_bound(sqrt(dx * dx + dy * dy), speed));
     bounds.shear = fmin(bounds.shear, ratio_bound(shear, speed));
   }
   return bounds;

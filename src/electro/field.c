@@ -60,7 +60,9 @@ static double growth_to_fill(double first, double length, size_t n) {
   double low = 1, high = 1e3;
   if (first * (double)n >= length) return 1;
   for (int k = 0; k < 100; k++) {
-    double growth = 0.5 * (low + high), sum = first * (pow(growth, (double)n) - 1) / (growth - 1);
+    double growth = 0.5 * (low + high), sum = 0;
+    for (size_t e = 0; e < n; e++)
+      sum = sum * growth + first;
     if (sum < length)
       low = growth;
     else

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/elementary.h"
+
 static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
@@ -128,7 +130,7 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
       cut = false;
       continue;
     }
-    double error = local_error(s, h, q, v, history), growth = safety / cbrt(fmax(error, 1e-6));
+    double error = local_error(s, h, q, v, history), growth = safety / zp_cube_root(fmax(error, 1e-6));
     if (error > 1.5 && !(s->fixed > 0)) {
       s->counts.rejected++;
       h *= fmax(growth, sharpest_cut);

@@ -61,6 +61,12 @@ static bool allocate(Problem *p, const ZpModel *model) {
   return true;
 }
 
+/* Multiples of the golden ratio, which scatter over -1 .. 1. */
+static double scattered(size_t k) {
+  double x = 0.6180339887498949 * (double)k;
+  return 2 * (x - floor(x)) - 1;
+}
+
 /* Masses by equation, and a start that has a part of every mode. */
 static void prepare(Problem *p) {
   const ZpModel *model = p->statics.model;
@@ -68,7 +74,7 @@ static void prepare(Problem *p) {
     if (p->statics.assembly.equation[k] >= 0) p->mass[p->statics.assembly.equation[k]] += model->mass[k / 2];
   for (size_t j = 0; j < p->m; j++)
     for (size_t i = 0; i < p->n; i++)
-      p->u[j * p->n + i] = sin(0.7 * (double)((i + 1) * (j + 1))) + (i % p->m == j);
+      p->u[j * p->n + i] = scattered((i + 1) * (j + 1)) + (i % p->m == j);
 }
 
 static double inner(const Problem *p, const double *a, const double *b) {

@@ -1,0 +1,8 @@
+/* Functions that C libraries round differently, from + - x / alone: the same bits everywhere. */
+#ifndef ZP_MATH_ELEMENTARY_H
+#define ZP_MATH_ELEMENTARY_H
+
+double zp_cube_root(double x); /* x > 0; infinity of infinity */
+double zp_tangent(double x);   /* |x| < pi / 2 */
+
+#endif
