@@ -212,8 +212,8 @@ EXPORT int zp_web_set_voltage(ZpWeb *web, double voltage) {
   return say(web, zp_sim_set_voltage(web->sim, voltage, &err), err.message);
 }
 
-/* Run until `end_time`, s, or until the page's time is over. => 0, or 1 if the numerics ended badly: how is in the
- * text. */
+/* Run until `end_time`, s, or until the page's time is over. => 0, or 1 if the solver failed: how is in
+ * the text. */
 EXPORT int zp_web_run(ZpWeb *web, double end_time) {
   ZpRunInfo info;
   ZpOutcome outcome = zp_sim_run(web->sim, end_time, false, &hooks, &info);

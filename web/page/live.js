@@ -22,10 +22,6 @@ export class Live {
     this.#remote = new Remote(module, (answer) => this.#take(answer));
   }
 
-  get voltage() {
-    return this.frame.get('voltage');
-  }
-
   /** From the hanging equilibrium of the scenario, the voltage on from now. */
   restart(values, voltage) {
     this.#want({values, voltage, restart: true});

@@ -27,7 +27,7 @@ const broken = (words) => `The computation broke off: ${words}. Please report it
 function standstill() {
   if (!live.end) return null;
   const {failure, stopped, refused, broken: words} = live.end;
-  if (failure) return `The numerics ended: ${failure}. Change something to go on.`;
+  if (failure) return `The solver failed: ${failure}. Change something to go on.`;
   return refused ?? (stopped ? scenario.tooLong(core, stopped) : broken(words));
 }
 

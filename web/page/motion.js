@@ -9,7 +9,7 @@ export class Motion {
   zero = 0; // s, when the voltage last changed by a button
   marks = 0; // how often that was
   samples = []; // time since `zero` and stroke by turns, since they were last taken
-  failure = 'nothing to run'; // how the numerics ended, until something changes
+  failure = 'nothing to run'; // how the solver failed, until something changes
   stopped = null; // {seconds, moved} that was computed in vain, until something changes
   #effort = {spent: 0, asked: 0, moved: 0}; // ms, s, s
 

@@ -107,7 +107,7 @@ function pieces({branch, stable}) {
 export function voltagePlot(place, data) {
   const ends = () => ({
     x: axisEnds([data.highest / 1e3]),
-    y: axisEnds(scaled(data.rest?.stroke ?? [], 1e3), [1e3 * data.now.stroke]),
+    y: axisEnds(scaled(data.rest?.stroke ?? [], 1e3), scaled(data.trace.stroke, 1e3), [1e-3]),
   });
   return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('stroke / mm', {size: 44})}, ends, (plot) => {
     if (data.rest) {

@@ -34,9 +34,9 @@ export class Remote {
     return this.#question !== null;
   }
 
-  /** ms that the question has been waiting for its answer, about. */
+  /** ms that the engine has been busy with its question, about. */
   get waited() {
-    return this.#waited * tick;
+    return this.busy && this.#ready ? this.#waited * tick : 0;
   }
 
   /** Ask while not busy. Arrays in `given` go to the engine, and are empty here from now on. */

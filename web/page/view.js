@@ -48,7 +48,7 @@ export class View {
     this.picture = new Picture($('picture'));
     this.tiles = new Tiles($('numbers'), tiles);
     this.#time = {run: null, trace: live.trace};
-    this.#rest = {rest: null, highest, now: {voltage: 0, stroke: 0}};
+    this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
     this.#plots = [
       timePlot($('plot-time'), this.#time),
       voltagePlot($('plot-voltage'), this.#rest),
@@ -102,7 +102,7 @@ export class View {
   draw(still) {
     const {frame} = this.live, scene = this.#scene(frame);
     this.picture.draw(scene, still);
-    this.#time.trace = this.live.trace;
+    this.#time.trace = this.#rest.trace = this.live.trace;
     this.#rest.now = {voltage: frame.get('voltage'), stroke: frame.get('stroke')};
     this.#plots[this.#next++ % this.#plots.length].update(); // one plot a frame: each 20 times a second
     this.#numbers(frame, scene);

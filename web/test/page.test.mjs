@@ -57,7 +57,7 @@ test('the page is one file', () => {
   assert.deepEqual(readdirSync(new URL('../dist', import.meta.url)), ['index.html']);
 });
 
-pageTest('zips by itself, holds, releases, zips again', {hash: '#damping.internal=1ms&slow=5'}, async (page) => {
+pageTest('zips by itself, holds, releases, zips again', {hash: '#slow=5'}, async (page) => {
   await closed(page);
   assert.equal(await number(page, 'voltage'), 10);
   assert.equal(await page.getAttribute('#step', 'aria-pressed'), 'true');
@@ -189,7 +189,7 @@ pageTest('an address that is refused says so', {hash: '#ribbon.length=20'}, asyn
 });
 
 pageTest('numerics that fail say so; a change goes on', {hash: failing}, async (page) => {
-  await page.waitForFunction(() => /^The numerics ended: (no time step converges|diverged)/.test(document.querySelector('[role=alert]').textContent));
+  await page.waitForFunction(() => /^The solver failed: (no time step converges|diverged)/.test(document.querySelector('[role=alert]').textContent));
   await page.click('text=The paper’s');
   await page.waitForFunction(() => document.querySelector('[role=alert]').hidden);
   await closed(page);
