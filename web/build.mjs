@@ -1,4 +1,5 @@
 // Bundles page/ and build/zipact.wasm into one file that needs no network, dist/index.html.
+import {createHash} from 'node:crypto';
 import {build} from 'esbuild';
 import {mkdir, readFile, writeFile} from 'node:fs/promises';
 
@@ -22,13 +23,18 @@ const workers = {
   },
 };
 
-const script = await bundle({entryPoints: ['page/main.js'], plugins: [workers], loader: {'.wasm': 'binary'}});
+/** As the page's policy names an inline script or style. */
+const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
+
+const bundled = await bundle({entryPoints: ['page/main.js'], plugins: [workers], loader: {'.wasm': 'binary'}});
+const script = bundled.replaceAll('</script', '<\\/script');
 const style = await bundle({entryPoints: ['page/style.css']});
 const page = await readFile(`${here}page/index.html`, 'utf8');
 const whole = page
+  .replace('script-src SCRIPT', () => `script-src ${hash(script)}`)
+  .replace('style-src STYLE', () => `style-src ${hash(style)}`)
   .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style}</style>`)
-  .replace('<script type="module" src="main.js"></script>',
-           () => `<script type="module">${script.replaceAll('</script', '<\\/script')}</script>`);
+  .replace('<script type="module" src="main.js"></script>', () => `<script type="module">${script}</script>`);
 await mkdir(`${here}dist`, {recursive: true});
 await writeFile(`${here}dist/index.html`, whole);
 console.log(`web/dist/index.html: ${Math.round(whole.length / 1000)} kB, nothing else needed`);

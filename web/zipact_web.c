@@ -16,13 +16,14 @@
 
 #define EXPORT __attribute__((visibility("default"), used))
 
-enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 64 };
+enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
 
 typedef struct ZpWeb {
   char text[TEXT_SIZE];
   ZpAssignment list[MOST_ASSIGNMENTS];
   size_t assigned;
   ZpActuatorDef def;
+  ZpModelInfo info; /* of the scenario as resolved */
   ZpModel *model;
   ZpSim *sim;
   ZpResult *result;
@@ -46,6 +47,16 @@ static int say(ZpWeb *web, ZpStatus status, const char *message) {
   snprintf(web->text, TEXT_SIZE, "%s", status == ZP_OK ? "" : message);
   return (int)status;
 }
+
+/* The page's clock: not 0 when the time that the page allows for a call is over. */
+__attribute__((import_module("zipact"), import_name("expired"))) int zp_web_expired(void);
+
+static bool stop(void *user, const char *stage, double fraction) {
+  (void)user, (void)stage, (void)fraction;
+  return zp_web_expired() != 0;
+}
+
+static const ZpHooks hooks = {.progress = stop};
 
 /* -- keys ----------------------------------------------------------------------------------------- */
 
@@ -129,20 +140,49 @@ static ZpStatus refuse_left_out(const ZpActuatorDef *def, ZpError *err) {
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page has buttons for the voltage; the command knows more of drive.waveform");
+  if (def->initial.state == ZP_INITIAL_CHECKPOINT)
+    return zp_fail(err, ZP_BAD_INPUT, "this page has no files; the command knows initial.state = checkpoint");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "this page steps by solver.integrator implicit; the command knows the other");
   return ZP_OK;
+}
+
+static ZpStatus derive(const ZpActuatorDef *def, ZpModelInfo *info, ZpError *err) {
+  ZpModel *model;
+  ZpStatus status = zp_model_create(def, &model, err);
+  if (status == ZP_OK) *info = zp_model_info(model);
+  zp_model_destroy(model);
+  return status;
 }
 
 /* All assignments => the scenario. What was the scenario stays if they are refused. */
 EXPORT int zp_web_resolve(ZpWeb *web) {
   ZpError err;
   ZpActuatorDef def;
+  ZpModelInfo info;
   ZpStatus status = zp_def_resolve(&def, web->list, web->assigned, &err);
   if (status == ZP_OK) status = zp_def_check(&def, &err);
   if (status == ZP_OK) status = refuse_left_out(&def, &err);
-  if (status == ZP_OK) web->def = def;
+  if (status == ZP_OK) status = derive(&def, &info, &err);
+  if (status == ZP_OK) {
+    web->def = def;
+    web->info = info;
+  }
   return say(web, status, err.message);
+}
+
+/* Value of a key, SI; where the key is auto, what that stands for, NAN if it is no one value. */
+EXPORT double zp_web_key_effective(const ZpWeb *web, int index) {
+  const struct {
+    const char *name;
+    double value;
+  } automatic[] = {{"damping.internal", web->info.internal_damping},
+                   {"electro.insulator_offset", web->info.insulator_offset},
+                   {"mass_spring.shear_coefficient", web->info.shear_coefficient}};
+  double value = zp_def_get(&web->def, index);
+  for (size_t i = 0; isnan(value) && i < sizeof automatic / sizeof automatic[0]; i++)
+    if (strcmp(zp_key(index)->name, automatic[i].name) == 0) return automatic[i].value;
+  return value;
 }
 
 /* -- simulation ----------------------------------------------------------------------------------- */
@@ -153,7 +193,7 @@ EXPORT int zp_web_start(ZpWeb *web, int go_on) {
   ZpModel *model;
   ZpSim *sim = NULL;
   ZpStatus status = zp_model_create(&web->def, &model, &err);
-  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, &err);
+  if (status == ZP_OK) status = zp_sim_create(model, &hooks, &sim, &err);
   if (status == ZP_OK && go_on) status = zp_sim_take_over(sim, web->sim, &err);
   if (status != ZP_OK) {
     zp_sim_destroy(sim);
@@ -172,12 +212,13 @@ EXPORT int zp_web_set_voltage(ZpWeb *web, double voltage) {
   return say(web, zp_sim_set_voltage(web->sim, voltage, &err), err.message);
 }
 
-/* => ZpOutcome; how it ended in the text. */
+/* Run until `end_time`, s, or until the page's time is over. => 0, or 1 if the solver failed: how is in
+ * the text. */
 EXPORT int zp_web_run(ZpWeb *web, double end_time) {
   ZpRunInfo info;
-  ZpOutcome outcome = zp_sim_run(web->sim, end_time, false, NULL, &info);
+  ZpOutcome outcome = zp_sim_run(web->sim, end_time, false, &hooks, &info);
   snprintf(web->text, TEXT_SIZE, "%s", info.message);
-  return (int)outcome;
+  return !zp_outcome_good(outcome) && outcome != ZP_INTERRUPTED;
 }
 
 EXPORT int zp_web_good(int outcome) {
@@ -228,7 +269,7 @@ EXPORT int zp_web_study(ZpWeb *web) {
   if (study < 0) return say(web, ZP_BAD_INPUT, "unknown study");
   def.study = (ZpStudy)study;
   zp_result_destroy(web->result);
-  ZpStatus status = zp_study_run(&def, NULL, &web->result, &err);
+  ZpStatus status = zp_study_run(&def, &hooks, &web->result, &err);
   snprintf(web->text, TEXT_SIZE, "%s", status == ZP_OK ? web->result->message : err.message);
   return (int)status;
 }

@@ -37,6 +37,7 @@ typedef struct ZpModelInfo {
   double axial_spring;           /* K_D, N/m */
   double shear_coefficient;      /* K_S, N/m */
   double insulator_offset;       /* d, m */
+  double internal_damping;       /* Kelvin-Voigt time, s */
   double closed_line_force;      /* attraction per length of closed faces at the highest voltage, N/m */
   double closed_insulator_field; /* field in the insulator there, V/m */
   double stable_time_step;       /* largest explicit step that is surely stable, s */

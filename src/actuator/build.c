@@ -377,6 +377,7 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
                        .axial_spring = model->spring.K_D,
                        .shear_coefficient = model->spring.K_S,
                        .insulator_offset = model->plates.d,
+                       .internal_damping = model->internal_damping,
                        .closed_line_force = zp_plates_law(&model->plates, highest, 0).W,
                        .closed_insulator_field = metal_to_metal > 0 ? highest / metal_to_metal : 0,
                        .stable_time_step = model->stable_step};

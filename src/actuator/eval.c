@@ -265,10 +265,14 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, con
   return bounds;
 }
 
+double zp_eval_weight_scale(const ZpModel *model) {
+  static const double least_weight = 1e-3; /* N */
+  return fmax(model->total_weight, least_weight);
+}
+
 double zp_eval_imbalance(const ZpModel *model, const double *a) {
-  static const double least_weight = 1e-3; /* N: a lone weightless ribbon still has a scale */
   double largest = 0;
   for (size_t k = 0; k < 2 * model->stride; k++)
     if (!(fabs(a[k]) <= largest)) largest = fabs(a[k]);
-  return largest * model->pseudo_mass / fmax(model->total_weight, least_weight);
+  return largest * model->pseudo_mass / zp_eval_weight_scale(model);
 }

@@ -60,8 +60,11 @@ typedef struct ZpStepBounds {
 } ZpStepBounds;
 ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, const ZpEval *eval);
 
-/* (accelerations under model->pseudo) => largest force left over the weight of what moves (over 1 mN if
- * that is more); NAN if any is. */
+/* What an imbalance is measured by: the weight of what moves, at least 1 mN, for what weighs nothing has a scale, too;
+ * N. */
+double zp_eval_weight_scale(const ZpModel *model);
+
+/* (accelerations under model->pseudo) => largest force left over zp_eval_weight_scale; NAN if any is. */
 double zp_eval_imbalance(const ZpModel *model, const double *a);
 
 /* Energies and electric totals of one modelled part. */

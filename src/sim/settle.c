@@ -53,9 +53,10 @@ static ZpOutcome outcome_of(ZpRelaxEnd end) {
   return ZP_NOT_SETTLED;
 }
 
-/* The imbalance that rounding of positions in stiff axial springs leaves, measured at N = 130. */
+/* The imbalance that rounding of positions in stiff axial springs leaves, measured at N = 130; over the same weight as
+ * zp_eval_imbalance. */
 static double rounding_floor(const ZpModel *model) {
-  return model->total_weight > 0 ? 3 * DBL_EPSILON * model->L * model->spring.K_D / model->total_weight : 0;
+  return 3 * DBL_EPSILON * model->L * model->spring.K_D / zp_eval_weight_scale(model);
 }
 
 /* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when

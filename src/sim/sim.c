@@ -406,9 +406,16 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
 }
 
+/* Steps between questions to the caller, about a millisecond. An implicit step costs as much as a hundred explicit
+ * ones. */
+static int64_t between_questions(const ZpModel *model) {
+  return model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT ? 8 : 1024;
+}
+
 static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
-  enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at the caller and at divergence: below a millisecond */
+  enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
+  const int64_t between = between_questions(model);
   ZpState *state = sim->state;
   double start = state->t, interval = sampling_interval(model), next_sample = start + interval;
   bool recording = sim->series || sim->shapes;
@@ -422,8 +429,10 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
       if (diverged(model, state)) return ZP_DIVERGED;
       keep(sim);
-      if (asked_to_stop(hooks, (state->t - start) / (end_time - start))) return ZP_INTERRUPTED;
     }
+    bool question = sample || info->steps % between == 0;
+    if (question && asked_to_stop(hooks, (state->t - start) / (end_time - start)))
+      return diverged(model, state) ? ZP_DIVERGED : ZP_INTERRUPTED;
     if (sample) {
       zp_sim_offer_record(sim);
       note_bounds(sim, info);

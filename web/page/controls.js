@@ -9,14 +9,16 @@ function inShown(core, name, value) {
 export class Sliders {
   #core;
   #rows = new Map();
+  #changed;
 
   /** `changed` gets (key, text) while one drags, `done` comes when the drag is over. */
   constructor(place, core, list, changed, done) {
     this.#core = core;
-    for (const spec of list) this.#rows.set(spec.key, this.#row(place, spec, changed, done));
+    this.#changed = changed;
+    for (const spec of list) this.#rows.set(spec.key, this.#row(place, spec, done));
   }
 
-  #row(place, spec, changed, done) {
+  #row(place, spec, done) {
     const key = this.#core.keys.get(spec.key), id = spec.key.replace('.', '-');
     const row = document.createElement('div'), label = document.createElement('label');
     const input = document.createElement('input'), output = document.createElement('output');
@@ -27,22 +29,38 @@ export class Sliders {
     output.htmlFor = id;
     Object.assign(input, {type: 'range', step: spec.step});
     const text = () => (key.shown ? `${Number(input.value)} ${key.shown}` : `${Number(input.value)}`);
-    input.addEventListener('input', () => changed(spec.key, text()));
+    input.addEventListener('input', () => this.#changed(spec.key, text()));
     input.addEventListener('change', done);
     row.append(label, output, input);
+    const auto = Number.isNaN(key.default) ? this.#auto(spec, done) : null;
+    if (auto) output.before(auto);
     place.append(row);
-    return {spec, key, input, output};
+    return {spec, key, input, output, auto};
   }
 
-  /** Show the scenario as the core has it. A value beyond the usual range widens it. */
+  /** The way back for a key that may be auto. */
+  #auto(spec, done) {
+    const button = document.createElement('button');
+    Object.assign(button, {type: 'button', className: 'auto', textContent: 'auto', title: `${spec.label}: auto, the default`});
+    button.addEventListener('click', () => {
+      this.#changed(spec.key, 'auto');
+      done();
+    });
+    return button;
+  }
+
+  /** Show the scenario as the core has it: auto where the value is that it stands for. A value beyond the usual range
+   * widens it. */
   show() {
-    for (const {spec, key, input, output} of this.#rows.values()) {
-      const value = this.#core.value(spec.key), number = inShown(this.#core, spec.key, value);
+    for (const {spec, key, input, output, auto} of this.#rows.values()) {
+      const value = this.#core.effective(spec.key), number = inShown(this.#core, spec.key, value);
+      const given = !Number.isNaN(this.#core.value(spec.key));
       input.min = Math.max(Math.min(spec.min, number), inShown(this.#core, spec.key, key.min));
       input.max = Math.min(Math.max(spec.max, number), inShown(this.#core, spec.key, key.max));
       input.step = Number.isInteger(Math.round((1e6 * (number - input.min)) / spec.step) / 1e6) ? spec.step : 'any';
       input.value = number;
-      const text = pretty(this.#core.print(spec.key, value));
+      if (auto) auto.hidden = !given;
+      const words = pretty(this.#core.print(spec.key, value)), text = given ? words : `auto (${words})`;
       if (output.textContent === text) continue;
       output.textContent = text;
       input.setAttribute('aria-valuetext', text);

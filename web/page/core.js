@@ -16,6 +16,8 @@ const system = {
 export class Refused extends Error {}
 
 export class Core {
+  expired = false; // the last call was stopped, because its time was over
+  #deadline = Infinity;
   #c;
   #web;
   #text;
@@ -23,7 +25,10 @@ export class Core {
 
   /** @param {WebAssembly.Module} module */
   constructor(module) {
-    const c = new WebAssembly.Instance(module, {wasi_snapshot_preview1: system}).exports;
+    const c = new WebAssembly.Instance(module, {
+      wasi_snapshot_preview1: system,
+      zipact: {expired: () => Number((this.expired ||= performance.now() > this.#deadline))},
+    }).exports;
     c._initialize();
     this.#c = c;
     this.#web = c.zp_web_create();
@@ -73,6 +78,12 @@ export class Core {
     return new Float64Array(this.#c.memory.buffer, pointer, length);
   }
 
+  /** What follows may take `ms` from now on; what it has reached then is kept, and `expired` is true. */
+  allow(ms) {
+    this.#deadline = performance.now() + ms;
+    this.expired = false;
+  }
+
   // -- scenario
 
   /** Take `values`, a Map of key => text ("8 g"), over the defaults. Refused: the scenario stays as it was. */
@@ -88,6 +99,11 @@ export class Core {
   /** Value of a key in the scenario, SI. */
   value(name) {
     return this.#c.zp_web_key_value(this.#web, this.keys.get(name).index);
+  }
+
+  /** The same; where it is auto, what that stands for, NaN if it is no one value. */
+  effective(name) {
+    return this.#c.zp_web_key_effective(this.#web, this.keys.get(name).index);
   }
 
   /** (key, SI) => "8 g". */
@@ -109,10 +125,9 @@ export class Core {
     this.#check(this.#c.zp_web_set_voltage(this.#web, voltage));
   }
 
-  /** Run until `time`, s. => null, or how the solver failed. */
+  /** Run until `time`, s, or until the time allowed is over. => null, or how the solver failed. */
   run(time) {
-    const outcome = this.#c.zp_web_run(this.#web, time);
-    return this.#c.zp_web_good(outcome) ? null : this.#get();
+    return this.#c.zp_web_run(this.#web, time) === 0 ? null : this.#get();
   }
 
   /** Present value of a signal of signals.def. */
@@ -140,8 +155,8 @@ export class Core {
   // -- studies
 
   /** Run the scenario in study `name` => its message, whether it ended well, notes, the scalars asked for, the columns
-   * of its table. */
-  study(name, scalars) {
+   * of its table, or those of `wanted`. */
+  study(name, scalars, wanted = null) {
     const c = this.#c, web = this.#web;
     this.#put(name);
     this.#check(c.zp_web_study(web));
@@ -149,6 +164,8 @@ export class Core {
     const rows = c.zp_web_rows(web), columns = c.zp_web_columns(web);
     const table = this.#doubles(c.zp_web_table(web), rows * columns);
     const column = (k) => Float64Array.from({length: rows}, (_, row) => table[row * columns + k]);
+    const names = Array.from({length: columns}, (_, k) => this.#string(c.zp_web_column(web, k)));
+    const kept = names.flatMap((name, k) => (!wanted || wanted.includes(name) ? [[name, column(k)]] : []));
     return {
       message,
       good,
@@ -157,7 +174,7 @@ export class Core {
         this.#put(name);
         return [name, c.zp_web_scalar(web)];
       })),
-      columns: Object.fromEntries(Array.from({length: columns}, (_, k) => [this.#string(c.zp_web_column(web, k)), column(k)])),
+      columns: Object.fromEntries(kept),
     };
   }
 }

@@ -1,80 +1,92 @@
-// The actuator in motion: what the core computes from frame to frame, and what was seen so far.
-const budget = 4; // ms of a frame for the simulation; where it needs more, time goes slower
-const chunk = {least: 1e-5, most: 1e-3, cost: 1.5}; // s of simulated time between looks at the clock; ms it may cost
+// The actuator in motion, as the page sees it: frames that an engine computes, and what was seen so far.
+import {Frame} from './frame.js';
+import {Remote} from './remote.js';
+
+const mostOwed = 0.25; // s of simulated time; what a slow engine cannot run is left out
 
 export class Live {
-  time = 0; // s, as the simulation counts
-  zero = 0; // s, when the voltage last changed by a button
-  failure = null; // how the numerics ended, until something changes
-  trace = {time: [], stroke: []}; // since `zero`
+  frame = null; // the newest
+  end = null; // {failure}, {stopped}, {broken} or {refused}: why it does not go on, until something changes
+  trace = {time: [], stroke: []}; // since a button changed the voltage
   pace = 1; // share of the time asked for that was run, lately
-  #cost = 2000; // ms a simulated second, lately
+  #remote;
+  #values; // of the scenario
+  #wish = null; // what has changed since the last question
+  #lost = true; // the engine knows nothing of the scenario
+  #owed = 0; // s asked for since the last question
+  #asked = 0; // s asked for by it
+  #spare = new Float64Array(0); // not on show: the engine fills it
+  #marks = NaN; // of the trace
 
-  constructor(core) {
-    this.core = core;
+  constructor(module) {
+    this.#remote = new Remote(module, (answer) => this.#take(answer));
   }
 
-  get voltage() {
-    return this.core.signal('voltage');
+  /** From the hanging equilibrium of the scenario, the voltage on from now. */
+  restart(values, voltage) {
+    this.#want({values, voltage, restart: true});
   }
 
-  /** From the hanging equilibrium, the voltage on from now. */
-  restart(voltage) {
-    this.core.start();
-    this.core.setVoltage(voltage);
-    this.time = 0;
-    this.failure = null;
-    this.#mark();
-  }
-
-  /** The scenario has changed: go on in it; after a failure, or with another number of nodes, from its start. */
-  change(voltage) {
-    if (!this.failure && this.core.nodes === this.core.value('mesh.nodes')) {
-      this.core.start(true);
-      if (this.voltage !== voltage) this.core.setVoltage(voltage);
-    } else {
-      this.restart(voltage);
-    }
+  /** The scenario has changed: go on in it. */
+  change(values, voltage) {
+    this.#want({values, voltage});
   }
 
   /** A button: another voltage from now on. */
   switchTo(voltage) {
-    if (this.failure) this.core.start();
-    this.failure = null;
-    this.core.setVoltage(voltage);
-    this.#mark();
+    this.#want({voltage, pressed: true});
   }
 
-  #mark() {
-    this.zero = this.time;
-    this.trace = {time: [], stroke: []};
-    this.#note();
+  /** What is wished for while the engine is busy is asked in one, of each wish the newest. */
+  #want(wish) {
+    this.end = null;
+    this.#values = wish.values ?? this.#values;
+    const whole = this.#lost && {values: this.#values, restart: true};
+    this.#wish = {...this.#wish, ...whole, ...wish};
   }
 
-  #note() {
+  /** Once a frame: `span` seconds more are to be run, 0 for a pause. */
+  advance(span) {
+    this.#owed = span ? Math.min(this.#owed + span, mostOwed) : 0;
+    if (this.#remote.busy || (!this.#wish && (this.end || !span))) return;
+    const question = {...this.#wish, span: this.#owed, frame: this.#spare};
+    this.#asked = this.#owed;
+    this.#owed = 0;
+    this.#wish = null;
+    this.#lost = false;
+    this.#remote.ask(question, [this.#spare]);
+  }
+
+  #take({frame, lost, ...rest}) {
+    const end = Object.entries(rest).find(([, value]) => value);
+    if (!this.#wish) this.end = end ? Object.fromEntries([end]) : null;
+    if (lost) this.#lose();
+    else if (rest.failure || rest.refused) this.#spare = frame; // the last good instant stays in sight
+    else this.#show(new Frame(frame));
+  }
+
+  #lose() {
+    this.#lost = true;
+    this.#marks = NaN;
+    this.#spare = new Float64Array(0);
+    if (this.#wish) this.#wish = {values: this.#values, restart: true, ...this.#wish};
+  }
+
+  #show(frame) {
+    if (frame.get('marks') !== this.#marks) this.trace = {time: [], stroke: []};
+    this.#marks = frame.get('marks');
+    this.#spare = this.frame?.data ?? new Float64Array(0);
+    this.frame = frame;
+    frame.eachSample((time, stroke) => this.#note(time, stroke));
+    if (this.#asked > 0) this.pace += 0.1 * (frame.get('advanced') / this.#asked - this.pace);
+  }
+
+  #note(at, value) {
     const {time, stroke} = this.trace, most = 4000;
-    time.push(this.time - this.zero);
-    stroke.push(this.core.signal('stroke'));
+    time.push(at);
+    stroke.push(value);
     if (time.length < most) return;
     const every = (_, k) => k % 2 === 0;
     this.trace = {time: time.filter(every), stroke: stroke.filter(every)};
-  }
-
-  /** Run `span` seconds, or as far as the budget of a frame goes. */
-  advance(span) {
-    const begin = this.time, end = begin + span, start = performance.now();
-    let now = start;
-    while (this.time < end && now - start < budget) {
-      const length = Math.min(Math.max(chunk.cost / this.#cost, chunk.least), chunk.most);
-      const next = this.time + length > end ? end : this.time + length;
-      this.failure = this.core.run(next);
-      if (this.failure) return;
-      const done = performance.now();
-      this.#cost += 0.2 * ((done - now) / (next - this.time) - this.#cost);
-      this.time = next;
-      now = done;
-      this.#note();
-    }
-    this.pace += 0.1 * ((this.time - begin) / span - this.pace);
   }
 }

@@ -4,6 +4,7 @@ import {makePresets, Sliders, SlowMotion} from './controls.js';
 import {Core, Refused} from './core.js';
 import {Live} from './live.js';
 import {fixed, pretty} from './numbers.js';
+import {Remote} from './remote.js';
 import * as scenario from './scenario.js';
 import {Study} from './studies.js';
 import {View} from './view.js';
@@ -12,16 +13,26 @@ const $ = (id) => document.getElementById(id);
 const highest = 1e3 * scenario.sliders[0].max; // V, to which the states of rest are followed
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const module = new WebAssembly.Module(wasm);
-const core = new Core(module);
-const live = new Live(core);
+const core = new Core(module); // of the scenario; what is computed from it, engines do
+const live = new Live(module);
 const view = new View(core, live, highest);
 
 // -- messages
 
 let refusal = null; // of the last change, in the core's words
 
+const broken = (words) => `The computation broke off: ${words}. Please report it, with the link.`;
+
+/** Why nothing moves; null if it does. */
+function standstill() {
+  if (!live.end) return null;
+  const {failure, stopped, refused, broken: words} = live.end;
+  if (failure) return `The solver failed: ${failure}. Change something to go on.`;
+  return refused ?? (stopped ? scenario.tooLong(core, stopped) : broken(words));
+}
+
 function showAlert() {
-  const text = refusal ?? (live.failure && `The numerics ended: ${live.failure}. Change something to go on.`);
+  const text = refusal ?? standstill();
   $('alert').hidden = !text;
   if (text && $('alert').textContent !== text) $('alert').textContent = text;
 }
@@ -31,10 +42,10 @@ function say(text) {
   $('status').textContent = text;
 }
 
-/** Do what the core may refuse. => was it done? */
-function guarded(action) {
+/** Make `values` the scenario, unless the core refuses them: then it stays, and the page says why. => was it done? */
+function take(values) {
   try {
-    action();
+    core.resolve(values);
     refusal = null;
   } catch (error) {
     if (!(error instanceof Refused)) throw error;
@@ -63,7 +74,9 @@ function holdingVoltage() {
 function press(button) {
   pressed = button;
   if (button === 'hold') held = holdingVoltage();
-  guarded(() => (button === 'step' ? live.restart(voltage()) : live.switchTo(voltage())));
+  refusal = null;
+  if (button === 'step') live.restart(history.present, voltage());
+  else live.switchTo(voltage());
   say(`${$(button).firstChild.textContent}: ${fixed(voltage() / 1e3, 2)} kilovolts`);
   pause(false);
   showButtons();
@@ -86,16 +99,24 @@ function pause(now) {
 
 // -- studies
 
-const runStudy = new Study(module, 'actuate', ['zip_time_s'], (answer) => view.showRun(answer));
-const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'release_voltage_V'], (answer) => {
-  view.showRest(answer);
+/** How a study ended, in words. */
+function ending({result, refused, stopped, broken: words}) {
+  if (words) return broken(words);
+  return refused ?? (stopped ? scenario.tooLong(core, stopped) : result.message);
+}
+
+const runColumns = ['time_s', 'stroke_m', 'opening_m'], restColumns = ['voltage_V', 'stroke_m', 'stable', 'branch'];
+const runStudy = new Study(module, 'actuate', ['zip_time_s'], runColumns, (answer) => view.showRun(answer, ending(answer)));
+const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'release_voltage_V'], restColumns, (answer) => {
+  view.showRest(answer, ending(answer));
   showButtons();
 });
 
+const kept = [['output.samples', '1000'], ['output.shapes', '2']]; // what is kept for files, no plot needs
+
 function askStudies(values) {
-  const all = values;
-  runStudy.ask(all);
-  restStudy.ask(new Map([...all, ['drive.voltage', `${highest} V`]]));
+  runStudy.ask(new Map([...values, ...kept]));
+  restStudy.ask(new Map([...values, ...kept, ['drive.voltage', `${highest} V`]]));
 }
 
 // -- the scenario
@@ -103,14 +124,13 @@ function askStudies(values) {
 const given = scenario.fromAddress(location.hash);
 let history = new scenario.History(scenario.beginning);
 
-/** Make `values` the scenario of core, simulation and studies. If it is refused, that of history stays. */
+/** Make `values` the scenario of core, simulation and studies, unless they are refused. */
 function apply(values) {
-  const done = guarded(() => {
-    core.resolve(values);
-    live.change(voltage());
-  });
-  if (done) askStudies(values);
-  else core.resolve(history.present);
+  const done = take(values);
+  if (done) {
+    live.change(values, voltage());
+    askStudies(values);
+  }
   show();
   return done;
 }
@@ -152,26 +172,27 @@ const cost = {mean: 0, worst: 0}; // ms of work a frame
 let before = performance.now(), described = -Infinity, wasZipped = false;
 
 function announceZip() {
-  const zipped = core.signal('contraction') > 0.99;
-  if (zipped && !wasZipped) say(`Closed after ${fixed(1e3 * (live.time - live.zero), 1)} milliseconds`);
+  const zipped = live.frame.get('contraction') > 0.99;
+  if (zipped && !wasZipped) say(`Closed after ${fixed(1e3 * live.frame.get('since'), 1)} milliseconds`);
   if (!zipped && wasZipped) say('Opens again');
   wasZipped = zipped;
 }
 
 function work(passed) {
-  if (!paused && !live.failure) live.advance(passed / slow.factor);
+  live.advance(paused ? 0 : passed / slow.factor);
   showAlert();
   $('time-note').classList.toggle('due', runStudy.due);
   $('voltage-note').classList.toggle('due', restStudy.due);
-  if (live.failure) return; // the last good instant stays in sight
+  if (!live.frame) return;
   view.draw(calm);
   announceZip();
-  slow.show(live.pace);
+  slow.show(live.end ? 1 : live.pace);
 }
 
 /** Once a second, what need not be at once. */
 function describe() {
-  view.describe();
+  if (live.frame) view.describe();
+  if (Remote.local !== null) view.notice(`This browser starts no worker for this page (${Remote.local}): it computes between frames, less at a time.`);
   $('frame').textContent = `A frame takes ${fixed(cost.mean, 1)} ms, ${fixed(cost.worst, 1)} ms at most.`;
   cost.worst = 0;
 }
@@ -232,8 +253,8 @@ $('copy').addEventListener('click', ({target}) => copy(target, $('command').text
 
 // -- beginning: the scenario of the address; where that is refused, the page's own beside the refusal
 
-core.resolve(scenario.beginning);
-live.restart(0);
+take(scenario.beginning);
+live.restart(scenario.beginning, 0);
 if (apply(given.values)) {
   history = new scenario.History(given.values);
   if (!calm) press('step');

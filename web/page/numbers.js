@@ -15,6 +15,26 @@ export function fixed(value, places) {
   return (Number(text) === 0 ? (0).toFixed(places) : text).replace('-', '−');
 }
 
+/** At least `value`, on a round step; 0 for what is not positive, or no number. */
+function roundUp(value) {
+  if (!(value > 1e-300 && value < Infinity)) return 0;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9));
+}
+
+/** Round ends of an axis for 0 and all values of the lists, so that it does not tremble; what is below 0 counts where it is
+ * more than a hundredth of what is above. */
+export function axisEnds(...lists) {
+  let least = 0, most = 0;
+  for (const list of lists)
+    for (const value of list) {
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+  const top = roundUp(most), bottom = -least > most / 100 ? -roundUp(-least) : 0;
+  return top > bottom ? [bottom, top] : [0, 1];
+}
+
 /** "8 g" as the command writes it => as people do: "8 g", "50 µm". */
 export function pretty(text) {
   return text.replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');

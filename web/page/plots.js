@@ -1,12 +1,7 @@
 // The three plots. uPlot makes axes and scales; curves are drawn here, because branches turn back in voltage.
 import uPlot from 'uplot';
+import {axisEnds} from './numbers.js';
 import {theme} from './theme.js';
-
-/** At least `value`, on a round step, so that axes do not tremble. */
-function roundUp(value) {
-  const power = 10 ** Math.floor(Math.log10(value));
-  return power * [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9));
-}
 
 /** Draw xs, ys over scale `y` of `plot`. */
 function curve(plot, xs, ys, {colour, width = 2, dash = [], y = 'y'}) {
@@ -35,6 +30,9 @@ function dot(plot, x, y, colour) {
   context.restore();
 }
 
+/** Numbers beside an axis: such that there is room for them. */
+const ticks = (values) => values.map((v) => (Math.abs(v) < 1e5 ? String(Number(v.toPrecision(6))) : v.toExponential()));
+
 const axis = (label, more = {}) => ({
   label,
   labelSize: 20,
@@ -43,15 +41,16 @@ const axis = (label, more = {}) => ({
   stroke: () => theme.colour.soft,
   grid: {stroke: () => theme.colour.line, width: 1},
   ticks: {show: false},
+  values: (_, values) => ticks(values),
   ...more,
 });
 
-/** A plot in `place`: `end` gives where its scales end, `paint` its curves. */
+/** A plot in `place`: `ends` gives both ends of each scale, `paint` draws its curves. */
 class Plot {
   #plot;
   #data;
 
-  constructor(place, axes, end, paint, start = () => ({})) {
+  constructor(place, axes, ends, paint) {
     const scales = Object.keys(axes);
     this.place = place;
     this.#data = scales.map(() => [0, 1]);
@@ -60,7 +59,7 @@ class Plot {
       legend: {show: false},
       cursor: {show: false},
       padding: [8, 18, 0, 0],
-      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => [(start()[name] ?? 0) < 0 ? -roundUp(-start()[name]) : 0, roundUp(end()[name] || 1)]}])),
+      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => ends()[name]}])),
       series: scales.map((name) => (name === 'x' ? {} : {scale: name, paths: () => null, points: {show: false}})),
       axes: scales.map((name) => ({...axes[name], scale: name})),
       hooks: {draw: [paint]},
@@ -84,17 +83,15 @@ const extreme = (pick, lists) => 1e3 * lists.reduce((most, list) => list.reduce(
 
 /** Stroke over time: the run that the command gives, and what is happening. */
 export function timePlot(place, data) {
-  const strokes = () => [data.run, data.trace].flatMap((c) => (c ? [c.stroke] : []));
-  const end = () => ({
-    x: Math.max(...[data.run, data.trace].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), 10),
-    y: Math.max(extreme(Math.max, strokes()), 1e-3),
+  const ends = () => ({
+    x: axisEnds([data.run, data.trace].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), [10]),
+    y: axisEnds(scaled(data.run?.stroke ?? [], 1e3), scaled(data.trace.stroke, 1e3), [1e-3]),
   });
-  const start = () => ({y: extreme(Math.min, strokes())});
-  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('stroke / mm', {size: 44})}, end, (plot) => {
+  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('stroke / mm', {size: 44})}, ends, (plot) => {
     if (data.run) curve(plot, scaled(data.run.time, 1e3), scaled(data.run.stroke, 1e3), {colour: 'soft', width: 1.5, dash: [5, 4]});
     curve(plot, scaled(data.trace.time, 1e3), scaled(data.trace.stroke, 1e3), {colour: 'accent', width: 2.5});
-    dot(plot, 1e3 * data.trace.time.at(-1), 1e3 * data.trace.stroke.at(-1), 'accent');
-  }, start);
+    if (data.trace.time.length) dot(plot, 1e3 * data.trace.time.at(-1), 1e3 * data.trace.stroke.at(-1), 'accent');
+  });
 }
 
 /** Runs of points of one branch that are all stable or all not; each takes the next one's first point along. */
@@ -111,10 +108,11 @@ function pieces({branch, stable}) {
 
 /** Stroke over voltage: all states of rest, and where it is now. */
 export function voltagePlot(place, data) {
-  const strokes = () => [data.rest?.stroke ?? [], [data.now.stroke]];
-  const end = () => ({x: data.highest / 1e3, y: extreme(Math.max, strokes())});
-  const start = () => ({y: extreme(Math.min, strokes())});
-  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('stroke / mm', {size: 44})}, end, (plot) => {
+  const ends = () => ({
+    x: axisEnds([data.highest / 1e3]),
+    y: axisEnds(scaled(data.rest?.stroke ?? [], 1e3), scaled(data.trace.stroke, 1e3), [1e-3]),
+  });
+  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('stroke / mm', {size: 44})}, ends, (plot) => {
     if (data.rest) {
       const x = scaled(data.rest.voltage, 1e-3), y = scaled(data.rest.stroke, 1e3);
       for (const {from, to, stable} of pieces(data.rest))
@@ -126,15 +124,14 @@ export function voltagePlot(place, data) {
 
 /** Attraction per length and field in the liquid, from the clip to the platform. */
 export function profilePlot(place, data) {
-  const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
-  const end = () => ({x: 1e3 * data.length, force: Math.max(largest(data.force), 1), field: data.largest / 1e6});
+  const ends = () => ({x: axisEnds([1e3 * data.length]), force: axisEnds(data.force, [1]), field: axisEnds(scaled(data.field, 1e-6), [data.largest / 1e6])});
   const right = {side: 1, grid: {show: false}, size: 40, stroke: () => theme.colour.warm};
   const axes = {
     x: axis('from the clip / mm', {size: 34}),
     force: axis('attraction / N/m', {size: 44, stroke: () => theme.colour.accent}),
     field: axis('field / MV/m', right),
   };
-  return new Plot(place, axes, end, (plot) => {
+  return new Plot(place, axes, ends, (plot) => {
     const n = data.force.length, x = Array.from({length: n}, (_, i) => (1e3 * data.length * i) / (n - 1));
     curve(plot, x, scaled(data.field, 1e-6), {colour: 'warm', width: 2, y: 'field'});
     curve(plot, x, Array.from(data.force), {colour: 'accent', width: 2.5, y: 'force'});

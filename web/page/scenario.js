@@ -1,7 +1,7 @@
 // The scenario of the page: which keys have sliders, presets, text for the command, the address after #, undo.
 
-/** Where the page starts beyond the defaults. */
-export const beginning = new Map([['damping.internal', '1000 us']]);
+/** Where the page starts: at the command's defaults. */
+export const beginning = new Map();
 
 /** Sliders in their order: range and step in the key's own unit, within the key's own range. */
 export const sliders = [
@@ -14,7 +14,7 @@ export const sliders = [
   {key: 'insulator.permittivity', label: 'Insulator permittivity', min: 1, max: 12, step: 0.01},
   {key: 'medium.permittivity', label: 'Liquid permittivity', min: 1, max: 10, step: 0.05},
   {key: 'medium.breakdown_field', label: 'Liquid breakdown', min: 1, max: 60, step: 0.5},
-  {key: 'damping.internal', label: 'Damping', min: 0, max: 10000, step: 100},
+  {key: 'damping.internal', label: 'Damping', min: 0, max: 1000, step: 10},
 ];
 
 /** Values in the sliders' own order of keys. A preset replaces the whole scenario. */
@@ -65,6 +65,21 @@ export function changed(core) {
 export function toCommand(core) {
   const settings = changed(core).map(([key, text]) => `  --set "${key}=${text}"`);
   return ['zipact actuate', ...settings].join(' \\\n');
+}
+
+/** What to do about a computation that was stopped after `seconds`, having `moved` the actuator by so many seconds. */
+export function tooLong(core, {seconds, moved}) {
+  const after = `Stopped after ${seconds} s of computing${moved ? `, which moved it by only ${brief(moved)}` : ''}`;
+  const unusual = changed(core).filter(([key]) => !/^(study|preset)$/.test(key)).map(([key, text]) => `${key}=${text}`);
+  if (!unusual.length) return `${after}.`;
+  const shown = unusual.slice(0, 6).join(', ') + (unusual.length > 6 ? ' and more' : '');
+  return `${after}. Asked for: ${shown}. Change one of these, or choose a preset.`;
+}
+
+/** s => "3.1 us" */
+function brief(time) {
+  const [unit, size] = [['ms', 1e-3], ['us', 1e-6], ['ns', 1e-9], ['ps', 1e-12]].find(([, s]) => time >= s) ?? ['fs', 1e-15];
+  return `${Number((time / size).toPrecision(2))} ${unit}`;
 }
 
 /** A list of states with a present one. Changes of the same kind that follow each other are one. */

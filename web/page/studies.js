@@ -1,38 +1,37 @@
 // One study that follows the scenario: the newest question is answered, those that were overtaken are not.
-import source from 'worker:study.js';
+import {Remote} from './remote.js';
+
+const tooOld = 500; // ms after which a question that is overtaken is given up
 
 export class Study {
-  #worker;
+  #remote;
   #waiting = null;
-  #busy = false;
 
-  /** `answer` gets {result} or {refused}; results have the `scalars` asked for. */
-  constructor(module, study, scalars, answer) {
-    this.study = study;
-    this.scalars = scalars;
-    this.#worker = new Worker(URL.createObjectURL(new Blob([source], {type: 'text/javascript'})));
-    this.#worker.postMessage({module});
-    this.#worker.onmessage = ({data}) => {
-      this.#busy = false;
+  /** `answer` gets {result, stopped}, {refused}, {stopped} or {broken}; results have the `scalars` and `columns` asked for. */
+  constructor(module, study, scalars, columns, answer) {
+    this.form = {study, scalars, columns};
+    this.#remote = new Remote(module, (data) => {
       answer(data);
       this.#next();
-    };
+    });
   }
 
   /** True while an answer is due. */
   get due() {
-    return this.#busy;
+    return this.#remote.busy;
   }
 
+  /** `values`: a Map of key => text */
   ask(values) {
-    this.#waiting = {study: this.study, scalars: this.scalars, values};
-    if (!this.#busy) this.#next();
+    this.#waiting = values;
+    if (this.#remote.waited >= tooOld) this.#remote.drop();
+    if (!this.#remote.busy) this.#next();
   }
 
   #next() {
     if (!this.#waiting) return;
-    this.#busy = true;
-    this.#worker.postMessage(this.#waiting);
+    const values = this.#waiting;
     this.#waiting = null;
+    this.#remote.ask({...this.form, values});
   }
 }

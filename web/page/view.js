@@ -19,6 +19,15 @@ const tiles = {
 };
 
 const $ = (id) => document.getElementById(id);
+
+/** Sentences, one an item of a list. */
+function list(place, sentences) {
+  place.replaceChildren(...sentences.map((words) => {
+    const item = document.createElement('li');
+    item.textContent = words;
+    return item;
+  }));
+}
 const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
@@ -27,6 +36,8 @@ export class View {
   #time; // what the plots show
   #rest;
   #profile = {length: 1, force: new Float64Array(2), field: new Float64Array(2), largest: 1};
+  #notes = [];
+  #notice = null;
   #plots;
   #next = 0; // plot to draw
 
@@ -37,7 +48,7 @@ export class View {
     this.picture = new Picture($('picture'));
     this.tiles = new Tiles($('numbers'), tiles);
     this.#time = {run: null, trace: live.trace};
-    this.#rest = {rest: null, highest, now: {voltage: 0, stroke: 0}};
+    this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
     this.#plots = [
       timePlot($('plot-time'), this.#time),
       voltagePlot($('plot-voltage'), this.#rest),
@@ -45,22 +56,30 @@ export class View {
     ];
   }
 
-  /** The answer of study actuate. */
-  showRun({result, refused}) {
+  /** `words`: what holds for the page as long as it is open. */
+  notice(words) {
+    if (words === this.#notice) return;
+    this.#notice = words;
+    this.#showNotes();
+  }
+
+  #showNotes() {
+    list($('warnings'), this.#notice ? [this.#notice, ...this.#notes] : this.#notes);
+  }
+
+  /** The answer of study actuate, with `words` on how it ended. */
+  showRun({result}, words) {
     const columns = result?.columns;
     this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
     this.hanging = columns?.opening_m[0] ?? NaN;
     this.tiles.show('zip', digits(1e3 * (result?.scalars.zip_time_s ?? NaN)));
-    $('time-note').textContent = refused ?? result.message;
-    $('warnings').replaceChildren(...(result?.notes ?? []).map((words) => {
-      const item = document.createElement('li');
-      item.textContent = words;
-      return item;
-    }));
+    $('time-note').textContent = words;
+    this.#notes = result?.notes ?? [];
+    this.#showNotes();
   }
 
-  /** The answer of study equilibrium. */
-  showRest({result, refused}) {
+  /** The answer of study equilibrium, with `words` on how it ended. Its notes hold for the highest voltage of its plot. */
+  showRest({result}, words) {
     const columns = result?.columns;
     this.#rest.rest = columns
       ? {voltage: columns.voltage_V, stroke: columns.stroke_m, stable: columns.stable, branch: columns.branch}
@@ -68,7 +87,8 @@ export class View {
     this.release = result?.scalars.release_voltage_V ?? NaN;
     this.tiles.show('pullin', digits((result?.scalars.pull_in_voltage_V ?? NaN) / 1e3));
     this.tiles.show('letgo', digits(this.release / 1e3));
-    $('voltage-note').textContent = refused ?? result.message;
+    $('voltage-note').textContent = words;
+    list($('voltage-warnings'), result?.notes ?? []);
   }
 
   /** The legend of the field's colours. */
@@ -78,59 +98,59 @@ export class View {
     $('legend-end').textContent = `${strongest} MV/m`;
   }
 
-  /** The present instant. `still`: nothing moves but the actuator. */
+  /** The newest frame. `still`: nothing moves but the actuator. */
   draw(still) {
-    const scene = this.#scene();
+    const {frame} = this.live, scene = this.#scene(frame);
     this.picture.draw(scene, still);
-    this.#time.trace = this.live.trace;
-    this.#rest.now = {voltage: this.live.voltage, stroke: this.core.signal('stroke')};
+    this.#time.trace = this.#rest.trace = this.live.trace;
+    this.#rest.now = {voltage: frame.get('voltage'), stroke: frame.get('stroke')};
     this.#plots[this.#next++ % this.#plots.length].update(); // one plot a frame: each 20 times a second
-    this.#numbers(scene);
+    this.#numbers(frame, scene);
   }
 
   /** Field in the liquid at each station by the plates law, V/m. */
-  #field(gap) {
-    const {core} = this, voltage = core.value('electro.voltage_share') * this.live.voltage;
-    const most = core.value('electro.breakdown_cap') ? core.value('medium.breakdown_field') : Infinity;
-    return Float64Array.from(gap, (g) => Math.min(voltage / (Math.max(g, 0) + core.insulatorOffset), most));
+  #field(frame, gap) {
+    const voltage = frame.get('electro.voltage_share') * frame.get('voltage'), offset = frame.get('offset');
+    const most = frame.get('electro.breakdown_cap') ? frame.get('medium.breakdown_field') : Infinity;
+    return Float64Array.from(gap, (g) => Math.min(voltage / (Math.max(g, 0) + offset), most));
   }
 
-  #scene() {
-    const {core} = this, platform = core.value('platform.length'), length = (core.value('ribbon.length') - platform) / 2;
-    const opening = core.signal('opening'), mass = core.value('load.mass'), strongest = core.value('medium.breakdown_field');
-    const texts = {mass: pretty(core.print('load.mass', mass)), opening: `${fixed(1e3 * opening, 1)} mm`};
-    const shape = core.shape(), field = this.#field(shape.gap);
+  #scene(frame) {
+    const platform = frame.get('platform.length'), length = (frame.get('ribbon.length') - platform) / 2;
+    const opening = frame.get('opening'), mass = frame.get('load.mass'), strongest = frame.get('medium.breakdown_field');
+    const texts = {mass: pretty(this.core.print('load.mass', mass)), opening: `${fixed(1e3 * opening, 1)} mm`};
+    const {shape} = frame, field = this.#field(frame, shape.gap);
     Object.assign(this.#profile, {length, field, force: Float64Array.from(shape.lineForce), largest: strongest});
     return {
       shape, field, platform, opening, mass, texts,
-      nodes: core.nodes,
+      nodes: frame.get('nodes'),
       centre: length + platform / 2,
       largest: strongest,
-      electrode: core.value('platform.electrode') !== 0,
-      metal: core.value('ribbon.thickness'),
-      insulator: core.value('insulator.thickness'),
+      electrode: frame.get('platform.electrode') !== 0,
+      metal: frame.get('ribbon.thickness'),
+      insulator: frame.get('insulator.thickness'),
       hanging: this.hanging,
     };
   }
 
-  #numbers({field, opening}) {
-    const {core, live, tiles: shown} = this;
-    shown.show('voltage', fixed(live.voltage / 1e3, 2));
-    shown.show('stroke', fixed(1e3 * core.signal('stroke'), 2));
+  #numbers(frame, {field, opening}) {
+    const {tiles: shown} = this;
+    shown.show('voltage', fixed(frame.get('voltage') / 1e3, 2));
+    shown.show('stroke', fixed(1e3 * frame.get('stroke'), 2));
     shown.show('opening', fixed(1e3 * opening, 2));
-    shown.show('contraction', fixed(100 * core.signal('contraction'), 1));
-    shown.show('zipped', fixed(1e3 * core.signal('zipped_length'), 1));
-    shown.show('force', fixed(core.signal('force'), 2));
+    shown.show('contraction', fixed(100 * frame.get('contraction'), 1));
+    shown.show('zipped', fixed(1e3 * frame.get('zipped_length'), 1));
+    shown.show('force', fixed(frame.get('force'), 2));
     shown.show('field', fixed(largest(field) / 1e6, 1));
-    shown.show('capacitance', fixed(1e12 * core.signal('capacitance'), 0));
-    shown.show('time', fixed(1e3 * (live.time - live.zero), 1));
+    shown.show('capacitance', fixed(1e12 * frame.get('capacitance'), 0));
+    shown.show('time', fixed(1e3 * frame.get('since'), 1));
   }
 
   /** The same in words, for who does not see it. */
   describe() {
-    const {core, live} = this;
-    $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * core.signal('opening'), 1)} millimetres open, ` +
-      `${fixed(1e3 * core.signal('zipped_length'), 1)} millimetres of each half zipped, at ${fixed(live.voltage / 1e3, 2)} kilovolts`);
+    const {frame} = this.live;
+    $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * frame.get('opening'), 1)} millimetres open, ` +
+      `${fixed(1e3 * frame.get('zipped_length'), 1)} millimetres of each half zipped, at ${fixed(frame.get('voltage') / 1e3, 2)} kilovolts`);
     $('plot-time').setAttribute('aria-label', `Stroke over time. ${$('time-note').textContent}`);
     $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all states of rest. ${$('voltage-note').textContent}`);
     $('plot-profile').setAttribute('aria-label', 'Attraction per length and field in the liquid along the ribbon');

@@ -116,7 +116,7 @@ test('after a refusal the scenario is what it was', () => {
 
 const leftOut = [
   {'electro.model': 'field'}, {'electro.edges': 'true'}, {'actuator.kind': 'ribbon'}, {study: 'modes'},
-  {'drive.waveform': 'sine'},
+  {'drive.waveform': 'sine'}, {'initial.state': 'checkpoint'},
   {'solver.integrator': 'explicit', 'contact.model': 'sequential'},
 ];
 
@@ -134,6 +134,51 @@ test('the page has the keys of the command, with their ranges', () => {
     assert.equal(core.keys.get(key).min, min, `${key} in ${unit}`);
     assert.equal(core.keys.get(key).max, max, `${key} in ${unit}`);
   }
+});
+
+test('the page begins with the command’s default of every key (its internal damping was 1000 us, the command’s 10 us)', () => {
+  const list = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'})), core = new Core(module);
+  const number = {real: (v) => v, int: (v) => v, bool: Number, real_auto: () => NaN, text: () => NaN};
+  core.resolve(scenario.beginning);
+  for (const {key, type, default: def, choices} of list) {
+    const wanted = type === 'enum' ? choices.findIndex(({word}) => word === def) : number[type](def);
+    assert.ok(Object.is(core.value(key), wanted), `${key}: ${core.value(key)}, the command has ${def}`);
+  }
+  for (const {key, type} of list.filter(({type}) => type === 'real_auto')) assert.equal(core.print(key, core.value(key)), 'auto', type);
+  const values = new Map([['solver.end_time', '1 ms']]);
+  native('actuate', values);
+  const written = readFileSync(join(folder, 'scenario.yaml'), 'utf8');
+  assert.match(written, /internal: auto/);
+  assert.equal(scenario.toCommand(core), 'zipact actuate');
+});
+
+test('what auto stands for', () => {
+  const core = new Core(module), effective = (name, ...pairs) => {
+    core.resolve(new Map(pairs));
+    return core.effective(name);
+  };
+  assert.equal(effective('damping.internal'), 10e-6);
+  assert.equal(effective('damping.internal', ['ribbon.model', 'mass_spring']), 0);
+  assert.equal(effective('damping.internal', ['damping.internal', '70 us']), 70e-6);
+  assert.ok(Math.abs(effective('electro.insulator_offset') - (2 * 130e-6 * 2.75) / 4.62) < 1e-18);
+  assert.ok(effective('mass_spring.shear_coefficient') > 0);
+  assert.ok(Number.isNaN(effective('solver.time_step')), 'chosen from step to step');
+  assert.equal(effective('load.mass'), 8e-3);
+});
+
+test('a call is stopped when its time is over, and the next goes on from there', () => {
+  const core = new Core(module);
+  core.resolve(new Map());
+  core.start();
+  core.allow(0);
+  assert.equal(core.run(0.05), null);
+  assert.ok(core.expired);
+  const reached = core.signal('time');
+  assert.ok(reached > 0 && reached < 0.05, String(reached));
+  core.allow(60e3);
+  assert.equal(core.run(0.05), null);
+  assert.ok(!core.expired);
+  assert.equal(core.signal('time'), 0.05);
 });
 
 test('the command line that the page shows gives the page’s scenario', () => {

@@ -2,8 +2,10 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
-import {digits, fixed, pretty} from '../page/numbers.js';
+import {axisEnds, digits, fixed, pretty} from '../page/numbers.js';
 import {Core} from '../page/core.js';
+import {Engine} from '../page/engine.js';
+import {Frame} from '../page/frame.js';
 import * as scenario from '../page/scenario.js';
 
 const module = new WebAssembly.Module(readFileSync(new URL('../build/zipact.wasm', import.meta.url)));
@@ -67,4 +69,37 @@ test('numbers as people read them', () => {
   assert.equal(fixed(-1e-9, 2), '0.00');
   assert.equal(fixed(-1.234, 1), '−1.2');
   assert.equal(pretty('50 um'), '50 µm');
+});
+
+test('an axis shows values below 0, too: a stroke has a sign', () => {
+  assert.deepEqual(axisEnds([3, 10.4]), [0, 12]);
+  assert.deepEqual(axisEnds([10.4, -1.9], [2]), [-2, 12]);
+  assert.deepEqual(axisEnds([-7]), [-8, 0]);
+  assert.deepEqual(axisEnds([10, -1e-9]), [0, 10]);
+  assert.deepEqual(axisEnds([0], []), [0, 1]);
+  for (const odd of [NaN, Infinity, -Infinity, 1e-320]) assert.deepEqual(axisEnds([odd]), [0, 1], String(odd));
+});
+
+test('a frame has what the core has, in an array that goes to and fro', () => {
+  const core = new Core(module), engine = new Engine(module, {study: Infinity, start: Infinity, frame: Infinity});
+  const values = new Map([['solver.time_step', '100 us'], ['mesh.nodes', '31']]);
+  core.resolve(values);
+  core.start();
+  const first = engine.answer({values, voltage: 10e3, restart: true, span: 0}), {frame: data} = first;
+  assert.equal(new Frame(data).get('advanced'), 0);
+  const {frame} = engine.answer({span: 5e-3, frame: data}), seen = new Frame(frame);
+  assert.equal(frame, data, 'filled again, no other');
+  for (let k = 1; k <= 5; k++) core.run(seen.get('time') * (k / 5));
+  for (const name of ['stroke', 'opening', 'contraction', 'force', 'capacitance'])
+    assert.ok(Math.abs(seen.get(name) / core.signal(name) - 1) < 1e-9, `${name}: ${seen.get(name)}, ${core.signal(name)}`);
+  assert.equal(seen.get('advanced'), 5e-3);
+  assert.equal(seen.get('nodes'), 31);
+  assert.equal(seen.get('ribbon.thickness'), 50e-6);
+  const {x, y, gap, lineForce} = seen.shape, shape = core.shape();
+  assert.deepEqual([x.length, y.length, gap.length, lineForce.length], [62, 62, 31, 31]);
+  for (let i = 0; i < 62; i++) assert.ok(Math.abs(y[i] - shape.y[i]) < 1e-9 && Math.abs(x[i] - shape.x[i]) < 1e-9);
+  const samples = [];
+  seen.eachSample((time, stroke) => samples.push([time, stroke]));
+  assert.equal(samples.length, 5);
+  assert.deepEqual(samples.at(-1), [seen.get('since'), seen.get('stroke')]);
 });

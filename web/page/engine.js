@@ -1,0 +1,57 @@
+// Answers the page's questions with a core of its own: in a worker, or, where there is none, between two frames.
+import {Core, Refused} from './core.js';
+import {write} from './frame.js';
+import {Motion} from './motion.js';
+
+/** ms that a study, a hanging equilibrium and the motion of one frame may take. */
+export const limits = {
+  worker: {study: 20e3, start: 5e3, frame: 8},
+  page: {study: 300, start: 100, frame: 4},
+};
+
+export class Engine {
+  #core;
+  #motion;
+  #limits;
+
+  /** @param {WebAssembly.Module} module @param limits one of the above */
+  constructor(module, limits) {
+    this.#core = new Core(module);
+    this.#motion = new Motion(this.#core);
+    this.#limits = limits;
+  }
+
+  /** Question of a Study or of Live => its answer; {refused} where the core refuses it. */
+  answer(question) {
+    try {
+      return question.study ? this.#study(question) : this.#move(question);
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      return {refused: error.message, frame: question.frame};
+    }
+  }
+
+  /** {study, values, scalars, columns} => {result, stopped: s after which it was, or null} */
+  #study({study, values, scalars, columns}) {
+    const core = this.#core, limit = this.#limits.study;
+    core.resolve(values);
+    core.allow(limit);
+    const result = core.study(study, scalars, columns);
+    return {result, stopped: core.expired ? {seconds: limit / 1e3} : null};
+  }
+
+  /** {values: of the scenario if it has changed, voltage: to go with it, V, restart: from hanging, pressed: the voltage is
+   * a button's, span: to run, s, frame: array to fill} => {frame, failure, stopped} of Motion. The answer to a restart
+   * is the instant where it starts. */
+  #move({values, voltage, restart, pressed, span, frame}) {
+    const motion = this.#motion, {start, frame: budget} = this.#limits;
+    if (values) this.#core.resolve(values);
+    if (restart) motion.restart(voltage, start);
+    else if (values) motion.change(voltage, start);
+    if (pressed && !restart) motion.switchTo(voltage, start);
+    const advanced = restart || motion.ended ? 0 : motion.advance(span, budget);
+    const filled = write(frame, motion, advanced);
+    motion.samples.length = 0;
+    return {frame: filled, failure: motion.failure, stopped: motion.stopped};
+  }
+}

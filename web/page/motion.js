@@ -1,0 +1,92 @@
+// The actuator in motion, as the core computes it, piece by piece.
+import {mostSamples} from './frame.js';
+
+const longest = 1e-3; // s of simulated time between two samples of the stroke
+const patience = {time: 2e3, share: 1e-3}; // ms of computing that must give this share of the time asked for
+
+export class Motion {
+  time = 0; // s, as the simulation counts
+  zero = 0; // s, when the voltage last changed by a button
+  marks = 0; // how often that was
+  samples = []; // time since `zero` and stroke by turns, since they were last taken
+  failure = 'nothing to run'; // how the solver failed, until something changes
+  stopped = null; // {seconds, moved} that was computed in vain, until something changes
+  #effort = {spent: 0, asked: 0, moved: 0}; // ms, s, s
+
+  constructor(core) {
+    this.core = core;
+  }
+
+  get ended() {
+    return this.failure !== null || this.stopped !== null;
+  }
+
+  /** From the hanging equilibrium, found within `limit` ms, the voltage on from now. */
+  restart(voltage, limit) {
+    this.#begin(false, limit);
+    this.core.setVoltage(voltage);
+    this.time = 0;
+    this.#mark();
+  }
+
+  /** The scenario has changed: go on in it; after a failure, or with another number of nodes, from its start. */
+  change(voltage, limit) {
+    const {core} = this;
+    if (this.ended || core.nodes !== core.value('mesh.nodes')) return this.restart(voltage, limit);
+    this.#begin(true, limit);
+    if (core.signal('voltage') !== voltage) core.setVoltage(voltage);
+  }
+
+  /** A button: another voltage from now on. */
+  switchTo(voltage, limit) {
+    if (this.ended) return this.restart(voltage, limit);
+    this.core.setVoltage(voltage);
+    this.#mark();
+  }
+
+  #begin(goOn, limit) {
+    this.failure = 'it did not start';
+    this.core.allow(limit);
+    this.core.start(goOn);
+    this.failure = null;
+    this.stopped = this.core.expired ? {seconds: limit / 1e3, moved: 0} : null;
+    this.#effort = {spent: 0, asked: 0, moved: 0};
+  }
+
+  #mark() {
+    this.zero = this.time;
+    this.marks++;
+    this.samples.length = 0;
+    this.#note();
+  }
+
+  #note() {
+    this.samples.push(this.time - this.zero, this.core.signal('stroke'));
+  }
+
+  /** Run `span` seconds, or as far as `budget` ms go. => seconds run */
+  advance(span, budget) {
+    const {core} = this, begin = this.time, end = begin + span, start = performance.now();
+    const piece = Math.max(longest, span / (mostSamples - 2));
+    core.allow(budget);
+    while (this.time < end && !core.expired && performance.now() - start < budget) {
+      this.failure = core.run(this.time + piece > end ? end : this.time + piece);
+      if (this.failure) break;
+      this.time = core.signal('time');
+      this.#note();
+    }
+    this.#judge(performance.now() - start, span, this.time - begin);
+    return this.time - begin;
+  }
+
+  /** Give up where all the computing does not move it. */
+  #judge(spent, asked, moved) {
+    const effort = this.#effort;
+    effort.spent += spent;
+    effort.asked += asked;
+    effort.moved += moved;
+    if (effort.spent < patience.time) return;
+    if (effort.moved < patience.share * effort.asked) this.stopped = {seconds: patience.time / 1e3, moved: effort.moved};
+    this.#effort = {spent: 0, asked: 0, moved: 0};
+  }
+}
