@@ -70,7 +70,7 @@ static void simulation_dealloc(PyObject *object) {
 
 static int refuse_busy(const Simulation *self) {
   if (!self->busy) return 0;
-  raise_input(self->state, "the simulation is already stepping, in another thread or in the call that led here");
+  raise_input(self->state, "the simulation is stepping already, in another thread or in the call that led here");
   return -1;
 }
 
