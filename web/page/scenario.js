@@ -67,9 +67,9 @@ export function toCommand(core) {
   return ['zipact actuate', ...settings].join(' \\\n');
 }
 
-/** What to do about a computation that was stopped after `seconds`, having `moved` the actuator by so many seconds. */
+/** What to do about a computation that was stopped after `seconds`, having `moved` the actuator for so many seconds of its time. */
 export function tooLong(core, {seconds, moved}) {
-  const after = `Stopped after ${seconds} s of computing${moved ? `, which moved it by only ${brief(moved)}` : ''}`;
+  const after = `Stopped after ${seconds} s of computing${moved ? `, which gave only ${brief(moved)} of motion` : ''}`;
   const unusual = changed(core).filter(([key]) => !/^(study|preset)$/.test(key)).map(([key, text]) => `${key}=${text}`);
   if (!unusual.length) return `${after}.`;
   const shown = unusual.slice(0, 6).join(', ') + (unusual.length > 6 ? ' and more' : '');
