@@ -721,6 +721,26 @@ START_TEST(no_pull_in_is_null) {
 }
 END_TEST
 
+/* Where insulator and liquid are alike, the pictures of the field could not be drawn: "cb coord of 0". */
+START_TEST(field_of_equal_permittivities) {
+  char *svg[2];
+  size_t size;
+  write_study("equal", "profile", "insulator.permittivity=2.75");
+  ck_assert_msg(*notices == 0, "%s", notices);
+  ck_assert(exists("equal/plots/field.svg") && exists("equal/plots/field_tip.svg"));
+  write_study("other", "profile", "insulator.permittivity=2.76"); /* the same lines, nearly */
+  for (size_t i = 0; i < 2; i++)
+    svg[i] = read_whole(in_base(i ? "other/plots/field.dat" : "equal/plots/field.dat"), &size);
+  const char *metal[2] = {strstr(svg[0], "\n\n\n"), strstr(svg[1], "\n\n\n")};
+  ck_assert(metal[0] && metal[1]);
+  const char *const end[2] = {strstr(metal[0] + 3, "\n\n\n"), strstr(metal[1] + 3, "\n\n\n")};
+  ck_assert_ptr_nonnull(end[0]);
+  ck_assert_str_eq(end[0], end[1]); /* metals and faces */
+  free(svg[0]);
+  free(svg[1]);
+}
+END_TEST
+
 START_TEST(folder_that_cannot_be) {
   ZpError err = {0};
   ZpFolder *folder;
@@ -891,7 +911,8 @@ START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
   ZpDrawing drawing = {&plot, in_base("plots"), note, 1, NULL, false};
   ck_assert_int_eq(zp_drawing_prepare(&drawing, table, 1, &err), ZP_OK);
   zp_drawing_draw(&drawing, table, 1);
-  ck_assert_ptr_nonnull(strstr(notices, "plots/a.svg was not drawn: gnuplot took longer than 1 s; the rest are not drawn either"));
+  ck_assert_ptr_nonnull(
+      strstr(notices, "plots/a.svg was not drawn: gnuplot took longer than 1 s; the rest are not drawn either"));
   ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
   ck_assert(exists("plots/a.gp") && exists("plots/b.gp") && !exists("plots/a.svg"));
   count_files("plots");
@@ -1033,6 +1054,7 @@ static Suite *suite_of_report(void) {
                                sweeps_of_rest,
                                rest_is_the_same_each_time,
                                field_of_a_profile,
+                               field_of_equal_permittivities,
                                frequencies_are_an_array,
                                no_pull_in_is_null,
                                folder_that_cannot_be,

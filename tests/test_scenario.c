@@ -136,6 +136,25 @@ START_TEST(test_good_value) {
 }
 END_TEST
 
+/* "130<no-break space>um", as pages and word processors write it, was an unknown unit. */
+START_TEST(test_no_break_space) {
+  static const char *const text[] = {"130\u00A0um",   "130\u202Fum", "130\u2009um",       "130\u2007um",
+                                     "\u00A0130 um ", "130um\u00A0", "130 \u00A0 \u202Fum"};
+  int key = zp_key_find("insulator.thickness");
+  ZpError err = {0};
+  double value;
+  for (size_t i = 0; i < sizeof text / sizeof text[0]; i++) {
+    value = -1;
+    ck_assert_msg(zp_value_parse(key, text[i], &value, &err) == ZP_OK, "%s", err.message);
+    ck_assert(same_bits(value, 130e-6));
+  }
+  ck_assert(same_bits(value_in("insulator.thickness: 130\u00A0um\n", "insulator.thickness"), 130e-6));
+  ck_assert(same_bits(value_in("damping.drag: 1 N\u00A0s2/m2\n", "damping.drag"), 1));
+  ck_assert_int_eq(zp_value_parse(key, "\u00A0", &value, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_value_parse(key, "130\u00A0lightyears", &value, &err), ZP_BAD_INPUT);
+}
+END_TEST
+
 /* Values that are refused, and a part of the reason. All messages must name key and value, too. */
 static const struct {
   const char *key, *text, *reason;
@@ -737,6 +756,7 @@ int main(void) {
   TCase *values = tcase_create("values");
   tcase_add_loop_test(values, test_good_value, 0, LENGTH_OF(good_values));
   tcase_add_loop_test(values, test_bad_value, 0, LENGTH_OF(bad_values));
+  tcase_add_test(values, test_no_break_space);
   tcase_add_test(values, test_long_value);
   tcase_add_loop_test(values, test_value_round_trip, 0, zp_key_count());
   tcase_add_test(values, test_print);

@@ -27,6 +27,8 @@ typedef struct ZpFieldMap {
   double *potential;    /* [nx ny] V */
   double *strength;     /* [(nx - 1) (ny - 1)] of the field in the middle of a cell, V/m */
   double *permittivity; /* [(nx - 1) (ny - 1)] relative, of a cell; 0 in metal */
+  size_t surface[6];    /* j of the nodes on the lower metal's underside and top, the lower and the upper insulator
+                         * face, the upper metal's underside and top */
   void *memory;
 } ZpFieldMap;
 

@@ -103,6 +103,15 @@ static void make_rows(ZpField *f) {
   lay_rows(f->row, j, UPPER_METAL + 1, m->outside, outside, false);
 }
 
+void zp_field_surfaces(const ZpField *f, size_t row[6]) {
+  const ZpFieldMesh *m = &f->params.mesh;
+  const size_t insulator = f->params.t > 0 ? m->insulator : 0;
+  const size_t elements[6] = {m->outside, m->strip, insulator, m->gap, insulator, m->strip};
+  size_t j = 0;
+  for (size_t k = 0; k < 6; k++)
+    row[k] = j += 2 * elements[k];
+}
+
 static void make_columns(ZpField *f) {
   const ZpFieldParams *p = &f->params;
   const ZpFieldMesh *m = &p->mesh;

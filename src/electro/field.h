@@ -93,6 +93,10 @@ ZpFieldEnd zp_field_solve(ZpField *field, const ZpFaces *faces);
 /* Traction and field strength on the facing surfaces at the last solution => profile. */
 void zp_field_profile(ZpField *field);
 
+/* => rows of grid nodes on the surfaces, upwards: lower metal's underside and top, lower and upper insulator face,
+ * upper metal's underside and top. */
+void zp_field_surfaces(const ZpField *field, size_t row[6]);
+
 /* Forces on one ribbon as wholes, at 1 V, closing positive. */
 typedef struct ZpFieldTotals {
   double upper, lower;                   /* by traction, clip's edge to last station, N */

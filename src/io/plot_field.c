@@ -66,31 +66,25 @@ static double permittivity(const ZpFieldMap *map, size_t i, size_t j) {
   return map->permittivity[i * (map->ny - 1) + j];
 }
 
-/* Rows of nodes on the surfaces of the ribbons, columns of nodes at their ends. */
+static size_t on_surface(const ZpFieldMap *map, size_t i, size_t surface) {
+  return node(map, i, map->surface[surface]);
+}
+
+/* Columns of nodes at the ends of the ribbons. */
 typedef struct Strips {
   size_t left, right;
-  size_t row[6]; /* lower metal, its upper side, face of its insulator; the same from below of the upper ribbon */
 } Strips;
+
+static bool has_metal(const ZpFieldMap *map, size_t i) {
+  return permittivity(map, i, map->surface[0]) == 0;
+}
 
 static Strips strips_of(const ZpFieldMap *map) {
   Strips s = {.right = map->nx - 1};
-  size_t j = 0, rows = map->ny - 1;
-  while (s.left + 1 < map->nx && j == 0) { /* the first column of cells with metal */
-    while (j < rows && permittivity(map, s.left, j) > 0)
-      j++;
-    if (j == rows) {
-      s.left++;
-      j = 0;
-    }
-  }
-  while (s.right > s.left + 1 && permittivity(map, s.right - 1, j) > 0)
+  while (s.left + 1 < s.right && !has_metal(map, s.left))
+    s.left++;
+  while (s.right > s.left + 1 && !has_metal(map, s.right - 1))
     s.right--;
-  double before = 0;
-  for (size_t k = 0; j < rows && k < 6; j++) {
-    double now = permittivity(map, s.left, j);
-    if (now != before || k == 0) s.row[k++] = j;
-    before = now;
-  }
   return s;
 }
 
@@ -102,10 +96,10 @@ typedef struct View {
 } View;
 
 static ZpPlotBox around(const ZpFieldMap *map, const Strips *s, size_t last) {
-  ZpPlotBox box = {map->x[node(map, s->left, s->row[0])], map->x[node(map, last, s->row[0])], INFINITY, -INFINITY};
+  ZpPlotBox box = {map->x[on_surface(map, s->left, 0)], map->x[on_surface(map, last, 0)], INFINITY, -INFINITY};
   for (size_t i = s->left; i <= last; i++) {
-    box.bottom = fmin(box.bottom, map->y[node(map, i, s->row[0])]);
-    box.top = fmax(box.top, map->y[node(map, i, s->row[5] + 1)]);
+    box.bottom = fmin(box.bottom, map->y[on_surface(map, i, 0)]);
+    box.top = fmax(box.top, map->y[on_surface(map, i, 5) + 1]);
   }
   return box;
 }
@@ -115,7 +109,7 @@ static ZpPlotBox whole_box(const ZpFieldMap *map) {
   ZpPlotBox box = around(map, &s, s.right);
   double margin = 0.12 * (box.top - box.bottom);
   box.left -= 0.04 * (box.right - box.left);
-  box.right = map->x[node(map, map->nx - 1, s.row[0])];
+  box.right = map->x[on_surface(map, map->nx - 1, 0)];
   box.bottom -= margin;
   box.top += margin;
   return box;
@@ -126,11 +120,11 @@ static ZpPlotBox whole_box(const ZpFieldMap *map) {
 static ZpPlotBox tip_box(const ZpFieldMap *map) {
   const Strips s = strips_of(map);
   size_t last = s.left;
-  double right = map->x[node(map, s.right, s.row[0])];
+  double right = map->x[on_surface(map, s.right, 0)];
   for (; last < s.right; last++) {
-    double low = map->y[node(map, last, s.row[1])], high = map->y[node(map, last, s.row[4] + 1)];
-    double closed = map->y[node(map, s.left, s.row[4] + 1)] - map->y[node(map, s.left, s.row[1])];
-    if (high - low > 2 * closed && map->x[node(map, last, s.row[0])] > 0.02 * right) break;
+    double low = map->y[on_surface(map, last, 1)], high = map->y[on_surface(map, last, 4) + 1];
+    double closed = map->y[on_surface(map, s.left, 4) + 1] - map->y[on_surface(map, s.left, 1)];
+    if (high - low > 2 * closed && map->x[on_surface(map, last, 0)] > 0.02 * right) break;
   }
   ZpPlotBox box = around(map, &s, last);
   box.left = fmax(box.left, -0.15 * box.right);
@@ -228,7 +222,7 @@ static void put_node(FILE *file, const ZpFieldMap *map, size_t k) {
 /* Both metals as closed lines, then both insulator faces. */
 static void put_strips(FILE *file, const ZpFieldMap *map) {
   const Strips s = strips_of(map);
-  const size_t metal[2][2] = {{s.row[0], s.row[1]}, {s.row[4], s.row[5]}};
+  const size_t metal[2][2] = {{map->surface[0], map->surface[1]}, {map->surface[4], map->surface[5]}};
   for (size_t m = 0; m < 2; m++) {
     for (size_t i = s.left; i <= s.right; i++)
       put_node(file, map, node(map, i, metal[m][0]));
@@ -238,7 +232,7 @@ static void put_strips(FILE *file, const ZpFieldMap *map) {
   }
   for (size_t m = 0; m < 2; m++) {
     for (size_t i = s.left; i <= s.right; i++)
-      put_node(file, map, node(map, i, s.row[2 + m]));
+      put_node(file, map, on_surface(map, i, 2 + m));
     fputs("\n\n", file);
   }
 }

@@ -218,17 +218,34 @@ static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError
   return ZP_OK;
 }
 
+/* Bytes of the blank that `text` begins with, 0 if it begins with none. Beside those of ASCII: the no-break, figure, thin
+ * and narrow no-break spaces that web pages and word processors put between number and unit. */
+static size_t blank_at(const char *text) {
+  static const char *const wide[] = {"\u00A0", "\u2007", "\u2009", "\u202F"};
+  for (size_t i = 0; i < sizeof wide / sizeof wide[0]; i++)
+    if (strncmp(text, wide[i], strlen(wide[i])) == 0) return strlen(wide[i]);
+  return isspace((unsigned char)*text) ? 1 : 0;
+}
+
+/* Copy without the blanks at both ends, wide blanks as spaces. False if `copy` has too little room. */
+static bool copy_trimmed(const char *text, char *copy, size_t size) {
+  size_t used = 0, end = 0;
+  for (size_t length; *text; text += length) {
+    size_t blank = blank_at(text);
+    length = blank ? blank : 1;
+    if (blank && used == 0) continue;
+    if (used + 1 == size) return false;
+    copy[used++] = blank > 1 ? ' ' : *text;
+    if (!blank) end = used;
+  }
+  copy[end] = 0;
+  return true;
+}
+
 ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err) {
   char copy[ZP_VALUE_SIZE];
-  while (isspace((unsigned char)*text))
-    text++;
-  size_t length = strlen(text);
-  while (length && isspace((unsigned char)text[length - 1]))
-    length--;
-  if (length >= sizeof copy) return zp_fail(err, ZP_BAD_INPUT, "longer than %d bytes", ZP_VALUE_SIZE - 1);
-  memcpy(copy, text, length);
-  copy[length] = 0;
-  return read_trimmed(index, copy, value, err);
+  if (copy_trimmed(text, copy, sizeof copy)) return read_trimmed(index, copy, value, err);
+  return zp_fail(err, ZP_BAD_INPUT, "longer than %d bytes", ZP_VALUE_SIZE - 1);
 }
 
 ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err) {

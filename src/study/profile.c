@@ -335,6 +335,9 @@ static bool make_map(const Profiler *p) {
   size_t nx = w.right - w.left + 1, ny = w.top - w.bottom + 1;
   ZpFieldMap *map = p->result->map = zp_field_map_create(nx, ny);
   if (!map) return false;
+  zp_field_surfaces(&p->field, map->surface);
+  for (size_t k = 0; k < 6; k++)
+    map->surface[k] -= w.bottom;
   for (size_t i = 0; i < nx; i++)
     for (size_t j = 0; j < ny; j++) {
       size_t from = (w.left + i) * g->ny + w.bottom + j, cell = i * (ny - 1) + j;
