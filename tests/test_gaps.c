@@ -87,6 +87,23 @@ START_TEST(closed_faces_lie_on_each_other) {
 }
 END_TEST
 
+/* -- heavy loads ----------------------------------------------------------------------------------- */
+
+/* A floppy ribbon under a load that is put on in shares: it hangs straight down and stretches by its load and half its
+ * own weight. What bends at the clamp is sqrt(EI / P) = 5 um of it. */
+START_TEST(floppy_ribbon_hangs_straight_down) {
+  const double L = 10, EA = 200e9 * 12.7e-3 * 1e-6, weight = 7850 * 12.7e-3 * 1e-6 * L * 9.81;
+  ZpActuatorDef def =
+      DEF({"study", ZP_STUDY_STATIONARY}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
+          {"ribbon.length", L}, {"ribbon.thickness", 1e-6}, {"load.mass", 1});
+  ZpResult *result;
+  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* -- a held platform ------------------------------------------------------------------------------- */
 
 static ZpResult *hold(double voltage) {
@@ -146,6 +163,7 @@ int main(void) {
   tcase_add_loop_test(c, square_wave_rises_within_its_shorter_part, 0, 3);
   tcase_add_test(c, front_ends_at_the_first_open_station);
   tcase_add_test(c, closed_faces_lie_on_each_other);
+  tcase_add_test(c, floppy_ribbon_hangs_straight_down);
   tcase_add_test(c, other_states_are_counted);
   tcase_add_loop_test(c, steps_converge_in_three_iterations, 0, 2);
   suite_add_tcase(suite, c);
