@@ -4,6 +4,7 @@
 
 #include "contact/unilateral.h"
 #include "drive/waveform.h"
+#include "electro/plates.h"
 
 /* -- drive ----------------------------------------------------------------------------------------- */
 
@@ -52,6 +53,90 @@ START_TEST(front_ends_at_the_first_open_station) {
 }
 END_TEST
 
+/* The closed state at drive.voltage: the point of a branch there with the largest capacitance. */
+static size_t closed_row(const ZpTable *branch, double voltage) {
+  size_t closed = 0;
+  for (size_t i = 0; i < branch->rows; i++)
+    if (zp_table_get(branch, i, "voltage_V") == voltage &&
+        zp_table_get(branch, i, "capacitance_F") > zp_table_get(branch, closed, "capacitance_F"))
+      closed = i;
+  return closed;
+}
+
+/* Faces that drive.voltage has closed lie on each other, at the platform or the end, too: their push and the attraction
+ * are equal all along, and they are a plane capacitor of two insulators. A flange has no platform that could push. */
+static void check_closed(const ZpActuatorDef *def, const char *distance, double length) {
+  const double C = ZP_EPS0 * 4.62 * 12.7e-3 * length / (2 * 130e-6), U = def->drive.voltage;
+  ZpResult *result;
+  ZpError err;
+  ck_assert_msg(zp_study_run(def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  size_t row = closed_row(result->series, U);
+  ck_below(zp_table_get(result->series, row, distance), 3e-8); /* range of contact: 5e-7 */
+  ck_near(zp_table_get(result->series, row, "capacitance_F"), C, 1e-4);
+  ck_near(zp_table_get(result->series, row, "charge_C"), C * U, 1e-4);
+  zp_result_destroy(result);
+}
+
+START_TEST(closed_faces_lie_on_each_other) {
+  ZpActuatorDef flange =
+      DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 21},
+          {"ribbon.length", 20e-3}, {"load.mass", 0.1e-3}, {"electro.breakdown_cap", 0}, {"drive.voltage", 2e3});
+  ZpActuatorDef pair = DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"mesh.nodes", 21}, {"electro.breakdown_cap", 0});
+  check_closed(&flange, "stroke_m", 20e-3);
+  check_closed(&pair, "opening_m", 2 * (45e-3 + 5e-3));
+}
+END_TEST
+
+/* -- heavy loads ----------------------------------------------------------------------------------- */
+
+/* A floppy ribbon under a load that is put on in shares: it hangs straight down and stretches by its load and half its
+ * own weight. What bends at the clamp is sqrt(EI / P) = 5 um of it. */
+START_TEST(floppy_ribbon_hangs_straight_down) {
+  const double L = 10, EA = 200e9 * 12.7e-3 * 1e-6, weight = 7850 * 12.7e-3 * 1e-6 * L * 9.81;
+  ZpActuatorDef def =
+      DEF({"study", ZP_STUDY_STATIONARY}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
+          {"ribbon.length", L}, {"ribbon.thickness", 1e-6}, {"load.mass", 1});
+  ZpResult *result;
+  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- a held platform ------------------------------------------------------------------------------- */
+
+static ZpResult *hold(double voltage) {
+  ZpActuatorDef def = DEF({"study", ZP_STUDY_ISOMETRIC}, {"mesh.nodes", 21}, {"isometric.separation", 17e-3},
+                          {"drive.voltage", voltage}, {"output.samples", 20000});
+  ZpResult *result;
+  ZpError err;
+  ck_assert_msg(zp_study_run(&def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  return result;
+}
+
+/* How often a branch of states comes up through `voltage` while they are stable. */
+static int times_passed(const ZpTable *branch, double voltage) {
+  int times = 0;
+  for (size_t i = 1; i < branch->rows; i++)
+    times += zp_table_get(branch, i - 1, "voltage_V") < voltage && zp_table_get(branch, i, "voltage_V") >= voltage &&
+             zp_table_get(branch, i - 1, "stable") == 1 && zp_table_get(branch, i, "stable") == 1;
+  return times;
+}
+
+/* On this mesh the branch turns at 6.15 kV, back at 6.03 kV: at 6.1 kV there is a second state, which was not counted
+ * if the search ended early. The branch itself, followed further, says how many there are. */
+START_TEST(other_states_are_counted) {
+  ZpResult *here = hold(6.1e3), *further = hold(7e3);
+  int states = times_passed(further->series, 6.1e3);
+  ck_assert_int_eq(states, 2);
+  ck_assert_double_eq(zp_result_get(here, "other_states"), states - 1);
+  zp_result_destroy(here);
+  zp_result_destroy(further);
+}
+END_TEST
+
 /* -- implicit steps -------------------------------------------------------------------------------- */
 
 /* A wrong matrix of the iteration gives the right motion, at the cost of more iterations: they are two or three a step
@@ -77,6 +162,9 @@ int main(void) {
   TCase *c = tcase_create("gaps");
   tcase_add_loop_test(c, square_wave_rises_within_its_shorter_part, 0, 3);
   tcase_add_test(c, front_ends_at_the_first_open_station);
+  tcase_add_test(c, closed_faces_lie_on_each_other);
+  tcase_add_test(c, floppy_ribbon_hangs_straight_down);
+  tcase_add_test(c, other_states_are_counted);
   tcase_add_loop_test(c, steps_converge_in_three_iterations, 0, 2);
   suite_add_tcase(suite, c);
   return run_suite(suite);
