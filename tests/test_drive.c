@@ -266,10 +266,17 @@ START_TEST(energy_balances) {
 }
 END_TEST
 
-/* The work of the source is the integral of U dQ over rows at every step, which end at t; jumps apart. */
-START_TEST(work_is_integral_of_U_dQ) {
+/* A sine with steps of one length, a row at each: the trapezoids of U dQ of the rows, the integral of the current, and
+ * what the simulation says. */
+typedef struct Work {
+  double trapezoids, current, work, charge;
+} Work;
+
+static Work work_over(double time_step) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_SINE, 5e-3);
   def.drive.frequency = 300;
+  def.drive.voltage = 3e3; /* nothing is capped, nothing meets */
+  def.solver.time_step = time_step;
   def.output.samples = 100000;
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -280,42 +287,208 @@ START_TEST(work_is_integral_of_U_dQ) {
   ZpRunInfo info;
   zp_sim_run(sim, def.solver.end_time, false, NULL, &info);
   ck_assert_uint_ge(series->rows + 3, (size_t)info.steps); /* steps that events cut may share a row */
-  double sum = 0, current = 0;
+  Work sum = {.work = zp_sim_get(sim, "electric_work")};
   for (size_t i = 1; i < series->rows; i++) {
     double U = zp_table_get(series, i, "voltage_V"), U0 = zp_table_get(series, i - 1, "voltage_V");
     double Q = zp_table_get(series, i, "charge_C"), Q0 = zp_table_get(series, i - 1, "charge_C");
     double t = zp_table_get(series, i, "time_s"), t0 = zp_table_get(series, i - 1, "time_s");
-    sum += U * (Q - Q0) - (U - U0) * (Q - Q0) / 2;
-    current += zp_table_get(series, i, "current_A") * (t - t0);
+    sum.trapezoids += 0.5 * (U + U0) * (Q - Q0);
+    sum.current += zp_table_get(series, i, "current_A") * (t - t0);
   }
-  double last = zp_table_get(series, series->rows - 1, "charge_C"), first = zp_table_get(series, 0, "charge_C");
-  ck_near(zp_sim_get(sim, "electric_work"), sum, 1e-8);
-  ck_near(current, last - first, 1e-10);
-  ck_assert_double_gt(fabs(sum), 1e-6);
+  sum.charge = zp_table_get(series, series->rows - 1, "charge_C") - zp_table_get(series, 0, "charge_C");
   zp_table_destroy(series);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return sum;
+}
+
+/* The work of the source is the integral of U dQ: what the discrete gradient differs by from trapezoids falls with the
+ * square of the step. Measured: ratios of 3.92 and 3.97. */
+START_TEST(work_is_integral_of_U_dQ) {
+  double off[3];
+  for (int k = 0; k < 3; k++) {
+    Work sum = work_over(40e-6 / (1 << k));
+    off[k] = fabs(sum.work / sum.trapezoids - 1);
+    printf("work %.6g J, trapezoids differ by %.2e\n", sum.work, off[k]);
+    ck_near(sum.current, sum.charge, 1e-10);
+    ck_assert_double_gt(fabs(sum.work), 1e-8);
+  }
+  ck_near(off[0] / off[1], 4, 0.2);
+  ck_near(off[1] / off[2], 4, 0.2);
+}
+END_TEST
+
+/* Energies of a capacitor, and what the source has given it. */
+typedef struct Charging {
+  double work, field, loss, charge, current; /* the last: its integral */
+} Charging;
+
+static Charging charging_of(ZpSim *sim) {
+  return (Charging){.work = zp_sim_get(sim, "electric_work"),
+                    .field = zp_sim_get(sim, "field_energy"),
+                    .loss = zp_sim_get(sim, "charging_loss"),
+                    .charge = zp_sim_get(sim, "charge")};
+}
+
+/* From 0 to 4 kV by hand, in `steps` jumps, each followed by a step in time. */
+static Charging ramp_by_hand(const ZpActuatorDef *def, int steps, double *imbalance) {
+  ZpActuatorDef off = *def;
+  off.drive.waveform = ZP_WAVEFORM_STEP;
+  off.drive.voltage = off.drive.rise_time = 0;
+  ZpModel *model = model_of(&off);
+  ZpSim *sim = sim_of(model);
+  size_t signals;
+  zp_signal_columns(&signals);
+  double row[64], current = 0, dt = def->drive.rise_time / steps, before = 0;
+  ck_assert_uint_le(signals, LENGTH_OF(row));
+  for (int k = 1; k <= steps; k++) {
+    ck_assert_int_eq(zp_sim_set_voltage(sim, 4e3 * k / steps, NULL), ZP_OK);
+    ck_assert(zp_outcome_good(zp_sim_step(sim, dt, NULL, NULL)));
+    zp_sim_read(sim, row);
+    double now = zp_sim_get(sim, "time");
+    current += row[10] * (now - before);
+    before = now;
+  }
+  Charging by_hand = charging_of(sim);
+  by_hand.current = current;
+  *imbalance = fabs(zp_sim_get(sim, "energy_imbalance"));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return by_hand;
+}
+
+/* Found by users: a ramp to 4 kV by hand booked no work for its jumps (a fifteenth of the waveform's), and its currents
+ * added up to 4 % of the charge. Both are now the waveform's but for the charging loss of a jump, C dU^2 / 2, so that a
+ * thousand of them lose a thousandth of the work. Measured: 3e-6 off, as the voltage comes half a step early. */
+START_TEST(voltage_by_hand_books_its_work) {
+  enum { STEPS = 1000 };
+  ZpActuatorDef def = driven(ZP_WAVEFORM_RAMP, 20e-3);
+  def.drive.voltage = 4e3;
+  def.drive.rise_time = 20e-3;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 20e-3, false, NULL, NULL);
+  Charging ramp = charging_of(sim);
+  double imbalance;
+  Charging by_hand = ramp_by_hand(&def, STEPS, &imbalance);
+  printf("ramp: %.5g J, by hand %.5g J, of which lost %.3g J; imbalance %.1e J\n", ramp.work, by_hand.work,
+         by_hand.loss, imbalance);
+  ck_assert_double_eq(ramp.loss, 0);
+  ck_near(by_hand.work - by_hand.loss, ramp.work, 1e-3);
+  ck_near(by_hand.loss, ramp.field / STEPS, 0.1); /* above 3.1 kV the cap takes part of it */
+  ck_near(by_hand.current, by_hand.charge, 1e-9);
+  ck_below(imbalance, 1e-8 * by_hand.work);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
 END_TEST
 
-/* A ramp that is cut into pieces by corners, or stays in between, does the same work; a jump none. */
-START_TEST(account_closes_at_corners) {
+/* Where nothing has moved yet and nothing is capped, the actuator is a capacitor C: n jumps to U give C U^2 / 2 (1 +
+ * 1/n), of which the field keeps C U^2 / 2. */
+START_TEST(jumps_of_a_capacitor) {
+  static const int jumps[] = {1, 2, 10};
+  for (size_t i = 0; i < LENGTH_OF(jumps); i++) {
+    ZpActuatorDef def = driven(ZP_WAVEFORM_RAMP, 1e-3);
+    def.electro.breakdown_cap = false;
+    def.drive.rise_time = 1e-12 * jumps[i]; /* of each jump: nothing moves */
+    double imbalance;
+    Charging c = ramp_by_hand(&def, jumps[i], &imbalance);
+    ck_near(c.field, 0.5 * c.charge * 4e3, 1e-12);
+    ck_near(c.work, c.field * (1 + 1.0 / jumps[i]), 1e-9);
+    ck_near(c.loss, c.field / jumps[i], 1e-9);
+  }
+}
+END_TEST
+
+/* A voltage that is there at t = 0 has jumped there; with the cap the field keeps less than half. */
+START_TEST(jump_at_the_start) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 1e-3);
+  for (int capped = 0; capped < 2; capped++) {
+    def.electro.breakdown_cap = capped;
+    ZpModel *model = model_of(&def);
+    ZpSim *sim = sim_of(model);
+    Charging start = charging_of(sim);
+    ck_near(start.work, 10e3 * start.charge, 1e-14);
+    ck_near(start.loss, start.work - start.field, 1e-14);
+    if (capped)
+      ck_assert_double_gt(start.loss, 1.01 * start.field);
+    else
+      ck_near(start.loss, start.field, 1e-12);
+    zp_sim_run(sim, 1e-3, false, NULL, NULL); /* and stays booked */
+    ck_near(zp_sim_get(sim, "charging_loss"), start.loss, 1e-14);
+    ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-8 * start.work);
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+}
+END_TEST
+
+/* A ramp, a hold, a jump, a ramp: the jump does U dQ, and its loss closes the balance. */
+START_TEST(account_over_corners) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 10e-3);
   const double t[] = {0, 2e-3, 4e-3, 4e-3, 10e-3}, U[] = {0, 6e3, 6e3, 9e3, 7e3};
   ZpModel *model = model_with_table(&def, 5, t, U);
   ZpSim *sim = sim_of(model);
   zp_sim_run(sim, nextafter(4e-3, 0), false, NULL, NULL);
-  double before = zp_sim_get(sim, "electric_work"), field = zp_sim_get(sim, "field_energy");
+  Charging before = charging_of(sim);
   zp_sim_run(sim, 4e-3, false, NULL, NULL);
-  ck_near(zp_sim_get(sim, "electric_work"), before, 1e-9);
-  ck_assert_double_gt(zp_sim_get(sim, "field_energy"), 1.5 * field);
-  ck_assert(sim->state->U == 9e3);
+  Charging after = charging_of(sim);
+  ck_assert(sim->state->U == 9e3 && before.loss == 0);
+  ck_near(after.work - before.work, 9e3 * (after.charge - before.charge), 1e-9);
+  ck_near(after.loss, after.work - before.work - (after.field - before.field), 1e-9);
+  ck_assert_double_gt(after.loss, 0);
   zp_sim_run(sim, 10e-3, false, NULL, NULL);
   double error = fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work");
   printf("ramp, hold, jump, ramp: imbalance %.1e of the work\n", error);
-  ck_below(error, 1e-3); /* 1e-4 measured */
+  ck_below(error, 1e-7); /* 1e-9 measured */
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+}
+END_TEST
+
+/* A wave of both signs over `end` seconds. */
+static ZpActuatorDef alternating(ZpWaveformKind kind, double end) {
+  ZpActuatorDef def = driven(kind, end);
+  def.mesh.nodes = 61;
+  def.drive.offset = -10e3;
+  def.drive.frequency = 50;
+  if (kind == ZP_WAVEFORM_SQUARE) def.drive.rise_time = 1e-3;
+  return def;
+}
+
+/* Found by users: trapezoids of the work beside an attraction at the middle voltage lost dC dU^2 / 8 in each step:
+ * 0.015 of the work in 3 s. Measured now: 1.6e-8 and 2.4e-8; over 10 s 1.6e-8 and 4.0e-8. */
+START_TEST(alternating_voltage_keeps_energy) {
+  static const ZpWaveformKind kind[] = {ZP_WAVEFORM_SINE, ZP_WAVEFORM_SQUARE};
+  ZpActuatorDef def = alternating(kind[_i], 1);
+  ZpResult *result;
+  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(result->outcome, ZP_REACHED_END);
+  printf("%s of 50 Hz, 1 s: energy error %.1e in %g steps\n", _i ? "square" : "sine",
+         zp_result_get(result, "energy_error"), zp_result_get(result, "steps"));
+  ck_below(zp_result_get(result, "energy_error"), 1e-7);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Found by users: a fortieth of the largest voltage bounded the steps, whatever the tolerance. */
+START_TEST(tolerance_rules_the_steps) {
+  static const double tolerance[] = {1e-3, 1e-4, 1e-5};
+  double steps[3], opening[3];
+  for (size_t i = 0; i < LENGTH_OF(tolerance); i++) {
+    ZpActuatorDef def = alternating(ZP_WAVEFORM_SINE, 0.1);
+    def.solver.tolerance = tolerance[i];
+    ZpResult *result;
+    ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+    steps[i] = zp_result_get(result, "steps");
+    opening[i] = zp_result_get(result, "opening_m");
+    zp_result_destroy(result);
+  }
+  printf("sine of 50 Hz, 0.1 s: %g, %g, %g steps to %.4f, %.4f, %.4f mm\n", steps[0], steps[1], steps[2],
+         1e3 * opening[0], 1e3 * opening[1], 1e3 * opening[2]);
+  ck_assert_double_gt(steps[1], 1.2 * steps[0]);
+  ck_assert_double_gt(steps[2], 1.5 * steps[1]);
+  ck_below(fabs(opening[1] - opening[2]), 0.5 * fabs(opening[0] - opening[2]));
 }
 END_TEST
 
@@ -331,6 +504,42 @@ START_TEST(set_by_hand_counts) {
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-3 * zp_sim_get(sim, "electric_work"));
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+}
+END_TEST
+
+/* The state after 20 steps by hand, each set `often` times, before which another voltage was set that does not last,
+ * and looked at where `looks`. */
+static void *state_by_hand(const ZpModel *model, int often, bool looks, int *solutions) {
+  ZpSim *sim = sim_of(model);
+  void *state = malloc(zp_sim_state_size(sim));
+  for (int k = 0; k < 20; k++) {
+    if (often > 1) zp_sim_set_voltage(sim, 9.999e3, NULL);
+    for (int i = 0; i < often; i++)
+      zp_sim_set_voltage(sim, k < 10 ? 10e3 : 9.5e3, NULL);
+    if (looks) ck_assert_double_gt(zp_sim_get(sim, "electric_work") + zp_sim_get(sim, "energy_imbalance"), 0);
+    zp_sim_step(sim, 1e-5, NULL, NULL);
+  }
+  zp_sim_save(sim, state);
+  *solutions = sim->eval.surplus.solutions;
+  zp_sim_destroy(sim);
+  return state;
+}
+
+/* Found by users: each call solved the field again, also where the voltage was what it is. Setting a voltage again,
+ * replacing it before anything moves, and reading leave every bit as it is. */
+START_TEST(setting_and_reading_change_nothing) {
+  ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 1e-3);
+  for (int field = 0; field < 2; field++) {
+    def.electro.model = field ? ZP_ELECTRO_FIELD : ZP_ELECTRO_PLATES;
+    ZpModel *model = model_of(&def);
+    int once, more;
+    void *plain = state_by_hand(model, 1, false, &once), *again = state_by_hand(model, 3, true, &more);
+    ck_assert_mem_eq(plain, again, zp_state_size(model));
+    ck_assert_int_eq(more, once);
+    ck_below(once, field ? 4 : 1); /* far fewer than calls */
+    free(plain), free(again);
+    zp_model_destroy(model);
+  }
 }
 END_TEST
 
@@ -593,7 +802,13 @@ int main(void) {
   tcase_add_test(runs, corners_within_no_time);
   tcase_add_test(runs, energy_balances);
   tcase_add_test(runs, work_is_integral_of_U_dQ);
-  tcase_add_test(runs, account_closes_at_corners);
+  tcase_add_test(runs, voltage_by_hand_books_its_work);
+  tcase_add_test(runs, jumps_of_a_capacitor);
+  tcase_add_test(runs, jump_at_the_start);
+  tcase_add_test(runs, account_over_corners);
+  tcase_add_loop_test(runs, alternating_voltage_keeps_energy, 0, 2);
+  tcase_add_test(runs, tolerance_rules_the_steps);
+  tcase_add_test(runs, setting_and_reading_change_nothing);
   tcase_add_test(runs, set_by_hand_counts);
   tcase_add_test(runs, restart_inside_a_ramp);
   tcase_add_test(runs, field_follows_the_cap);

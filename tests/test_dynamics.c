@@ -268,19 +268,31 @@ static void random_gaps(double *gap, uint64_t *seed) {
     gap[i] = 0.35e-3 * (1 + noise(seed));
 }
 
-/* |work + P1 - P0| over the size of the potential. */
-static double plates_error(Plates *p) {
+/* |work + P1 - P0| over the size of the potential, where the voltage goes from that of the law to U1: P in the mean of
+ * both. */
+static double plates_error_to(Plates *p, double U1) {
   const ZpPlatesParams *params = &p->model->plates;
-  zp_plates_step(params, &p->eval[0], &p->eval[1], p->U, &p->step);
-  double P0 = zp_plates_totals(params, &p->eval[0], p->U).potential,
-         P1 = zp_plates_totals(params, &p->eval[1], p->U).potential, work = 0;
+  double U[2] = {p->U, U1}, P[2] = {0, 0}, work = 0;
+  zp_plates_step(params, &p->eval[0], &p->eval[1], U[0], U[1], &p->step);
+  for (size_t end = 0; end < 2; end++)
+    for (size_t k = 0; k < 2; k++)
+      P[end] += 0.5 * zp_plates_totals(params, &p->eval[end], U[k]).potential;
   for (size_t j = 0; j < p->model->count; j++)
     work += p->step.Fx[j] * (p->x[1][j] - p->x[0][j]) + p->step.Fy[j] * (p->y[1][j] - p->y[0][j]);
-  return fabs(work + P1 - P0) / (fabs(P0) + fabs(P1));
+  return fabs(work + P[1] - P[0]) / (fabs(P[0]) + fabs(P[1]));
 }
 
-/* Gaps above, below and across the cap, the same at both ends, and apart by as little as rounding: the work is what the
- * potential loses. Measured: within 6e-16 of the potential. */
+/* The same at other voltages, and none, of either sign, too: the worst. */
+static double plates_error(Plates *p) {
+  static const double to[] = {1, -1, 0.97, 0.3, -0.6, 0};
+  double worst = 0;
+  for (size_t k = 0; k < LENGTH_OF(to); k++)
+    worst = fmax(worst, plates_error_to(p, to[k] * p->U));
+  return worst;
+}
+
+/* Gaps above, below and across the cap, the same at both ends, and apart by as little as rounding; voltages that stay
+ * and that change: the work is what the potential loses. Measured: within 6e-16 of the potential. */
 START_TEST(test_plates_work) {
   static const double apart[] = {0, 1e-15, 1e-12, 1e-10, 5e-9, 2e-8, 1e-6, 1e-4};
   uint64_t seed = 11;
@@ -325,20 +337,20 @@ typedef struct Worst {
 } Worst;
 
 /* Central differences by the gap of station i at the step's end. */
-static void check_gap(Plates *p, size_t i, Worst *worst) {
+static void check_gap(Plates *p, double U1, size_t i, Worst *worst) {
   const double h = 1e-9;
   const ZpPlatesStep kept = p->step;
   double force[2][STATIONS], along[2][STATIONS], *gap = &p->eval[1].gap[i], at = *gap;
   for (size_t k = 0; k < 2; k++) {
     *gap = at + (k ? h : -h);
-    zp_plates_step(&p->model->plates, &p->eval[0], &p->eval[1], p->U, &p->step);
+    zp_plates_step(&p->model->plates, &p->eval[0], &p->eval[1], p->U, U1, &p->step);
     for (size_t j = 0; j < STATIONS; j++) {
       force[k][j] = closing(p, j);
       along[k][j] = pulling(p, j);
     }
   }
   *gap = at;
-  zp_plates_step(&p->model->plates, &p->eval[0], &p->eval[1], p->U, &p->step);
+  zp_plates_step(&p->model->plates, &p->eval[0], &p->eval[1], p->U, U1, &p->step);
 #define SLOPE(of, j) ((of[1][j] - of[0][j]) / (2 * h))
   worst->size = fmax(worst->size, fabs(kept.own[i]));
   worst->own = fmax(worst->own, fabs(SLOPE(force, i) - kept.own[i]));
@@ -364,9 +376,10 @@ START_TEST(test_plates_derivative) {
     random_gaps(gap[1], &seed);
     set_end(&p, 0, gap[0], &seed);
     set_end(&p, 1, gap[1], &seed);
-    zp_plates_step(&p.model->plates, &p.eval[0], &p.eval[1], p.U, &p.step);
+    double U1 = k % 2 ? p.U : 0.7 * p.U;
+    zp_plates_step(&p.model->plates, &p.eval[0], &p.eval[1], p.U, U1, &p.step);
     for (size_t i = 0; i < STATIONS; i++)
-      check_gap(&p, i, &worst);
+      check_gap(&p, U1, i, &worst);
   }
   printf("plates, %s: derivatives off by %.1e, %.1e, %.1e\n", laws[_i].name, worst.own / worst.size,
          worst.next / worst.size, worst.along);
@@ -581,14 +594,15 @@ static Zip zip(ZpActuatorDef def) {
 static void check_zip(const char *name, const Zip *zip) {
   printf("%s: %.3f ms, energy off by %.1e, faces overlap by %.2g um, %.3f of the work lost where they meet\n", name,
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
-  ck_below(zip->energy_error, 1e-5); /* 4e-6 of mass_spring, whose shear has no energy; 3e-7 of the others */
+  ck_below(zip->energy_error, 1e-5); /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
   ck_below(zip->overlap, 1e-6);
   ck_assert_double_gt(zip->contact_loss, 0.1);
   ck_assert_double_gt(zip->contraction, 0.99);
 }
 
 /* The default actuator: times agree between tolerances and between meshes. Measured: 75.65 ms, with a tolerance of 1e-6
- * 75.88 ms (0.3 %), at N = 121 75.68 ms (0.03 %); energy within 1.2e-8, 2e-10, 3.2e-8; overlap 0.04, 0.37, 0.08 um. */
+ * 75.88 ms (0.3 %), at N = 121 75.68 ms (0.03 %); energy within 1.0e-8, 1.3e-10, 2.7e-8; overlap 0.04, 0.37, 0.08 um.
+ */
 START_TEST(test_zip_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -643,6 +657,37 @@ START_TEST(test_zip_explicit) {
 }
 END_TEST
 
+/* Energy error of study actuate at 12 kV, or through a slow release. */
+static double energy_error_of(const ZpActuatorDef *def, size_t rows, const double *t, const double *U) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ZpDriveTable table = {rows, t, U};
+  ck_assert_msg(zp_study_run_with(def, &(ZpStudyInput){.table = rows ? &table : NULL}, NULL, &result, &err) == ZP_OK,
+                "%s", err.message);
+  ck_assert(zp_outcome_good(result->outcome));
+  double error = zp_result_get(result, "energy_error");
+  printf("N = %d, %g steps: energy error %.1e\n", def->mesh.nodes, zp_result_get(result, "steps"), error);
+  zp_result_destroy(result);
+  return error;
+}
+
+/* Found by users: 6e-4 of the work at N = 401. Newton's method stopped while faces met one after the other: so slow a
+ * convergence was taken for rounding, or the last correction brought faces into touch. A residual of no length is much
+ * work where a fine mesh is stiff. Measured: 1.4e-9. */
+START_TEST(test_energy_on_a_fine_mesh) {
+  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 401}, {"drive.voltage", 12e3});
+  ck_below(energy_error_of(&def, 0, NULL, NULL), 1e-7);
+}
+END_TEST
+
+/* Found by users: the same in a slow release, 9e-6 here. Measured: 1e-8. */
+START_TEST(test_energy_of_a_slow_release) {
+  static const double t[] = {0, 0.2, 0.3, 10.3}, U[] = {10e3, 10e3, 2e3, 0};
+  ZpActuatorDef def = DEF(IMPLICIT, {"drive.waveform", ZP_WAVEFORM_TABLE}, {"solver.end_time", 11});
+  ck_below(energy_error_of(&def, LENGTH_OF(t), t, U), 1e-7);
+}
+END_TEST
+
 static double contraction_at(double voltage, double rise_time, double end_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 61}, {"drive.voltage", voltage}, {"solver.end_time", end_time});
   if (rise_time > 0) {
@@ -669,7 +714,7 @@ START_TEST(test_pull_in_in_motion) {
 END_TEST
 
 /* Plates are the most of the solved field; what it has beyond them is held between its solutions, which costs energy.
- * Measured: 75.66 ms, 0.2 % off plates; energy within 2e-4, far more than that of plates. */
+ * Measured: 75.66 ms, 0.2 % off plates; energy within 1.6e-4, far more than that of plates. */
 START_TEST(test_zip_by_field) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   double plates = zip(def).time;
@@ -782,7 +827,7 @@ START_TEST(test_restart) {
 END_TEST
 
 /* One ribbon under a flat electrode, 2 g at its end: below its pull-in, 1757 V at rest, it hangs; above, it closes and
- * stays. Measured: energy off by 1.8e-6 and 2.8e-6 of the work. */
+ * stays. Measured: energy off by 4e-10 of the work. */
 START_TEST(test_flange) {
   double stroke[2];
   for (int k = 0; k < 2; k++) {
@@ -801,7 +846,7 @@ START_TEST(test_flange) {
            start = zp_result_get(result, "start_stroke_m");
     printf("flange at %g kV: from %.4f to %.4f mm, energy off by %.1e\n", 1e-3 * def.drive.voltage, 1e3 * start,
            1e3 * stroke[k], off / work);
-    ck_below(fabs(off), 1e-4 * work);
+    ck_below(fabs(off), 1e-8 * work);
     if (k == 0)
       ck_assert_double_gt(stroke[0], 0.5 * start);
     else
@@ -833,6 +878,8 @@ int main(void) {
 #ifndef __SANITIZE_ADDRESS__ /* a minute each there, of code that the others run, too */
   tcase_add_loop_test(two, test_zip_explicit, 0, 2);
   tcase_add_test(two, test_pull_in_in_motion);
+  tcase_add_test(two, test_energy_on_a_fine_mesh);
+  tcase_add_test(two, test_energy_of_a_slow_release);
 #endif
   tcase_add_test(two, test_zip_by_field);
   tcase_add_test(two, test_opens_again);

@@ -525,7 +525,7 @@ START_TEST(test_surfaces_on_wedge) {
 END_TEST
 
 /* Bezier over polyline, less one, on the shape of `sim`. */
-static double difference_on(const ZpSim *sim, int nodes, bool cap, double U) {
+static double difference_on(ZpSim *sim, int nodes, bool cap, double U) {
   Pair pair = make_pair(default_model(nodes, cap, true));
   ZpShape shape = zp_sim_shape(sim);
   memcpy(pair.x, shape.x, pair.model->count * sizeof(double));

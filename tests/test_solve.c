@@ -266,8 +266,10 @@ typedef struct Springs {
   void *memory;
 } Springs;
 
-static void springs_begin(void *self, const double *q0) {
-  memcpy(((Springs *)self)->q0, q0, sizeof((Springs *)self)->q0);
+static double springs_begin(void *self, const double *q0) {
+  Springs *s = self;
+  memcpy(s->q0, q0, sizeof s->q0);
+  return 0.5 * s->k[0] * q0[0] * q0[0] + 0.5 * s->k[1] * (q0[1] - q0[0]) * (q0[1] - q0[0]);
 }
 
 static double cubic(double a, double b) {
@@ -309,6 +311,7 @@ static void make_springs(Springs *s, double k0, double k1, double c) {
   carver = (ZpCarver){s->memory, 0};
   zp_implicit_carve(&s->stepper, &s->system, &carver);
   s->stepper.accuracy = 1e-9;
+  s->stepper.balance = 1e-9;
   s->history = (ZpImplicitHistory){.w = s->w, .a = s->a};
 }
 

@@ -98,19 +98,22 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
  * repeated, would shake what vibrates near the bound of stability until the numbers diverge. */
 ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
-/* Change the potential difference from now on; drive.waveform does not count any more. ZP_BAD_INPUT if it is out of the
- * range of drive.voltage, and as zp_def_check_voltage. */
+/* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
+ * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
+ * that is replaced before the simulation goes on counts for nothing (unless a field had to be solved for it); an
+ * unchanged one costs nothing. ZP_BAD_INPUT if it is out of the range of drive.voltage, and as zp_def_check_voltage. */
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
-/* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. */
-double zp_sim_get(const ZpSim *sim, const char *name);
+/* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
+ * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */
+double zp_sim_get(ZpSim *sim, const char *name);
 
-/* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current counts from the row
- * before. */
+/* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current counts from the last
+ * row at an earlier time, so that current times time adds up to the charge, jumps of the voltage included. */
 void zp_sim_read(ZpSim *sim, double *row);
 
 /* Present shape; its pointers are valid until the simulation goes on. */
-ZpShape zp_sim_shape(const ZpSim *sim);
+ZpShape zp_sim_shape(ZpSim *sim);
 
 /* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN
  * if not yet. */

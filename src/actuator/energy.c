@@ -1,37 +1,34 @@
-/* State => energies and electric totals, of one modelled part. Read at records only. */
+/* State => energies and electric totals, of one modelled part. */
 #include "actuator/eval.h"
 
 /* What a solved field has beyond plates: since the last refresh its co-energy changed by the held force's work. */
-static void add_beyond_plates(const ZpModel *model, const ZpState *state, ZpEnergies *energies) {
-  const double *q = state->data, *held = q + 4 * model->stride, *then = q + 6 * model->stride;
-  double U = state->U, work = 0;
+static void add_beyond_plates(const ZpModel *model, const ZpState *state, const double *q, double U, ZpElectric *sum) {
+  const double *held = state->data + 4 * model->stride, *then = state->data + 6 * model->stride;
+  double work = 0;
   for (size_t k = 0; k < 2 * model->stride; k++)
     work += held[k] * (q[k] - then[k]);
   for (size_t i = 0; i < model->nodes; i++)
-    energies->force += 0.5 * U * U * (held[model->stride + 2 * i + 1] - held[model->stride + 2 * i]);
-  double charge = state->held_charge + 2 * work; /* per volt */
-  energies->charge += charge * U;
-  energies->field += U * U * (charge - state->held_energy - work);
-  energies->capacitance += state->held_capacitance;
+    sum->force += 0.5 * U * U * (held[model->stride + 2 * i + 1] - held[model->stride + 2 * i]);
+  sum->charge += U * (state->held_charge + 2 * work);
+  sum->potential -= U * U * (state->held_energy + work);
+  sum->capacitance += state->held_capacitance + 2 * work / model->field_scale;
 }
 
-/* The electric part. */
-static void add_field(const ZpModel *model, const ZpState *state, ZpEval *e, ZpEnergies *energies) {
-  ZpMotion m = zp_state_motion(model, state);
+ZpElectric zp_eval_electric(const ZpModel *model, const ZpState *state, const double *q, const ZpPlatesEval *gaps,
+                            double U) {
   const ZpActuatorDef *def = &model->def;
-  zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
-  ZpPlatesTotals totals = zp_plates_totals(&model->plates, &e->plates, state->U);
-  energies->force = totals.force;
-  energies->charge = totals.charge;
-  energies->field = totals.charge * state->U + totals.potential;
-  energies->capacitance = ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
-  if (model->field_solved) add_beyond_plates(model, state, energies);
+  if (!model->field) return (ZpElectric){0};
+  ZpPlatesTotals totals = zp_plates_totals(&model->plates, gaps, U);
+  double capacitance = ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  ZpElectric sum = {totals.force, totals.charge, totals.potential, capacitance};
+  if (model->field_solved) add_beyond_plates(model, state, q, U, &sum);
+  return sum;
 }
 
-double zp_eval_charge(const ZpModel *model, const ZpState *state, ZpEval *e) {
-  ZpEnergies energies = {0};
-  if (model->field) add_field(model, state, e, &energies);
-  return energies.charge;
+ZpElectric zp_eval_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *e) {
+  ZpMotion m = zp_state_motion(model, state);
+  if (model->field) zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
+  return zp_eval_electric(model, state, m.x, &e->plates, U);
 }
 
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
@@ -50,6 +47,5 @@ ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *
     energies.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
     energies.gravity += model->weight[j] * m.y[j];
   }
-  if (model->field) add_field(model, state, e, &energies);
   return energies;
 }

@@ -209,12 +209,16 @@ static bool cap_changed(const ZpModel *model, const ZpState *state, double share
   return fabs(fmax(d, zp_plates_least_h(&model->plates, state->U)) - before) > share * before;
 }
 
+bool zp_eval_voltage_outdates(const ZpModel *model, const ZpState *state) {
+  if (!model->field_solved) return model->def.electro.refresh_period > 0;
+  return isnan(state->refreshed) || cap_changed(model, state, model->def.electro.refresh_change);
+}
+
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
   const ZpActuatorDef *def = &model->def;
-  double share = def->electro.refresh_change;
   if (!model->field) return false;
   if (model->field_solved)
-    return isnan(state->refreshed) || cap_changed(model, state, share) || gaps_changed(model, state, share);
+    return zp_eval_voltage_outdates(model, state) || gaps_changed(model, state, def->electro.refresh_change);
   return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
 }
 

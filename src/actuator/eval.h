@@ -52,6 +52,9 @@ void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *t
  * beyond plates is due when a gap with its insulators, or the one where breakdown sets in, has changed by more than
  * electro.refresh_change. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);
+
+/* Is it due for the sake of a voltage that has just become another? */
+bool zp_eval_voltage_outdates(const ZpModel *model, const ZpState *state);
 void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
 
 /* The three bounds of eq. (9) of the paper at the last accelerations, s; INFINITY where nothing moves. */
@@ -67,15 +70,30 @@ double zp_eval_weight_scale(const ZpModel *model);
 /* (accelerations under model->pseudo) => largest force left over zp_eval_weight_scale; NAN if any is. */
 double zp_eval_imbalance(const ZpModel *model, const double *a);
 
-/* Energies and electric totals of one modelled part. */
+/* Energies of one modelled part without the field. */
 typedef struct ZpEnergies {
   double kinetic, axial, bending, gravity; /* J */
-  double field;                            /* J, with what the breakdown cap takes */
-  double force, charge, capacitance;       /* N, C, F */
 } ZpEnergies;
 ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *eval);
 
-/* Their charge alone, C. */
-double zp_eval_charge(const ZpModel *model, const ZpState *state, ZpEval *eval);
+/* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */
+typedef struct ZpElectric {
+  double force;       /* N */
+  double charge;      /* C */
+  double potential;   /* at constant voltage, J: its gradient is the force; charge = -d/dU */
+  double capacitance; /* F */
+} ZpElectric;
+
+/* Energy of the field, with what the breakdown cap takes, J. */
+static inline double zp_field_energy(ZpElectric electric, double U) {
+  return electric.charge * U + electric.potential;
+}
+
+/* (held field of the state, coordinates, their gaps, U) => totals. */
+ZpElectric zp_eval_electric(const ZpModel *model, const ZpState *state, const double *q, const ZpPlatesEval *gaps,
+                            double U);
+
+/* The same where the state is. */
+ZpElectric zp_eval_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *eval);
 
 #endif

@@ -64,10 +64,13 @@ typedef struct ZpState {
   bool was_open;           /* has the opening been above 1 % of the hanging one? */
   double zip_time;         /* s; NAN until zipped */
   double opening0;         /* of the hanging equilibrium, m */
-  double base_charge;      /* per part, when the voltage last changed, C */
+  double base_U;           /* voltage since the account of work was last closed, V; where U is another, it has jumped
+                              there now */
+  double base_charge;      /* per part, when it was closed, C */
   double base_energy;      /* per part: kinetic + stored without field at the start, J */
-  double base_field;       /* per part: field energy at the start, and what jumps of the voltage added, J */
-  double work;             /* per part: of the source until the voltage last changed, J */
+  double base_field;       /* per part: field energy at the start, J */
+  double work;             /* per part: of the source until the account was closed, J */
+  double charging_loss;    /* per part: what the field did not keep of jumps of the voltage until then, J */
   double drag_loss;        /* per part, J */
   double contact_loss;     /* per part, J */
   double internal_loss;    /* per part: of internal damping, J */

@@ -169,9 +169,9 @@ static double slope(const ZpWaveform *w, double t) {
 }
 
 double zp_waveform_resolution(const ZpWaveform *w, double t) {
-  static const double share = 1.0 / 40;
-  double rate = fabs(slope(w, t));
-  return rate > 0 ? share * zp_waveform_largest(w) / rate : INFINITY;
+  static const double fine = 1.0 / 40, coarse = 1.0 / 4, fast = 1e-3; /* s */
+  double rate = fabs(slope(w, t)), all = zp_waveform_largest(w) / rate;
+  return rate > 0 ? fmin(coarse * all, fmax(fine * all, fast)) : INFINITY;
 }
 
 double zp_waveform_period(const ZpWaveform *w) {

@@ -37,8 +37,9 @@ bool zp_waveform_is_constant(const ZpWaveform *w);
 /* Largest absolute voltage, V. */
 double zp_waveform_largest(const ZpWaveform *w);
 
-/* Time in which the voltage changes by a fortieth of its largest, s: the mean force of a longer step would be off by
- * more than 10^-3 while it rises. INFINITY where it stays. */
+/* Longest step for a voltage that changes, s: that of a fortieth of its largest, so that slow changes do not carry an
+ * actuator over an instability unseen; where that is below a millisecond the local error sees what happens, and a
+ * quarter will do, so that no wave is left out. INFINITY where it stays. */
 double zp_waveform_resolution(const ZpWaveform *w, double t);
 
 /* INFINITY if it does not repeat itself, s. */

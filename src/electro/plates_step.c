@@ -17,6 +17,24 @@ void zp_plates_step_carve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpCarver *ca
     *arrays[k] = zp_carve(carver, p->nodes);
 }
 
+/* The laws of which a step takes the mean: one where the voltages of both ends attract alike. */
+typedef struct Laws {
+  int count;
+  double share; /* of each in the mean */
+  double U[2];
+  double K[2], h_c[2]; /* as in plates.c; K with that share */
+} Laws;
+
+static Laws laws_of(const ZpPlatesParams *p, double U0, double U1) {
+  int count = fabs(U0) == fabs(U1) ? 1 : 2;
+  Laws laws = {.count = count, .share = 1.0 / count, .U = {U0, U1}};
+  for (int k = 0; k < count; k++) {
+    laws.K[k] = laws.share * p->k * laws.U[k] * laws.U[k];
+    laws.h_c[k] = zp_plates_least_h(p, laws.U[k]);
+  }
+  return laws;
+}
+
 /* The law between two gaps. */
 typedef struct Between {
   double W;     /* (P1 - P0) / (g1 - g0) */
@@ -38,15 +56,27 @@ static inline Between between(double K, double h_c, double h0, double h1) {
 }
 
 /* The same of the law with what the strips' lateral edges add, which has no such quotient in closed form. */
-static Between between_with_edges(const ZpPlatesParams *p, double U, double g0, double g1) {
+static Between between_with_edges(const ZpPlatesParams *p, double U, double share, double g0, double g1) {
   static const double near =
       1e-8; /* m: closer, the difference of P is rounding, the mean force is exact to its square */
   ZpPlatesLaw law0 = zp_plates_law(p, U, g0), law1 = zp_plates_law(p, U, g1);
+  law0.P *= share, law0.W *= share, law1.P *= share, law1.W *= share;
   Between law = {.P = 0.5 * (law0.P + law1.P), .W1 = law1.W, .W = 0.5 * (law0.W + law1.W)};
   if (fabs(g1 - g0) < near) return law;
   law.W = (law1.P - law0.P) / (g1 - g0);
   law.slope = (law1.W - law.W) / (g1 - g0);
   return law;
+}
+
+/* Their mean at one piece. */
+static Between mean_between(const ZpPlatesParams *p, const Laws *laws, double g0, double g1) {
+  Between mean = {0, 0, 0, 0};
+  for (int k = 0; k < laws->count; k++) {
+    Between law = p->edges ? between_with_edges(p, laws->U[k], laws->share, g0, g1)
+                           : between(laws->K[k], laws->h_c[k], g0 + p->d, g1 + p->d);
+    mean = (Between){mean.W + law.W, mean.slope + law.slope, mean.P + law.P, mean.W1 + law.W1};
+  }
+  return mean;
 }
 
 /* Parts of an element: sums over its Gauss points. */
@@ -77,31 +107,44 @@ static inline void put(const ZpPlatesStep *s, size_t i, Parts of) {
   s->along1[i] = of.along1;
 }
 
-ZP_KERNEL static void elements(size_t count, double K, double h_c, double d, const ZpPlatesEval *e0,
-                               const ZpPlatesEval *e1, const ZpPlatesStep *s) {
+/* The sum of `laws` laws: a constant where this is inlined. */
+ZP_INLINE void element_parts(size_t count, int laws, const Laws *law, double d, const ZpPlatesEval *e0,
+                             const ZpPlatesEval *e1, const ZpPlatesStep *s) {
   const double *restrict g0 = e0->gap, *restrict g1 = e1->gap, *restrict dx0 = e0->dx, *restrict dx1 = e1->dx;
   ZpPlatesStep out = *s;
+  Laws of = *law;
   ZP_SIMD
   for (size_t i = 0; i < count; i++) {
     double dx = 0.5 * (dx0[i] + dx1[i]);
     Parts parts = {0};
     for (int q = 0; q < GAUSS; q++) {
       double r = gauss_at[q], l = 1 - r, h0 = l * g0[i] + r * g0[i + 1] + d, h1 = l * g1[i] + r * g1[i + 1] + d;
-      add_point(&parts, between(K, h_c, h0, h1), dx, q);
+      for (int k = 0; k < laws; k++)
+        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1), dx, q);
     }
     put(&out, i, parts);
   }
 }
 
-static void elements_with_edges(const ZpPlatesParams *p, double U, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
-                                const ZpPlatesStep *s) {
+ZP_KERNEL static void elements_at_one(size_t count, const Laws *law, double d, const ZpPlatesEval *e0,
+                                      const ZpPlatesEval *e1, const ZpPlatesStep *s) {
+  element_parts(count, 1, law, d, e0, e1, s);
+}
+
+ZP_KERNEL static void elements_at_two(size_t count, const Laws *law, double d, const ZpPlatesEval *e0,
+                                      const ZpPlatesEval *e1, const ZpPlatesStep *s) {
+  element_parts(count, 2, law, d, e0, e1, s);
+}
+
+static void elements_with_edges(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0,
+                                const ZpPlatesEval *e1, const ZpPlatesStep *s) {
   for (size_t i = 0; i + 1 < p->nodes; i++) {
     double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
     Parts parts = {0};
     for (int q = 0; q < GAUSS; q++) {
       double r = gauss_at[q], l = 1 - r;
       double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
-      add_point(&parts, between_with_edges(p, U, g0, g1), dx, q);
+      add_point(&parts, mean_between(p, laws, g0, g1), dx, q);
     }
     put(s, i, parts);
   }
@@ -131,14 +174,15 @@ static void stations(const ZpPlatesParams *p, ZpPlatesStep *s, Between platform)
   s->own[last] = s->own_B[last - 1] + p->flat_length * platform.slope;
 }
 
-void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
+void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U0, double U1,
                     ZpPlatesStep *s) {
-  double K = p->k * U * U, h_c = zp_plates_least_h(p, U), g0 = e0->gap[p->nodes - 1], g1 = e1->gap[p->nodes - 1];
-  if (p->edges) {
-    elements_with_edges(p, U, e0, e1, s);
-    stations(p, s, between_with_edges(p, U, g0, g1));
-  } else {
-    elements(p->nodes - 1, K, h_c, p->d, e0, e1, s);
-    stations(p, s, between(K, h_c, g0 + p->d, g1 + p->d));
-  }
+  Laws laws = laws_of(p, U0, U1);
+  size_t last = p->nodes - 1;
+  if (p->edges)
+    elements_with_edges(p, &laws, e0, e1, s);
+  else if (laws.count == 1)
+    elements_at_one(last, &laws, p->d, e0, e1, s);
+  else
+    elements_at_two(last, &laws, p->d, e0, e1, s);
+  stations(p, s, mean_between(p, &laws, e0->gap[last], e1->gap[last]));
 }

@@ -1,5 +1,5 @@
-/* The attraction by the plates law over a time step at one voltage: forces that do exactly the work by which its
- * potential changes from one end of the step to the other. docs/theory.md, section 18. */
+/* The attraction by the plates law over a time step: forces that do exactly the work by which its potential changes
+ * from one end of the step to the other, in the mean of the voltages at both ends. docs/theory.md, eq. (18.3). */
 #ifndef ZP_ELECTRO_PLATES_STEP_H
 #define ZP_ELECTRO_PLATES_STEP_H
 
@@ -16,8 +16,8 @@ typedef struct ZpPlatesStep {
 
 void zp_plates_step_carve(const ZpPlatesParams *params, ZpPlatesStep *step, ZpCarver *carver);
 
-/* (gaps and dx at both ends of the step, voltage) => all of `step`. */
-void zp_plates_step(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double voltage,
-                    ZpPlatesStep *step);
+/* (gaps and dx at both ends of the step, voltages there) => all of `step`. */
+void zp_plates_step(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U0,
+                    double U1, ZpPlatesStep *step);
 
 #endif

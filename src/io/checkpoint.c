@@ -1,7 +1,7 @@
 /* Checkpoints as files: checkpoint.zps. Numbers are little-endian on every machine.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version, 1
+ *   8 .. 11         version, 2
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        T, bytes of text
  *   24 .. 31        n, count of numbers
@@ -21,7 +21,7 @@
 #include "io/report.h"
 #include "io/value.h"
 
-enum { MAGIC = 8, SUMMED = 16, HEADER = 32, VERSION = 1, TEXT_MOST = 1 << 20, NUMBERS_MOST = 1 << 22 };
+enum { MAGIC = 8, SUMMED = 16, HEADER = 32, VERSION = 2, TEXT_MOST = 1 << 20, NUMBERS_MOST = 1 << 22 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 

@@ -145,7 +145,7 @@ static const Energy energies[] = {
     {"kinetic_energy_J", NULL, "kinetic", false},     {"axial_energy_J", "bending_energy_J", "axial + bending", false},
     {"gravity_energy_J", NULL, "gravity", false},     {"field_energy_J", NULL, "field", true},
     {"electric_work_J", NULL, "electric work", true}, {"drag_loss_J", "contact_loss_J", "losses", false},
-    {"energy_imbalance_J", NULL, "imbalance", false},
+    {"charging_loss_J", NULL, "charging loss", true}, {"energy_imbalance_J", NULL, "imbalance", false},
 };
 
 #define ENERGIES (sizeof energies / sizeof energies[0])

@@ -24,6 +24,7 @@ static size_t carve(ZpDynamics *d, void *block) {
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
   d->push = zp_carve(&carver, model->nodes);
   d->pressed = zp_carve(&carver, model->nodes);
+  d->pressed0 = zp_carve(&carver, model->nodes);
   d->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   return carver.used;
 }
@@ -49,7 +50,8 @@ static double internal_damping(const ZpDynamics *d) {
   return d->model->internal_damping / d->h;
 }
 
-static void begin(void *self, const double *q0) {
+/* => bending energy and what the source has given: an imbalance is small or large beside them. */
+static double begin(void *self, const double *q0) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   scatter(d, q0, d->start);
@@ -57,6 +59,9 @@ static void begin(void *self, const double *q0) {
   zp_rod_eval(&model->rod, d->start, d->start + model->stride, &d->rod0);
   if (!model->is_rod) zp_massspring_eval(&d->shear, d->start, d->start + model->stride, &d->shear0);
   if (model->field) zp_plates_gaps(&model->plates, d->start, d->start + model->stride, &d->plates0);
+  double bending =
+      model->is_rod ? zp_rod_bending_energy(&model->rod, &d->rod0) : zp_massspring_shear_energy(&d->shear, &d->shear0);
+  return bending + fabs(d->state->work);
 }
 
 /* Shear springs of mass_spring: the mean of both ends, as they have no energy whose change it could be. */
@@ -90,9 +95,9 @@ static void add_mechanics(ZpDynamics *d) {
 static void add_faces(ZpDynamics *d) {
   const ZpModel *model = d->model;
   size_t s = model->s, stride = model->stride;
-  double *Fx = d->force, *Fy = Fx + stride, U2 = d->U * d->U;
+  double *Fx = d->force, *Fy = Fx + stride, U2 = 0.5 * (d->U0 * d->U0 + d->U1 * d->U1);
   zp_plates_gaps(&model->plates, d->end, d->end + stride, &d->plates1);
-  zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U, &d->plates);
+  zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U0, d->U1, &d->plates);
   zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
   for (size_t j = 0; j < model->count; j++) {
     Fx[j] += d->plates.Fx[j];
@@ -123,17 +128,23 @@ static void add_drag(ZpDynamics *d) {
   }
 }
 
-/* The voltage in the middle of the step: what the user holds, or the waveform's. */
-static double mean_voltage(const ZpDynamics *d) {
+static double end_time(const ZpDynamics *d) {
+  double t = d->state->t;
+  return d->h == d->latest - t ? d->latest : t + d->h;
+}
+
+/* The voltage at the step's end: what the user holds, or the waveform's. */
+static double end_voltage(const ZpDynamics *d) {
   const ZpState *state = d->state;
-  return state->by_hand ? state->U : zp_waveform_voltage(&d->model->waveform, state->t + 0.5 * d->h);
+  if (state->by_hand) return state->U;
+  return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
 static void force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   d->h = h;
-  d->U = mean_voltage(d);
+  d->U1 = end_voltage(d);
   scatter(d, q1, d->end);
   memset(d->force, 0, 2 * model->stride * sizeof *d->force);
   add_mechanics(d);
@@ -227,6 +238,23 @@ static void attempt(void *self, double *q1) {
   if (d->model->field) keep_apart(d, q1);
 }
 
+/* Faces that came into touch or out of it with the last correction: their push was not, or was, in the last force. */
+static double unforeseen(void *self, const double *q1) {
+  ZpDynamics *d = self;
+  const ZpModel *model = d->model;
+  double work = 0;
+  scatter(d, q1, d->end);
+  if (!model->field) return 0;
+  memcpy(d->pressed0, d->pressed, model->nodes * sizeof *d->pressed);
+  zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
+  zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
+  for (size_t i = 1; i < model->nodes; i++) {
+    double gap = d->plates1.gap[i], stiffness = fabs(d->pressed[i] - d->pressed0[i]);
+    work += stiffness * fabs(gap * (gap - d->plates0.gap[i]));
+  }
+  return work;
+}
+
 static double kinetic_energy(const ZpDynamics *d) {
   double sum = 0;
   for (size_t i = 0; i < d->system.n; i++)
@@ -240,16 +268,6 @@ static void move_as_one(ZpDynamics *d, size_t i) {
   double apart = (pair.upper >= 0 ? d->v[pair.upper] : 0) - d->v[pair.lower];
   d->v[pair.lower] += apart * (pair.upper >= 0 ? pair.upper_share : 1);
   if (pair.upper >= 0) d->v[pair.upper] = d->v[pair.lower];
-}
-
-/* What presses and how far the rod is strained where the step has ended: a last correction beyond where they were. */
-static void look_back(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  scatter(d, d->q, d->end);
-  zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->rod1);
-  if (!model->field) return;
-  zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
-  zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
 }
 
 /* Faces that press on each other move as one at the step's end, and what is too fast for the step, which such impacts
@@ -282,7 +300,8 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
                                  .begin = begin,
                                  .force = force,
                                  .tangent = tangent,
-                                 .attempt = attempt};
+                                 .attempt = attempt,
+                                 .unforeseen = unforeseen};
   d->memory = zp_calloc(1, carve(d, NULL));
   if (!d->memory) return false;
   carve(d, d->memory);
@@ -291,6 +310,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
     if (d->assembly.equation[k] >= 0) d->mass[d->assembly.equation[k]] += model->mass[k / 2];
   const ZpActuatorDef *def = &model->def;
   d->stepper.accuracy = 0.08 * def->solver.tolerance * model->L;
+  d->stepper.balance = 1e-5 * def->solver.tolerance;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }
@@ -301,11 +321,27 @@ void zp_dynamics_destroy(ZpDynamics *d) {
   d->memory = NULL;
 }
 
-double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
+/* The source's work over a step in which the voltage has changed, eq. (18.4): the mean of "first the voltage, then the
+ * gaps" and "first the gaps, then the voltage". */
+static void book_work(const ZpDynamics *d, ZpState *state) {
+  double U0 = d->U0, U1 = d->U1;
+  if (U0 == U1) return;
+  ZpElectric moved = zp_eval_electric(d->model, state, d->end, &d->plates1, U1);
+  double at_start = zp_eval_electric(d->model, state, d->start, &d->plates0, U1).potential -
+                    zp_eval_electric(d->model, state, d->start, &d->plates0, U0).potential;
+  double at_end = moved.potential - zp_eval_electric(d->model, state, d->end, &d->plates1, U0).potential;
+  state->work += U1 * moved.charge - U0 * state->base_charge + 0.5 * (at_start + at_end);
+  state->base_charge = moved.charge;
+  state->base_U = state->U = U1;
+}
+
+double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   const ZpModel *model = d->model;
   double *q = zp_state_q(model, state), *v = zp_state_v(model, state), *w = zp_state_mean_v(model, state),
          *a = zp_state_mean_a(model, state);
   d->state = state;
+  d->latest = latest;
+  d->U0 = state->U;
   d->beyond = model->field_solved ? zp_state_held(model, state) : NULL;
   memcpy(d->start, q, 2 * model->stride * sizeof *q);
   gather(d, q, d->q);
@@ -314,14 +350,19 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double longest) {
   gather(d, a, d->history.a);
   d->history.last = state->last_step;
   d->history.next = state->next_step;
-  double taken = zp_implicit_step(&d->stepper, longest, d->q, d->v, &d->history);
+  double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
-  look_back(d);
-  if (model->field) state->contact_loss += impact(d);
+  /* how far it is strained where the step has ended, a last correction beyond the last force */
+  zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->rod1);
+  if (model->field) {
+    book_work(d, state);
+    state->contact_loss += impact(d);
+  }
   scatter(d, d->q, q);
   scatter(d, d->v, v);
   scatter(d, d->history.w, w);
   scatter(d, d->history.a, a);
+  state->t = end_time(d);
   state->last_step = d->history.last;
   state->next_step = d->history.next;
   state->drag_loss += d->drag_loss;

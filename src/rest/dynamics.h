@@ -3,7 +3,7 @@
 #ifndef ZP_REST_DYNAMICS_H
 #define ZP_REST_DYNAMICS_H
 
-#include "actuator/model.h"
+#include "actuator/eval.h"
 #include "contact/stop.h"
 #include "electro/plates_step.h"
 #include "rest/assemble.h"
@@ -26,10 +26,12 @@ typedef struct ZpDynamics {
   double *start, *end;    /* [2 stride] coordinates of nodes */
   double *force;          /* [2 stride] N */
   double *push, *pressed; /* [N] contact: force N, stiffness N/m; 0 where open */
+  double *pressed0;       /* [N] that stiffness in the last force */
   double (*D)[4];         /* [3 edges] stiffness of the ribbons */
   const double *beyond;   /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
   const ZpState *state;   /* at the start of the step under way */
-  double U, h;            /* of that step: voltage in its middle, V; length, s */
+  double latest;          /* when that step ends at the latest, s */
+  double h, U0, U1;       /* its length, s; voltage at its start and its end, V */
   double drag_loss;       /* over it, J */
   void *memory;
 } ZpDynamics;
@@ -38,8 +40,9 @@ typedef struct ZpDynamics {
 bool zp_dynamics_create(const ZpModel *model, ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
 
-/* One step of at most `longest`, s, from the state => the state at its end, its losses added up, but for its time. =>
- * the step's length; 0 if none was found: the state is then as it was. */
-double zp_dynamics_step(ZpDynamics *dynamics, ZpState *state, double longest);
+/* One step that ends at `latest`, s, or before => the state at its end: its time, its losses, the source's work where
+ * the voltage has changed. The account of the voltage must be closed (state->base_U == state->U). => the step's length;
+ * 0 if none was found: the state is then as it was. */
+double zp_dynamics_step(ZpDynamics *dynamics, ZpState *state, double latest);
 
 #endif

@@ -16,10 +16,12 @@ static const size_t real[] = {REAL(t),
                               REAL(U),
                               REAL(zip_time),
                               REAL(opening0),
+                              REAL(base_U),
                               REAL(base_charge),
                               REAL(base_energy),
                               REAL(base_field),
                               REAL(work),
+                              REAL(charging_loss),
                               REAL(drag_loss),
                               REAL(contact_loss),
                               REAL(internal_loss),
@@ -149,7 +151,7 @@ ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err) {
   ZpCheckpoint *checkpoint = zp_checkpoint_create(ARRAYS + array_numbers(sim->model));
   if (!checkpoint) return zp_fail_memory(err);
   checkpoint->def = sim->model->def;
-  pack(sim->model, sim->kept, checkpoint->number);
+  pack(sim->model, zp_sim_passed(sim), checkpoint->number);
   *out = checkpoint;
   return ZP_OK;
 }

@@ -47,53 +47,89 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
 
-void zp_sim_fill_row(ZpSim *sim) {
-  const ZpModel *model = sim->model;
+/* What the state itself says. */
+static void fill_state(const ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
-  double *row = sim->row, parts = model->parts;
-  ZpEnergies e = zp_eval_energies(model, state, &sim->eval);
-  double work = state->work + state->U * (e.charge - state->base_charge);
-  double stored = zp_energy_without_field(&e) - state->base_energy;
-  double field = e.field - state->base_field;
-  double current = (e.charge - sim->row_charge) / (state->t - sim->row_time);
+  double parts = sim->model->parts;
   fill_geometry(sim, row);
   row[SIGNAL_time] = state->t;
   row[SIGNAL_voltage] = state->U;
-  row[SIGNAL_force] = parts * e.force;
-  row[SIGNAL_charge] = parts * e.charge;
-  row[SIGNAL_capacitance] = parts * e.capacitance;
-  row[SIGNAL_current] = state->t > sim->row_time ? parts * current : 0;
-  row[SIGNAL_electric_work] = parts * work;
+  row[SIGNAL_drag_loss] = parts * state->drag_loss;
+  row[SIGNAL_internal_loss] = parts * state->internal_loss;
+  row[SIGNAL_contact_loss] = parts * state->contact_loss;
+}
+
+/* => rise of kinetic and stored energy without the field since the account was opened, of one part, J. */
+static double fill_mechanics(ZpSim *sim, double *row) {
+  double parts = sim->model->parts;
+  ZpEnergies e = zp_eval_energies(sim->model, sim->state, &sim->eval);
   row[SIGNAL_kinetic_energy] = parts * e.kinetic;
   row[SIGNAL_axial_energy] = parts * e.axial;
   row[SIGNAL_bending_energy] = parts * e.bending;
   row[SIGNAL_gravity_energy] = parts * e.gravity;
-  row[SIGNAL_field_energy] = parts * e.field;
-  row[SIGNAL_drag_loss] = parts * state->drag_loss;
-  row[SIGNAL_internal_loss] = parts * state->internal_loss;
-  row[SIGNAL_contact_loss] = parts * state->contact_loss;
-  row[SIGNAL_energy_imbalance] =
-      parts * (work - field - stored - state->drag_loss - state->internal_loss - state->contact_loss);
-  sim->row_time = state->t;
-  sim->row_charge = e.charge;
+  return zp_energy_without_field(&e) - sim->state->base_energy;
 }
 
-double zp_sim_get(const ZpSim *sim, const char *name) {
+/* => what the source has given less what the field has kept and jumps have lost, of one part, J. */
+static double fill_electric(ZpSim *sim, double *row) {
+  const ZpState *state = sim->state;
+  ZpElectric e = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
+  ZpAccount account = zp_sim_account(sim, e);
+  double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
+  row[SIGNAL_force] = parts * e.force;
+  row[SIGNAL_charge] = parts * e.charge;
+  row[SIGNAL_capacitance] = parts * e.capacitance;
+  row[SIGNAL_current] = passed > 0 ? parts * ((e.charge - sim->row_charge) / passed) : 0;
+  row[SIGNAL_electric_work] = parts * account.work;
+  row[SIGNAL_charging_loss] = parts * account.charging_loss;
+  row[SIGNAL_field_energy] = parts * field;
+  return account.work - (field - state->base_field) - account.charging_loss;
+}
+
+/* Which of these a signal takes, what they cost being far more than that of the state. */
+enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, ALL = MECHANICS | ELECTRIC };
+static const unsigned char takes[SIGNAL_COUNT] = {
+    [SIGNAL_force] = ELECTRIC,           [SIGNAL_charge] = ELECTRIC,          [SIGNAL_capacitance] = ELECTRIC,
+    [SIGNAL_current] = ELECTRIC,         [SIGNAL_electric_work] = ELECTRIC,   [SIGNAL_charging_loss] = ELECTRIC,
+    [SIGNAL_field_energy] = ELECTRIC,    [SIGNAL_kinetic_energy] = MECHANICS, [SIGNAL_axial_energy] = MECHANICS,
+    [SIGNAL_bending_energy] = MECHANICS, [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ALL};
+
+/* Signals that take no more than `what` => sim->row. */
+static void fill_row(ZpSim *sim, unsigned what) {
+  const ZpState *state = sim->state;
+  double *row = sim->row, stored = 0, kept = 0;
+  fill_state(sim, row);
+  if (what & MECHANICS) stored = fill_mechanics(sim, row);
+  if (what & ELECTRIC) kept = fill_electric(sim, row);
+  double lost = state->drag_loss + state->internal_loss + state->contact_loss;
+  row[SIGNAL_energy_imbalance] = sim->model->parts * (kept - stored - lost);
+}
+
+/* A row that stays: the next one's mean current counts from here. Of rows at one time the charge of the first counts,
+ * so that the current of a jump is part of the next. */
+static void make_row(ZpSim *sim) {
+  const ZpState *state = sim->state;
+  fill_row(sim, ALL);
+  if (!(state->t > sim->row_time)) return;
+  sim->row_time = state->t;
+  sim->row_charge = sim->row[SIGNAL_charge] / sim->model->parts;
+}
+
+double zp_sim_get(ZpSim *sim, const char *name) {
   for (size_t k = 0; k < SIGNAL_COUNT; k++)
     if (strcmp(names[k], name) == 0) {
-      ZpSim copy = *sim; /* shares the work space of eval, not the row's memory of time and charge */
-      zp_sim_fill_row(&copy);
+      fill_row(sim, takes[k]);
       return sim->row[k];
     }
   return NAN;
 }
 
 void zp_sim_read(ZpSim *sim, double *row) {
-  zp_sim_fill_row(sim);
+  make_row(sim);
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 
-ZpShape zp_sim_shape(const ZpSim *sim) {
+ZpShape zp_sim_shape(ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
   ZpMotion motion = zp_state_motion(model, state);
@@ -109,7 +145,7 @@ ZpShape zp_sim_shape(const ZpSim *sim) {
 }
 
 void zp_sim_offer_record(ZpSim *sim) {
-  if (sim->series || sim->shapes) zp_sim_fill_row(sim);
+  if (sim->series || sim->shapes) make_row(sim);
   if (sim->series) zp_table_offer(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);
@@ -117,7 +153,7 @@ void zp_sim_offer_record(ZpSim *sim) {
 }
 
 void zp_sim_close_record(ZpSim *sim) {
-  if (sim->series || sim->shapes) zp_sim_fill_row(sim);
+  if (sim->series || sim->shapes) make_row(sim);
   if (sim->series) zp_table_keep_last(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);

@@ -62,17 +62,13 @@ static bool diverged(const ZpModel *model, const ZpState *state) {
   return false;
 }
 
+const ZpState *zp_sim_passed(const ZpSim *sim) {
+  return sim->cut || diverged(sim->model, sim->state) ? sim->kept : sim->state;
+}
+
 /* A longer run passes through the present state, too, unless the end of this one has cut a step. */
 static void keep(ZpSim *sim) {
   if (!sim->cut && !diverged(sim->model, sim->state)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
-}
-
-void zp_sim_start_account(ZpSim *sim) {
-  ZpState *state = sim->state;
-  ZpEnergies e = zp_eval_energies(sim->model, state, &sim->eval);
-  state->base_energy = zp_energy_without_field(&e);
-  state->base_charge = sim->row_charge = e.charge;
-  state->base_field = e.field;
 }
 
 /* The study of the model's Def may be another, which asks less. */
@@ -92,6 +88,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   if (!sim) return zp_fail_memory(err);
   sim->model = model;
   sim->even = INFINITY;
+  sim->drive = zp_key_find("drive.voltage");
   if (!allocate(sim)) {
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
@@ -103,10 +100,9 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
   }
-  state->U = zp_waveform_voltage(&model->waveform, 0);
-  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   zp_sim_start_account(sim);
-  keep(sim);
+  zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
+  sim->row_charge = zp_eval_electric_now(model, state, state->U, &sim->eval).charge;
   *out = sim;
   return ZP_OK;
 }
@@ -133,41 +129,24 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
-/* Voltage and charge have moved on to where they are now: the source's work meanwhile, eq. (17.2). */
-static void book_work(ZpSim *sim, double voltage) {
-  ZpState *state = sim->state;
-  double mean = 0.5 * (state->U + voltage);
-  state->U = voltage;
-  double charge = zp_eval_charge(sim->model, state, &sim->eval);
-  state->work += mean * (charge - state->base_charge);
-  state->base_charge = charge;
-}
-
-static void jump_to(ZpSim *sim, double voltage) {
-  ZpState *state = sim->state;
-  book_work(sim, state->U);
-  double before = zp_eval_energies(sim->model, state, &sim->eval).field;
-  state->U = voltage;
-  state->refreshed = NAN;
-  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
-  ZpEnergies after = zp_eval_energies(sim->model, state, &sim->eval);
-  state->base_charge = sim->row_charge = after.charge;
-  state->base_field += after.field - before; /* charging at once is outside the balance */
-}
-
 static double next_corner(const ZpSim *sim) {
   return sim->state->by_hand ? INFINITY : zp_waveform_next_corner(&sim->model->waveform, sim->state->t);
 }
 
-/* The voltage at the time that a step has reached. A corner closes the account: behind it the voltage may stay,
- * and then nothing is booked. */
-static void follow_waveform(ZpSim *sim, bool corner) {
+/* The voltage at the time that a step has reached. By explicit steps it was that of the step's start all the way. */
+static void follow_waveform(ZpSim *sim) {
   const ZpWaveform *waveform = &sim->model->waveform;
   ZpState *state = sim->state;
   if (state->by_hand) return;
-  double reached = zp_waveform_voltage_before(waveform, state->t), now = zp_waveform_voltage(waveform, state->t);
-  if (corner || reached != state->U) book_work(sim, reached);
-  if (now != reached) jump_to(sim, now);
+  zp_sim_glide(sim, zp_waveform_voltage_before(waveform, state->t));
+  zp_sim_jump(sim, zp_waveform_voltage(waveform, state->t));
+}
+
+/* Before anything moves: a jump of the voltage is over, and what is held is up to date. */
+static void prepare_step(ZpSim *sim) {
+  ZpState *state = sim->state;
+  if (state->U != state->base_U) zp_sim_close_account(sim);
+  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
 }
 
 /* -- one step ------------------------------------------------------------------------------------- */
@@ -303,7 +282,7 @@ static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   ZpExplicitSystem system = {2 * model->stride, sim, accelerate, is_sequential(model) ? next_event : NULL};
-  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
+  prepare_step(sim);
   double corner = next_corner(sim), stop = fmin(end_time, corner);
   ZpExplicitStep taken =
       zp_explicit_step(&system, stop - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
@@ -312,7 +291,7 @@ static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->steps++;
   info->limited[limit_of(sim, taken.limit, state->t >= corner)]++;
   if (is_unilateral(model)) stop_faces(sim, taken.dt);
-  follow_waveform(sim, state->t >= corner);
+  follow_waveform(sim);
   if (!model->field) return;
   if (taken.limit == ZP_EXPLICIT_EVENT)
     meet(sim);
@@ -334,30 +313,34 @@ static ZpStepLimit implicit_limit(const ZpSim *sim, bool corner, bool end) {
   return sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
 }
 
-/* => length of the step, 0 if none was found. Of the shortest, where rounding, a pulse or a steep rise has put the
- * next corner, only time takes notice. */
-static double advance_implicit(ZpSim *sim, double longest) {
+/* A step that ends at `latest` or before => its length, 0 if none was found. Of the shortest, where rounding, a pulse
+ * or a steep rise has put the next corner, only time takes notice. */
+static double advance_implicit(ZpSim *sim, double latest) {
   static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
-  if (longest < shortest) return longest;
-  double taken = zp_dynamics_step(&sim->dynamics, sim->state, longest);
-  if (taken > 0 && sim->model->s == 2) sim->state->zip = touching(sim->model, sim->dynamics.plates1.gap);
+  ZpState *state = sim->state;
+  double left = latest - state->t;
+  if (left < shortest) {
+    state->t = latest;
+    return left;
+  }
+  double taken = zp_dynamics_step(&sim->dynamics, state, latest);
+  if (taken > 0 && sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.plates1.gap);
   return taken;
 }
 
 static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  double corner = next_corner(sim), stop = fmin(end_time, corner), left = stop - state->t, longest = left;
-  if (!state->by_hand) longest = fmin(left, zp_waveform_resolution(&model->waveform, state->t));
+  double corner = next_corner(sim), latest = fmin(end_time, corner);
+  if (!state->by_hand) latest = fmin(latest, state->t + zp_waveform_resolution(&model->waveform, state->t));
   double before = model->s == 2 ? opening(model, state) : 0;
-  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
-  double taken = advance_implicit(sim, longest);
+  prepare_step(sim);
+  double taken = advance_implicit(sim, latest);
   sim->stuck = !(taken > 0);
   if (sim->stuck) return;
-  state->t = taken == left ? stop : state->t + taken;
   info->steps++;
   info->limited[implicit_limit(sim, state->t >= corner, state->t >= end_time)]++;
-  follow_waveform(sim, state->t >= corner);
+  follow_waveform(sim);
   if (model->s < 2) return;
   state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state))
@@ -513,8 +496,8 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   info.outcome = sim->settled;
   sim->cut = false;
   if (info.outcome == ZP_REACHED_END) {
+    keep(sim);
     info.outcome = advance(sim, end_time, stop_when_zipped, hooks, &info);
-    if (info.outcome != ZP_DIVERGED) keep(sim);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
@@ -541,15 +524,21 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
 
 /* -- inputs, state -------------------------------------------------------------------------------- */
 
-ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
+/* Says that, and why, it is out of range. */
+static ZpStatus refuse_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   ZpActuatorDef scratch = sim->model->def;
-  ZpStatus status = zp_def_set(&scratch, zp_key_find("drive.voltage"), voltage, err);
-  if (status == ZP_OK) status = zp_def_check_voltage(&sim->model->def, voltage, err);
-  if (status != ZP_OK) return status;
+  ZpStatus status = zp_def_set(&scratch, sim->drive, voltage, err);
+  return status == ZP_OK ? zp_def_check_voltage(&sim->model->def, voltage, err) : status;
+}
+
+ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
+  const ZpKey *key = zp_key(sim->drive);
+  bool within = voltage >= key->min && voltage <= key->max;
+  if (!within || zp_def_check_voltage(&sim->model->def, voltage, NULL) != ZP_OK)
+    return refuse_voltage(sim, voltage, err);
   sim->state->by_hand = true;
-  jump_to(sim, voltage);
+  zp_sim_jump(sim, voltage);
   sim->cut = false;
-  keep(sim);
   return ZP_OK;
 }
 
@@ -561,11 +550,10 @@ void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   sim->row_time = state->t;
-  sim->row_charge = zp_eval_charge(sim->model, state, &sim->eval);
+  sim->row_charge = zp_eval_electric_now(sim->model, state, state->U, &sim->eval).charge;
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
-  if (voltage != state->U) jump_to(sim, voltage);
+  zp_sim_jump(sim, voltage);
   sim->cut = false;
-  keep(sim);
 }
 
 size_t zp_sim_state_size(const ZpSim *sim) {

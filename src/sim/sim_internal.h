@@ -11,8 +11,9 @@
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
-  ZpState *kept; /* a copy of the last state that a longer run passes through, too; of sound numbers */
-  bool cut;      /* the end of the run has cut a step */
+  ZpState *kept; /* a copy of a state of sound numbers that a longer run passes through, too, where */
+  bool cut;      /* the end of the run has cut a step since */
+  int drive;     /* the key drive.voltage: its range is that of voltages set by hand */
   ZpEval eval;
   double *a;                   /* [2 stride] accelerations, work space of a step */
   double *relax_work;          /* [12 stride] work space of settling */
@@ -21,7 +22,7 @@ struct ZpSim {
   double *row;                 /* one value per signal */
   double *line_force;          /* [nodes] of the shape handed out */
   double *push, *pressed;      /* [N] explicit unilateral contact: N, N/m */
-  double row_time, row_charge; /* of the last row, for the mean current */
+  double row_time, row_charge; /* of the last row before the present time, for the mean current */
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
@@ -41,14 +42,32 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 /* Go on from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 
+/* The last state so far that a longer run passes through, too; of sound numbers. */
+const ZpState *zp_sim_passed(const ZpSim *sim);
+
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);
 
-/* Energies count from here on. */
+/* What the source has given and the field has not kept of jumps so far, of one part, J (account.c). */
+typedef struct ZpAccount {
+  double work, charging_loss;
+} ZpAccount;
+
+/* (electric totals where the state is) => the account there; the state stays as it is. */
+ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now);
+
+/* Energies and losses count from here on. */
 void zp_sim_start_account(ZpSim *sim);
 
-/* Fill sim->row (record.c). */
-void zp_sim_fill_row(ZpSim *sim);
+/* Book what the source has given until now, with a jump that is still open; a held field that is out of date is found
+ * again on the way. */
+void zp_sim_close_account(ZpSim *sim);
+
+/* The voltage jumps: an ideal source charges at once. */
+void zp_sim_jump(ZpSim *sim, double voltage);
+
+/* The voltage goes to another one while nothing moves, without loss. */
+void zp_sim_glide(ZpSim *sim, double voltage);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);

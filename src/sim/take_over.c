@@ -21,7 +21,6 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
       moving[k][j] *= stretch;
   state->opening0 = opening0;
   state->by_hand = true;
-  state->work = state->drag_loss = state->contact_loss = state->internal_loss = 0;
   state->refreshed = NAN;
   if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
   zp_sim_start_account(sim);

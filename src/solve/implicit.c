@@ -1,6 +1,7 @@
 /* Letters: q position, w mean velocity of a step, a its mean acceleration 2 (w - v0) / h; h its length. */
 #include "solve/implicit.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@ static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
 static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
+static const double fast_share = 2.5e-3; /* of the work that a linear rate foresees: convergence is mostly quadratic */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
 
@@ -36,39 +38,58 @@ static void predict(ZpImplicit *s, double h, const double *q, const double *v, c
   if (s->system->attempt) s->system->attempt(s->system->self, s->q);
 }
 
+/* The residual f - M a of (18.1) as work over the step, J: by so much the energy of a step that ends here is off. */
+typedef struct Imbalance {
+  double work;
+  double allowed; /* as a share of the energies there, and what the rounding of q makes */
+} Imbalance;
+
 /* f - M a of (18.1) => r, and the Jacobian factored. */
-static bool linearise(ZpImplicit *s, double h, const double *q, const double *v) {
+static bool linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
   const ZpImplicitSystem *system = s->system;
+  double work = 0, turnover = 0, rounding = 0;
   system->force(system->self, s->q, h, s->r);
   system->tangent(system->self, &s->A);
   for (size_t i = 0; i < system->n; i++) {
-    double inertia = 2 * system->mass[i] / (h * h);
-    s->r[i] -= inertia * (s->q[i] - q[i] - h * v[i]);
-    *zp_band_at(&s->A, i, i) += inertia;
+    double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
+    s->r[i] -= inertia * (moved - h * v[i]);
+    double stiffness = *zp_band_at(&s->A, i, i) += inertia, rounded = stiffness * s->q[i] * moved;
+    work += s->r[i] * moved;
+    turnover += inertia * moved * moved;
+    rounding += rounded * rounded;
   }
+  *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + DBL_EPSILON * sqrt(rounding)};
   return zp_band_factor_symmetric(&s->A);
 }
 
 /* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`, 0 of the first?
- * What is left is foreseen from both; far below the accuracy what does not shrink any more is rounding. */
-static bool is_found(double size, double before) {
+ * What is left, of the distance and of the imbalance, is foreseen from both. Far below the accuracy a distance that
+ * does not shrink any more is rounding, but only where energy balances: while faces meet it shrinks as slowly. */
+static bool is_found(double size, double before, Imbalance imbalance) {
   if (before == 0) return size == 0;
-  double rate = size / before, left = rate < 0.5 ? 2 * rate * size : size;
-  return left < newton_share || (rate > 0.5 && size < rounding_share);
+  double rate = size / before, left = rate < 0.5 ? 2 * rate : 1, foreseen = rate < 0.5 ? fast_share * left : 1;
+  if (foreseen * imbalance.work > imbalance.allowed) return false;
+  return left * size < newton_share || (rate > 0.5 && size < rounding_share);
+}
+
+static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
+  const ZpImplicitSystem *system = s->system;
+  return !system->unforeseen || system->unforeseen(system->self, s->q) <= imbalance.allowed;
 }
 
 /* => iterations that it took; 0: it found no end. */
 static int converge(ZpImplicit *s, double h, const double *q, const double *v) {
   double least = INFINITY, before = 0;
+  Imbalance imbalance;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
-    if (!linearise(s, h, q, v)) return 0;
+    if (!linearise(s, h, q, v, &imbalance)) return 0;
     zp_band_solve_symmetric(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
     double size = rms(s->r, s->system->n) / s->accuracy;
     if (!isfinite(size) || (k >= PATIENCE && size > least)) return 0;
-    if (is_found(size, before)) return k + 1;
+    if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return k + 1;
     least = fmin(least, size);
     before = size;
   }
@@ -120,7 +141,7 @@ void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
   bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
-  s->system->begin(s->system->self, q);
+  s->energy = s->system->begin(s->system->self, q);
   for (double h = cut ? longest : try; h >= shortest_step;) {
     predict(s, h, q, v, history);
     int iterations = converge(s, h, q, v);

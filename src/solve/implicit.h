@@ -15,8 +15,8 @@ typedef struct ZpImplicitSystem {
   size_t n, bandwidth;
   void *self;         /* handed to the functions below */
   const double *mass; /* [n], all positive */
-  /* A step begins at q0 [n]. */
-  void (*begin)(void *self, const double *q0);
+  /* A step begins at q0 [n] => an energy of the system there, J, by which an imbalance is judged. */
+  double (*begin)(void *self, const double *q0);
   /* Mean force over a step of h that ends at q1 => f [n], not finite where there is none. */
   void (*force)(void *self, const double *q1, double h, double *f);
   /* -df/dq1 at the last force => A, symmetric, upper triangle. */
@@ -24,6 +24,9 @@ typedef struct ZpImplicitSystem {
   /* The step is tried, from a first guess of its end, which may be made one that can be: nothing passes through
    * anything. May be NULL. */
   void (*attempt)(void *self, double *q1);
+  /* The last correction has led to q1 => |work|, J, of the forces that the last tangent did not foresee there: those of
+   * contacts that have closed or opened since. An accepted step ends at the last q1 seen here. May be NULL. */
+  double (*unforeseen)(void *self, const double *q1);
 } ZpImplicitSystem;
 
 /* What evolves beside q and v: the last step, which the next one's guess and error follow from. */
@@ -41,7 +44,9 @@ typedef struct ZpImplicitCounts {
 typedef struct ZpImplicit {
   const ZpImplicitSystem *system;
   double accuracy; /* local error asked for, root mean square over the coordinates, m */
+  double balance;  /* work that the iteration may leave unbalanced in a step, of the energy there */
   double fixed;    /* length of all steps; 0: by the local error, s */
+  double energy;   /* where the step under way begins, J */
   ZpImplicitCounts counts;
   double *q, *r; /* [n] end of the step under way; what is left of its force, and more */
   ZpBand A;

@@ -10,18 +10,24 @@
 #include "study/studies.h"
 
 /* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
-static double at_end(const ZpSim *sim, const ZpResult *result, const char *signal) {
+static double at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
   bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
   return sound ? zp_sim_get(sim, signal) : NAN;
 }
 
-/* |imbalance| over the work of the source, where it takes some back over the most that it had given: the measure of
- * how well energy balances. */
-static double energy_error(const ZpSim *sim, const ZpResult *result) {
-  double work = at_end(sim, result, "electric_work");
+/* Largest size of a signal in the rows and at the end. */
+static double largest(ZpSim *sim, const ZpResult *result, const char *signal, const char *column) {
+  double most = fabs(at_end(sim, result, signal));
   for (size_t i = 0; i < result->series->rows; i++)
-    work = fmax(work, zp_table_get(result->series, i, "electric_work_J"));
-  return work > 0 ? fabs(at_end(sim, result, "energy_imbalance")) / work : NAN;
+    most = fmax(most, fabs(zp_table_get(result->series, i, column)));
+  return most;
+}
+
+/* Largest imbalance over the most that the source had given: the measure of how well energy balances. */
+static double energy_error(ZpSim *sim, const ZpResult *result) {
+  if (isnan(at_end(sim, result, "energy_imbalance"))) return NAN;
+  double work = largest(sim, result, "electric_work", "electric_work_J");
+  return work > 0 ? largest(sim, result, "energy_imbalance", "energy_imbalance_J") / work : NAN;
 }
 
 /* The widest opening passed on the way: a sudden voltage makes the platform sag before it rises. */
@@ -32,7 +38,7 @@ static double widest_opening(const ZpTable *series) {
   return widest;
 }
 
-static void summarize_actuator(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
+static void summarize_actuator(ZpSim *sim, const ZpModel *model, ZpResult *result) {
   zp_result_add(result, "contraction", "1", at_end(sim, result, "contraction"));
   zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
   zp_result_add(result, "zipped_length_m", "m", at_end(sim, result, "zipped_length"));
@@ -64,15 +70,32 @@ static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
                        info->wall_time > 0 ? info->simulated_time / info->wall_time : NAN);
 }
 
+/* What may help where the energy of a run does not balance. */
+static const char *remedy(const ZpActuatorDef *def) {
+  if (def->electro.surface == ZP_SURFACE_BEZIER || def->ribbon.model == ZP_RIBBON_MASS_SPRING)
+    return "the forces of mass_spring and bezier have no energy that could balance";
+  if (def->electro.model == ZP_ELECTRO_FIELD) return "try a smaller electro.refresh_change";
+  return "try a smaller solver.tolerance or solver.time_step";
+}
+
+static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
+  static const double most = 1e-4;
+  double error = zp_result_get(result, "energy_error");
+  if (error > most)
+    zp_result_note(result, "the energy balance is off by %.2g of the electric work, more than %g; %s", error, most,
+                   remedy(def));
+}
+
 static void note(const ZpModel *model, ZpResult *result) {
   double highest = zp_waveform_largest(&model->waveform);
+  note_imbalance(zp_model_def(model), result);
   zp_note_model(result, model, highest, result->shapes->frames);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_note(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
 }
 
-static void summarize(const ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
+static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, model, result);

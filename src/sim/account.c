@@ -1,0 +1,68 @@
+/* The account of energy: what the source has given, and what the field did not keep of it. docs/theory.md, section 17.
+ *
+ * It was closed last at the voltage base_U and the charge base_charge; since then positions have moved at that voltage.
+ * A jump to another voltage stays open until something moves, so that a voltage that is replaced before that, having
+ * lasted no time, counts for nothing, and looking at the account changes nothing. Only where what is held must be found
+ * again for that voltage it is closed at once. */
+#include <math.h>
+
+#include "sim/sim_internal.h"
+
+/* What ideal sources at U0, while things moved, and then at U1 at once have given, from `before` the jump to `after`
+ * it. */
+static ZpAccount charged(const ZpState *state, ZpElectric before, ZpElectric after) {
+  double U0 = state->base_U, U1 = state->U, given = U1 * (after.charge - before.charge);
+  double kept = zp_field_energy(after, U1) - zp_field_energy(before, U0);
+  return (ZpAccount){state->work + U0 * (before.charge - state->base_charge) + given,
+                     state->charging_loss + (U1 == U0 ? 0 : given - kept)};
+}
+
+ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now) {
+  const ZpState *state = sim->state;
+  if (state->U == state->base_U) return charged(state, now, now);
+  return charged(state, zp_eval_electric_now(sim->model, state, state->base_U, &sim->eval), now);
+}
+
+void zp_sim_start_account(ZpSim *sim) {
+  ZpState *state = sim->state;
+  ZpEnergies energies = zp_eval_energies(sim->model, state, &sim->eval);
+  ZpElectric now = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
+  state->work = state->charging_loss = state->drag_loss = state->contact_loss = state->internal_loss = 0;
+  state->base_energy = zp_energy_without_field(&energies);
+  state->base_field = zp_field_energy(now, state->U);
+  state->base_charge = now.charge;
+  state->base_U = state->U;
+}
+
+void zp_sim_close_account(ZpSim *sim) {
+  ZpState *state = sim->state;
+  ZpElectric before = zp_eval_electric_now(sim->model, state, state->base_U, &sim->eval);
+  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
+  ZpElectric after = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
+  ZpAccount account = charged(state, before, after);
+  state->work = account.work;
+  state->charging_loss = account.charging_loss;
+  state->base_charge = after.charge;
+  state->base_U = state->U;
+}
+
+void zp_sim_jump(ZpSim *sim, double voltage) {
+  ZpState *state = sim->state;
+  if (voltage == state->U) return;
+  state->U = voltage;
+  if (!zp_eval_voltage_outdates(sim->model, state)) return;
+  state->refreshed = NAN;
+  zp_sim_close_account(sim);
+}
+
+void zp_sim_glide(ZpSim *sim, double voltage) {
+  ZpState *state = sim->state;
+  if (voltage == state->U) return;
+  if (state->U != state->base_U) zp_sim_close_account(sim);
+  ZpElectric before = zp_eval_electric_now(sim->model, state, state->U, &sim->eval),
+             after = zp_eval_electric_now(sim->model, state, voltage, &sim->eval);
+  state->work += state->U * (before.charge - state->base_charge) + zp_field_energy(after, voltage) -
+                 zp_field_energy(before, state->U);
+  state->base_charge = after.charge;
+  state->base_U = state->U = voltage;
+}
