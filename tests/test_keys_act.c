@@ -327,6 +327,10 @@ static const Row rows[] = {
 
     /* at v = g t each of the 20 free particles loses c v^3 a second */
     {"damping.drag", STRAND, "0", "1e-5", {{PLUS, "drag_loss_J", 20e-5 * CUBE(9.81) * 625e-12 / 4, 1e-2}}},
+    /* auto is 10 us of an electro_ribbon of rods, none of a ribbon */
+    {"damping.internal", HANGING " solver.end_time=20ms", "auto", "10us", {{SAME, "internal_loss_J", 0, 0}}},
+    {"damping.internal", HANGING " solver.end_time=20ms", "auto", "0", {{LESS, "internal_loss_J", 1e-9, 0}}},
+    {"damping.internal", SWING, "auto", "0", {{SAME, "internal_loss_J", 0, 0}}},
     {"damping.internal", SWING, "1us", "2us", {{TIMES, "internal_loss_J", 2, 2e-2}}},
 
     {"solver.integrator",
