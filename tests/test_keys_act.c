@@ -195,7 +195,7 @@ static const Row rows[] = {
      "0",
      "100GPa",
      {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
-    {"insulator.breakdown_field", CLOSED, "100MV/m", "10MV/m", {{MORE, "warnings", 0, 0}, {SAME, "force_N", 0, 1e-12}}},
+    {"insulator.breakdown_field", CLOSED, "100MV/m", "10MV/m", {{MORE, "notes", 0, 0}, {SAME, "force_N", 0, 1e-12}}},
     /* closed faces have no liquid between them: only the force on it, eps E^2 / 2, knows that it is there */
     {"medium.permittivity", UNCAPPED, "2", "4", {{TIMES, "force_N", 0.5, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
     {"medium.breakdown_field",
@@ -437,7 +437,7 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
 static double output_of(const ZpResult *result, const char *name) {
   if (strcmp(name, "rows") == 0) return (double)result->series->rows;
   if (strcmp(name, "frames") == 0) return (double)result->shapes->frames;
-  if (strcmp(name, "warnings") == 0) return (double)result->notes;
+  if (strcmp(name, "notes") == 0) return (double)result->notes;
   double value = zp_result_get(result, name);
   return isnan(value) ? zp_table_get(result->series, result->series->rows - 1, name) : value;
 }

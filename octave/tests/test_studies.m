@@ -69,6 +69,8 @@ check(isequaln(ours, zipact('stationary', keys)), 'a struct');
 check(isequaln(ours, zipact('run', ours.definition)), 'its own definition');
 check(ours.stroke_m > zipact('run', file, 'load.mass', '8 g').stroke_m, 'pairs after a file');
 
+check(numel(zipact('equilibrium', 'insulator.thickness', '10 um', 'mesh.nodes', 31).notes) == 1, 'breakdown is noted');
+
 % lists: the product, the last key of the table of keys fastest, as the command has it
 runs = zipact('stationary', 'mesh.nodes', [21 31], 'load.mass', {'8 g', 0.02});
 check(isequal(size(runs), [1 4]), 'size of a sweep');

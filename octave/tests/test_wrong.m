@@ -26,6 +26,8 @@ n = refused(n, 'neither a study nor one of run', 'fly');
 n = refused(n, 'neither a study nor one of run', '');
 n = refused(n, 'neither a study nor one of run', repmat('x', 1, 1e5));
 n = refused(n, 'control character', "run\0");
+n = refused(n, 'contact.model = sequential', 'open', 'study', 'stationary', 'contact.model', 'sequential');
+n = refused(n, 'short circuit', 'open', 'study', 'stationary', 'insulator.thickness', 0);
 n = refused(n, 'takes nothing more', 'keys', 1);
 n = refused(n, 'takes nothing more', 'version', 1);
 

@@ -31,6 +31,25 @@ def test_one_step_is_the_study():
     assert simulation.time == 5e-3 and simulation.steps > 0
 
 
+@pytest.mark.parametrize(
+    "keys, named",
+    [
+        (dict(contact__model="sequential"), "contact.model = sequential"),
+        (dict(actuator__kind="flange", solver__integrator="explicit", electro__gap_offset="1 mm"), "flange"),
+        (dict(insulator__thickness=0), "short circuit"),
+    ],
+)
+def test_study_does_not_matter(keys, named):
+    """What motion needs is checked by Simulation; a state is one of the actuator, whatever its study is."""
+    resting = zipact.Actuator(study="stationary", mesh__nodes=21, **keys)
+    with pytest.raises(zipact.InputError, match=named):
+        zipact.Simulation(resting)
+    one, other = make(study="stationary"), make()
+    one.step("1 ms")
+    other.restore(one.save())
+    np.testing.assert_array_equal(without_current(one.read()), without_current(other.read()))
+
+
 @pytest.mark.parametrize("dt", [0.37e-6, 1e-6, 2.3e-6, 33.3e-6])
 def test_many_short_explicit_steps_are_one_long(dt):
     """A shorter step of the integrator at the end of each would make what vibrates fastest diverge."""
