@@ -72,7 +72,7 @@ START_TEST(nothing_to_note) {
   def.study = ZP_STUDY_ACTUATE;
   ZpResult *result = study_of(&def);
   ck_assert_uint_eq(result->notes, 1);
-  ck_assert_ptr_nonnull(note_of(result, "zip times"));
+  ck_assert_ptr_nonnull(note_of(result, "zip time is not a prediction"));
   zp_result_destroy(result);
 }
 END_TEST
