@@ -138,7 +138,7 @@ END_TEST
 
 /* "130<no-break space>um", as pages and word processors write it, was an unknown unit. */
 START_TEST(test_no_break_space) {
-  static const char *const text[] = {"130\u00A0um",   "130\u202Fum", "130\u2009um",       "130\u2007um",
+  static const char *const text[] = {"130\u00A0um",   "130\u202Fum", "130\u2009um",        "130\u2007um",
                                      "\u00A0130 um ", "130um\u00A0", "130 \u00A0 \u202Fum"};
   int key = zp_key_find("insulator.thickness");
   ZpError err = {0};

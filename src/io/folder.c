@@ -64,7 +64,8 @@ static ZpStatus cannot_lock(const ZpFolder *folder, ZpError *err) {
   return zp_fail(err, ZP_MACHINE, "cannot write %s: %s", folder->lock, strerror(errno));
 }
 
-/* Who holds the lock: "process 4711 on HOST". The holder writes it right after it gets the lock, so wait a little for that. */
+/* Who holds the lock: "process 4711 on HOST". The holder writes it right after it gets the lock, so wait a little for
+ * that. */
 static void read_holder(int fd, char *who, size_t size) {
   ssize_t length = 0;
   for (int tries = 0; length <= 0 && tries < 100; tries++) {

@@ -27,7 +27,8 @@ static void say(const ZpDrawing *drawing, const char *name, const char *reason) 
 
 static void say_missing(const ZpDrawing *drawing) {
   char message[1024];
-  snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp", drawing->folder);
+  snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp",
+           drawing->folder);
   if (drawing->notice) drawing->notice(message);
 }
 

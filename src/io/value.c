@@ -218,8 +218,8 @@ static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError
   return ZP_OK;
 }
 
-/* Bytes of the blank that `text` begins with, 0 if it begins with none. Beside those of ASCII: the no-break, figure, thin
- * and narrow no-break spaces that web pages and word processors put between number and unit. */
+/* Bytes of the blank that `text` begins with, 0 if it begins with none. Beside those of ASCII: the no-break, figure,
+ * thin and narrow no-break spaces that web pages and word processors put between number and unit. */
 static size_t blank_at(const char *text) {
   static const char *const wide[] = {"\u00A0", "\u2007", "\u2009", "\u202F"};
   for (size_t i = 0; i < sizeof wide / sizeof wide[0]; i++)
