@@ -29,6 +29,13 @@ static double rms(const double *x, size_t n) {
   return sqrt(sum / (double)n);
 }
 
+static double largest(const double *x, size_t n) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = fmax(most, fabs(x[i]));
+  return most;
+}
+
 /* As if the ribbon moved on as in the last step: its mean velocity has none of the fast modes that v alternates with.
  */
 static void predict(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
@@ -53,7 +60,7 @@ static bool linearise(ZpImplicit *s, double h, const double *q, const double *v,
   for (size_t i = 0; i < system->n; i++) {
     double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
     s->r[i] -= inertia * (moved - h * v[i]);
-    double stiffness = *zp_band_at(&s->A, i, i) += inertia, rounded = stiffness * s->q[i] * moved;
+    double stiffness = *zp_band_at(&s->A, i, i) += inertia, rounded = stiffness * s->reach * moved;
     work += s->r[i] * moved;
     turnover += inertia * moved * moved;
     rounding += rounded * rounded;
@@ -142,6 +149,7 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
   bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
   s->energy = s->system->begin(s->system->self, q);
+  s->reach = largest(q, s->system->n);
   for (double h = cut ? longest : try; h >= shortest_step;) {
     predict(s, h, q, v, history);
     int iterations = converge(s, h, q, v);

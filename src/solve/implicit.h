@@ -47,6 +47,7 @@ typedef struct ZpImplicit {
   double balance;  /* work that the iteration may leave unbalanced in a step, of the energy there */
   double fixed;    /* length of all steps; 0: by the local error, s */
   double energy;   /* where the step under way begins, J */
+  double reach;    /* largest coordinate there, m: all positions are rounded to its last digits */
   ZpImplicitCounts counts;
   double *q, *r; /* [n] end of the step under way; what is left of its force, and more */
   ZpBand A;
