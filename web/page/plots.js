@@ -78,9 +78,6 @@ class Plot {
 
 const scaled = (values, factor) => Array.from(values, (value) => value * factor);
 
-/** The extreme of lists of strokes and of 0, mm: strokes are signed. */
-const extreme = (pick, lists) => 1e3 * lists.reduce((most, list) => list.reduce((a, b) => pick(a, b), most), 0);
-
 /** Stroke over time: the run that the command gives, and what is happening. */
 export function timePlot(place, data) {
   const ends = () => ({
@@ -119,7 +116,7 @@ export function voltagePlot(place, data) {
         curve(plot, x.slice(from, to), y.slice(from, to), stable ? {colour: 'ink'} : {colour: 'warm', width: 1.5, dash: [4, 4]});
     }
     dot(plot, data.now.voltage / 1e3, 1e3 * data.now.stroke, 'accent');
-  }, start);
+  });
 }
 
 /** Attraction per length and field in the liquid, from the clip to the platform. */
