@@ -74,7 +74,8 @@ static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
 static const char *remedy(const ZpActuatorDef *def) {
   if (def->electro.surface == ZP_SURFACE_BEZIER || def->ribbon.model == ZP_RIBBON_MASS_SPRING)
     return "the forces of mass_spring and bezier have no energy that could balance";
-  if (def->electro.model == ZP_ELECTRO_FIELD) return "try a smaller electro.refresh_change";
+  if (def->electro.model == ZP_ELECTRO_FIELD)
+    return "try a smaller electro.refresh_change together with a smaller solver.tolerance";
   return "try a smaller solver.tolerance or solver.time_step";
 }
 
