@@ -23,7 +23,8 @@ typedef enum ZpOutcome {
   ZP_STEP_LIMIT,  /* "step_limit": solver.max_steps were not enough */
   ZP_CONVERGED,   /* "converged": an equilibrium was found */
   ZP_FOLLOWED,    /* "followed": a branch of equilibria was followed to its end */
-  ZP_BRANCH_LOST  /* "branch_lost": a branch could not be followed further */
+  ZP_BRANCH_LOST, /* "branch_lost": a branch could not be followed further */
+  ZP_PULLED_IN    /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json. */

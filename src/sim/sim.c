@@ -10,12 +10,13 @@
 
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",   "zipped",    "interrupted", "not_settled", "diverged",
-                                      "step_limit", "converged", "followed",    "branch_lost"};
+                                      "step_limit", "converged", "followed",    "branch_lost", "pulled_in"};
   return names[outcome];
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
-  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED;
+  return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
+         outcome == ZP_PULLED_IN;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -449,6 +450,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_CONVERGED:
   case ZP_FOLLOWED:
   case ZP_BRANCH_LOST:
+  case ZP_PULLED_IN:
     break; /* of studies of rest */
   }
 }
