@@ -7,12 +7,15 @@
 #include "base/kernel.h"
 #include "solve/descend.h"
 
-/* Range of contact: far below a micrometre, far above rounding, and so far below the liquid thickness that stands for
- * the insulators that faces within it attract each other as closed ones do, within 1 %. Under the attraction of closed
- * faces at drive.voltage the gap is 0. */
+/* Faces closer than that count as closed: far below a micrometre, far above rounding. */
+static const double touch = 5e-7; /* m */
+
+/* Range of contact: that, or so far below the liquid thickness that stands for the insulators that faces within it
+ * attract each other as closed ones do, within 1.4 %. Under the attraction of closed faces at drive.voltage the gap is
+ * 0. */
 static double contact_range(const ZpModel *model) {
-  static const double longest = 5e-7, shortest = 1e-8, part = 1.0 / 150; /* m, m, of that thickness */
-  return fmin(fmax(part * model->plates.d, shortest), longest);
+  static const double shortest = 1e-8, part = 1.0 / 150; /* m; of that thickness */
+  return fmin(fmax(part * model->plates.d, shortest), touch);
 }
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
@@ -72,8 +75,8 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   }
   double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
   double weight = model->total_weight / model->L;
-  s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight), contact_range(model),
-                                    model->s == 2 ? model->def.platform.length / 2 : 0};
+  s->contact = (ZpUnilateralParams){model->nodes,         model->l, fmax(closed, weight),
+                                    contact_range(model), touch,    model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   s->load = model->def.load.mass;
   put_on(s, 1);

@@ -332,7 +332,7 @@ static void note(Follower *f) {
 
 static void describe(Follower *f, const Voltages *v) {
   ZpResult *r = f->result;
-  char pull_in[64], release[128] = "";
+  char pull_in[96], release[128] = "";
   const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->statics);
   if (!isnan(v->pull_in))
     snprintf(pull_in, sizeof pull_in, "pulls in at %.4g V", v->pull_in);
