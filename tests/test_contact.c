@@ -225,6 +225,16 @@ START_TEST(test_opening) {
 }
 END_TEST
 
+/* The front is pulled apart, the platform is pressed together: nothing opens while that is closed. */
+START_TEST(test_front_stays_while_platform_is_closed) {
+  double ay[2 * NODES] = {0};
+  ay[2 * 3] = 1;
+  ay[2 * (NODES - 1)] = -1;
+  check_state(zp_zip_open((ZpZipState){3, true}, NODES, ay), 3, true);
+  check_state(zp_zip_open((ZpZipState){3, false}, NODES, ay), 2, false);
+}
+END_TEST
+
 /* -- invariants during a run ----------------------------------------------------------------------- */
 
 static ZpActuatorDef zipping_def(void) {
@@ -398,6 +408,7 @@ int main(void) {
   tcase_add_test(machine, test_share);
   tcase_add_test(machine, test_closing);
   tcase_add_test(machine, test_opening);
+  tcase_add_test(machine, test_front_stays_while_platform_is_closed);
   suite_add_tcase(suite, machine);
   TCase *runs = tcase_create("runs");
   tcase_add_test(runs, test_loss_of_joining);

@@ -175,7 +175,8 @@ END_TEST
  * beside the separation. => what the study is off, of force and open length */
 static double peel(double d, int nodes, double *open) {
   const double s = MM(1), G = 1e-3, w = 12.7e-3, eps0 = 8.8541878128e-12, eps_m = 2.75, eps_i = 4.62;
-  const double E = 200e9, nu = 0.285, b = 50e-6, EI = E * w * b * b * b / 12 / (1 - nu * nu), range = 5e-7;
+  const double E = 200e9, nu = 0.285, b = 50e-6, EI = E * w * b * b * b / 12 / (1 - nu * nu),
+               range = fmin(5e-7, d / 150);
   double W = G / (d - range / 4), U = d * sqrt(W / (0.5 * eps0 * eps_m * w));
   ZpActuatorDef def = held_def(s, U, false, nodes);
   def.gravity = 0;
@@ -324,6 +325,47 @@ START_TEST(test_no_voltage) {
 }
 END_TEST
 
+/* -- bounds ---------------------------------------------------------------------------------------- */
+
+/* Thin insulators in air, no cap: attraction rose without bound where faces overlapped, above any push, so they fell
+ * through each other: 64 kN at N = 21 and 100 V, 11 uF where closed plates allow 13 nF. Faces stay apart, capacitance
+ * and force below those of closed ones. */
+START_TEST(test_thin_insulators_stay_apart) {
+  static const int nodes[] = {21, 31, 61};
+  static const double voltages[] = {100, 300, 1000}, separations[] = {1e-6, MM(0.2), MM(2)};
+  const double w = 12.7e-3, eps0 = 8.8541878128e-12, closed_gap = 2 * 2e-6 / 4.62;
+  ZpActuatorDef def = held_def(separations[_i % 3], voltages[_i / 3 % 3], false, nodes[_i / 9]);
+  def.insulator.thickness = 2e-6;
+  def.medium.permittivity = 1;
+  ZpResult *result = study_of(&def);
+  double C = eps0 * w * def.ribbon.length / closed_gap, U = def.drive.voltage;
+  double force = zp_result_get(result, "force_N"), capacitance = zp_result_get(result, "capacitance_F");
+  printf("N = %d, %g mm, %g V: %.4g N, %.4g nF of %.4g\n", def.mesh.nodes, 1e3 * def.isometric.separation, U, force,
+         1e9 * capacitance, 1e9 * C);
+  ck_assert(force > 0 && force < 0.5 * C * U * U / closed_gap);
+  ck_below(capacitance, C);
+  for (size_t f = 0; f < result->shapes->frames; f++) {
+    ZpShape shape = zp_shapes_get(result->shapes, f);
+    for (size_t k = 0; k < (size_t)def.mesh.nodes; k++)
+      ck_assert_double_ge(shape.gap[k], -0.2e-6);
+  }
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A state that cannot be is told from one that can. */
+START_TEST(test_impossible_states_are_told) {
+  ZpActuatorDef def = held_def(MM(2), KV(1), true, 21);
+  Rest r;
+  open_rest(&def, &r);
+  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, MM(2), &r.work).end));
+  ck_assert_ptr_null(zp_statics_fault(&r.statics));
+  r.statics.eval.plates.gap[5] = -5e-6;
+  ck_assert_str_eq(zp_statics_fault(&r.statics), "the insulators' faces overlap");
+  close_rest(&r);
+}
+END_TEST
+
 /* -- what is refused ------------------------------------------------------------------------------- */
 
 static void check_refused(ZpActuatorDef def, const char *first, const char *second) {
@@ -362,6 +404,8 @@ int main(void) {
   tcase_add_test(force, test_everywhere);
   tcase_add_test(force, test_mass_spring);
   tcase_add_test(force, test_no_voltage);
+  tcase_add_loop_test(force, test_thin_insulators_stay_apart, 0, 27);
+  tcase_add_test(force, test_impossible_states_are_told);
   tcase_add_test(force, test_refused);
   suite_add_tcase(suite, force);
   return run_suite(suite);

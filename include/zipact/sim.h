@@ -15,17 +15,18 @@ typedef struct ZpSim ZpSim;
 
 /* How the solver ended. */
 typedef enum ZpOutcome {
-  ZP_REACHED_END,  /* "end_time": the time asked for was reached */
-  ZP_ZIPPED,       /* "zipped": the actuator has closed */
-  ZP_INTERRUPTED,  /* "interrupted": the progress hook asked to stop */
-  ZP_NOT_SETTLED,  /* "not_settled": no equilibrium to start from was found */
-  ZP_DIVERGED,     /* "diverged": numbers left all bounds */
-  ZP_STEP_LIMIT,   /* "step_limit": solver.max_steps were not enough */
-  ZP_CONVERGED,    /* "converged": an equilibrium was found */
-  ZP_FOLLOWED,     /* "followed": a branch of equilibria was followed to its end */
-  ZP_BRANCH_LOST,  /* "branch_lost": a branch could not be followed further */
-  ZP_BAD_ARGUMENT, /* "bad_argument": a call asked for what cannot be; nothing was done */
-  ZP_SHORT_CIRCUIT /* "short_circuit": electrodes without an insulator touched under a voltage */
+  ZP_REACHED_END,   /* "end_time": the time asked for was reached */
+  ZP_ZIPPED,        /* "zipped": the actuator has closed */
+  ZP_INTERRUPTED,   /* "interrupted": the progress hook asked to stop */
+  ZP_NOT_SETTLED,   /* "not_settled": no equilibrium to start from was found */
+  ZP_DIVERGED,      /* "diverged": numbers left all bounds */
+  ZP_STEP_LIMIT,    /* "step_limit": solver.max_steps were not enough */
+  ZP_CONVERGED,     /* "converged": an equilibrium was found */
+  ZP_FOLLOWED,      /* "followed": a branch of equilibria was followed to its end */
+  ZP_BRANCH_LOST,   /* "branch_lost": a branch could not be followed further */
+  ZP_BAD_ARGUMENT,  /* "bad_argument": a call asked for what cannot be; nothing was done */
+  ZP_SHORT_CIRCUIT, /* "short_circuit": electrodes without an insulator touched under a voltage */
+  ZP_PULLED_IN      /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" of any other number. */

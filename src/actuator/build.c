@@ -15,26 +15,94 @@ static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane == ZP_PLANE_STRAIN);
 }
 
-/* What a ribbon is at a place along it. */
+/* What a ribbon is along a piece of it. */
 typedef struct Place {
   ZpSection section;
   double curvature; /* natural, 1/m */
 } Place;
 
-static Place place_at(const ZpModel *model, double along) {
+/* A piece of an edge: from `from` to `to`, in edge lengths. */
+typedef struct Piece {
+  Place place;
+  double from, to;
+} Piece;
+
+enum { SEGMENTS = 3, PIECES = SEGMENTS + 1 };
+
+/* What lies along the ribbon from the left end on: the segments, then the rest. => ends of each, m */
+static void places_of(const ZpModel *model, Place place[PIECES], double end[PIECES]) {
   const ZpActuatorDef *def = &model->def;
-  double end = def->segment_1.length;
-  if (along < end) return (Place){section_of(def, def->segment_1.thickness), def->segment_1.curvature};
-  end += def->segment_2.length;
-  if (along < end) return (Place){section_of(def, def->segment_2.thickness), def->segment_2.curvature};
-  end += def->segment_3.length;
-  if (along < end) return (Place){section_of(def, def->segment_3.thickness), def->segment_3.curvature};
-  return (Place){model->section, 0};
+  const double lengths[SEGMENTS] = {def->segment_1.length, def->segment_2.length, def->segment_3.length};
+  place[0] = (Place){section_of(def, def->segment_1.thickness), def->segment_1.curvature};
+  place[1] = (Place){section_of(def, def->segment_2.thickness), def->segment_2.curvature};
+  place[2] = (Place){section_of(def, def->segment_3.thickness), def->segment_3.curvature};
+  place[3] = (Place){model->section, 0};
+  double along = 0;
+  for (int k = 0; k < SEGMENTS; k++)
+    end[k] = along += lengths[k];
+  end[SEGMENTS] = INFINITY;
 }
 
-/* The middle of edge `station`. */
-static Place edge_at(const ZpModel *model, size_t station) {
-  return place_at(model, ((double)station + 0.5) * model->l);
+/* A place along the ribbon in edge lengths; a node that rounding misses is that node. */
+static double in_edges(const ZpModel *model, double along) {
+  static const double missed = 1e-9;
+  double edges = along / model->l, node = round(edges);
+  return fabs(edges - node) < missed ? node : edges;
+}
+
+/* The pieces of edge `station` between the ends of segments. => how many */
+static int pieces_of(const ZpModel *model, size_t station, Piece piece[PIECES]) {
+  Place place[PIECES];
+  double end[PIECES], from = 0;
+  int count = 0;
+  places_of(model, place, end);
+  for (int k = 0; k < PIECES && from < 1; k++) {
+    double to = fmin(in_edges(model, end[k]) - (double)station, 1);
+    if (to <= from) continue;
+    piece[count++] = (Piece){place[k], from, to};
+    from = to;
+  }
+  return count;
+}
+
+/* What an edge gives to its two nodes: integrals along it, weighted by how near each node is (1 there, 0 at the
+ * other). So steps of the section anywhere in the edge count where they are. */
+typedef struct Share {
+  double compliance; /* of bending, 1 / (N m) */
+  double turn;       /* natural, rad */
+  double mass;       /* kg */
+} Share;
+
+static Share share_of(const ZpModel *model, size_t station, bool right) {
+  Piece piece[PIECES];
+  Share share = {0, 0, 0};
+  int count = pieces_of(model, station, piece);
+  for (int k = 0; k < count; k++) {
+    double middle = 0.5 * (piece[k].from + piece[k].to);
+    double part = (piece[k].to - piece[k].from) * (right ? middle : 1 - middle) * model->l;
+    share.compliance += part / piece[k].place.section.EI;
+    share.turn += part * piece[k].place.curvature;
+    share.mass += part * piece[k].place.section.mu;
+  }
+  return share;
+}
+
+/* The sum of what the edges beside a node give to it. */
+static Share node_share(const ZpModel *model, size_t station) {
+  Share left = {0, 0, 0}, right = {0, 0, 0};
+  if (station > 0) left = share_of(model, station - 1, true);
+  if (station + 1 < model->nodes) right = share_of(model, station, false);
+  return (Share){left.compliance + right.compliance, left.turn + right.turn, left.mass + right.mass};
+}
+
+/* Axial compliance of an edge, m/N. */
+static double edge_compliance(const ZpModel *model, size_t station) {
+  Piece piece[PIECES];
+  double sum = 0;
+  int count = pieces_of(model, station, piece);
+  for (int k = 0; k < count; k++)
+    sum += (piece[k].to - piece[k].from) * model->l / piece[k].place.section.EA;
+  return sum;
 }
 
 static ZpMassSpringParams spring_of(const ZpModel *model) {
@@ -101,14 +169,10 @@ typedef struct Node {
   double mass;
 } Node;
 
-/* Mass of the ribbon at a node: the paper's particles have 1/N each, eq. (6); the rod's nodes have that of
- * half an edge on each side. */
+/* Mass of the ribbon at a node: the paper's particles have 1/N each, eq. (6); the rod's nodes have their share of the
+ * edges beside them, which keeps the centre of mass. */
 static double ribbon_mass(const ZpModel *model, size_t station) {
-  if (!model->is_rod) return model->section.mu * model->L / (double)model->nodes;
-  double mass = 0;
-  if (station > 0) mass += 0.5 * model->l * edge_at(model, station - 1).section.mu;
-  if (station + 1 < model->nodes) mass += 0.5 * model->l * edge_at(model, station).section.mu;
-  return mass;
+  return model->is_rod ? node_share(model, station).mass : model->section.mu * model->L / (double)model->nodes;
 }
 
 static Node node_of(const ZpModel *model, size_t j) {
@@ -195,41 +259,39 @@ static void fill_chain(ZpModel *model, Arrays *a) {
   model->rod = (ZpRodParams){model->s, model->nodes, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
 }
 
-/* A joint bends over the half edges beside it; a clamp is the held slope, over half an edge, which makes it
- * second order in l; a free end does not bend. */
+/* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a clamp is the held slope, over half an
+ * edge, which makes it second order in l; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   size_t s = model->s, N = model->nodes;
-  double l = model->l;
   bool right_slope = s == 2 || model->def.actuator.right_end != ZP_END_FREE;
   for (size_t j = 0; j < model->count; j++) {
     size_t station = j / s;
-    double compliance = 0, turn = 0;
-    if (station > 0) {
-      Place left = edge_at(model, station - 1);
-      compliance += 0.5 * l / left.section.EI;
-      turn += 0.5 * l * left.curvature;
-    }
-    if (station + 1 < N) {
-      Place right = edge_at(model, station);
-      compliance += 0.5 * l / right.section.EI;
-      turn += 0.5 * l * right.curvature;
-      a->rod_l[j] = l;
-      a->rod_S[j] = right.section.EA / l;
-    }
-    a->rod_B[j] = station + 1 == N && !right_slope ? 0 : 1 / compliance;
-    a->rod_k0[j] = 2 * zp_tangent(0.5 * turn);
+    Share share = node_share(model, station);
+    a->rod_B[j] = station + 1 == N && !right_slope ? 0 : 1 / share.compliance;
+    a->rod_k0[j] = 2 * zp_tangent(0.5 * share.turn);
+    if (station + 1 == N) continue;
+    a->rod_l[j] = model->l;
+    a->rod_S[j] = 1 / edge_compliance(model, station);
   }
   model->rod = (ZpRodParams){s, N, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
 }
 
-/* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.5). */
+/* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.5): an edge of several pieces is as stiff as its
+ * stiffest and as light as its lightest. */
 static double frequency_bound(const ZpModel *model) {
   double l = model->l, stiffest = 0;
   if (!model->is_rod)
     return zp_massspring_frequency_bound(&model->spring, model->section.mu * model->L / (double)model->nodes);
   for (size_t i = 0; i + 1 < model->nodes; i++) {
-    ZpSection e = edge_at(model, i).section;
-    stiffest = fmax(stiffest, (4 * e.EA / l + 16 * e.EI / (l * l * l)) / (e.mu * l));
+    Piece piece[PIECES];
+    int count = pieces_of(model, i, piece);
+    double EA = 0, EI = 0, mu = INFINITY;
+    for (int k = 0; k < count; k++) {
+      EA = fmax(EA, piece[k].place.section.EA);
+      EI = fmax(EI, piece[k].place.section.EI);
+      mu = fmin(mu, piece[k].place.section.mu);
+    }
+    stiffest = fmax(stiffest, (4 * EA / l + 16 * EI / (l * l * l)) / (mu * l));
   }
   return sqrt(stiffest);
 }

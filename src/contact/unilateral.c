@@ -49,7 +49,7 @@ void zp_unilateral_stiffness(const ZpUnilateralParams *p, const double *gap, dou
 
 size_t zp_unilateral_front(const ZpUnilateralParams *p, const double *gap) {
   size_t front = 0;
-  while (front + 1 < p->nodes && gap[front + 1] < p->range)
+  while (front + 1 < p->nodes && gap[front + 1] < p->touch)
     front++;
   return front;
 }

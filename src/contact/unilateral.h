@@ -14,6 +14,7 @@ typedef struct ZpUnilateralParams {
   double l;           /* element length, m */
   double p0;          /* push per length at gap 0, N/m */
   double range;       /* gap below which faces push, m */
+  double touch;       /* gap below which they count as closed, m; at least the range */
   double flat_length; /* of the platform's faces, at the gap of the last station, m */
 } ZpUnilateralParams;
 
@@ -23,7 +24,7 @@ void zp_unilateral_push(const ZpUnilateralParams *params, const double *gap, dou
 /* (gaps [N]) => second derivatives of the energy by the gaps: own [N] and with the next station [N-1], N/m. */
 void zp_unilateral_stiffness(const ZpUnilateralParams *params, const double *gap, double *own, double *next);
 
-/* How many stations from the clip on are in touch, the clip not counted. */
+/* How many stations from the clip on are closed, the clip not counted. */
 size_t zp_unilateral_front(const ZpUnilateralParams *params, const double *gap);
 
 #endif

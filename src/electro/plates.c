@@ -239,8 +239,7 @@ void zp_plates_stiffness(const ZpPlatesParams *p, const ZpPlatesEval *e, double 
   own[last] += p->flat_length * slope(p, K, h_c, e->gap[last]);
 }
 
-/* Capacitance per length over eps0 eps_m w. */
-static double inverse_gap(const ZpPlatesParams *p, double gap) {
+double zp_plates_inverse_gap(const ZpPlatesParams *p, double gap) {
   double h = gap + p->d, inverse = 1 / (h > p->h_least ? h : p->h_least);
   if (!p->edges) return inverse;
   double at = edge_gap(p, p->h_least, gap);
@@ -253,7 +252,7 @@ static void add_piece(const ZpPlatesParams *p, double U, double gap, double leng
   totals->force += law.W * length;
   totals->potential += law.P * length;
   totals->charge += law.q * length;
-  totals->inverse_gap += length * inverse_gap(p, gap);
+  totals->inverse_gap += length * zp_plates_inverse_gap(p, gap);
 }
 
 /* What add_piece adds, without edges, at the Gauss points of some elements. */

@@ -50,6 +50,9 @@ ZpPlatesLaw zp_plates_law(const ZpPlatesParams *params, double voltage, double g
 /* The g + d below which the force does not rise any more at this voltage, m. */
 double zp_plates_least_h(const ZpPlatesParams *params, double voltage);
 
+/* Capacitance per length over eps0 eps_m w at this gap, 1/m: 1 / (g + d), with edges more. */
+double zp_plates_inverse_gap(const ZpPlatesParams *params, double gap);
+
 void zp_plates_carve(const ZpPlatesParams *params, ZpPlatesEval *eval, ZpCarver *carver);
 
 /* (x, y of interleaved upper and lower nodes) => eval->gap and eval->dx. */

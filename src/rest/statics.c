@@ -5,13 +5,20 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "solve/descend.h"
 
-/* Range of contact: far below a micrometre, far above rounding. Under the attraction of closed faces at
- * drive.voltage the gap is 0. */
-static const double contact_range = 5e-7; /* m */
+/* Faces closer than that count as closed: far below a micrometre, far above rounding. */
+static const double touch = 5e-7; /* m */
 
-static size_t carve(ZpStatics *s, void *block) {
-  const ZpModel *model = s->model;
+/* Range of contact: that, or so far below the liquid thickness that stands for the insulators that faces within it
+ * attract each other as closed ones do, within 1.4 %. Under the attraction of closed faces at drive.voltage the gap is
+ * 0. */
+static double contact_range(const ZpModel *model) {
+  static const double shortest = 1e-8, part = 1.0 / 150; /* m; of that thickness */
+  return fmin(fmax(part * model->plates.d, shortest), touch);
+}
+
+static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   size_t N = model->nodes, stride = model->stride;
   ZpCarver carver = {block, 0};
   s->q = zp_carve(&carver, 2 * stride);
@@ -19,13 +26,32 @@ static size_t carve(ZpStatics *s, void *block) {
   s->force = zp_carve(&carver, 2 * stride);
   s->good = zp_carve(&carver, 2 * stride);
   s->tension = zp_carve(&carver, stride);
+  s->k0_now = zp_carve(&carver, stride);
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
+  s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
   return carver.used;
+}
+
+/* Faces that overlap attract each other as closed ones: their attraction must not outgrow the push, which is what keeps
+ * them apart. */
+static void fill_model(const ZpModel *model, ZpStatics *s) {
+  ZpModel *own = (ZpModel *)s->model;
+  *own = *model;
+  own->plates.h_least = fmax(model->plates.h_least, model->plates.d);
+  own->rod.k0 = s->k0_now;
+  s->k0 = model->rod.k0;
+}
+
+/* Put on this share of weight and natural curvature. */
+static void put_on(ZpStatics *s, double share) {
+  s->share = share;
+  for (size_t j = 0; j < s->model->stride; j++)
+    s->k0_now[j] = share * s->k0[j];
 }
 
 static void lay_straight(ZpStatics *s) {
@@ -40,20 +66,20 @@ static void lay_straight(ZpStatics *s) {
 
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   memset(s, 0, sizeof *s);
-  s->model = model;
-  s->memory = zp_calloc(1, carve(s, NULL));
-  if (!s->memory || !zp_eval_create(model, &s->eval) || !zp_assembly_create(model, false, &s->assembly)) {
+  s->memory = zp_calloc(1, carve(model, s, NULL));
+  if (s->memory) carve(model, s, s->memory);
+  if (s->memory) fill_model(model, s);
+  if (!s->memory || !zp_eval_create(s->model, &s->eval) || !zp_assembly_create(s->model, false, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }
-  carve(s, s->memory);
   double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
   double weight = model->total_weight / model->L;
-  s->contact = (ZpUnilateralParams){model->nodes, model->l, fmax(closed, weight), contact_range,
-                                    model->s == 2 ? model->def.platform.length / 2 : 0};
+  s->contact = (ZpUnilateralParams){model->nodes,         model->l, fmax(closed, weight),
+                                    contact_range(model), touch,    model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   s->load = model->def.load.mass;
-  s->weight_share = 1;
+  put_on(s, 1);
   s->opening = NAN;
   lay_straight(s);
   return true;
@@ -74,9 +100,10 @@ double zp_statics_tolerance(const ZpStatics *s) {
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
-/* From straight while *parameter grows to `whole`, by the share `step` at first, for what is too far to reach at once.
- */
-static ZpNewtonInfo step_by_step(ZpStatics *s, double *parameter, double whole, double step, ZpNewtonWork *work) {
+/* From straight while what is put on grows to `whole`, by the share `step` at first, for what is too far to reach at
+ * once. */
+static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step,
+                                 ZpNewtonWork *work) {
   static const double shortest = 1e-4;
   ZpStaticSystem system = zp_statics_system(s);
   size_t bytes = 2 * s->model->stride * sizeof *s->q;
@@ -87,7 +114,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, double *parameter, double whole, 
   memcpy(s->good, s->q, bytes);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
-    *parameter = share * whole;
+    put(s, share * whole);
     info = zp_newton(&system, zp_statics_tolerance(s), STEP_ITERATIONS, work);
     iterations += info.iterations;
     if (zp_newton_good(info.end)) {
@@ -100,7 +127,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, double *parameter, double whole, 
       step *= 0.25;
     }
   }
-  *parameter = whole;
+  put(s, whole);
   info.iterations = iterations;
   if (reached < 1) info.end = ZP_NEWTON_SLOW;
   return info;
@@ -111,7 +138,12 @@ static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
   ZpStaticSystem system = zp_statics_system(s);
+  memcpy(s->good, s->q, 2 * s->model->stride * sizeof *s->q);
   ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (!zp_newton_good(contact.end)) {
+    memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
+    contact = zp_statics_fall(s, 0, work);
+  }
   contact.iterations += info.iterations;
   return contact;
 }
@@ -121,8 +153,12 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   s->U = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!zp_newton_good(info.end)) info = step_by_step(s, &s->weight_share, 1, 0.01, work);
+  if (!zp_newton_good(info.end)) info = step_by_step(s, put_on, 1, 0.01, work);
   return let_faces_push(s, info, work);
+}
+
+static void open_to(ZpStatics *s, double opening) {
+  s->opening = opening;
 }
 
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
@@ -134,23 +170,52 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
-  if (folded || !zp_newton_good(info.end)) info = step_by_step(s, &s->opening, opening, 0.05, work);
+  if (folded || !zp_newton_good(info.end)) info = step_by_step(s, open_to, opening, 0.05, work);
   return let_faces_push(s, info, work);
 }
 
-bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  enum { STEPS = 20 };            /* equal ones of the voltage's square, as the force is */
-  static const double jump = 0.1; /* a stroke that changes by a larger share has jumped to another branch */
-  ZpStaticSystem system = zp_statics_system(s);
-  double before = zp_statics_stroke(s);
-  for (int k = 1; k <= STEPS; k++) {
-    s->U = voltage * sqrt((double)k / STEPS);
-    if (!zp_newton_good(zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work).end)) return false;
-    double now = zp_statics_stroke(s);
-    if (fabs(now - before) > jump * fabs(before)) return false;
-    before = now;
+/* Has any gap, with what stands for the insulators, changed since the last good state by so large a share that this is
+ * another branch? */
+static bool has_jumped(const ZpStatics *s) {
+  static const double jump = 0.25;
+  const ZpModel *model = s->model;
+  const double *y = s->good + model->stride;
+  for (size_t i = 0; i < model->nodes; i++) {
+    size_t lower = model->s * i + model->s - 1;
+    double before = (model->s == 2 ? y[lower - 1] : model->plates.flat_height) - y[lower];
+    if (!(fabs(s->eval.plates.gap[i] - before) < jump * (fabs(before) + model->plates.d))) return true;
   }
-  return zp_statics_stable(s, work);
+  return false;
+}
+
+/* Back to the last good state. */
+static void go_back(ZpStatics *s, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
+  system.residual(s, work->r);
+  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+}
+
+bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  static const double longest = 0.05, shortest = 1e-6; /* shares of the voltage's square, as the force is */
+  ZpStaticSystem system = zp_statics_system(s);
+  size_t bytes = 2 * s->model->stride * sizeof *s->q;
+  double reached = 0, step = longest;
+  memcpy(s->good, s->q, bytes);
+  while (reached < 1 && step > shortest) {
+    double share = fmin(reached + step, 1);
+    s->U = voltage * sqrt(share);
+    ZpNewtonEnd end = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work).end;
+    if (zp_newton_good(end) && zp_statics_stable(s, work) && !has_jumped(s)) {
+      reached = share;
+      step = fmin(2 * step, longest);
+      memcpy(s->good, s->q, bytes);
+    } else {
+      go_back(s, work);
+      step *= 0.5;
+    }
+  }
+  return reached == 1;
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {
@@ -158,7 +223,18 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
   lay_straight(s);
   s->U = voltage;
   s->contact_acts = true;
-  return zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (zp_newton_good(info.end) && zp_statics_stable(s, work)) return info;
+  lay_straight(s);
+  return zp_statics_fall(s, voltage, work);
+}
+
+ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  static const double longest = 4e-3; /* 2 mrad: faces do not pass through each other within a step */
+  enum { MOST = 20000 };
+  ZpStaticSystem system = zp_statics_system(s);
+  s->U = voltage;
+  return zp_descend(&system, longest, zp_statics_tolerance(s), MOST, work);
 }
 
 double zp_statics_stroke(const ZpStatics *s) {
@@ -178,7 +254,7 @@ size_t zp_statics_front(const ZpStatics *s) {
 bool zp_statics_shorted(const ZpStatics *s) {
   const ZpModel *model = s->model;
   if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, s->q + model->stride) < contact_range;
+  return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->contact.range;
 }
 
 static ZpPlatesTotals totals(const ZpStatics *s) {
@@ -198,6 +274,26 @@ double zp_statics_capacitance(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
   return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap +
          s->model->parts * s->eval.surplus.capacitance;
+}
+
+/* Of closed faces, whole actuator, F. */
+static double closed_capacitance(const ZpStatics *s) {
+  const ZpActuatorDef *def = &s->model->def;
+  double per_length =
+      zp_plates_inverse_gap(&s->model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
+  return s->model->parts * per_length * (s->model->L + s->model->plates.flat_length);
+}
+
+const char *zp_statics_fault(const ZpStatics *s) {
+  static const double beyond_plates = 1.1; /* what fields round the ends add to plates is below that */
+  static const double micrometre = 1e-6;
+  double least = INFINITY, most = fmax(micrometre, 0.01 * 2 * s->model->def.insulator.thickness);
+  for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
+    least = fmin(least, s->eval.plates.gap[i]);
+  if (s->contact_acts && least < -most) return "the insulators' faces overlap";
+  if (s->model->field && zp_statics_capacitance(s) > beyond_plates * closed_capacitance(s))
+    return "the capacitance is above that of closed faces";
+  return NULL;
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
@@ -258,8 +354,8 @@ static double residual(void *self, double *r) {
   size_t stride = model->stride;
   zp_eval_static_forces(model, s->q, s->U, &s->eval, s->force);
   const ZpActuatorDef *def = &model->def;
-  for (size_t j = 0; j < model->count && s->weight_share < 1; j++)
-    s->force[stride + j] += (1 - s->weight_share) * model->weight[j];
+  for (size_t j = 0; j < model->count && s->share < 1; j++)
+    s->force[stride + j] += (1 - s->share) * model->weight[j];
   s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
     zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);
@@ -338,6 +434,25 @@ static double length(void *self, const double *step) {
   return most / longest;
 }
 
+/* The largest rotation of an edge, rad, and under a voltage the largest share by which a gap with its insulators
+ * changes. */
+static double change(void *self, const double *step) {
+  const ZpStatics *s = self;
+  const ZpModel *model = s->model;
+  const ZpPlatesParams *p = &model->plates;
+  double most = 0, rotation, stretch, least_h = zp_plates_least_h(p, s->U);
+  for (size_t j = 0; j < model->count - model->s; j++) {
+    turn(s, step, j, &rotation, &stretch);
+    most = fmax(most, fabs(rotation));
+  }
+  for (size_t i = 0; model->field && s->U != 0 && i < model->nodes; i++) {
+    size_t lower = model->s * i + model->s - 1;
+    double dy = part(s, step, 2 * lower + 1) - (model->s == 2 ? part(s, step, 2 * lower - 1) : 0);
+    most = fmax(most, fabs(dy) / fmax(s->eval.plates.gap[i] + p->d, least_h));
+  }
+  return most / (1e-3 * model->def.solver.tolerance);
+}
+
 /* Turn and stretch each edge instead of moving its ends along straight lines: a rotation then does not
  * stretch, which in a ribbon that hardly stretches is all the difference. The tensions that the step
  * foresees go into the next stiffness: those of the edges as they come to lie are off by what they were
@@ -411,7 +526,8 @@ static bool refresh(void *self) {
 }
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
-  return (ZpStaticSystem){s->assembly.n, s, residual, stiffness, length, move, s->model->field_solved ? refresh : NULL};
+  return (ZpStaticSystem){s->assembly.n, s,      residual, stiffness,
+                          length,        change, move,     s->model->field_solved ? refresh : NULL};
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */

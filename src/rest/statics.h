@@ -11,16 +11,18 @@
 #include <zipact/table.h>
 
 typedef struct ZpStatics {
-  const ZpModel *model;
+  const ZpModel *model; /* the one given, with natural turns as far as they are put on, and overlapping faces closed */
   ZpEval eval;
   ZpUnilateralParams contact;
-  double *q;           /* [2 stride] the present point */
-  double U;            /* V */
-  double load;         /* mass hung on the actuator, kg; starts as load.mass */
-  double weight_share; /* of all weight that acts: 1, less on the way to a heavy load */
-  double opening;      /* at which the lower platform is held, m; NAN: it hangs free */
-  double reaction;     /* what holds it there, N, one part, positive downwards; of the last residual */
-  bool contact_acts;   /* faces push on each other; without, they may pass (to find a start) */
+  double *q;         /* [2 stride] the present point */
+  double U;          /* V */
+  double load;       /* mass hung on the actuator, kg; starts as load.mass */
+  double share;      /* of all weight and natural curvature that acts: 1, less on the way there */
+  const double *k0;  /* [stride] natural 2 tan(phi / 2) of joints, of all natural curvature */
+  double *k0_now;    /* and of what acts */
+  double opening;    /* at which the lower platform is held, m; NAN: it hangs free */
+  double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
+  bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
   double scale;                                /* force that a residual is relative to, N */
   double (*D)[4];                              /* [3 edges] mechanics' stiffness */
@@ -55,15 +57,20 @@ double zp_statics_tolerance(const ZpStatics *statics);
  * each other on the way, but not in the end. */
 ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
 
-/* From the hanging equilibrium up to `voltage` on the branch that hangs. False if that ends before, at the pull-in. */
+/* From the hanging equilibrium up to `voltage` on the branch that hangs, to within a millionth of its end. False if
+ * that ends before, at the pull-in, or the field cannot be solved (zp_statics_trouble). */
 bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
 /* Hold the lower platform of two ribbons at `opening` (below 2 L), without load and voltage, ever after; from the
  * straight shape to the equilibrium there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
 
-/* From the straight shape to the equilibrium at `voltage` with all faces closed. */
+/* From the straight shape, which of two ribbons has all faces closed, to a stable equilibrium at `voltage`. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
+
+/* Release it where there is no equilibrium near: at `voltage` from the present point to where slow motion against a
+ * resistance ends. A good end is stable. */
+ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
 /* The present point: how far the right end of the lower or only ribbon is below the clip or clamp, signed, m; distance
  * of the platforms' faces (NAN for one ribbon); how many stations from the clip on are closed, the clip not counted. */
@@ -76,6 +83,11 @@ bool zp_statics_shorted(const ZpStatics *statics);
 
 /* Why the field could not be solved where it was tried last; NULL if it was, or is not asked for. */
 const char *zp_statics_trouble(const ZpStatics *statics);
+
+/* Why the present point cannot be: faces overlap by more than 1 um and 1 % of their
+ * insulators, or the capacitance exceeds that of
+ * closed faces. NULL if nothing speaks against it. Of the last residual. */
+const char *zp_statics_fault(const ZpStatics *statics);
 
 /* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */
 double zp_statics_charge(const ZpStatics *statics);

@@ -9,16 +9,16 @@
 #include "sim/sim_internal.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",    "zipped",       "interrupted",  "not_settled",
-                                      "diverged",    "step_limit",   "converged",    "followed",
-                                      "branch_lost", "bad_argument", "short_circuit"};
+  static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
+                                      "diverged",    "step_limit",   "converged",     "followed",
+                                      "branch_lost", "bad_argument", "short_circuit", "pulled_in"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
   return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
-         outcome == ZP_SHORT_CIRCUIT;
+         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -465,6 +465,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_CONVERGED:
   case ZP_FOLLOWED:
   case ZP_BRANCH_LOST:
+  case ZP_PULLED_IN:
     break; /* of studies of rest */
   case ZP_BAD_ARGUMENT:
     snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");

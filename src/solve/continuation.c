@@ -9,6 +9,7 @@
 
 static const double shortest_step = 1e-9;
 static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
+static const double surest_step = 1e-5;  /* too short to cross a sharp fold onto the way back */
 enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
 void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, ZpCarver *carver) {
@@ -33,8 +34,9 @@ static double dot(size_t n, const double *a, const double *b) {
   return sum;
 }
 
-/* Direction of the branch at the present point, of length 1, on the side of the last one. => cosine of the
- * angle by which it has turned; 0 if there is no direction. */
+/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
+ * the way back; the determinant of the stiffness tells, eq. (10.2). => cosine of the angle by which it has turned; 0 if
+ * there is no direction. */
 static double find_direction(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -42,7 +44,8 @@ static double find_direction(ZpBranch *b) {
   rest->residual(rest->self, b->newton.r);
   rest->stiffness(rest->self, &b->newton.K);
   sys->sensitivity(rest->self, b->a);
-  if (!zp_band_factor(&b->newton.K, NULL)) return 0;
+  bool negative;
+  if (!zp_band_factor(&b->newton.K, &negative)) return 0;
   zp_band_solve(&b->newton.K, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
@@ -53,6 +56,7 @@ static double find_direction(ZpBranch *b) {
   for (size_t i = 0; i < n; i++)
     b->direction[i] = b->a[i] * m;
   b->direction_m = m;
+  b->reversed = b->along != ((m > 0) != negative);
   return isfinite(length) ? fabs(cosine) : 0;
 }
 
@@ -63,7 +67,9 @@ bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, do
   b->tolerance = tolerance;
   memset(b->direction, 0, b->system->at_rest.n * sizeof *b->direction);
   b->direction_m = growing ? 1 : -1;
-  return find_direction(b) > 0;
+  if (!(find_direction(b) > 0)) return false;
+  b->along = b->along != b->reversed;
+  return true;
 }
 
 static bool refresh(const ZpStaticSystem *rest) {
@@ -78,6 +84,8 @@ static int correct(ZpBranch *b, double s, double m_start) {
   size_t n = rest->n;
   bool fresh = refresh(rest);
   int refreshes = 1, effort = 0;
+  ZpClosing closing;
+  zp_closing_start(&closing);
   if (!fresh) return -1;
   for (int k = 0; k <= MOST_CORRECTIONS;) {
     double left = rest->residual(rest->self, b->newton.r);
@@ -86,11 +94,13 @@ static int correct(ZpBranch *b, double s, double m_start) {
     for (size_t i = 0; i < n; i++)
       gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
     if (!isfinite(left)) return -1;
-    if (left < b->tolerance && fabs(s - gone) < 1e-3 * s) {
+    bool close = zp_closing_done(&closing, left, b->tolerance) || zp_closing_stalled(&closing, left, b->tolerance);
+    if (close && fabs(s - gone) < 1e-3 * s) {
       effort = k > effort ? k : effort;
       if (fresh) return effort;
       fresh = refreshes++ < MOST_REFRESHES && refresh(rest);
       if (!fresh) return -1;
+      zp_closing_renew(&closing);
       k = 0;
       continue;
     }
@@ -104,6 +114,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
     double dm = (s - gone - ta) / (tb + b->direction_m / sys->m_scale);
     for (size_t i = 0; i < n; i++)
       b->a[i] += b->b[i] * dm;
+    zp_closing_correct(&closing, rest, b->a);
     double length = rest->length(rest->self, b->a);
     if (!(length < 1) || !(fabs(dm) < 0.2 * sys->m_scale)) return -1;
     rest->move(rest->self, b->a, 1);
@@ -139,7 +150,8 @@ bool zp_branch_advance(ZpBranch *b) {
   while (b->step > shortest_step) {
     double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
     int corrections = try_step(b, s);
-    if (corrections >= 0 && find_direction(b) > sharpest_turn) {
+    if (corrections >= 0 && find_direction(b) > sharpest_turn && (!b->reversed || s < surest_step)) {
+      b->along = b->along != b->reversed;
       b->step = b->taken = s;
       if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
       if (corrections > 2 * EASY_CORRECTIONS) b->step = 0.5 * s;
@@ -153,22 +165,19 @@ bool zp_branch_advance(ZpBranch *b) {
   return false;
 }
 
-double zp_branch_limit(ZpBranch *b) {
+void zp_branch_approach(ZpBranch *b, bool (*passed)(void *user), void *user) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
-  size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double after_m = b->direction_m, step = b->step, s = step, gone = 0;
-  sys->save(self, b->saved);
-  memcpy(b->direction_after, b->direction, bytes);
+  double step = b->step, s = step, gone = 0;
   sys->restore(self, b->saved_before);
   find_direction(b);
-  /* walk towards the limit point in steps that halve whenever one would pass it, no further than the last step went:
-   * there may be more limit points beyond; m is flat there, so its error falls with the square of the last step */
+  /* walk there in steps that halve whenever one would pass it, no further than the last step went: there may be more
+   * limit points beyond; at one m is flat, so its error falls with the square of the last step */
   while (s > 1e-4 * step) {
     double sign = b->direction_m;
     sys->save(self, b->saved_before);
     bool within = gone + s < b->taken;
-    if (within && try_step(b, s) >= 0 && find_direction(b) > 0 && b->direction_m * sign > 0) {
+    if (within && try_step(b, s) >= 0 && find_direction(b) > 0 && b->direction_m * sign > 0 && !passed(user)) {
       gone += s;
       continue;
     }
@@ -176,9 +185,29 @@ double zp_branch_limit(ZpBranch *b) {
     find_direction(b);
     s *= 0.5;
   }
-  double limit = sys->get(self);
+}
+
+double zp_branch_where(ZpBranch *b, bool (*passed)(void *user), void *user) {
+  const ZpBranchSystem *sys = b->system;
+  void *self = sys->at_rest.self;
+  size_t bytes = sys->at_rest.n * sizeof *b->direction;
+  double after_m = b->direction_m;
+  sys->save(self, b->saved);
+  memcpy(b->direction_after, b->direction, bytes);
+  zp_branch_approach(b, passed, user);
+  double where = sys->get(self);
   sys->restore(self, b->saved);
+  sys->at_rest.residual(self, b->newton.r);
   memcpy(b->direction, b->direction_after, bytes);
   b->direction_m = after_m;
-  return limit;
+  return where;
+}
+
+static bool never(void *user) {
+  (void)user;
+  return false;
+}
+
+double zp_branch_limit(ZpBranch *b) {
+  return zp_branch_where(b, never, NULL);
 }

@@ -23,6 +23,8 @@ typedef struct ZpBranch {
   ZpNewtonWork newton;
   double *a, *b, *q, *q_start, *direction, *direction_saved, *direction_after; /* [n] */
   double direction_m; /* part of the direction along m: its sign changes at a limit point */
+  bool along;         /* it has the sign of the stiffness's determinant, which changes there, too */
+  bool reversed;      /* last looked at, it was the other way round: a turn into the way back, or a bifurcation */
   double step;        /* arc length to try next */
   double taken;       /* arc length of the last step */
   double longest_step;
@@ -44,5 +46,12 @@ bool zp_branch_advance(ZpBranch *branch);
 /* After a step over a limit point (direction_m has changed its sign): the parameter at the limit point, to
  * about a millionth. The present point stays. */
 double zp_branch_limit(ZpBranch *branch);
+
+/* After a step within which `passed` (of `user`, who knows the present point) has become true: back to just before it
+ * did, or before the limit point if that came first. */
+void zp_branch_approach(ZpBranch *branch, bool (*passed)(void *user), void *user);
+
+/* The parameter there. The present point stays. */
+double zp_branch_where(ZpBranch *branch, bool (*passed)(void *user), void *user);
 
 #endif

@@ -25,10 +25,13 @@ static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewt
 ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work) {
   static const double at_first = 1e-6, least = 1e-14; /* of the stiffest: slow; below, nothing is changed by it */
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
+  ZpClosing closing;
+  zp_closing_start(&closing);
   double c = 0, stiffest = 0;
   bool fresh = !system->refresh;
   for (; info.iterations < most; info.iterations++) {
     info.residual = system->residual(system->self, work->r);
+    bool close = zp_closing_done(&closing, info.residual, tolerance);
     info.end = ZP_NEWTON_DIVERGED;
     if (!isfinite(info.residual)) return info;
     if (info.iterations == 0) {
@@ -40,7 +43,7 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
     if (c < least * stiffest) c = 0;
     if (!resist(system, least * stiffest, &c, work)) return info;
     info.end = ZP_NEWTON_CONVERGED;
-    if (c == 0 && info.residual < tolerance) {
+    if (c == 0 && close) {
       if (fresh) return info;
       fresh = system->refresh(system->self);
       info.end = ZP_NEWTON_DIVERGED;
@@ -50,6 +53,7 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
     info.end = ZP_NEWTON_SINGULAR;
     if (!zp_band_factor(&work->K, NULL)) return info;
     zp_band_solve(&work->K, work->r);
+    zp_closing_correct(&closing, system, work->r);
     double length = system->length(system->self, work->r) / longest;
     system->move(system->self, work->r, length > 1 ? 1 / length : 1);
     c *= length > 1 ? 2 : 0.5;

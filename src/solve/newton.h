@@ -17,6 +17,9 @@ typedef struct ZpStaticSystem {
   void (*stiffness)(void *self, ZpBand *K);
   /* How far a step would go, in units of the longest step that linearisation stands. */
   double (*length)(void *self, const double *step);
+  /* What a step would change, in units of the accuracy asked for. The residual alone does not say how near the
+   * equilibrium is: the scale of forces may be far above those that decide, or rounding hide them. */
+  double (*change)(void *self, const double *step);
   /* Move the present point by fraction * step. */
   void (*move)(void *self, const double *step, double fraction);
   /* Find anew, at the present point, what is dear and what the residual holds while a point moves; false if it cannot
@@ -26,8 +29,8 @@ typedef struct ZpStaticSystem {
 
 /* By which test an iteration ended. */
 typedef enum ZpNewtonEnd {
-  ZP_NEWTON_CONVERGED, /* residual below tolerance */
-  ZP_NEWTON_FLOOR,     /* residual stays where rounding leaves it, below 100 tolerances */
+  ZP_NEWTON_CONVERGED, /* residual below tolerance, and the next correction below the accuracy */
+  ZP_NEWTON_FLOOR,     /* residual and corrections stay where rounding leaves them, below 100 times what is asked */
   ZP_NEWTON_SINGULAR,  /* stiffness without inverse */
   ZP_NEWTON_DIVERGED,  /* residual not finite, or what it holds cannot be found */
   ZP_NEWTON_SLOW       /* most iterations done */
@@ -44,6 +47,28 @@ typedef struct ZpNewtonWork {
   ZpBand K;
   double *r, *LDL;
 } ZpNewtonWork;
+
+/* How an iteration closes in. Start with zp_closing_start. */
+typedef struct ZpClosing {
+  double change, before; /* of the last correction and of the one before it, see ZpStaticSystem; INFINITY: none yet */
+  double least_residual, least_change;
+  int stalled; /* residuals looked at since either has halved */
+} ZpClosing;
+
+void zp_closing_start(ZpClosing *closing);
+
+/* After a correction by `step`, before it is moved. */
+void zp_closing_correct(ZpClosing *closing, const ZpStaticSystem *system, const double *step);
+
+/* Take in the next residual. => Is it below tolerance, and what the next correction would change below the accuracy, as
+ * the last two corrections foretell? A residual of 0 is enough. */
+bool zp_closing_done(ZpClosing *closing, double residual, double tolerance);
+
+/* Does nothing get better any more, for rounding, with residual and correction below 100 times what is asked for? */
+bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolerance);
+
+/* What was held has been found anew: the residual may be larger again. */
+void zp_closing_renew(ZpClosing *closing);
 
 void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, ZpCarver *carver);
 

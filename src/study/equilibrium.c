@@ -1,5 +1,10 @@
 /* Study `equilibrium`: all states of rest between no voltage and drive.voltage: the branch that hangs, the one
- * that is closed, what connects them, and the voltages at which one jumps to the other. */
+ * that is closed, what connects them, and the voltages at which one jumps to the other.
+ *
+ * Both branches are followed for the table; pull-in is the first limit point of the one that hangs. Where a slowly
+ * rising voltage closes the actuator, and where a slowly falling one opens it, is found by changing the voltage slowly:
+ * along a branch while that is stable, and from each limit point to the state in which slow motion ends. Theory,
+ * section 10. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +24,7 @@ static const ZpColumn columns[] = {
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000, MOST_LIMITS = 256 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000 };
 
 /* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
 static const double first_step = 0.01, longest_step = 0.1;
@@ -27,6 +32,15 @@ static const double first_step = 0.01, longest_step = 0.1;
 /* Two neighbouring limit points closer than this, relative, are a ripple of the mesh: the front passing a node
  * of an unstable branch. Measured at N = 61 without breakdown cap, where it is largest: 0.35 %. */
 static const double ripple = 5e-3;
+
+/* Closed: the faces that close last are within this part of where they hang without voltage, or in touch. */
+static const double closed_part = 0.01;
+
+/* The voltages asked for; NAN: there is none, and `no_release` says why. */
+typedef struct Voltages {
+  double pull_in, closing, release;
+  const char *no_release;
+} Voltages;
 
 typedef struct Follower {
   const ZpModel *model;
@@ -37,15 +51,24 @@ typedef struct Follower {
   ZpBranchSystem system;
   void *memory;
   double *line_force;
-  double limit[MOST_LIMITS]; /* voltages at the limit points of the branch under way */
+  double *limit; /* [MOST_POINTS] voltages at the limit points of the branch under way */
   int limits, points;
-  double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
+  double shorted;  /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
+  void *start;     /* of the branch under way */
+  void *before;    /* the point before the last step */
+  double hanging;  /* distance of the faces that close last, without voltage, m */
+  double end;      /* voltage at which the way under way ends, V */
+  bool growing;    /* towards it */
+  bool was_closed; /* before the last step */
+  bool jumped;     /* the last change of state was a fall from a limit point */
+  bool ran_back;   /* the branch that hangs turned back into itself */
   ZpOutcome outcome;
 } Follower;
 
 static bool allocate(Follower *f) {
   if (!zp_statics_create(f->model, &f->statics)) return false;
   f->system = zp_statics_branch(&f->statics, ZP_ALONG_VOLTAGE);
+  size_t saved = f->system.save_size / sizeof(double);
   ZpCarver carver = {NULL, 0};
   for (int pass = 0; pass < 2; pass++) {
     if (pass) {
@@ -55,8 +78,22 @@ static bool allocate(Follower *f) {
     }
     zp_branch_carve(&f->branch, &f->system, f->statics.assembly.bandwidth, &carver);
     f->line_force = zp_carve(&carver, f->model->nodes);
+    f->limit = zp_carve(&carver, MOST_POINTS);
+    f->start = zp_carve(&carver, saved);
+    f->before = zp_carve(&carver, saved);
   }
   return true;
+}
+
+/* Distance of the faces that close last: at the platform or the right end, between two clamps in the middle. */
+static double opening(const Follower *f) {
+  bool clamped = f->model->flat && f->model->def.actuator.right_end == ZP_END_CLAMPED;
+  size_t last = f->model->nodes - 1;
+  return f->statics.eval.plates.gap[clamped ? last / 2 : last];
+}
+
+static bool is_closed(const Follower *f) {
+  return opening(f) <= fmax(closed_part * f->hanging, f->statics.contact.range);
 }
 
 static void record(Follower *f, int branch) {
@@ -86,8 +123,9 @@ static bool asked_to_stop(const Follower *f) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "following", fmin(fraction, 1));
 }
 
+/* At most one a step, so there is room. */
 static void note_limit(Follower *f, double voltage) {
-  if (f->limits < MOST_LIMITS) f->limit[f->limits++] = voltage;
+  f->limit[f->limits++] = voltage;
 }
 
 /* Take out ripples, the smallest first, so that what is left are the turns of the branch itself. */
@@ -109,35 +147,56 @@ static void smooth_limits(Follower *f) {
   }
 }
 
-/* The last point exactly at the highest voltage. */
-static bool end_at(Follower *f, double voltage, int mark) {
-  ZpStaticSystem system = zp_statics_system(&f->statics);
+static bool is_beyond(void *user) {
+  const Follower *f = user;
+  return f->growing ? f->statics.U > f->end : f->statics.U < f->end;
+}
+
+/* The equilibrium at `voltage`, which the last step passed. */
+static bool arrive(Follower *f, bool growing, double voltage) {
   enum { MOST = 30 };
+  ZpStaticSystem system = zp_statics_system(&f->statics);
+  f->growing = growing;
+  f->end = voltage;
+  zp_branch_approach(&f->branch, is_beyond, f);
   f->statics.U = voltage;
-  if (!zp_newton_good(zp_newton(&system, zp_statics_tolerance(&f->statics), MOST, &f->branch.newton).end)) return false;
-  record(f, mark);
-  return true;
+  return zp_newton_good(zp_newton(&system, zp_statics_tolerance(&f->statics), MOST, &f->branch.newton).end);
+}
+
+static bool start(Follower *f, bool growing) {
+  return zp_branch_start(&f->branch, growing, first_step, longest_step, 2 * zp_statics_tolerance(&f->statics));
+}
+
+/* -- branches ------------------------------------------------------------------------------------- */
+
+/* Without voltage there is the hanging state only: has the branch come back to it? */
+static bool is_hanging(const Follower *f) {
+  return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < closed_part;
 }
 
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
  * => false if it was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
   double top = f->model->def.drive.voltage;
-  double tolerance = 2 * zp_statics_tolerance(&f->statics);
   f->limits = 0;
   record(f, mark);
-  if (!zp_branch_start(&f->branch, growing, first_step, longest_step, tolerance)) return false;
+  if (!start(f, growing)) return false;
   double direction = f->branch.direction_m;
   for (int k = 0; k < MOST_POINTS; k++) {
     if (!zp_branch_advance(&f->branch)) return false;
     if (f->branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->branch));
     direction = f->branch.direction_m;
-    if (f->statics.U < 0) return true;
+    if (f->statics.U < 0) f->ran_back = growing && is_hanging(f);
+    if (f->statics.U < 0) return !f->ran_back;
     if (zp_statics_shorted(&f->statics)) {
       f->shorted = f->statics.U;
       return true;
     }
-    if (f->statics.U > top) return end_at(f, top, mark);
+    if (f->statics.U > top) {
+      if (!arrive(f, true, top)) return false;
+      record(f, mark);
+      return true;
+    }
     record(f, mark);
     if (asked_to_stop(f)) {
       f->outcome = ZP_INTERRUPTED;
@@ -147,27 +206,119 @@ static bool follow(Follower *f, bool growing, int mark) {
   return false;
 }
 
-/* Both branches; where hanging and closed are connected, the first holds all. */
-static void follow_both(Follower *f, double *pull_in, double *release) {
-  *pull_in = *release = NAN;
+static void follow_whole(Follower *f, bool growing, int mark) {
+  if (!follow(f, growing, mark)) f->outcome = ZP_BRANCH_LOST;
+  smooth_limits(f);
+}
+
+/* -- a voltage that changes slowly ---------------------------------------------------------------- */
+
+/* How a slow change ends. */
+typedef enum Slow { ARRIVED, CHANGED, LOST, STOPPED } Slow;
+
+static bool has_changed(void *user) {
+  const Follower *f = user;
+  return is_closed(f) != f->was_closed;
+}
+
+/* Fall from near a limit point at `voltage` to what is beyond it; the branch goes on from there. */
+static bool fall(Follower *f, bool growing, double voltage) {
+  static const double beyond = 1e-3;
+  f->system.restore(&f->statics, f->before);
+  ZpNewtonInfo info = zp_statics_fall(&f->statics, voltage * (growing ? 1 + beyond : 1 - beyond), &f->branch.newton);
+  return zp_newton_good(info.end) && start(f, growing);
+}
+
+/* Go on along a stable branch: change the voltage slowly to `end`, or until the actuator closes or opens. => *at: the
+ * voltage that was reached */
+static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
+  f->was_closed = is_closed(f);
+  for (int k = 0; k < MOST_POINTS; k++) {
+    f->system.save(&f->statics, f->before);
+    if (!zp_branch_advance(&f->branch)) return LOST;
+    bool turned = growing ? f->branch.direction_m < 0 : f->branch.direction_m > 0;
+    *at = turned || has_changed(f) ? zp_branch_where(&f->branch, has_changed, f) : f->statics.U;
+    if (growing ? *at >= end : *at <= end) return arrive(f, growing, end) ? ARRIVED : LOST;
+    if (turned && !fall(f, growing, *at)) return LOST;
+    f->jumped = turned;
+    if (has_changed(f)) return CHANGED;
+    if (asked_to_stop(f)) {
+      f->outcome = ZP_INTERRUPTED;
+      return STOPPED;
+    }
+  }
+  return LOST;
+}
+
+/* From hanging without voltage to drive.voltage. A ripple from which the state falls to closed is no ripple, but the
+ * pull-in. => closed there? */
+static bool raise(Follower *f, Voltages *v) {
+  double at;
+  Slow end = CHANGED;
+  f->system.restore(&f->statics, f->start);
+  if (!start(f, true)) return false;
+  while (end == CHANGED) {
+    end = change_slowly(f, true, f->model->def.drive.voltage, &at);
+    if (end == CHANGED) v->closing = is_closed(f) ? at : (double)NAN;
+    if (end == CHANGED && is_closed(f) && f->jumped) v->pull_in = fmin(v->pull_in, at);
+  }
+  return end == ARRIVED && is_closed(f);
+}
+
+/* From closed at drive.voltage down to 0. */
+static void lower(Follower *f, Voltages *v) {
+  double at;
+  Slow end = start(f, false) ? change_slowly(f, false, 0, &at) : LOST;
+  if (end == CHANGED) v->release = isnan(v->closing) ? at : fmin(at, v->closing);
+  v->no_release = end == ARRIVED ? "it stays closed down to 0 V" : end == LOST ? "the closed state was lost" : NULL;
+}
+
+/* The closed state at drive.voltage: that to which a rising voltage leads, or else the one next to straight ribbons. =>
+ * is there one? */
+static bool close(Follower *f, Voltages *v) {
+  const ZpStatics *s = &f->statics;
+  bool closed = raise(f, v);
+  if (f->outcome == ZP_INTERRUPTED) return false;
+  if (!closed)
+    closed = zp_newton_good(zp_statics_close(&f->statics, f->model->def.drive.voltage, &f->branch.newton).end) &&
+             is_closed(f);
+  return closed && !zp_statics_fault(s);
+}
+
+/* -- the study ------------------------------------------------------------------------------------ */
+
+static bool hang(Follower *f) {
   ZpNewtonInfo info = zp_statics_hang(&f->statics, &f->branch.newton);
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", info.residual);
-  if (!zp_newton_good(info.end)) {
+  f->system.save(&f->statics, f->start);
+  f->hanging = f->model->field ? opening(f) : 0;
+  return zp_newton_good(info.end);
+}
+
+/* Both branches; where hanging and closed are connected, the first holds all. */
+static Voltages find(Follower *f) {
+  Voltages v = {NAN, NAN, NAN, NULL};
+  if (!hang(f)) {
     f->outcome = ZP_NOT_SETTLED;
-    return;
+    return v;
   }
-  if (!follow(f, true, 0)) f->outcome = ZP_BRANCH_LOST;
-  smooth_limits(f);
-  if (f->limits > 0) *pull_in = f->limit[0];
-  if (f->limits > 1) *release = f->limit[f->limits - 1];
-  if (f->limits > 1 || !f->model->field || f->outcome != ZP_FOLLOWED) return;
-  if (f->model->def.insulator.thickness == 0) return; /* closed is a short circuit */
-  if (!zp_newton_good(zp_statics_close(&f->statics, f->model->def.drive.voltage, &f->branch.newton).end)) return;
-  if (!zp_statics_stable(&f->statics, &f->branch.newton)) return;
-  if (!follow(f, false, 1)) f->outcome = ZP_BRANCH_LOST;
-  smooth_limits(f);
-  if (f->limits > 0) *release = f->limit[0];
+  follow_whole(f, true, 0);
+  if (f->limits > 0) v.pull_in = f->limit[0];
+  bool whole = f->outcome == ZP_FOLLOWED && f->model->field && is_closed(f);
+  if (f->outcome == ZP_INTERRUPTED || !f->model->field) return v;
+  v.no_release = "closed it is a short circuit";
+  if (f->model->def.insulator.thickness == 0) return v;
+  v.no_release = "it hangs closed";
+  if (f->hanging <= f->statics.contact.range) return v;
+  v.no_release = "it is not closed at drive.voltage";
+  if (!close(f, &v)) return v;
+  f->system.save(&f->statics, f->start);
+  if (!whole) follow_whole(f, false, 1);
+  if (f->outcome == ZP_INTERRUPTED) return v;
+  f->system.restore(&f->statics, f->start);
+  lower(f, &v);
+  return v;
 }
 
 static void note(Follower *f) {
@@ -179,23 +330,26 @@ static void note(Follower *f) {
                    f->shorted);
 }
 
-static void describe(Follower *f, double pull_in, double release) {
+static void describe(Follower *f, const Voltages *v) {
   ZpResult *r = f->result;
-  size_t size = sizeof r->message;
-  const char *trouble = zp_statics_trouble(&f->statics);
-  if (f->outcome == ZP_NOT_SETTLED)
-    snprintf(r->message, size, "no hanging equilibrium found");
-  else if (f->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size, "lost the branch at %.4g V%s%s; what was found is kept", f->statics.U,
-             trouble ? ": " : "", trouble ? trouble : "");
-  else if (isnan(pull_in) && !isnan(f->shorted))
-    snprintf(r->message, size, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
-  else if (isnan(pull_in))
-    snprintf(r->message, size, "no pull-in up to %g V", f->model->def.drive.voltage);
-  else if (isnan(release))
-    snprintf(r->message, size, "pulls in at %.4g V", pull_in);
+  char pull_in[96], release[128] = "";
+  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->statics);
+  if (!isnan(v->pull_in))
+    snprintf(pull_in, sizeof pull_in, "pulls in at %.4g V", v->pull_in);
+  else if (!isnan(f->shorted))
+    snprintf(pull_in, sizeof pull_in, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
   else
-    snprintf(r->message, size, "pulls in at %.4g V, releases at %.4g V", pull_in, release);
+    snprintf(pull_in, sizeof pull_in, "no pull-in up to %g V", f->model->def.drive.voltage);
+  if (!isnan(v->release))
+    snprintf(release, sizeof release, ", releases at %.4g V", v->release);
+  else if (v->no_release && isnan(f->shorted))
+    snprintf(release, sizeof release, "; no release: %s", v->no_release);
+  if (f->outcome == ZP_NOT_SETTLED)
+    snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
+  else
+    snprintf(r->message, sizeof r->message, "%s%s%s%s%s", pull_in, release,
+             f->outcome == ZP_BRANCH_LOST ? "; a branch could not be followed to its end" : "", trouble ? ": " : "",
+             trouble ? trouble : "");
 }
 
 static ZpStatus run(Follower *f, ZpError *err) {
@@ -203,15 +357,17 @@ static ZpStatus run(Follower *f, ZpError *err) {
   f->result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
   f->result->shapes = zp_shapes_create(f->model->s, f->model->nodes, (size_t)def->output.shapes);
   if (!f->result->series || !f->result->shapes || !allocate(f)) return zp_fail_memory(err);
-  double pull_in, release;
+  const size_t first = f->result->scalars;
   zp_result_add(f->result, "pull_in_voltage_V", "V", NAN);
   zp_result_add(f->result, "release_voltage_V", "V", NAN);
-  follow_both(f, &pull_in, &release);
-  f->result->scalar[0].value = pull_in;
-  f->result->scalar[1].value = release;
+  zp_result_add(f->result, "closing_voltage_V", "V", NAN);
+  Voltages v = find(f);
+  f->result->scalar[first].value = v.pull_in;
+  f->result->scalar[first + 1].value = v.release;
+  f->result->scalar[first + 2].value = v.closing;
   zp_result_add(f->result, "points", "count", f->points);
   f->result->outcome = f->outcome;
-  describe(f, pull_in, release);
+  describe(f, &v);
   note(f);
   return ZP_OK;
 }

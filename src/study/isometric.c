@@ -12,7 +12,6 @@
 
 #include "base/fail.h"
 #include "rest/statics.h"
-#include "solve/descend.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -52,6 +51,7 @@ typedef struct Holder {
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
+  const char *fault; /* why the state found cannot be; NULL: nothing speaks against it */
   ZpOutcome outcome;
 } Holder;
 
@@ -106,6 +106,15 @@ static bool asked_to_stop(const Holder *h) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "raising the voltage", fmin(fraction, 1));
 }
 
+/* Can the present state be? Its force is at most the attraction of closed faces. */
+static bool is_possible(Holder *h) {
+  const ZpPlatesParams *plates = &h->statics.model->plates;
+  double most = zp_plates_law(plates, h->statics.U, 0).W * (h->model->L + plates->flat_length) * h->model->parts;
+  h->fault = zp_statics_fault(&h->statics);
+  if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
+  return !h->fault;
+}
+
 /* The present point is one that a rising voltage leads to: has it jumped there? */
 static void pass(Holder *h, bool jumped) {
   double now = force(h);
@@ -143,6 +152,7 @@ static End follow(Holder *h) {
     h->rising = direction > 0;
     h->system.save(s, h->before);
     if (!zp_branch_advance(&h->branch) || s->U < 0) return turned ? TURNED_FOR_GOOD : LOST;
+    if (!is_possible(h)) return LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
       h->system.save(s, h->near);
@@ -157,14 +167,12 @@ static End follow(Holder *h) {
 
 /* Release at the last turn, just above its voltage. */
 static bool fall(Holder *h) {
-  static const double above = 1e-3, longest = 4e-3; /* 2 mrad: overlaps of faces stay below what insulates them */
-  enum { MOST = 20000 };
+  static const double above = 1e-3;
   ZpStatics *s = &h->statics;
-  ZpStaticSystem system = zp_statics_system(s);
   h->system.restore(s, h->edge);
-  s->U = fmin((1 + above) * h->highest, h->model->def.drive.voltage);
-  ZpNewtonInfo info = zp_descend(&system, longest, zp_statics_tolerance(s), MOST, &h->branch.newton);
-  if (!zp_newton_good(info.end)) return false;
+  ZpNewtonInfo info =
+      zp_statics_fall(s, fmin((1 + above) * h->highest, h->model->def.drive.voltage), &h->branch.newton);
+  if (!zp_newton_good(info.end) || !is_possible(h)) return false;
   pass(h, true);
   record(h, true, false);
   return true;
@@ -187,7 +195,7 @@ static bool settle(Holder *h, ZpNewtonInfo *info) {
   h->statics.U = h->model->def.drive.voltage;
   *info = zp_newton(&system, zp_statics_tolerance(&h->statics), MOST, &h->branch.newton);
   info->iterations += iterations;
-  return zp_newton_good(info->end) && is_stable(h);
+  return zp_newton_good(info->end) && is_stable(h) && is_possible(h);
 }
 
 /* Where that fails, limit points are near: the branch's last step again in shorter and shorter ones. */
@@ -213,7 +221,7 @@ static void count_others(Holder *h) {
   for (int k = 0; k < MOST_BEYOND; k++) {
     bool below = s->U < top;
     if (!zp_branch_advance(&h->branch) || s->U < 0 || s->U > look_beyond * top) return;
-    if (!below || s->U < top || !is_stable(h)) continue;
+    if (!below || s->U < top || !is_stable(h) || zp_statics_fault(s)) continue;
     h->others++;
     h->other_force = force(h);
   }
@@ -255,7 +263,7 @@ static void describe(Holder *h) {
   ZpResult *r = h->result;
   size_t size = sizeof r->message;
   double top = h->model->def.drive.voltage;
-  const char *trouble = zp_statics_trouble(&h->statics);
+  const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->statics);
   if (h->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, size, "no equilibrium without voltage found at isometric.separation = %g m",
              h->model->def.isometric.separation);

@@ -184,8 +184,12 @@ static void run(Problem *p, ZpResult *result) {
   if (!zp_newton_good(info.end)) return;
   double voltage = p->statics.model->def.modes.voltage;
   if (voltage > 0 && p->statics.model->field && !zp_statics_raise(&p->statics, voltage, &p->newton)) {
-    snprintf(result->message, sizeof result->message,
-             "no hanging equilibrium at modes.voltage = %g V: it pulls in before", voltage);
+    const char *trouble = zp_statics_trouble(&p->statics);
+    if (!trouble) result->outcome = ZP_PULLED_IN;
+    snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
+             trouble ? trouble : "the actuator pulls in below it");
+    for (size_t j = 0; j < modes; j++)
+      zp_result_add(result, names[j], "Hz", NAN);
     return;
   }
   if (zp_statics_shorted(&p->statics)) {
