@@ -88,7 +88,7 @@ export class View {
     this.tiles.show('pullin', digits((result?.scalars.pull_in_voltage_V ?? NaN) / 1e3));
     this.tiles.show('letgo', digits(this.release / 1e3));
     $('voltage-note').textContent = words;
-    list($('voltage-warnings'), result?.notes ?? []);
+    list($('voltage-warnings'), (result?.notes ?? []).map((words) => `up to ${this.#rest.highest / 1e3} kV: ${words}`));
   }
 
   /** The legend of the field's colours. */

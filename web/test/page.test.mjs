@@ -136,7 +136,9 @@ pageTest('what the core warns of is shown, for the run and for the states of res
   await page.waitForFunction(() => document.getElementById('time-note').textContent);
   assert.deepEqual(await shown('warnings'), native('actuate', values).notes);
   assert.ok((await shown('warnings')).some((words) => words.includes('breakdown field')));
-  assert.deepEqual(await shown('voltage-warnings'), native('equilibrium', new Map([...values, ['drive.voltage', '12 kV']])).notes);
+  const {notes} = native('equilibrium', new Map([...values, ['drive.voltage', '12 kV']]));
+  assert.ok(notes.length > 0);
+  assert.deepEqual(await shown('voltage-warnings'), notes.map((words) => `up to 12 kV: ${words}`));
 });
 
 pageTest('a slider dragged with the mouse while it runs: one change; plots follow', {}, async (page) => {
