@@ -424,11 +424,9 @@ static ZpStatus check_flange_in_motion(const ZpActuatorDef *def, ZpError *err) {
   if (def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: motion requires solver.integrator implicit");
   if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "contact.model = sequential: motion requires actuator.kind electro_ribbon");
+    return zp_fail(err, ZP_BAD_INPUT, "contact.model = sequential: motion requires actuator.kind electro_ribbon");
   if (def->electro.surface == ZP_SURFACE_BEZIER)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.surface = bezier: motion requires actuator.kind electro_ribbon");
+    return zp_fail(err, ZP_BAD_INPUT, "electro.surface = bezier: motion requires actuator.kind electro_ribbon");
   return ZP_OK;
 }
 

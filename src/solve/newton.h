@@ -67,7 +67,7 @@ bool zp_closing_done(ZpClosing *closing, double residual, double tolerance);
 /* Does nothing get better any more, for rounding, with residual and correction below 100 times what is asked for? */
 bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolerance);
 
-/* What was held has been found anew: the residual may be larger again. */
+/* What was held has been recomputed: the residual may be larger again. */
 void zp_closing_renew(ZpClosing *closing);
 
 void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, ZpCarver *carver);
