@@ -39,7 +39,7 @@ END_TEST
 /* -- contact --------------------------------------------------------------------------------------- */
 
 static size_t front_of(const double *gap, size_t nodes) {
-  ZpUnilateralParams contact = {.nodes = nodes, .l = 1e-3, .p0 = 1, .range = 5e-7};
+  ZpUnilateralParams contact = {.nodes = nodes, .l = 1e-3, .p0 = 1, .range = 5e-7, .touch = 5e-7};
   return zp_unilateral_front(&contact, gap);
 }
 
