@@ -155,7 +155,9 @@ static void print_accelerations(const char *name, const ZpActuatorDef *def, int 
     put_array(name, a, model->count);
     put_array(name, a + model->stride, model->count);
     ZpEnergies e = zp_eval_energies(model, state, &eval);
-    put_array("energies", (double[]){e.kinetic, e.axial, e.bending, e.gravity, e.field, e.force, e.charge}, 7);
+    put_array("energies", (double[]){e.kinetic, e.axial, e.bending, e.gravity}, 4);
+    ZpElectric electric = zp_eval_electric_now(model, state, state->U, &eval);
+    put_array("electric", (double[]){electric.force, electric.charge, electric.potential, electric.capacitance}, 4);
     ZpStepBounds bounds = zp_eval_step_bounds(model, state, &eval);
     put_array("bounds", (double[]){bounds.drag, bounds.axial, bounds.shear}, 3);
   }
