@@ -3,20 +3,24 @@
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
+# make check-report  looks at the page of `zipact reproduce` in a browser
 # make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
 JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 
-.PHONY: all demo check python octave web check-web deps bench bench-tables format docs check-docs validity verification install clean
+# e.g. -DZIPACT_WERROR=ON
+CMAKE_OPTIONS ?=
+
+.PHONY: all demo check python octave web check-web check-report deps bench bench-tables format docs check-docs validity verification install clean
 all: $(BUILD)/zipact
 
 deps:
 	@scripts/deps.sh
 
 $(BUILD)/CMakeCache.txt: | deps
-	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release $(CMAKE_OPTIONS) >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 	@rm -f $(BUILD).log
 
 .PHONY: $(BUILD)/zipact
@@ -54,6 +58,11 @@ docs: $(BUILD)/zipact
 check-docs:
 	scripts/deps.sh --browser
 	scripts/check-docs.sh $(BUILD)/docs/html
+
+check-report: $(BUILD)/zipact
+	scripts/deps.sh --browser
+	$(BUILD)/zipact reproduce -o out/reproduce --quiet
+	scripts/check-report.sh out/reproduce/report.html
 
 validity: $(BUILD)/zipact
 	scripts/make-validity-page.py $(BUILD)/zipact

@@ -4,7 +4,8 @@ CMake builds the C library from the repository around this folder, with the flag
 are those of the command to the last bit; the extension is linked to it. Keys.def becomes zipact/keys.py, for type
 checkers and editors. Needs the repository: there is no source distribution.
 
-ZIPACT_SANITIZE=address,undefined in the environment builds with sanitizers.
+In the environment, ZIPACT_SANITIZE=address,undefined builds with sanitizers, and ZIPACT_BUILD names a build folder that has
+the library already.
 """
 
 import ast
@@ -46,9 +47,11 @@ class BuildExtension(build_ext):
     """Builds the library first."""
 
     def build_library(self):
-        folder = os.path.abspath(os.path.join(self.build_temp, "core-" + (SANITIZE.replace(",", "-") or "release")))
-        configure = ["cmake", "-S", ROOT, "-B", folder, "-DZIPACT_TESTS=OFF", "-DZIPACT_SANITIZE=" + SANITIZE]
-        subprocess.check_call(configure, stdout=sys.stderr)
+        folder = os.environ.get("ZIPACT_BUILD")
+        if not folder:
+            folder = os.path.abspath(os.path.join(self.build_temp, "core-" + (SANITIZE.replace(",", "-") or "release")))
+            configure = ["cmake", "-S", ROOT, "-B", folder, "-DZIPACT_TESTS=OFF", "-DZIPACT_SANITIZE=" + SANITIZE]
+            subprocess.check_call(configure, stdout=sys.stderr)
         targets = ["zipact_io_static", "zipact_static"]
         jobs = str(os.cpu_count() or 1)
         subprocess.check_call(["cmake", "--build", folder, "-j", jobs, "--target", *targets], stdout=sys.stderr)

@@ -379,6 +379,13 @@ def rule_head_comment(repo, files):
             yield read(repo, name).startswith("/*"), name + ":1", "no comment at its head"
 
 
+def rule_limits_in_cpu_time(repo, files):
+    """No test is limited in wall time, which a busy machine uses up: tests/limit_cpu.c limits its CPU time."""
+    for name in files:
+        if name.startswith("tests/") and name.endswith(".c"):
+            yield "tcase_set_timeout" not in read(repo, name), name, "tcase_set_timeout is of wall time: tests/limit_cpu.c"
+
+
 def rule_no_products(repo, files):
     """No product of a build or run is under version control."""
     bad = ignored_but_tracked(repo)
@@ -422,6 +429,7 @@ def rule_plain_words(repo, files):
 
 
 RULES = [
+    rule_limits_in_cpu_time,
     rule_no_products,
     rule_includes,
     rule_core_needs_no_library,

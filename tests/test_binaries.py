@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-OF_OTHERS = {"CMakeFiles", "python", "python-sanitized", "octave", "scratch", "docs"}
+OF_OTHERS = {"CMakeFiles", "python", "octave", "scratch", "docs"}
 
 
 def readelf(file):

@@ -155,7 +155,6 @@ int main(void) {
   write_data(times, "time_ms,stroke_mm\n0.5,1\n1,2\n");
   Suite *suite = suite_create("combinations");
   TCase *all = tcase_create("all");
-  tcase_set_timeout(all, 300);
   tcase_add_loop_test(all, every_combination_runs_or_is_refused, 0, KINDS * OTHERS);
   tcase_add_loop_test(all, what_motion_needs_does_not_depend_on_the_study, 0, KINDS * OTHERS);
   suite_add_tcase(suite, all);

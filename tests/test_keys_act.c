@@ -525,7 +525,6 @@ static void write_files(void) {
 int main(void) {
   Suite *suite = suite_create("keys act");
   TCase *c = tcase_create("keys");
-  tcase_set_timeout(c, 300);
   tcase_add_unchecked_fixture(c, write_files, NULL);
   tcase_add_loop_test(c, key_acts, 0, (int)LENGTH_OF(rows));
   tcase_add_loop_test(c, key_has_a_row, 0, zp_key_count());

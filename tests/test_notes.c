@@ -242,7 +242,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("notes");
   TCase *c = tcase_create("notes");
-  tcase_set_timeout(c, 300);
   tcase_add_loop_test(c, breakdown_is_noted_in_every_study, 0, LENGTH_OF(under_voltage));
   tcase_add_loop_test(c, uncapped_liquid_is_noted_in_every_study, 0, LENGTH_OF(under_voltage));
   tcase_add_test(c, nothing_to_note);

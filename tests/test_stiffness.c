@@ -117,7 +117,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("stiffness");
   TCase *c = tcase_create("stiffness");
-  tcase_set_timeout(c, 300); /* of a law with edges 20 s under sanitizers */
   tcase_add_loop_test(c, stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
   suite_add_tcase(suite, c);
   return run_suite(suite);

@@ -26,7 +26,7 @@ typedef struct Run {
 static void *run_on_model(void *job) {
   Run *run = job;
   ZpSim *sim = NULL;
-  if (zp_sim_create(run->model, NULL, &sim, NULL) == ZP_OK) run->outcome = zp_sim_run(sim, 5e-3, false, NULL, NULL);
+  if (zp_sim_create(run->model, NULL, &sim, NULL) == ZP_OK) run->outcome = zp_sim_run(sim, 1e-3, false, NULL, NULL);
   if (sim) zp_sim_read(sim, run->row);
   zp_sim_destroy(sim);
   return NULL;
@@ -73,7 +73,7 @@ START_TEST(test_studies_beside_each_other) {
   static const ZpStudy name[THREADS] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
   Study study[THREADS];
   for (size_t k = 0; k < THREADS; k++)
-    study[k] = (Study){.def = DEF({"study", name[k]}, {"mesh.nodes", 21})};
+    study[k] = (Study){.def = DEF({"study", name[k]}, {"mesh.nodes", 9})};
   at_once(run_study, study, sizeof(Study));
   for (size_t k = 0; k < THREADS; k++) {
     Study alone = {.def = study[k].def};
