@@ -68,8 +68,8 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *w
 /* From the straight shape, which of two ribbons has all faces closed, to a stable equilibrium at `voltage`. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
-/* Release it where there is no equilibrium near: at `voltage` from the present point to where slow motion against a
- * resistance ends. A good end is stable. */
+/* From the present point, where there may be no equilibrium near, to the one in which slow motion against a resistance
+ * ends at `voltage`. A good end is stable. */
 ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
 /* The present point: how far the right end of the lower or only ribbon is below the clip or clamp, signed, m; distance

@@ -252,7 +252,7 @@ static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
 
 /* From hanging without voltage to drive.voltage. A ripple from which the state falls to closed is no ripple, but the
  * pull-in. => closed there? */
-static bool raise(Follower *f, Voltages *v) {
+static bool raise_voltage(Follower *f, Voltages *v) {
   double at;
   Slow end = CHANGED;
   f->system.restore(&f->statics, f->start);
@@ -266,7 +266,7 @@ static bool raise(Follower *f, Voltages *v) {
 }
 
 /* From closed at drive.voltage down to 0. */
-static void lower(Follower *f, Voltages *v) {
+static void lower_voltage(Follower *f, Voltages *v) {
   double at;
   Slow end = start(f, false) ? change_slowly(f, false, 0, &at) : LOST;
   if (end == CHANGED) v->release = isnan(v->closing) ? at : fmin(at, v->closing);
@@ -275,9 +275,9 @@ static void lower(Follower *f, Voltages *v) {
 
 /* The closed state at drive.voltage: that to which a rising voltage leads, or else the one next to straight ribbons. =>
  * is there one? */
-static bool close(Follower *f, Voltages *v) {
+static bool find_closed(Follower *f, Voltages *v) {
   const ZpStatics *s = &f->statics;
-  bool closed = raise(f, v);
+  bool closed = raise_voltage(f, v);
   if (f->outcome == ZP_INTERRUPTED) return false;
   if (!closed)
     closed = zp_newton_good(zp_statics_close(&f->statics, f->model->def.drive.voltage, &f->branch.newton).end) &&
@@ -312,12 +312,12 @@ static Voltages find(Follower *f) {
   v.no_release = "it hangs closed";
   if (f->hanging <= f->statics.contact.range) return v;
   v.no_release = "it is not closed at drive.voltage";
-  if (!close(f, &v)) return v;
+  if (!find_closed(f, &v)) return v;
   f->system.save(&f->statics, f->start);
   if (!whole) follow_whole(f, false, 1);
   if (f->outcome == ZP_INTERRUPTED) return v;
   f->system.restore(&f->statics, f->start);
-  lower(f, &v);
+  lower_voltage(f, &v);
   return v;
 }
 
