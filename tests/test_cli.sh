@@ -347,6 +347,19 @@ ok "130: --json prints the numbers" cmp -s stdout hanging/summary.json
 ok "130: the numbers are whole, and nothing is half written" complete hanging
 ok "130: no gnuplot is left" [ -z "$(ps -eo stat=,pgid= | awk -v group="$(cat hanging/plots/started)" '$2 == group && $1 !~ /Z/')" ]
 
+PATH=$PWD/hanging-bin:$PATH "$zipact" actuate $long --json -o hanging-twice >stdout 2>stderr &
+pid=$!
+wait_for_file hanging-twice/.zipact-lock
+sleep 1
+kill -INT $pid
+wait_for_file hanging-twice/plots/started
+ok "what an interrupted run did is kept before gnuplot hangs" json hanging-twice/summary.json 'd["outcome"] == "interrupted"'
+kill -INT $pid
+wait $pid
+status=$?
+ok "130: a second Ctrl-C ends the drawing" status_is 130
+ok "130: and leaves a whole report" complete hanging-twice
+
 # -- two runs into one folder: they mixed their files without a word ------------------------------------------------
 
 PATH=/nowhere "$zipact" actuate $long --quiet -o held >/dev/null 2>&1 &
