@@ -11,15 +11,18 @@
 
 #include "cli.h"
 
+static void say(const char *text) {
+  ssize_t ignored = write(STDERR_FILENO, text, strlen(text));
+  (void)ignored;
+}
+
 /* `memory`, unless there is none and who asked would crash on that. Nothing is allocated on the way out. */
 static void *checked(void *memory) {
   const char *library = memory ? NULL : zp_library_at_work();
   if (!library) return memory;
-  char text[80] = "zipact: no memory for ";
-  strncat(text, library, 40);
-  strcat(text, "\n");
-  ssize_t ignored = write(STDERR_FILENO, text, strlen(text));
-  (void)ignored;
+  say("zipact: no memory for ");
+  say(library);
+  say("\n");
   _exit(EXIT_MACHINE);
 }
 
