@@ -69,7 +69,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->memory = zp_calloc(1, carve(model, s, NULL));
   if (s->memory) carve(model, s, s->memory);
   if (s->memory) fill_model(model, s);
-  if (!s->memory || !zp_eval_create(s->model, &s->eval) || !zp_assembly_create(s->model, false, &s->assembly)) {
+  if (!s->memory || !zp_eval_create(s->model, &s->eval) || !zp_assembly_create(s->model, model->is_rod, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }
@@ -332,18 +332,19 @@ static void hold_platform(ZpStatics *s, double *r) {
   r[row] = holding(s) * (zp_statics_opening(s) - s->opening);
 }
 
-static void hold_row(const ZpStatics *s, ZpBand *K) {
-  size_t row = platform_row(s), first = row > K->lower ? row - K->lower : 0;
-  for (size_t j = first; j < s->assembly.n && j <= row + K->upper; j++)
-    *zp_band_at(K, row, j) = 0;
+/* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
+static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
+  size_t row = platform_row(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
+  double move = r ? r[row] / holding(s) : 0;
+  for (size_t i = row > K->upper ? row - K->upper : 0; i <= last; i++) {
+    if (i == row) continue;
+    bool kept = K->lower > 0 || i < row; /* of a symmetric matrix only the upper triangle is there */
+    double *in_column = kept ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
+    if (r) r[i] -= *in_column * move;
+    *in_column = 0;
+    if (K->lower > 0) *zp_band_at(K, row, i) = 0;
+  }
   *zp_band_at(K, row, row) = holding(s);
-}
-
-/* Symmetric again, with the same eigenvalues: how the forces on the others go with what does not move. */
-static void hold_column(const ZpStatics *s, ZpBand *K) {
-  size_t row = platform_row(s), first = row > K->upper ? row - K->upper : 0;
-  for (size_t i = first; i < s->assembly.n && i <= row + K->lower; i++)
-    if (i != row) *zp_band_at(K, i, row) = 0;
 }
 
 /* -- residual ------------------------------------------------------------------------------------- */
@@ -399,12 +400,12 @@ static void add_faces(ZpStatics *s, ZpBand *K) {
   zp_assemble(&s->assembly, ZP_ALONG_RIGHT, s->along1, K);
 }
 
-static void stiffness(void *self, ZpBand *K) {
+static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
   zp_band_clear(K);
   add_mechanics(s, K);
   if (s->model->field) add_faces(s, K);
-  if (is_held(s)) hold_row(s, K);
+  if (is_held(s)) hold_equation(s, K, r);
 }
 
 /* -- moving --------------------------------------------------------------------------------------- */
@@ -617,9 +618,6 @@ bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   system.residual(s, work->r);
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
-  system.stiffness(s, &work->K);
-  if (is_held(s)) hold_column(s, &work->K);
-  if (s->model->is_rod) return zp_band_negative_pivots(&work->K, work->LDL) == 0;
-  bool negative; /* the shear law's stiffness is not symmetric: its determinant changes sign at a limit point */
-  return zp_band_factor(&work->K, &negative) && !negative;
+  system.stiffness(s, &work->K, NULL);
+  return zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0;
 }

@@ -46,8 +46,9 @@ ZpStaticSystem zp_statics_system(ZpStatics *statics);
 typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_LOAD } ZpAlong;
 ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
-/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness; of mass_spring: no negative
- * determinant. `work` [n (bandwidth + 1)]. */
+/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness; of mass_spring, whose shear law
+ * makes it unsymmetric: no negative determinant, which changes its sign at a limit point. Leaves the stiffness
+ * factored. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
 /* Residual that is asked for: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */
