@@ -75,8 +75,10 @@ static double worst_entry(ZpStatics *s, const ZpStaticSystem *system, const ZpBa
     system->residual(s, down);
     shift(s, j, by);
     for (size_t i = 0; i < system->n; i++) {
-      bool inside = i + K->upper >= j && j + K->lower >= i;
-      double entry = inside ? *zp_band_at(K, i, j) : 0;
+      bool below = K->lower == 0 && i > j; /* a symmetric matrix has its upper triangle only */
+      size_t row = below ? j : i, column = below ? i : j;
+      bool inside = row + K->upper >= column && column + K->lower >= row;
+      double entry = inside ? *zp_band_at(K, row, column) : 0;
       worst = fmax(worst, fabs(entry - (down[i] - up[i]) / (2 * by)));
       largest = fmax(largest, fabs(entry));
     }

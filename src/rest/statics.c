@@ -30,7 +30,7 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
-  double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
+  double **stations[] = {&s->push, &s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
@@ -382,22 +382,16 @@ static double residual(void *self, double *r) {
 
 static void add_mechanics(ZpStatics *s, ZpBand *K) {
   zp_eval_stiffness(s->model, &s->eval, s->tension, s->D);
-  zp_assemble(&s->assembly, ZP_EDGES, s->D[0], K);
+  zp_assemble_edges(&s->assembly, (const double(*)[4])s->D, K);
 }
 
 static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
-  if (s->contact_acts) {
-    zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, s->own, s->next);
-    zp_assemble(&s->assembly, ZP_OWN, s->own, K);
-    zp_assemble(&s->assembly, ZP_NEXT, s->next, K);
-  }
-  if (s->U == 0) return;
-  zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, s->own, s->next, s->along0, s->along1);
-  zp_assemble(&s->assembly, ZP_OWN, s->own, K);
-  zp_assemble(&s->assembly, ZP_NEXT, s->next, K);
-  zp_assemble(&s->assembly, ZP_ALONG_LEFT, s->along0, K);
-  zp_assemble(&s->assembly, ZP_ALONG_RIGHT, s->along1, K);
+  const ZpGapDerivatives *gaps = &s->gaps;
+  const double *gap = s->eval.plates.gap;
+  zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, gaps->own, gaps->next, gaps->along0, gaps->along1);
+  if (s->contact_acts) zp_unilateral_stiffness(&s->contact, gap, gaps->own, gaps->next);
+  zp_assemble_gaps(&s->assembly, gaps, K);
 }
 
 static void stiffness(void *self, ZpBand *K, double *r) {

@@ -24,14 +24,15 @@ typedef struct ZpStatics {
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
-  double scale;                                /* force that a residual is relative to, N */
-  double (*D)[4];                              /* [3 edges] mechanics' stiffness */
-  double *push, *own, *next, *along0, *along1; /* [N] contact and field, by stations */
-  double *tension;                             /* [edges] what the last step foresaw, N */
-  double *moved;                               /* [2 stride] work space of a move */
-  double *force;                               /* [2 stride] */
-  double *good;                                /* [2 stride] the last equilibrium on that way */
-  double *r_up, *r_down;                       /* [n] work space of the sensitivity */
+  double scale;          /* force that a residual is relative to, N */
+  double (*D)[4];        /* [3 edges] mechanics' stiffness */
+  double *push;          /* [N] contact, N */
+  ZpGapDerivatives gaps; /* contact and field */
+  double *tension;       /* [edges] what the last step foresaw, N */
+  double *moved;         /* [2 stride] work space of a move */
+  double *force;         /* [2 stride] */
+  double *good;          /* [2 stride] the last equilibrium on that way */
+  double *r_up, *r_down; /* [n] work space of the sensitivity */
   void *memory;
 } ZpStatics;
 
