@@ -767,10 +767,10 @@ static double opening_at_rest(const ZpModel *model, double voltage) {
   ZpNewtonWork work;
   ck_assert(zp_statics_create(model, &statics));
   ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   void *memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){memory, 0};
-  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   ck_assert(zp_newton_good(zp_statics_hang(&statics, &work).end));
   ck_assert(zp_statics_raise(&statics, voltage, &work));
   double opening = zp_statics_opening(&statics);

@@ -41,10 +41,12 @@ static void open_rest(const ZpActuatorDef *def, Rest *r) {
   ck_assert_int_eq(zp_model_create(def, &r->model, NULL), ZP_OK);
   ck_assert(zp_statics_create(r->model, &r->statics));
   ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&r->work, r->statics.assembly.n, r->statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&r->work, r->statics.assembly.n, r->statics.assembly.bandwidth, r->statics.assembly.symmetric,
+                  &carver);
   r->memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){r->memory, 0};
-  zp_newton_carve(&r->work, r->statics.assembly.n, r->statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&r->work, r->statics.assembly.n, r->statics.assembly.bandwidth, r->statics.assembly.symmetric,
+                  &carver);
 }
 
 static void close_rest(Rest *r) {

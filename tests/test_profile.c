@@ -294,11 +294,11 @@ static double polyline_force(ZpActuatorDef def, int nodes) {
   ZpNewtonWork newton;
   ZpCarver carver = {NULL, 0};
   ck_assert(zp_statics_create(model, &statics));
-  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   carver = (ZpCarver){zp_calloc(1, carver.used), 0};
   void *memory = carver.base;
   ck_assert_ptr_nonnull(memory);
-  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   ck_assert(zp_newton_good(zp_statics_hold(&statics, def.isometric.separation, &newton).end));
   double force = zp_plates_totals(&model->plates, &statics.eval.plates, def.drive.voltage).force;
   zp_free(memory);

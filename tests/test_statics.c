@@ -414,10 +414,10 @@ static Point limit_of(const ZpActuatorDef *def) {
   ZpBranchSystem system = zp_statics_branch(&statics, ZP_ALONG_VOLTAGE);
   ZpBranch branch;
   ZpCarver carver = {NULL, 0};
-  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, &carver);
+  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   void *memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){memory, 0};
-  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, &carver);
+  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   ck_assert(zp_newton_good(zp_statics_hang(&statics, &branch.newton).end));
   ck_assert(zp_branch_start(&branch, true, 0.01, 0.01, 2 * zp_statics_tolerance(&statics)));
   Point point[3] = {{0, 0}, {0, 0}, {0, 0}};
@@ -760,10 +760,10 @@ START_TEST(test_branch_along_the_load) {
   ZpBranchSystem system = zp_statics_branch(&statics, ZP_ALONG_LOAD);
   ZpBranch branch;
   ZpCarver carver = {NULL, 0};
-  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, &carver);
+  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   void *memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){memory, 0};
-  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, &carver);
+  zp_branch_carve(&branch, &system, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   ck_assert(zp_newton_good(zp_statics_hang(&statics, &branch.newton).end));
   ck_assert(zp_branch_start(&branch, true, 0.01, 1, 2 * zp_statics_tolerance(&statics)));
   int points = 0;

@@ -33,8 +33,6 @@ static double stiffness(const ZpUnilateralParams *p, double gap) {
 }
 
 void zp_unilateral_stiffness(const ZpUnilateralParams *p, const double *gap, double *own, double *next) {
-  memset(own, 0, p->nodes * sizeof *own);
-  memset(next, 0, p->nodes * sizeof *next);
   for (size_t i = 0; i + 1 < p->nodes; i++) {
     if (gap[i] >= p->range && gap[i + 1] >= p->range) continue;
     for (int q = 0; q < GAUSS; q++) {

@@ -21,7 +21,8 @@ typedef struct ZpUnilateralParams {
 /* (gaps [N]) => push on each station [N], N, positive opens. */
 void zp_unilateral_push(const ZpUnilateralParams *params, const double *gap, double *push);
 
-/* (gaps [N]) => second derivatives of the energy by the gaps: own [N] and with the next station [N-1], N/m. */
+/* (gaps [N]) => second derivatives of the energy by the gaps, added to own [N] and, with the next station, to next
+ * [N-1], N/m. */
 void zp_unilateral_stiffness(const ZpUnilateralParams *params, const double *gap, double *own, double *next);
 
 /* How many stations from the clip on are closed, the clip not counted. */

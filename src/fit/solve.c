@@ -23,12 +23,12 @@ static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
   double value = NAN;
   void *memory = NULL;
   if (zp_statics_create(model, &statics)) {
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
+    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
     memory = zp_calloc(1, carver.used);
   }
   if (memory) {
     carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
+    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
     bool found = zp_newton_good(zp_statics_hang(&statics, &work).end);
     if (found && voltage > 0 && model->field) found = zp_statics_raise(&statics, voltage, &work);
     if (found && !zp_statics_shorted(&statics))

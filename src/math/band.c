@@ -11,7 +11,7 @@ void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver 
   band->upper = upper;
   band->stride = 2 * lower + upper + 1;
   band->a = zp_carve(carver, n * band->stride);
-  band->pivot = (size_t *)(void *)zp_carve(carver, n); /* a size_t is no larger than a double */
+  band->pivot = lower > 0 ? (size_t *)(void *)zp_carve(carver, n) : NULL; /* a size_t is no larger than a double */
 }
 
 void zp_band_clear(ZpBand *band) {
@@ -21,6 +21,8 @@ void zp_band_clear(ZpBand *band) {
 static size_t least(size_t a, size_t b) {
   return a < b ? a : b;
 }
+
+/* -- general: LU ----------------------------------------------------------------------------------- */
 
 /* Row of the largest entry of column k among rows k .. last. */
 static size_t pivot_row(const ZpBand *band, size_t k, size_t last) {
@@ -36,9 +38,9 @@ static size_t pivot_row(const ZpBand *band, size_t k, size_t last) {
   return best;
 }
 
-bool zp_band_factor(ZpBand *band, bool *negative) {
+static bool factor_lu(ZpBand *band) {
   size_t n = band->n;
-  bool odd = false;
+  band->odd = false;
   for (size_t k = 0; k < n; k++) {
     size_t last_row = least(k + band->lower, n - 1), last_column = least(k + band->lower + band->upper, n - 1);
     size_t width = last_column - k + 1, p = pivot_row(band, k, last_row);
@@ -51,10 +53,9 @@ bool zp_band_factor(ZpBand *band, bool *negative) {
         row_k[j] = row_p[j];
         row_p[j] = kept;
       }
-      odd = !odd;
+      band->odd = !band->odd;
     }
     if (row_k[0] == 0 || !isfinite(row_k[0])) return false;
-    if (row_k[0] < 0) odd = !odd;
     double inverse = 1 / row_k[0];
     for (size_t i = k + 1; i <= last_row; i++) {
       double *row_i = zp_band_at(band, i, k), factor = row_i[0] * inverse;
@@ -64,11 +65,10 @@ bool zp_band_factor(ZpBand *band, bool *negative) {
         row_i[j] -= factor * row_k[j];
     }
   }
-  if (negative) *negative = odd;
   return true;
 }
 
-void zp_band_solve(const ZpBand *band, double *b) {
+static void solve_lu(const ZpBand *band, double *b) {
   size_t n = band->n;
   for (size_t k = 0; k < n; k++) {
     size_t p = band->pivot[k], last_row = least(k + band->lower, n - 1);
@@ -86,34 +86,6 @@ void zp_band_solve(const ZpBand *band, double *b) {
       sum -= row[j] * b[k + j];
     b[k] = sum / row[0];
   }
-}
-
-int zp_band_negative_pivots(const ZpBand *band, double *work) {
-  size_t n = band->n, w = band->lower;
-  int negative = 0;
-  /* row i of work: l_ij for j = i - w .. i - 1, then d_i */
-  for (size_t i = 0; i < n; i++) {
-    size_t first = i > w ? i - w : 0;
-    double *row = work + i * (w + 1) + w - i; /* row[j] is entry (i, j) */
-    double d = *zp_band_at(band, i, i);
-    for (size_t j = first; j < i; j++) {
-      const double *row_j = work + j * (w + 1) + w - j;
-      size_t first_j = j > w ? j - w : 0, k = first > first_j ? first : first_j;
-      double sum = *zp_band_at(band, i, j);
-      for (; k < j; k++)
-        sum -= row[k] * row_j[k];
-      row[j] = sum; /* l_ij d_j until the row is done */
-    }
-    for (size_t j = first; j < i; j++) {
-      double ld = row[j];
-      row[j] = ld / work[j * (w + 1) + w];
-      d -= ld * row[j];
-    }
-    row[i] = d;
-    if (d == 0 || !isfinite(d)) return -1;
-    negative += d < 0;
-  }
-  return negative;
 }
 
 /* -- symmetric: U' D U, row by row ----------------------------------------------------------------- */
@@ -204,17 +176,37 @@ ZP_INLINE void solve_rows(const ZpBand *band, size_t width, double *b) {
 /* The widths of one ribbon and of two are compiled on their own. */
 enum { ONE_RIBBON = 6, TWO_RIBBONS = 12 };
 
-ZP_KERNEL bool zp_band_factor_symmetric(ZpBand *band) {
+ZP_KERNEL static bool factor_symmetric(ZpBand *band) {
   if (band->stride == TWO_RIBBONS) return factor_rows(band, TWO_RIBBONS);
   if (band->stride == ONE_RIBBON) return factor_rows(band, ONE_RIBBON);
   return factor_rows(band, band->stride);
 }
 
-ZP_KERNEL void zp_band_solve_symmetric(const ZpBand *band, double *b) {
+ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {
   if (band->stride == TWO_RIBBONS)
     solve_rows(band, TWO_RIBBONS, b);
   else if (band->stride == ONE_RIBBON)
     solve_rows(band, ONE_RIBBON, b);
   else
     solve_rows(band, band->stride, b);
+}
+
+/* -- either ----------------------------------------------------------------------------------------- */
+
+bool zp_band_factor(ZpBand *band) {
+  return band->lower == 0 ? factor_symmetric(band) : factor_lu(band);
+}
+
+void zp_band_solve(const ZpBand *band, double *b) {
+  if (band->lower == 0)
+    solve_symmetric(band, b);
+  else
+    solve_lu(band, b);
+}
+
+size_t zp_band_negative(const ZpBand *band) {
+  size_t negative = 0;
+  for (size_t i = 0; i < band->n; i++)
+    negative += *zp_band_at(band, i, i) < 0;
+  return band->lower == 0 ? negative : (negative + band->odd) % 2;
 }

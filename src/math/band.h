@@ -1,7 +1,8 @@
-/* Banded linear systems, square, general or symmetric: factor in place, solve.
+/* Banded linear systems, square: factor in place, solve.
  *
  * Storage: row i holds the columns i - lower .. i + upper + lower (room for what pivoting fills in), entry
- * (i, j) at [i * stride + (j - i + lower)], stride = 2 lower + upper + 1. */
+ * (i, j) at [i * stride + (j - i + lower)], stride = 2 lower + upper + 1. A matrix with lower == 0 is symmetric and
+ * keeps its upper triangle only (upper <= ZP_BAND_MOST). */
 #ifndef ZP_MATH_BAND_H
 #define ZP_MATH_BAND_H
 
@@ -15,8 +16,11 @@ typedef struct ZpBand {
   size_t lower, upper; /* diagonals below and above the main one */
   size_t stride;       /* of a row */
   double *a;           /* [n * stride] */
-  size_t *pivot;       /* [n] row that was exchanged with row i */
+  size_t *pivot;       /* [n] row that was exchanged with row i; not of a symmetric matrix */
+  bool odd;            /* an odd number of rows was exchanged */
 } ZpBand;
+
+enum { ZP_BAND_MOST = 15 };
 
 /* Cut the arrays from `carver`. */
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver);
@@ -29,24 +33,15 @@ static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
   return band->a + i * band->stride + (j + band->lower - i);
 }
 
-/* LU with row pivoting, in place. False if a pivot is 0 or not finite. `negative` (may be NULL) gets the
- * sign of the determinant: true if it is negative. */
-bool zp_band_factor(ZpBand *band, bool *negative);
+/* Factor in place: LU with row pivoting; of a symmetric matrix U' D U without pivoting, three times cheaper, for
+ * matrices that are definite or have few negative eigenvalues. False if a pivot is 0 or not finite. */
+bool zp_band_factor(ZpBand *band);
 
 /* Solve with the factors: b => x, in place. */
 void zp_band_solve(const ZpBand *band, double *b);
 
-enum { ZP_BAND_MOST = 15 };
-
-/* A symmetric matrix of which only the upper triangle is kept (lower == 0, upper <= ZP_BAND_MOST): U' D U in place,
- * without pivoting, so for matrices that are definite or nearly so. False if a pivot is 0 or not finite. */
-bool zp_band_factor_symmetric(ZpBand *band);
-
-/* Solve with those factors: b => x, in place. */
-void zp_band_solve_symmetric(const ZpBand *band, double *b);
-
-/* L D L' of a symmetric matrix (lower == upper) without pivoting, on a copy `work` [n (lower + 1)]. => how
- * many pivots are negative, which is how many eigenvalues are; -1 if a pivot is 0 or not finite. */
-int zp_band_negative_pivots(const ZpBand *band, double *work);
+/* Of a factored symmetric matrix: how many of its eigenvalues are negative (Sylvester's law of inertia). Of another: 1
+ * if its determinant is negative, else 0. */
+size_t zp_band_negative(const ZpBand *band);
 
 #endif

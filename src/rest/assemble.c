@@ -1,11 +1,8 @@
+/* Where all coordinates near a station are free, their equations follow each other and entries have fixed places: there
+ * rows are written directly. Near held and joined nodes each entry asks for its equations. */
 #include "rest/assemble.h"
 
-/* Makes the lists: with `terms` NULL it counts only. */
-typedef struct Maker {
-  const ZpModel *model;
-  const ZpAssembly *assembly;
-  ZpTerms *list;
-} Maker;
+#include "base/kernel.h"
 
 static size_t number(const ZpModel *model, int *equation) {
   int next = 0;
@@ -18,122 +15,171 @@ static size_t number(const ZpModel *model, int *equation) {
   return (size_t)next;
 }
 
-/* The derivative `from` of the force on coordinate `row` by coordinate `column`. */
-static void add(const Maker *to, size_t row, size_t column, size_t from, double weight) {
-  const ZpAssembly *a = to->assembly;
-  int i = a->equation[row], j = a->equation[column];
-  if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
-  int lower = a->symmetric ? 0 : (int)a->bandwidth, stride = 2 * lower + (int)a->bandwidth + 1;
-  if (to->list->term) to->list->term[to->list->count] = (ZpTerm){i * stride + j + lower - i, (int)from, weight};
-  to->list->count++;
-}
-
-/* A 2 x 2 block d(force on a)/d(position of b), sign turned. */
-static void add_block(const Maker *to, size_t a, size_t b, size_t from, double sign) {
-  for (size_t k = 0; k < 4; k++)
-    add(to, 2 * a + k / 2, 2 * b + k % 2, from + k, sign);
-}
-
-/* Edge j (nodes j, j + s) feels edge k (nodes k, k + s): the force R_j acts on its right node, -R_j on its left. */
-static void list_edges(const Maker *to) {
-  ptrdiff_t step = (ptrdiff_t)to->model->s, edges = (ptrdiff_t)(to->model->count - to->model->s);
-  for (ptrdiff_t j = 0; j < edges; j++)
-    for (ptrdiff_t m = 0; m < 3; m++) {
-      ptrdiff_t k = j + (m - 1) * step;
-      if (k < 0 || k >= edges) continue;
-      size_t left = (size_t)j, right = (size_t)(j + step), start = (size_t)k, end = (size_t)(k + step);
-      size_t block = 4 * (size_t)(3 * j + m);
-      add_block(to, right, end, block, 1);
-      add_block(to, right, start, block, -1);
-      add_block(to, left, end, block, -1);
-      add_block(to, left, start, block, 1);
-    }
-}
-
-/* By the gaps of stations i and k: gap = y upper - y lower. */
-static void add_gaps(const Maker *to, size_t i, size_t k, size_t from) {
-  size_t s = to->model->s;
-  for (size_t a = 0; a < s; a++)
-    for (size_t b = 0; b < s; b++)
-      add(to, 2 * (s * i + a) + 1, 2 * (s * k + b) + 1, from, a == b ? 1 : -1);
-}
-
-static void list_own(const Maker *to) {
-  for (size_t i = 0; i < to->model->nodes; i++)
-    add_gaps(to, i, i, i);
-}
-
-static void list_next(const Maker *to) {
-  for (size_t i = 0; i + 1 < to->model->nodes; i++) {
-    add_gaps(to, i, i + 1, i);
-    add_gaps(to, i + 1, i, i);
-  }
-}
-
-/* By the mean x-length of each element and the gap of its station `side`, both orders. */
-static void list_along(const Maker *to, size_t side) {
-  size_t s = to->model->s;
-  for (size_t i = 0; i + 1 < to->model->nodes; i++)
-    for (size_t a = 0; a < 2 * s; a++) /* nodes of station i, then of i + 1 */
-      for (size_t b = 0; b < s; b++) {
-        size_t x = 2 * (s * i + a), y = 2 * (s * (i + side) + b) + 1;
-        double rises = s == 2 && b == 0 ? 1 : -1; /* how the gap goes with this y */
-        double weight = (a < s ? -1 : 1) * rises / (double)s;
-        add(to, x, y, i, weight);
-        add(to, y, x, i, weight);
-      }
-}
-
-/* => terms in all lists. */
-static size_t list_all(const ZpModel *model, ZpAssembly *a) {
-  list_edges(&(Maker){model, a, &a->list[ZP_EDGES]});
-  if (model->field) {
-    list_own(&(Maker){model, a, &a->list[ZP_OWN]});
-    list_next(&(Maker){model, a, &a->list[ZP_NEXT]});
-    list_along(&(Maker){model, a, &a->list[ZP_ALONG_LEFT]}, 0);
-    list_along(&(Maker){model, a, &a->list[ZP_ALONG_RIGHT]}, 1);
-  }
-  size_t all = 0;
-  for (size_t k = 0; k < ZP_TERM_LISTS; k++)
-    all += a->list[k].count;
-  return all;
-}
-
-/* The lists are counted first, then share one block. */
-static bool make_lists(const ZpModel *model, ZpAssembly *a) {
-  a->terms = zp_calloc(list_all(model, a), sizeof *a->terms);
-  if (!a->terms) return false;
-  ZpTerm *next = a->terms;
-  for (size_t k = 0; k < ZP_TERM_LISTS; k++) {
-    a->list[k].term = next;
-    next += a->list[k].count;
-    a->list[k].count = 0;
-  }
-  list_all(model, a);
-  return true;
+/* Coordinate - equation of all coordinates of stations i .. i + 2, if that is one number; else -1. */
+static int shift_of(const ZpAssembly *a, size_t i) {
+  if (i + 2 >= a->nodes) return -1;
+  size_t first = 2 * a->s * i, end = 2 * a->s * (i + 3);
+  int shift = (int)first - a->equation[first];
+  for (size_t k = first; k < end; k++)
+    if (a->equation[k] < 0 || (int)k - a->equation[k] != shift) return -1;
+  return shift;
 }
 
 bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
-  *a = (ZpAssembly){.bandwidth = 6 * model->s - 1, .symmetric = symmetric};
+  *a = (ZpAssembly){.s = model->s, .nodes = model->nodes, .bandwidth = 6 * model->s - 1, .symmetric = symmetric};
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
-  if (!a->equation) return false;
+  a->shift = zp_calloc(model->nodes, sizeof *a->shift);
+  if (!a->equation || !a->shift) {
+    zp_assembly_destroy(a);
+    return false;
+  }
   a->n = number(model, a->equation);
-  if (make_lists(model, a)) return true;
-  zp_assembly_destroy(a);
-  return false;
+  for (size_t i = 0; i < model->nodes; i++)
+    a->shift[i] = shift_of(a, i);
+  return true;
 }
 
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
-  zp_free(a->terms);
+  zp_free(a->shift);
   *a = (ZpAssembly){0};
 }
 
-void zp_assemble(const ZpAssembly *a, ZpTermList list, const double *derivatives, ZpBand *K) {
-  const ZpTerms *terms = &a->list[list];
-  double *entries = K->a;
-  for (size_t k = 0; k < terms->count; k++) {
-    ZpTerm term = terms->term[k];
-    entries[term.place] += term.weight * derivatives[term.from];
+/* -- one entry, anywhere ---------------------------------------------------------------------------- */
+
+static void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
+  int i = a->equation[row], j = a->equation[column];
+  if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
+  *zp_band_at(K, (size_t)i, (size_t)j) += value;
+}
+
+/* A derivative by two different coordinates is in two places of the matrix. */
+static void add_both(const ZpAssembly *a, size_t one, size_t other, double value, ZpBand *K) {
+  add(a, one, other, value, K);
+  add(a, other, one, value, K);
+}
+
+/* The 2 x 2 block of the force on node `row` by the position of node `column`. */
+static void add_block(const ZpAssembly *a, size_t row, size_t column, const double block[4], ZpBand *K) {
+  for (size_t k = 0; k < 4; k++)
+    add(a, 2 * row + k / 2, 2 * column + k % 2, block[k], K);
+}
+
+/* -- edges ------------------------------------------------------------------------------------------ */
+
+/* Edge l is left of node j, edge j right of it, edge r right of that. The force R of an edge acts on its right node, -R
+ * on its left, so node j with itself, the next node of its ribbon and the one after have the blocks
+ *   D_ll - D_lj - D_jl + D_jj,   D_lj - D_jj + D_jr,   -D_jr */
+ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t i, size_t j, const double (*D)[4], ZpBand *K) {
+  const double *ll = D[3 * (j - s) + 1], *lj = D[3 * (j - s) + 2], *jl = D[3 * j], *jj = D[3 * j + 1],
+               *jr = D[3 * j + 2];
+  double *x = K->a + (2 * j - (size_t)a->shift[i]) * K->stride, *y = x + K->stride;
+  double own[4], next[4];
+  for (size_t k = 0; k < 4; k++) {
+    own[k] = (ll[k] - lj[k]) + (jj[k] - jl[k]);
+    next[k] = (lj[k] - jj[k]) + jr[k];
+  }
+  x[0] += own[0];
+  x[1] += own[1];
+  y[0] += own[3];
+  x[2 * s] += next[0];
+  x[2 * s + 1] += next[1];
+  y[2 * s - 1] += next[2];
+  y[2 * s] += next[3];
+  x[4 * s] -= jr[0];
+  x[4 * s + 1] -= jr[1];
+  y[4 * s - 1] -= jr[2];
+  y[4 * s] -= jr[3];
+}
+
+/* The same for nodes near held and joined ones, and both triangles where the matrix has two. */
+static void edges_of_node(const ZpAssembly *a, size_t i, size_t j, const double (*D)[4], ZpBand *K) {
+  static const double none[4] = {0};
+  size_t s = a->s, N = a->nodes;
+  bool left = i > 0, right = i + 1 < N, beyond = i + 2 < N;
+  const double *ll = left ? D[3 * (j - s) + 1] : none, *lj = left && right ? D[3 * (j - s) + 2] : none,
+               *jl = left && right ? D[3 * j] : none, *jj = right ? D[3 * j + 1] : none,
+               *jr = beyond ? D[3 * j + 2] : none, *rj = beyond ? D[3 * (j + s)] : none;
+  double own[4], next[4], back[4], after[4], before[4];
+  for (size_t k = 0; k < 4; k++) {
+    own[k] = (ll[k] - lj[k]) + (jj[k] - jl[k]);
+    next[k] = (lj[k] - jj[k]) + jr[k];
+    back[k] = (jl[k] - jj[k]) + rj[k];
+    after[k] = -jr[k];
+    before[k] = -rj[k];
+  }
+  add_block(a, j, j, own, K);
+  if (right) add_block(a, j, j + s, next, K);
+  if (right) add_block(a, j + s, j, back, K);
+  if (beyond) add_block(a, j, j + 2 * s, after, K);
+  if (beyond) add_block(a, j + 2 * s, j, before, K);
+}
+
+void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
+  for (size_t i = 0; i < a->nodes; i++)
+    for (size_t j = a->s * i; j < a->s * (i + 1); j++) {
+      if (a->shift[i] < 0 || i == 0 || !a->symmetric)
+        edges_of_node(a, i, j, D, K);
+      else if (a->s == 2)
+        edges_of_free_node(a, 2, i, j, D, K);
+      else
+        edges_of_free_node(a, 1, i, j, D, K);
+    }
+}
+
+/* -- gaps ------------------------------------------------------------------------------------------- */
+
+/* How the gap of a station goes with the y of its node r: up on the upper ribbon, down on the lower or only one. */
+ZP_INLINE double rise(size_t s, size_t r) {
+  return s == 2 && r == 0 ? 1 : -1;
+}
+
+/* How the x-length of an element goes with the x of a node: of its left station, or of its right one. */
+ZP_INLINE double stretch(size_t s, bool right) {
+  return (right ? 1.0 : -1.0) / (double)s;
+}
+
+ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t i, const ZpGapDerivatives *of, ZpBand *K) {
+  double *first = K->a + (2 * s * i - (size_t)a->shift[i]) * K->stride; /* of row and column x of the first node */
+  size_t down = K->stride - 1;
+  double own = of->own[i], next = of->next[i], along[2] = {of->along0[i], of->along1[i]};
+  for (size_t p = 0; p < s; p++) {
+    double *y = first + (2 * p + 1) * down;
+    for (size_t q = p; q < s; q++)
+      y[2 * q + 1] += rise(s, p) * rise(s, q) * own;
+    for (size_t q = 0; q < s; q++)
+      y[2 * s + 2 * q + 1] += rise(s, p) * rise(s, q) * next;
+  }
+  for (size_t p = 0; p < 2 * s; p++)
+    for (size_t q = 0; q < 2 * s; q++) {
+      size_t x = 2 * p, y = 2 * q + 1, row = x < y ? x : y, column = x < y ? y : x;
+      first[row * down + column] += stretch(s, p >= s) * rise(s, q % s) * along[q / s];
+    }
+}
+
+static void gaps_of_station(const ZpAssembly *a, size_t i, const ZpGapDerivatives *of, ZpBand *K) {
+  size_t s = a->s, first = s * i;
+  for (size_t p = 0; p < s; p++)
+    for (size_t q = 0; q < s; q++)
+      add(a, 2 * (first + p) + 1, 2 * (first + q) + 1, rise(s, p) * rise(s, q) * of->own[i], K);
+  if (i + 1 == a->nodes) return;
+  for (size_t p = 0; p < s; p++)
+    for (size_t q = 0; q < s; q++)
+      add_both(a, 2 * (first + p) + 1, 2 * (first + s + q) + 1, rise(s, p) * rise(s, q) * of->next[i], K);
+  for (size_t p = 0; p < 2 * s; p++)
+    for (size_t q = 0; q < 2 * s; q++) {
+      double along = q < s ? of->along0[i] : of->along1[i];
+      add_both(a, 2 * (first + p), 2 * (first + q) + 1, stretch(s, p >= s) * rise(s, q % s) * along, K);
+    }
+}
+
+void zp_assemble_gaps(const ZpAssembly *a, const ZpGapDerivatives *of, ZpBand *K) {
+  for (size_t i = 0; i < a->nodes; i++) {
+    if (a->shift[i] < 0 || !a->symmetric)
+      gaps_of_station(a, i, of, K);
+    else if (a->s == 2)
+      gaps_of_free_station(a, 2, i, of, K);
+    else
+      gaps_of_free_station(a, 1, i, of, K);
   }
 }

@@ -173,7 +173,7 @@ static void add_shear_tangent(ZpDynamics *d, ZpBand *A) {
   for (size_t k = 0; k < 3 * (d->model->count - d->model->s); k++)
     for (size_t c = 0; c < 4; c++)
       d->D[k][c] *= 0.5;
-  zp_assemble(&d->assembly, ZP_EDGES, d->D[0], A);
+  zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
 }
 
 static void tangent(void *self, ZpBand *A) {
@@ -181,16 +181,14 @@ static void tangent(void *self, ZpBand *A) {
   const ZpModel *model = d->model;
   zp_band_clear(A);
   zp_rod_step_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->D);
-  zp_assemble(&d->assembly, ZP_EDGES, d->D[0], A);
+  zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
   if (!model->is_rod) add_shear_tangent(d, A);
   if (model->def.damping.drag > 0) add_drag_tangent(d, A);
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)
     d->plates.own[i] += d->pressed[i];
-  zp_assemble(&d->assembly, ZP_OWN, d->plates.own, A);
-  zp_assemble(&d->assembly, ZP_NEXT, d->plates.next, A);
-  zp_assemble(&d->assembly, ZP_ALONG_LEFT, d->plates.along0, A);
-  zp_assemble(&d->assembly, ZP_ALONG_RIGHT, d->plates.along1, A);
+  ZpGapDerivatives gaps = {d->plates.own, d->plates.next, d->plates.along0, d->plates.along1};
+  zp_assemble_gaps(&d->assembly, &gaps, A);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */

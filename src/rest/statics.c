@@ -30,7 +30,7 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
-  double **stations[] = {&s->push, &s->own, &s->next, &s->along0, &s->along1};
+  double **stations[] = {&s->push, &s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
@@ -69,7 +69,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->memory = zp_calloc(1, carve(model, s, NULL));
   if (s->memory) carve(model, s, s->memory);
   if (s->memory) fill_model(model, s);
-  if (!s->memory || !zp_eval_create(s->model, &s->eval) || !zp_assembly_create(s->model, false, &s->assembly)) {
+  if (!s->memory || !zp_eval_create(s->model, &s->eval) || !zp_assembly_create(s->model, model->is_rod, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }
@@ -332,18 +332,19 @@ static void hold_platform(ZpStatics *s, double *r) {
   r[row] = holding(s) * (zp_statics_opening(s) - s->opening);
 }
 
-static void hold_row(const ZpStatics *s, ZpBand *K) {
-  size_t row = platform_row(s), first = row > K->lower ? row - K->lower : 0;
-  for (size_t j = first; j < s->assembly.n && j <= row + K->upper; j++)
-    *zp_band_at(K, row, j) = 0;
+/* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
+static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
+  size_t row = platform_row(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
+  double move = r ? r[row] / holding(s) : 0;
+  for (size_t i = row > K->upper ? row - K->upper : 0; i <= last; i++) {
+    if (i == row) continue;
+    bool kept = K->lower > 0 || i < row; /* of a symmetric matrix only the upper triangle is there */
+    double *in_column = kept ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
+    if (r) r[i] -= *in_column * move;
+    *in_column = 0;
+    if (K->lower > 0) *zp_band_at(K, row, i) = 0;
+  }
   *zp_band_at(K, row, row) = holding(s);
-}
-
-/* Symmetric again, with the same eigenvalues: how the forces on the others go with what does not move. */
-static void hold_column(const ZpStatics *s, ZpBand *K) {
-  size_t row = platform_row(s), first = row > K->upper ? row - K->upper : 0;
-  for (size_t i = first; i < s->assembly.n && i <= row + K->lower; i++)
-    if (i != row) *zp_band_at(K, i, row) = 0;
 }
 
 /* -- residual ------------------------------------------------------------------------------------- */
@@ -381,30 +382,24 @@ static double residual(void *self, double *r) {
 
 static void add_mechanics(ZpStatics *s, ZpBand *K) {
   zp_eval_stiffness(s->model, &s->eval, s->tension, s->D);
-  zp_assemble(&s->assembly, ZP_EDGES, s->D[0], K);
+  zp_assemble_edges(&s->assembly, (const double(*)[4])s->D, K);
 }
 
 static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
-  if (s->contact_acts) {
-    zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, s->own, s->next);
-    zp_assemble(&s->assembly, ZP_OWN, s->own, K);
-    zp_assemble(&s->assembly, ZP_NEXT, s->next, K);
-  }
-  if (s->U == 0) return;
-  zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, s->own, s->next, s->along0, s->along1);
-  zp_assemble(&s->assembly, ZP_OWN, s->own, K);
-  zp_assemble(&s->assembly, ZP_NEXT, s->next, K);
-  zp_assemble(&s->assembly, ZP_ALONG_LEFT, s->along0, K);
-  zp_assemble(&s->assembly, ZP_ALONG_RIGHT, s->along1, K);
+  const ZpGapDerivatives *gaps = &s->gaps;
+  const double *gap = s->eval.plates.gap;
+  zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, gaps->own, gaps->next, gaps->along0, gaps->along1);
+  if (s->contact_acts) zp_unilateral_stiffness(&s->contact, gap, gaps->own, gaps->next);
+  zp_assemble_gaps(&s->assembly, gaps, K);
 }
 
-static void stiffness(void *self, ZpBand *K) {
+static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
   zp_band_clear(K);
   add_mechanics(s, K);
   if (s->model->field) add_faces(s, K);
-  if (is_held(s)) hold_row(s, K);
+  if (is_held(s)) hold_equation(s, K, r);
 }
 
 /* -- moving --------------------------------------------------------------------------------------- */
@@ -617,9 +612,6 @@ bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   system.residual(s, work->r);
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
-  system.stiffness(s, &work->K);
-  if (is_held(s)) hold_column(s, &work->K);
-  if (s->model->is_rod) return zp_band_negative_pivots(&work->K, work->LDL) == 0;
-  bool negative; /* the shear law's stiffness is not symmetric: its determinant changes sign at a limit point */
-  return zp_band_factor(&work->K, &negative) && !negative;
+  system.stiffness(s, &work->K, NULL);
+  return zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0;
 }

@@ -24,14 +24,15 @@ typedef struct ZpStatics {
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
-  double scale;                                /* force that a residual is relative to, N */
-  double (*D)[4];                              /* [3 edges] mechanics' stiffness */
-  double *push, *own, *next, *along0, *along1; /* [N] contact and field, by stations */
-  double *tension;                             /* [edges] what the last step foresaw, N */
-  double *moved;                               /* [2 stride] work space of a move */
-  double *force;                               /* [2 stride] */
-  double *good;                                /* [2 stride] the last equilibrium on that way */
-  double *r_up, *r_down;                       /* [n] work space of the sensitivity */
+  double scale;          /* force that a residual is relative to, N */
+  double (*D)[4];        /* [3 edges] mechanics' stiffness */
+  double *push;          /* [N] contact, N */
+  ZpGapDerivatives gaps; /* contact and field */
+  double *tension;       /* [edges] what the last step foresaw, N */
+  double *moved;         /* [2 stride] work space of a move */
+  double *force;         /* [2 stride] */
+  double *good;          /* [2 stride] the last equilibrium on that way */
+  double *r_up, *r_down; /* [n] work space of the sensitivity */
   void *memory;
 } ZpStatics;
 
@@ -46,8 +47,9 @@ ZpStaticSystem zp_statics_system(ZpStatics *statics);
 typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_LOAD } ZpAlong;
 ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
-/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness; of mass_spring: no negative
- * determinant. `work` [n (bandwidth + 1)]. */
+/* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness; of mass_spring, whose shear law
+ * makes it unsymmetric: no negative determinant, which changes its sign at a limit point. Leaves the stiffness
+ * factored. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
 /* Residual that is asked for: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */

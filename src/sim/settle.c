@@ -67,11 +67,11 @@ static bool solve(ZpSim *sim, double *q, bool *found) {
   if (!zp_statics_create(model, &statics)) return false;
   ZpNewtonWork work;
   ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   void *memory = zp_calloc(1, carver.used);
   if (memory) {
     carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, &carver);
+    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
     ZpNewtonInfo info = zp_statics_hang(&statics, &work);
     *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;

@@ -12,10 +12,10 @@ static const double sharpest_turn = 0.7; /* cosine: a step that turns by more wo
 static const double surest_step = 1e-5;  /* too short to cross a sharp fold onto the way back */
 enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
-void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, ZpCarver *carver) {
+void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   b->system = system;
-  zp_newton_carve(&b->newton, n, bandwidth, carver);
+  zp_newton_carve(&b->newton, n, bandwidth, symmetric, carver);
   b->a = zp_carve(carver, n);
   b->b = zp_carve(carver, n);
   b->q = zp_carve(carver, n);
@@ -42,10 +42,9 @@ static double find_direction(ZpBranch *b) {
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
   rest->residual(rest->self, b->newton.r);
-  rest->stiffness(rest->self, &b->newton.K);
+  rest->stiffness(rest->self, &b->newton.K, NULL);
   sys->sensitivity(rest->self, b->a);
-  bool negative;
-  if (!zp_band_factor(&b->newton.K, &negative)) return 0;
+  if (!zp_band_factor(&b->newton.K)) return 0;
   zp_band_solve(&b->newton.K, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
@@ -56,6 +55,7 @@ static double find_direction(ZpBranch *b) {
   for (size_t i = 0; i < n; i++)
     b->direction[i] = b->a[i] * m;
   b->direction_m = m;
+  bool negative = zp_band_negative(&b->newton.K) % 2 == 1; /* the determinant */
   b->reversed = b->along != ((m > 0) != negative);
   return isfinite(length) ? fabs(cosine) : 0;
 }
@@ -104,9 +104,9 @@ static int correct(ZpBranch *b, double s, double m_start) {
       k = 0;
       continue;
     }
-    rest->stiffness(rest->self, &b->newton.K);
+    rest->stiffness(rest->self, &b->newton.K, b->newton.r);
     sys->sensitivity(rest->self, b->b);
-    if (!zp_band_factor(&b->newton.K, NULL)) return -1;
+    if (!zp_band_factor(&b->newton.K)) return -1;
     memcpy(b->a, b->newton.r, n * sizeof *b->a);
     zp_band_solve(&b->newton.K, b->a);
     zp_band_solve(&b->newton.K, b->b);

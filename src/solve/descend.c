@@ -10,13 +10,13 @@ static double largest_diagonal(const ZpBand *K) {
   return largest;
 }
 
-/* K + c with a c that makes it positive, which it is without if *c comes to 0. => false if none does */
+/* K + c, factored, with a c that makes it positive, which it is without if *c comes to 0. => false if none does */
 static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewtonWork *work) {
   for (int k = 0; k < 100; k++) {
-    system->stiffness(system->self, &work->K);
+    system->stiffness(system->self, &work->K, NULL);
     for (size_t i = 0; i < work->K.n; i++)
       *zp_band_at(&work->K, i, i) += *c;
-    if (zp_band_negative_pivots(&work->K, work->LDL) == 0) return true;
+    if (zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0) return true;
     *c = fmax(4 * *c, least);
   }
   return false;
@@ -35,7 +35,7 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
     info.end = ZP_NEWTON_DIVERGED;
     if (!isfinite(info.residual)) return info;
     if (info.iterations == 0) {
-      system->stiffness(system->self, &work->K);
+      system->stiffness(system->self, &work->K, NULL);
       stiffest = largest_diagonal(&work->K);
       c = at_first * stiffest;
     }
@@ -50,8 +50,6 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
       if (!fresh) return info;
       continue;
     }
-    info.end = ZP_NEWTON_SINGULAR;
-    if (!zp_band_factor(&work->K, NULL)) return info;
     zp_band_solve(&work->K, work->r);
     zp_closing_correct(&closing, system, work->r);
     double length = system->length(system->self, work->r) / longest;

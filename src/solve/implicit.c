@@ -66,7 +66,7 @@ static bool linearise(ZpImplicit *s, double h, const double *q, const double *v,
     rounding += rounded * rounded;
   }
   *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + DBL_EPSILON * sqrt(rounding)};
-  return zp_band_factor_symmetric(&s->A);
+  return zp_band_factor(&s->A);
 }
 
 /* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`, 0 of the first?
@@ -90,7 +90,7 @@ static int converge(ZpImplicit *s, double h, const double *q, const double *v) {
   Imbalance imbalance;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     if (!linearise(s, h, q, v, &imbalance)) return 0;
-    zp_band_solve_symmetric(&s->A, s->r);
+    zp_band_solve(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
@@ -112,7 +112,7 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
     double a = 2 * (s->q[i] - q[i] - h * v[i]) / (h * h);
     s->r[i] = s->system->mass[i] * (a - history->a[i]) * h / (3 * (h + history->last));
   }
-  zp_band_solve_symmetric(&s->A, s->r);
+  zp_band_solve(&s->A, s->r);
   return rms(s->r, n) / s->accuracy;
 }
 
@@ -137,7 +137,7 @@ void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
   for (int k = 0; k < POWER; k++) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
-    zp_band_solve_symmetric(&s->A, slow);
+    zp_band_solve(&s->A, slow);
     for (size_t i = 0; i < n; i++)
       fast[i] -= slow[i];
   }

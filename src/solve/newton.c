@@ -2,10 +2,9 @@
 
 #include <math.h>
 
-void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, ZpCarver *carver) {
-  zp_band_carve(&work->K, n, bandwidth, bandwidth, carver);
+void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, bool symmetric, ZpCarver *carver) {
+  zp_band_carve(&work->K, n, symmetric ? 0 : bandwidth, bandwidth, carver);
   work->r = zp_carve(carver, n);
-  work->LDL = zp_carve(carver, n * (bandwidth + 1));
 }
 
 bool zp_newton_good(ZpNewtonEnd end) {
@@ -66,8 +65,8 @@ ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most,
       info.end = ZP_NEWTON_DIVERGED;
     }
     if (info.end != ZP_NEWTON_SLOW || since == most) return info;
-    system->stiffness(system->self, &work->K);
-    if (!zp_band_factor(&work->K, NULL)) {
+    system->stiffness(system->self, &work->K, work->r);
+    if (!zp_band_factor(&work->K)) {
       info.end = ZP_NEWTON_SINGULAR;
       return info;
     }

@@ -13,8 +13,9 @@ typedef struct ZpStaticSystem {
   void *self; /* handed to the functions below */
   /* Forces left at the present point => r [n]; returns their size relative to what acts. */
   double (*residual)(void *self, double *r);
-  /* -dr/dq at the point of the last residual. */
-  void (*stiffness)(void *self, ZpBand *K);
+  /* -dr/dq at the point of the last residual => K. Where a coordinate moves as prescribed, what that does to the others
+   * is taken into r (NULL: it does not move), and its row and column are those of no other. */
+  void (*stiffness)(void *self, ZpBand *K, double *r);
   /* How far a step would go, in units of the longest step that linearisation stands. */
   double (*length)(void *self, const double *step);
   /* What a step would change, in units of the accuracy asked for. The residual alone does not say how near the
@@ -42,10 +43,10 @@ typedef struct ZpNewtonInfo {
   double residual;
 } ZpNewtonInfo;
 
-/* Work space: the stiffness and vectors of n doubles. */
+/* Work space. */
 typedef struct ZpNewtonWork {
   ZpBand K;
-  double *r, *LDL;
+  double *r; /* [n] */
 } ZpNewtonWork;
 
 /* How an iteration closes in. Start with zp_closing_start. */
@@ -70,7 +71,7 @@ bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolera
 /* What was held has been recomputed: the residual may be larger again. */
 void zp_closing_renew(ZpClosing *closing);
 
-void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, ZpCarver *carver);
+void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, bool symmetric, ZpCarver *carver);
 
 /* Iterate from the present point. */
 ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most, ZpNewtonWork *work);

@@ -76,7 +76,7 @@ static bool allocate(Follower *f) {
       carver = (ZpCarver){f->memory, 0};
       if (!f->memory) return false;
     }
-    zp_branch_carve(&f->branch, &f->system, f->statics.assembly.bandwidth, &carver);
+    zp_branch_carve(&f->branch, &f->system, f->statics.assembly.bandwidth, f->statics.assembly.symmetric, &carver);
     f->line_force = zp_carve(&carver, f->model->nodes);
     f->limit = zp_carve(&carver, MOST_POINTS);
     f->start = zp_carve(&carver, saved);

@@ -65,7 +65,7 @@ static bool allocate(Holder *h) {
       carver = (ZpCarver){h->memory, 0};
       if (!h->memory) return false;
     }
-    zp_branch_carve(&h->branch, &h->system, h->statics.assembly.bandwidth, &carver);
+    zp_branch_carve(&h->branch, &h->system, h->statics.assembly.bandwidth, h->statics.assembly.symmetric, &carver);
     h->before = zp_carve(&carver, h->system.save_size / sizeof(double));
     h->edge = zp_carve(&carver, h->system.save_size / sizeof(double));
     h->near = zp_carve(&carver, h->system.save_size / sizeof(double));

@@ -109,11 +109,11 @@ static bool hold(Profiler *p, bool *found) {
   ZpNewtonWork newton;
   ZpCarver carver = {NULL, 0};
   if (!zp_statics_create(model, &statics)) return false;
-  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, &carver);
+  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
   void *memory = zp_calloc(1, carver.used);
   if (memory) {
     carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, &carver);
+    zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
     ZpNewtonInfo info = zp_statics_hold(&statics, model->def.isometric.separation, &newton);
     *found = zp_newton_good(info.end);
     zp_faces_smooth(model->nodes, statics.q, statics.q + model->stride, &p->stations);

@@ -52,12 +52,12 @@ static const char *words_of(ZpNewtonEnd end) {
 static bool run(ZpStatics *s, ZpResult *result) {
   ZpNewtonWork work;
   ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, s->assembly.n, s->assembly.bandwidth, &carver);
+  zp_newton_carve(&work, s->assembly.n, s->assembly.bandwidth, s->assembly.symmetric, &carver);
   zp_carve(&carver, s->model->nodes);
   void *memory = zp_calloc(1, carver.used);
   if (!memory) return false;
   carver = (ZpCarver){memory, 0};
-  zp_newton_carve(&work, s->assembly.n, s->assembly.bandwidth, &carver);
+  zp_newton_carve(&work, s->assembly.n, s->assembly.bandwidth, s->assembly.symmetric, &carver);
   double *line_force = zp_carve(&carver, s->model->nodes);
   ZpNewtonInfo info = zp_statics_hang(s, &work);
   bool found = zp_newton_good(info.end);

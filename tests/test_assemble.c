@@ -1,0 +1,158 @@
+/* The matrix of an actuator: entry by entry minus the differences of its residual, and the symmetric one, whose rows
+ * are written directly, the upper triangle of the other, whose entries ask for their equations. */
+#include "check_util.h"
+
+#include "rest/statics.h"
+
+enum { NODES = 9 };
+
+static const Setting kinds[][3] = {
+    {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}},
+    {{"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 1e-4}, {"actuator.right_end", ZP_END_FREE}},
+    {{"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED}},
+    {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}},
+};
+
+static ZpModel *model_of_kind(size_t kind) {
+  ZpActuatorDef def =
+      DEF({"study", ZP_STUDY_STATIONARY}, {"mesh.nodes", NODES}, kinds[kind][0],
+          kinds[kind][1].key ? kinds[kind][1] : kinds[kind][0], kinds[kind][2].key ? kinds[kind][2] : kinds[kind][0]);
+  return model_of(&def);
+}
+
+/* Away from straight, some faces in contact's range, at a voltage. */
+static void shake(ZpStatics *s) {
+  uint64_t seed = 3;
+  const ZpModel *model = s->model;
+  size_t stride = model->stride;
+  for (size_t j = 0; j < model->count; j++) {
+    size_t station = j / model->s;
+    double drop = model->s == 2 && j % 2 == 0 ? 0 : 1e-5 * (double)(station * station);
+    s->q[j] += 0.01 * model->l * noise(&seed) * (station > 0);
+    s->q[stride + j] -= drop + 1e-7 * noise(&seed) * (station > 0);
+  }
+  s->U = model->field ? 5e3 : 0;
+  s->contact_acts = true;
+}
+
+/* The coordinates with equation `k` moved by h. */
+static void nudge(ZpStatics *s, size_t k, double h) {
+  for (size_t c = 0; c < 2 * s->model->count; c++)
+    if (s->assembly.equation[c] == (int)k) s->q[c / 2 + (c % 2) * s->model->stride] += h;
+}
+
+/* -d residual / d equation k => column [n]. */
+static void difference(ZpStatics *s, size_t k, double *column) {
+  static const double h = 1e-10; /* m: contact's range is 5e-7 */
+  ZpStaticSystem system = zp_statics_system(s);
+  double up[4 * NODES];
+  nudge(s, k, h);
+  system.residual(s, up);
+  nudge(s, k, -2 * h);
+  system.residual(s, column);
+  nudge(s, k, h);
+  for (size_t i = 0; i < system.n; i++)
+    column[i] = (column[i] - up[i]) / (2 * h);
+}
+
+START_TEST(test_stiffness_is_the_residuals_difference) {
+  ZpModel *model = model_of_kind((size_t)_i);
+  ZpStatics s;
+  ck_assert(zp_statics_create(model, &s));
+  shake(&s);
+  ZpStaticSystem system = zp_statics_system(&s);
+  ZpNewtonWork work;
+  ZpCarver carver = {NULL, 0};
+  zp_newton_carve(&work, s.assembly.n, s.assembly.bandwidth, s.assembly.symmetric, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){memory, 0};
+  zp_newton_carve(&work, s.assembly.n, s.assembly.bandwidth, s.assembly.symmetric, &carver);
+  system.residual(&s, work.r);
+  memcpy(s.tension, s.eval.edges.T, (model->count - model->s) * sizeof *s.tension);
+  system.stiffness(&s, &work.K, NULL);
+  double worst = 0, largest = 0;
+  for (size_t k = 0; k < system.n; k++) {
+    double column[4 * NODES];
+    difference(&s, k, column);
+    for (size_t i = 0; i < system.n; i++) {
+      bool within = i <= k ? k - i <= work.K.upper : i - k <= work.K.lower;
+      bool kept = i <= k || !s.assembly.symmetric;
+      double entry = within ? *zp_band_at(&work.K, i, k) : 0;
+      largest = fmax(largest, fabs(column[i]));
+      if (kept) worst = fmax(worst, fabs(entry - column[i]));
+    }
+  }
+  printf("kind %d: stiffness off by %.1e of its largest entry\n", _i, worst / largest);
+  ck_below(worst / largest, 2e-7); /* rounding of positions over h */
+  zp_free(memory);
+  zp_statics_destroy(&s);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A band of zeros. */
+static void *zero_band(ZpBand *K, const ZpAssembly *a) {
+  ZpCarver carver = {NULL, 0};
+  size_t lower = a->symmetric ? 0 : a->bandwidth;
+  zp_band_carve(K, a->n, lower, a->bandwidth, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){memory, 0};
+  zp_band_carve(K, a->n, lower, a->bandwidth, &carver);
+  return memory;
+}
+
+/* Random derivatives, those of edges symmetric. */
+static void draw(const ZpModel *model, double (*D)[4], double gaps[4][NODES]) {
+  uint64_t seed = 7;
+  size_t s = model->s, edges = s * (NODES - 1);
+  for (size_t j = 0; j < edges; j++) {
+    for (size_t k = 0; k < 4; k++) {
+      D[3 * j + 1][k] = noise(&seed);
+      D[3 * j + 2][k] = noise(&seed);
+    }
+    D[3 * j + 1][2] = D[3 * j + 1][1];
+    for (size_t k = 0; k < 4 && j >= s; k++) /* the transpose of what edge j - s has with j */
+      D[3 * j][k] = D[3 * (j - s) + 2][2 * (k % 2) + k / 2];
+  }
+  for (size_t k = 0; k < 4 * NODES; k++)
+    gaps[k / NODES][k % NODES] = noise(&seed);
+}
+
+START_TEST(test_symmetric_matrix_is_half_of_the_other) {
+  ZpModel *model = model_of_kind((size_t)_i);
+  ZpAssembly half, whole;
+  ck_assert(zp_assembly_create(model, true, &half) && zp_assembly_create(model, false, &whole));
+  double D[3 * 2 * NODES][4] = {{0}}, gaps[4][NODES];
+  draw(model, D, gaps);
+  ZpGapDerivatives of = {gaps[0], gaps[1], gaps[2], gaps[3]};
+  ZpBand A, B;
+  void *memory[2] = {zero_band(&A, &half), zero_band(&B, &whole)};
+  zp_assemble_edges(&half, (const double(*)[4])D, &A);
+  zp_assemble_edges(&whole, (const double(*)[4])D, &B);
+  zp_assemble_gaps(&half, &of, &A);
+  zp_assemble_gaps(&whole, &of, &B);
+  bool direct = false;
+  for (size_t i = 0; i < half.nodes; i++)
+    direct |= half.shift[i] >= 0;
+  ck_assert(direct);
+  for (size_t i = 0; i < half.n; i++)
+    for (size_t j = i; j < half.n && j <= i + half.bandwidth; j++) {
+      ck_assert_double_eq_tol(*zp_band_at(&A, i, j), *zp_band_at(&B, i, j), 1e-14);
+      ck_assert_double_eq_tol(*zp_band_at(&B, j, i), *zp_band_at(&B, i, j), 1e-14);
+    }
+  for (int k = 0; k < 2; k++)
+    zp_free(memory[k]);
+  zp_assembly_destroy(&half);
+  zp_assembly_destroy(&whole);
+  zp_model_destroy(model);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("assemble");
+  TCase *matrix = tcase_create("matrix");
+  tcase_add_loop_test(matrix, test_stiffness_is_the_residuals_difference, 0, LENGTH_OF(kinds));
+  tcase_add_loop_test(matrix, test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds));
+  suite_add_tcase(suite, matrix);
+  return run_suite(suite);
+}
