@@ -98,7 +98,7 @@ START_TEST(study_without_hooks) {
   ZpActuatorDef def = coarse_def();
   def.solver.end_time = 1e-4;
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
   ck_assert(isnan(zp_result_get(result, "real_time_factor")));
   ck_assert(isnan(zp_result_get(result, "no such scalar")));
@@ -132,7 +132,7 @@ START_TEST(hooks_are_asked) {
   Asked asked = {0, 1000000, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, on_clock};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(&def, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
   ck_assert_int_gt(asked.calls, 2);
   ck_assert_double_ge(asked.least, 0);
@@ -150,7 +150,7 @@ START_TEST(stops_when_asked) {
   Asked asked = {0, _i, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, NULL};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(&def, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_INTERRUPTED);
   ck_assert_int_le(asked.calls, _i + 2);
   ck_assert(!zp_outcome_good(result->outcome));
@@ -393,7 +393,8 @@ START_TEST(no_real_time_factor_without_wall_time) {
   ZpActuatorDef def = coarse_def();
   def.solver.end_time = 1e-4;
   ZpResult *result;
-  ck_assert_int_eq(zp_study_run(&def, &(ZpHooks){.clock = stopped_clock}, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &(ZpHooks){.clock = stopped_clock}, &result, NULL),
+                   ZP_OK);
   ck_assert(isnan(zp_result_get(result, "real_time_factor")));
   zp_result_destroy(result);
 }

@@ -33,7 +33,8 @@ extern "C" {
 #define ZP_TEXT_SIZE 256
 
 /* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; meaning, unit,
- * default and range of each are in keys.def (or: `zipact keys`). */
+ * default and range of each are in keys.def (or: `zipact keys`). Which study is run is no part of it: a scenario is a
+ * Def and a study (study.h). */
 #define ZP_GROUP(group) struct {
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \
@@ -44,6 +45,7 @@ extern "C" {
 #define ZP_BOOL(path, name, def, help)                        bool name;
 #define ZP_ENUM(path, name, type, def, help)                  type name;
 #define ZP_TEXT(path, name, def, help)                        char name[ZP_TEXT_SIZE];
+#define ZP_OF_SCENARIO(name, type, def, help)
 typedef struct ZpActuatorDef {
 #include <zipact/keys.def>
 } ZpActuatorDef;
@@ -55,6 +57,7 @@ typedef struct ZpActuatorDef {
 #undef ZP_BOOL
 #undef ZP_ENUM
 #undef ZP_TEXT
+#undef ZP_OF_SCENARIO
 
 /* Kind of value that a key takes. */
 typedef enum ZpKeyType {
@@ -65,6 +68,9 @@ typedef enum ZpKeyType {
   ZP_KEY_ENUM,      /* one of `choices`, by its place in the list */
   ZP_KEY_TEXT       /* a text; has no number (NAN) */
 } ZpKeyType;
+
+/* Offset of a key that is of the scenario and has no field in a Def: study. */
+#define ZP_NO_FIELD ((size_t)-1)
 
 /* A word of a choice key. */
 typedef struct ZpChoice {
@@ -83,7 +89,7 @@ typedef struct ZpKey {
   double max;              /* largest value allowed */
   const char *help;        /* one line */
   const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
-  size_t offset;           /* of its field in ZpActuatorDef, bytes */
+  size_t offset;           /* of its field in ZpActuatorDef, bytes; ZP_NO_FIELD: a key of the scenario */
   const char *text;        /* ZP_KEY_TEXT: default; else NULL */
 } ZpKey;
 
@@ -111,11 +117,11 @@ int zp_key_choice(int index, const char *word);
 /* The default of every key: the paper's actuator, physically right. */
 ZpActuatorDef zp_actuator_def_default(void);
 
-/* Value of key `index` in `def`, as in ZpAssignment; NAN of a text key. */
+/* Value of key `index` in `def`, as in ZpAssignment; NAN of a text key and of a key of the scenario. */
 double zp_def_get(const ZpActuatorDef *def, int index);
 
 /* Set one key. ZP_BAD_INPUT with key, value, unit and range if the value is out of range or not a
- * number; `def` is then unchanged. */
+ * number, or the key is one of the scenario; `def` is then unchanged. */
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
 
 /* Text of the text key `index` in `def`; NULL if the key is of another type. */
@@ -130,10 +136,11 @@ ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpErro
  * user and it is not given. */
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
 
-/* Check the range of every key, what keys ask of one another, and what def->study asks. ZP_BAD_INPUT names the key. */
+/* Check the range of every key and what keys ask of one another. ZP_BAD_INPUT names the key. What a study asks besides,
+ * zp_study_check says. */
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
 
-/* Check what motion asks of integrator, contact, mechanics and mass, whatever def->study is; zp_sim_create does.
+/* Check what motion asks of integrator, contact, mechanics and mass; zp_sim_create does.
  * ZP_BAD_INPUT names the key. Of a Def that zp_def_check has passed. */
 ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
 

@@ -35,7 +35,10 @@ size_t zp_scenario_count(const ZpScenario *scenario);
 /* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
 const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
-/* Def number `index`, resolved (zp_def_resolve) and checked. The last list key varies fastest. */
+/* The study of the scenario, the same for all its Defs. */
+ZpStudy zp_scenario_study(const ZpScenario *scenario);
+
+/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). The last list key varies fastest. */
 ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
 
 /* Write the scenario as YAML, all keys as resolved, lists as lists: it reads back to the same bits. */

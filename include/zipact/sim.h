@@ -78,8 +78,8 @@ typedef struct ZpRunInfo {
 /* A new simulation at its initial state, at t = 0, the voltage that of the
  * waveform there. `model` must outlive it. Finds the
  * hanging equilibrium first, as the start and as the reference of contraction; if it is not found, the
- * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT as zp_def_check_motion, whatever the
- * study of the model's Def is; as zp_def_check_voltage at the highest voltage of the waveform; and if drive.waveform is
+ * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT as zp_def_check_motion; as
+ * zp_def_check_voltage at the highest voltage of the waveform; and if drive.waveform is
  * table and the model was made without one. With initial.state checkpoint it moves only after zp_sim_continue, or
  * another state has been given. */
 ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);

@@ -1,4 +1,4 @@
-/* A study: a Def goes in, numbers, a table and shapes come out. */
+/* A study: a Def goes in, numbers, a table and shapes come out. Which studies there are: studies.def. */
 #ifndef ZIPACT_STUDY_H
 #define ZIPACT_STUDY_H
 
@@ -51,9 +51,11 @@ typedef struct ZpResult {
   ZpCheckpoint *checkpoint; /* of a run in time, to go on from; NULL if there is none */
 } ZpResult;
 
-/* Run def->study. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and
- * `err` says why. `hooks` may be NULL. */
-ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
+/* The word of a study: "actuate"; "unknown" of any other number. */
+const char *zp_study_name(ZpStudy study);
+
+/* Check `def` and what `study` asks of it besides. ZP_BAD_INPUT names the key. */
+ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
 /* What study actuate takes beside a Def; NULL where it does not. */
 typedef struct ZpStudyInput {
@@ -61,12 +63,20 @@ typedef struct ZpStudyInput {
   const ZpCheckpoint *start; /* with initial.state checkpoint, as zp_sim_continue */
 } ZpStudyInput;
 
-/* The same with `input`. */
-ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult **result,
-                           ZpError *err);
+/* Run `study`. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and `err` says why:
+ * ZP_BAD_INPUT as zp_study_check, and of study calibrate, which needs a file (zp_data_study_run). `input` and `hooks`
+ * may be NULL. */
+ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
+                      ZpResult **result, ZpError *err);
 
-/* A result without anything in it, for whoever fills one; NULL if there is no memory. */
-ZpResult *zp_result_create(void);
+/* A result of `study` without anything in it, for whoever fills one; NULL if there is no memory. */
+ZpResult *zp_result_create(ZpStudy study);
+
+/* Append a number to the summary; one that follows from wall time; a sentence of note. Beyond ZP_MAX_SCALARS and
+ * ZP_MAX_NOTES they are left out. `name` and `unit` must outlive the result. */
+void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
+void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
+void zp_result_note(ZpResult *result, const char *format, ...);
 
 /* Free a result with all that it holds; NULL is allowed. */
 void zp_result_destroy(ZpResult *result);

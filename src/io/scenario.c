@@ -352,13 +352,24 @@ const int *zp_scenario_lists(const ZpScenario *s, size_t *count) {
   return s->list;
 }
 
+/* Of the scenario, not of its Defs. */
+static bool is_study(size_t key) {
+  return zp_key((int)key)->offset == ZP_NO_FIELD;
+}
+
+ZpStudy zp_scenario_study(const ZpScenario *s) {
+  for (size_t i = 0; i < key_count(); i++)
+    if (is_study(i) && slot_of(s, i)->count) return (ZpStudy)slot_of(s, i)->value[0];
+  return (ZpStudy)0;
+}
+
 /* All that is given for Def number `index`, one assignment per key. Returns how many. */
 static size_t assignments(const ZpScenario *s, size_t index, ZpAssignment *list) {
   size_t count = key_count();
   size_t used = 0;
   for (size_t i = count; i-- > 0;) { /* backwards: the last list varies fastest */
     const Slot *slot = slot_of(s, i);
-    if (slot->count == 0 || slot->text) continue;
+    if (slot->count == 0 || slot->text || is_study(i)) continue;
     list[used++] = (ZpAssignment){(int)i, slot->value[index % slot->count]};
     index /= slot->count;
   }
@@ -397,7 +408,7 @@ ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, 
     return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->count);
   ZpError reason;
   ZpStatus status = resolve(s, index, def, &reason);
-  if (status == ZP_OK) status = zp_def_check(def, &reason);
+  if (status == ZP_OK) status = zp_study_check(zp_scenario_study(s), def, &reason);
   return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
 }
 
@@ -448,7 +459,8 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
     if (words) {
       zp_yaml_write_text(file, words);
     } else {
-      zp_value_print(i, zp_def_get(first, i), text, sizeof text);
+      double value = is_study((size_t)i) ? (double)zp_scenario_study(s) : zp_def_get(first, i);
+      zp_value_print(i, value, text, sizeof text);
       fputs(text, file);
     }
     fputc('\n', file);

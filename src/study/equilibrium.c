@@ -372,11 +372,15 @@ static ZpStatus run(Follower *f, ZpError *err) {
   return ZP_OK;
 }
 
-ZpStatus zp_study_equilibrium(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+ZpStatus zp_check_equilibrium(const ZpActuatorDef *def, ZpError *err) {
+  return zp_def_check_voltage(def, def->drive.voltage, err);
+}
+
+ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(def, &model, err);
+  ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {.model = model, .hooks = hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
+  Follower f = {.model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
   status = run(&f, err);
   zp_free(f.memory);
   zp_statics_destroy(&f.statics);

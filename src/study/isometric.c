@@ -11,7 +11,9 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "rest/statics.h"
+#include "study/held.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -306,16 +308,35 @@ static void run(Holder *h) {
   h->result->outcome = h->outcome;
 }
 
+ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
+  static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon, whose platform it holds",
+                   zp_word_of("actuator.kind", (int)def->actuator.kind), study);
+  double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
+  if (separation > longest)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "isometric.separation = %g m: out of reach; at most %g (ribbon.length - platform.length) = %g m",
+                   separation, most, longest);
+  return ZP_OK;
+}
+
+ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = zp_check_held(def, "isometric", err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
+}
+
 /* What hangs there does not count: the load is taken off before anything is scaled by it. */
-ZpStatus zp_study_isometric(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = *def;
+ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpActuatorDef bare = *task->def;
   bare.load.mass = 0;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Holder h = {.model = model, .hooks = hooks, .result = result, .outcome = ZP_CONVERGED};
-  result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
-  result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)def->output.shapes);
+  Holder h = {.model = model, .hooks = task->hooks, .result = result, .outcome = ZP_CONVERGED};
+  result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
+  result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)bare.output.shapes);
   if (result->series && result->shapes && allocate(&h))
     run(&h);
   else

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "math/eigen.h"
 #include "rest/statics.h"
 #include "study/notes.h"
@@ -215,20 +216,29 @@ static void run(Problem *p, ZpResult *result) {
   if (found) report(p, modes, result);
 }
 
-ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  (void)hooks; /* a matter of milliseconds */
+ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   if (def->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
+  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
+        def->modes.voltage);
+  ZpStatus status = zp_check_mass(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
+}
+
+ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(def, &model, err);
+  ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Problem *p = zp_calloc(1, sizeof *p);
   result->series = zp_table_create(columns, COLUMNS, MODES);
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
   if (result->series && result->shapes && allocate(p, model)) {
     run(p, result);
-    zp_note_model(result, model, def->modes.voltage, 1); /* the others are no shapes at rest */
+    zp_note_model(result, model, task->def->modes.voltage, 1); /* the others are no shapes at rest */
   } else {
     status = zp_fail_memory(err);
   }
