@@ -46,6 +46,7 @@ PUBLIC = {
     "presets.def": "def",
     "drive.h": "drive",
     "model.h": "actuator",
+    "rest.h": "rest",
     "sim.h": "sim",
     "checkpoint.h": "sim",
     "signals.def": "sim",

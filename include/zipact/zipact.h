@@ -8,6 +8,7 @@
 #include <zipact/drive.h>
 #include <zipact/error.h>
 #include <zipact/model.h>
+#include <zipact/rest.h>
 #include <zipact/sim.h>
 #include <zipact/study.h>
 #include <zipact/table.h>

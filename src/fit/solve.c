@@ -5,11 +5,10 @@
 #include <string.h>
 
 #include <nlopt.h>
+#include <zipact/rest.h>
 
 #include "base/fail.h"
-#include "base/memory.h"
 #include "fit/fit.h"
-#include "rest/statics.h"
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };
 
@@ -17,27 +16,13 @@ enum { POLISH_MOST = 30, HALVINGS = 12 };
 static const double difference = 1e-4;
 
 static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
-  ZpStatics statics = {0};
-  ZpNewtonWork work;
-  ZpCarver carver = {NULL, 0};
+  ZpRest *rest;
   double value = NAN;
-  void *memory = NULL;
-  if (zp_statics_create(model, &statics)) {
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    memory = zp_calloc(1, carver.used);
-  }
-  if (memory) {
-    carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    bool found = zp_newton_good(zp_statics_hang(&statics, &work).end);
-    if (found && voltage > 0 && model->field) found = zp_statics_raise(&statics, voltage, &work);
-    if (found && !zp_statics_shorted(&statics))
-      value = fit->opening ? zp_statics_opening(&statics) : zp_statics_stroke(&statics);
-  } else {
-    fit->status = zp_fail_memory(fit->err);
-  }
-  zp_free(memory);
-  zp_statics_destroy(&statics);
+  if (zp_rest_create(model, &rest, fit->err) != ZP_OK)
+    fit->status = ZP_MACHINE;
+  else if (zp_rest_hang(rest, voltage))
+    value = fit->opening ? zp_rest_opening(rest) : zp_rest_stroke(rest);
+  zp_rest_destroy(rest);
   return value;
 }
 

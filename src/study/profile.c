@@ -10,7 +10,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "electro/field.h"
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "study/bookkeeping.h"
 #include "study/faces.h"
 #include "study/held.h"
@@ -107,22 +107,15 @@ static bool allocate(Profiler *p) {
 /* The unpowered shape. *found tells whether there is one; false if there is no memory. */
 static bool hold(Profiler *p, bool *found) {
   const ZpModel *model = p->model;
-  ZpStatics statics;
-  ZpNewtonWork newton;
-  ZpCarver carver = {NULL, 0};
-  if (!zp_statics_create(model, &statics)) return false;
-  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  if (memory) {
-    carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    ZpNewtonInfo info = zp_statics_hold(&statics, model->def.isometric.separation, &newton);
+  ZpRest rest;
+  bool opened = zp_rest_open(&rest, model, NULL, NULL);
+  if (opened) {
+    ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation, &rest.branch.newton);
     *found = zp_newton_good(info.end);
-    zp_faces_smooth(model->nodes, statics.q, statics.q + model->stride, &p->stations);
+    zp_faces_smooth(model->nodes, rest.statics.q, rest.statics.q + model->stride, &p->stations);
   }
-  zp_free(memory);
-  zp_statics_destroy(&statics);
-  return memory != NULL;
+  zp_rest_close(&rest);
+  return opened;
 }
 
 static bool find_shape(Profiler *p, bool *found) {
