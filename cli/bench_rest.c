@@ -1,10 +1,9 @@
 /* What a state of rest costs, and the field around it. */
 #include <math.h>
 
-#include <zipact/reproduce.h>
-
 #include "bench.h"
 #include "motion.h"
+#include "reproduce/reproduce.h"
 
 void bench_set(ZpAssignment *list, size_t *count, const char *key, double value) {
   list[(*count)++] = (ZpAssignment){zp_key_find(key), value};

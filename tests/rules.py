@@ -55,7 +55,6 @@ PUBLIC = {
     "io.h": "io",
     "calibrate.h": "fit",
     "batch.h": "fit",
-    "reproduce.h": "reproduce",
 }
 
 ABOVE_CORE = ("io", "fit", "reproduce", "cli")  # may use libraries, files and streams
@@ -148,7 +147,7 @@ def include_is_right(folder, mark, target):
     if mark == "<":
         return True  # of the system; what may be used is another rule
     if folder == "cli":
-        return "/" not in target
+        return "/" not in target or target == "reproduce/reproduce.h"  # which is part of the command
     wanted = target.split("/")[0]
     return "/" in target and (wanted == folder or wanted in MAY_INCLUDE[folder])
 
