@@ -38,8 +38,10 @@ MAY_INCLUDE = {
 PUBLIC = {
     "error.h": "base",
     "table.h": "base",
+    "api.h": "base",
     "version.h": "base",
     "def.h": "def",
+    "layout.h": "def",
     "choices.def": "def",
     "keys.def": "def",
     "studies.def": "def",

@@ -47,7 +47,8 @@ def body(path):
 def main():
     header = pathlib.Path(sys.argv[1])
     text = header.read_text(encoding="utf-8")
-    if "#include <zipact/keys.def>" in text:  # the macros that read the tables are nobody's business
+    text = re.sub(r"^ZP_API |\s+ZP_PRINTF\([^)]*\)", "", text, flags=re.M)
+    if header.name == "def.h":  # the macros that read the tables are nobody's business
         text = re.sub(r"^#define ZP_\w+\((?:[^\n]*\\\n)*[^\n]*\n|^#undef [^\n]*\n", "", text, flags=re.M)
         text = text.replace("#include <zipact/choices.def>", choices(body(header.parent / "choices.def"), body(header.parent / "studies.def")))
         text = text.replace("#include <zipact/keys.def>", keys(body(header.parent / "keys.def")))

@@ -2,6 +2,7 @@
 #ifndef ZIPACT_STUDY_H
 #define ZIPACT_STUDY_H
 
+#include <zipact/api.h>
 #include <zipact/checkpoint.h>
 
 #ifdef __cplusplus
@@ -33,8 +34,8 @@ typedef struct ZpFieldMap {
 } ZpFieldMap;
 
 /* NULL if there is no memory. */
-ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
-void zp_field_map_destroy(ZpFieldMap *map);
+ZP_API ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
+ZP_API void zp_field_map_destroy(ZpFieldMap *map);
 
 /* What a study found. */
 typedef struct ZpResult {
@@ -52,10 +53,10 @@ typedef struct ZpResult {
 } ZpResult;
 
 /* The word of a study: "actuate"; "unknown" of any other number. */
-const char *zp_study_name(ZpStudy study);
+ZP_API const char *zp_study_name(ZpStudy study);
 
 /* Check `def` and what `study` asks of it besides. ZP_BAD_INPUT names the key. */
-ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
+ZP_API ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
 /* What study actuate takes beside a Def; NULL where it does not. */
 typedef struct ZpStudyInput {
@@ -66,23 +67,27 @@ typedef struct ZpStudyInput {
 /* Run `study`. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and `err` says why:
  * ZP_BAD_INPUT as zp_study_check, and of study calibrate, which needs a file (zp_data_study_run). `input` and `hooks`
  * may be NULL. */
-ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
-                      ZpResult **result, ZpError *err);
+ZP_API ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
+                             ZpResult **result, ZpError *err);
 
 /* A result of `study` without anything in it, for whoever fills one; NULL if there is no memory. */
-ZpResult *zp_result_create(ZpStudy study);
+ZP_API ZpResult *zp_result_create(ZpStudy study);
 
 /* Append a number to the summary; one that follows from wall time; a sentence of note. Beyond ZP_MAX_SCALARS and
  * ZP_MAX_NOTES they are left out. `name` and `unit` must outlive the result. */
-void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
-void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
-void zp_result_note(ZpResult *result, const char *format, ...);
+ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
+ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
+ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
+
+/* Note breakdown and a mesh that is too coarse, for `model` under voltages up to `highest` (V), of the first `frames`
+ * shapes of the result. */
+ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames);
 
 /* Free a result with all that it holds; NULL is allowed. */
-void zp_result_destroy(ZpResult *result);
+ZP_API void zp_result_destroy(ZpResult *result);
 
 /* The scalar called `name`, NAN if there is none. */
-double zp_result_get(const ZpResult *result, const char *name);
+ZP_API double zp_result_get(const ZpResult *result, const char *name);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #ifndef ZIPACT_ZIPACT_H
 #define ZIPACT_ZIPACT_H
 
+#include <zipact/api.h>
 #include <zipact/checkpoint.h>
 #include <zipact/def.h>
 #include <zipact/drive.h>

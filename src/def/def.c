@@ -164,9 +164,10 @@ static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   }
 }
 
-ZpActuatorDef zp_actuator_def_default(void) {
+static ZpActuatorDef defaults(void) {
   ZpActuatorDef def;
   memset(&def, 0, sizeof def);
+  def.layout = zp_def_layout();
   for (int i = 0; i < KEY_COUNT; i++)
     if (keys[i].type == ZP_KEY_TEXT)
       memcpy((char *)&def + keys[i].offset, keys[i].text, strlen(keys[i].text));
@@ -175,9 +176,24 @@ ZpActuatorDef zp_actuator_def_default(void) {
   return def;
 }
 
+/* Before anything but its first field is looked at. */
+static bool is_ours(const ZpActuatorDef *def) {
+  return def->layout == zp_def_layout();
+}
+
+static ZpStatus check_layout(const ZpActuatorDef *def, ZpError *err) {
+  if (is_ours(def)) return ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "ZpActuatorDef is not that of this library, zipact %s: the program was compiled with headers that have "
+      "other keys, or has not begun with zp_actuator_def_default; compile it again with the headers of the "
+      "library",
+      ZP_VERSION);
+}
+
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = &keys[index];
-  if (!has_field(key)) return NAN;
+  if (!is_ours(def) || !has_field(key)) return NAN;
   const void *field = (const char *)def + key->offset;
   double real;
   int whole;
@@ -199,7 +215,7 @@ double zp_def_get(const ZpActuatorDef *def, int index) {
 }
 
 const char *zp_def_text(const ZpActuatorDef *def, int index) {
-  return keys[index].type == ZP_KEY_TEXT ? (const char *)def + keys[index].offset : NULL;
+  return is_ours(def) && keys[index].type == ZP_KEY_TEXT ? (const char *)def + keys[index].offset : NULL;
 }
 
 static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
@@ -215,7 +231,8 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
   const ZpKey *key = &keys[index];
   if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: does not take a text", key->name);
-  ZpStatus status = check_text(key, text, err);
+  ZpStatus status = check_layout(def, err);
+  if (status == ZP_OK) status = check_text(key, text, err);
   if (status != ZP_OK) return status;
   char *field = (char *)def + key->offset;
   memset(field, 0, ZP_TEXT_SIZE);
@@ -239,7 +256,8 @@ static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
 }
 
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
-  ZpStatus status = check_value(&keys[index], value, err);
+  ZpStatus status = check_layout(def, err);
+  if (status == ZP_OK) status = check_value(&keys[index], value, err);
   if (status == ZP_OK && !has_field(&keys[index]))
     return zp_fail(err, ZP_BAD_INPUT, "%s: belongs to a scenario, not to a definition", keys[index].name);
   if (status == ZP_OK) store(def, &keys[index], value);
@@ -290,18 +308,19 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
   return ZP_OK;
 }
 
-ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
-  ZpActuatorDef given = zp_actuator_def_default();
-  ZpStatus status = apply_assignments(&given, list, count, err);
+ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+  ZpActuatorDef given = defaults();
+  ZpStatus status = check_layout(def, err);
+  if (status == ZP_OK) status = apply_assignments(&given, list, count, err);
   if (status == ZP_OK) status = check_preset_complete(given.preset, given.mesh.nodes, list, count, err);
   if (status != ZP_OK) return status;
 
-  ZpActuatorDef with_preset = zp_actuator_def_default();
+  ZpActuatorDef with_preset = defaults();
   apply_preset(&with_preset, given.preset, given.mesh.nodes);
   ZpActuatorKind kind =
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
-  *def = zp_actuator_def_default();
+  *def = defaults();
   apply_kind(def, kind);
   apply_preset(def, given.preset, given.mesh.nodes);
   return apply_assignments(def, list, count, err);
@@ -405,6 +424,8 @@ static ZpStatus check_flange_in_motion(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus ours = check_layout(def, err);
+  if (ours != ZP_OK) return ours;
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool sequential = def->contact.model == ZP_CONTACT_SEQUENTIAL;
   if (def->actuator.kind == ZP_KIND_FLANGE) {
@@ -426,6 +447,8 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
 
 /* Two ribbons touch at the clip, a flange without a gap at its clamp; a flange with a gap only beyond its pull-in. */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
+  ZpStatus ours = check_layout(def, err);
+  if (ours != ZP_OK) return ours;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
   if (voltage == 0 || def->insulator.thickness > 0 || !touches) return ZP_OK;
@@ -449,6 +472,8 @@ static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus ours = check_layout(def, err);
+  if (ours != ZP_OK) return ours;
   for (int i = 0; i < KEY_COUNT; i++) {
     bool is_text = keys[i].type == ZP_KEY_TEXT;
     if (!has_field(&keys[i])) continue;

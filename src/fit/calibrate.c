@@ -5,7 +5,6 @@
 
 #include "base/fail.h"
 #include "fit/fit.h"
-#include "study/notes.h"
 
 /* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
 typedef struct Names {
@@ -124,7 +123,7 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   }
   ZpModel *model;
   if (zp_model_create(&def, &model, err) == ZP_MACHINE) return ZP_MACHINE;
-  if (model) zp_note_model(result, model, fmax(highest, 0), 0);
+  if (model) zp_result_note_model(result, model, fmax(highest, 0), 0);
   zp_model_destroy(model);
   return ZP_OK;
 }

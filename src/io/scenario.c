@@ -217,7 +217,7 @@ static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpErr
   bool is_path = names_file(key);
   Slot slot = {calloc(1, sizeof(double)), 1, false,
                is_path ? absolute_path(reader->source, item->word) : strdup(item->word)};
-  ZpActuatorDef scratch;
+  ZpActuatorDef scratch = zp_actuator_def_default();
   ZpError reason;
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK && zp_def_set_text(&scratch, key, slot.text, &reason) != ZP_OK)
@@ -389,7 +389,7 @@ static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err)
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   ZpAssignment *list = calloc(key_count(), sizeof *list);
   if (!list) return zp_fail_memory(err);
-  ZpStatus status = zp_def_resolve(def, list, assignments(s, index, list), err);
+  ZpStatus status = zp_def_fill(def, list, assignments(s, index, list), err);
   free(list);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
@@ -403,7 +403,7 @@ static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reaso
   return zp_source_fail(&source, 0, err, "%s%s", row, reason->message);
 }
 
-ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   if (index >= s->count)
     return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->count);
   ZpError reason;
@@ -419,7 +419,7 @@ static bool same_value(double a, double b) {
 /* differs[key] set for every key that has not the same value in all Defs. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   for (size_t row = 1; row < s->count; row++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {.layout = zp_def_layout()};
     ZpError reason;
     if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
     for (int i = 0; i < zp_key_count(); i++)
@@ -468,7 +468,7 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
 }
 
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
-  ZpActuatorDef first;
+  ZpActuatorDef first = {.layout = zp_def_layout()};
   ZpError reason;
   if (resolve(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
   bool *differs = calloc(key_count(), sizeof *differs);

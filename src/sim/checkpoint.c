@@ -42,7 +42,7 @@ _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == (REALS + 4) * sizeof(do
 ZpCheckpoint *zp_checkpoint_create(size_t count) {
   ZpCheckpoint *checkpoint = zp_calloc(1, sizeof *checkpoint);
   if (!checkpoint) return NULL;
-  *checkpoint = (ZpCheckpoint){zp_actuator_def_default(), count, zp_calloc(count + 1, sizeof(double))};
+  *checkpoint = (ZpCheckpoint){count, zp_calloc(count + 1, sizeof(double)), zp_actuator_def_default()};
   if (checkpoint->number) return checkpoint;
   zp_free(checkpoint);
   return NULL;

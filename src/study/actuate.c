@@ -90,7 +90,7 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
 static void note(const ZpModel *model, ZpResult *result) {
   double highest = zp_waveform_largest(&model->waveform);
   note_imbalance(zp_model_def(model), result);
-  zp_note_model(result, model, highest, result->shapes->frames);
+  zp_result_note_model(result, model, highest, result->shapes->frames);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_note(result, "the zip time is not a prediction: the drag of the liquid is not modelled");

@@ -298,7 +298,7 @@ static Voltages find(Follower *f) {
 
 static void note(Follower *f) {
   ZpResult *r = f->result;
-  zp_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
   if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
   if (!isnan(f->shorted))
     zp_result_note(r, "at %.4g V electrodes without an insulator touch, a short circuit: the branch ends there",

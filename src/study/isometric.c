@@ -226,7 +226,7 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 
 static void note(Holder *h) {
   ZpResult *r = h->result;
-  zp_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
+  zp_result_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
   if (h->jumps > 0)
     zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "

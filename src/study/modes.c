@@ -225,7 +225,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
   if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
     run(p, result);
-    zp_note_model(result, model, task->def->modes.voltage, 1); /* the others are no shapes at rest */
+    zp_result_note_model(result, model, task->def->modes.voltage, 1); /* the others are no shapes at rest */
   } else {
     status = zp_fail_memory(err);
   }

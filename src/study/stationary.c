@@ -59,7 +59,7 @@ static void run(ZpRest *rest, ZpResult *result) {
   if (s->model->s == 2) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  zp_note_model(result, s->model, 0, 0);
+  zp_result_note_model(result, s->model, 0, 0);
   if (found) {
     fill_table(s, result->series);
     ZpShape shape = zp_statics_shape(s, 0, rest->line_force);
