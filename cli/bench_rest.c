@@ -1,10 +1,9 @@
 /* What a state of rest costs, and the field around it. */
 #include <math.h>
 
-#include <zipact/reproduce.h>
-
 #include "bench.h"
 #include "motion.h"
+#include "reproduce/reproduce.h"
 
 void bench_set(ZpAssignment *list, size_t *count, const char *key, double value) {
   list[(*count)++] = (ZpAssignment){zp_key_find(key), value};
@@ -23,7 +22,7 @@ static ZpStatus time_rest(const ZpAssignment *list, size_t count, double *best, 
   for (int k = 0; k < TRIES && status == ZP_OK; k++) {
     ZpResult *result;
     double start = motion_clock();
-    status = zp_study_run(&def, NULL, &result, err);
+    status = zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, err);
     if (status != ZP_OK) break;
     *best = fmin(*best, motion_clock() - start);
     *stroke = zp_result_get(result, "stroke_m");
@@ -37,7 +36,6 @@ ZpStatus bench_strip(int nodes, Row *row, ZpError *err) {
   static const double converged = 17.942e-3; /* m, an exact elastica */
   ZpAssignment list[12];
   size_t count = 0;
-  bench_set(list, &count, "study", ZP_STUDY_STATIONARY);
   bench_set(list, &count, "actuator.kind", ZP_KIND_RIBBON);
   bench_set(list, &count, "ribbon.length", 45e-3);
   bench_set(list, &count, "ribbon.thickness", 100e-6);
@@ -60,7 +58,6 @@ ZpStatus bench_table2(int nodes, Row *row, ZpError *err) {
     for (int m = 0; m < 6 && status == ZP_OK; m++) {
       ZpAssignment list[5];
       size_t count = 0;
-      bench_set(list, &count, "study", ZP_STUDY_STATIONARY);
       bench_set(list, &count, "preset", ZP_PRESET_PAPER_CODE);
       bench_set(list, &count, "mesh.nodes", sizes[n]);
       bench_set(list, &count, "mass_spring.shear_coefficient", zp_published(ZP_SAVED_SHEAR, sizes[n], 61));
@@ -80,7 +77,6 @@ ZpStatus bench_table2(int nodes, Row *row, ZpError *err) {
 ZpStatus bench_field(int nodes, Row *row, ZpError *err) {
   enum { TRIES = 10 };
   ZpActuatorDef def = zp_actuator_def_default();
-  def.study = ZP_STUDY_PROFILE;
   def.profile.shape = ZP_PROFILE_CUBIC;
   def.mesh.nodes = nodes;
   double best = INFINITY, off = NAN, equations = NAN;
@@ -88,7 +84,7 @@ ZpStatus bench_field(int nodes, Row *row, ZpError *err) {
   for (int k = 0; k < TRIES && status == ZP_OK; k++) {
     ZpResult *result;
     double start = motion_clock();
-    status = zp_study_run(&def, NULL, &result, err);
+    status = zp_study_run(ZP_STUDY_PROFILE, &def, NULL, NULL, &result, err);
     if (status != ZP_OK) break;
     best = fmin(best, motion_clock() - start);
     off = fabs(zp_result_get(result, "virtual_work_difference"));

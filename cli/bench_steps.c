@@ -2,11 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <zipact/reproduce.h>
-
 #include "bench.h"
 #include "motion.h"
 #include "plain_kernel.h"
+#include "reproduce/reproduce.h"
 
 enum { REPEATS = 5 };
 

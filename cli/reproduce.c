@@ -2,9 +2,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include <zipact/reproduce.h>
-
 #include "cli.h"
+#include "reproduce/reproduce.h"
 
 int cli_reproduce(const Options *o) {
   const char *directory = o->directory ? o->directory : "out/reproduce";

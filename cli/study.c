@@ -48,17 +48,8 @@ typedef struct Shown {
 
 static void print_answers(const ZpResult *result) {
   static const Shown shown[] = {
-      {ZP_STUDY_ACTUATE, "contraction", "contraction", 100, "%"},
-      {ZP_STUDY_ACTUATE, "zip_time_s", "zip time", 1e3, "ms"},
-      {ZP_STUDY_STATIONARY, "stroke_m", "stroke", 1e3, "mm"},
-      {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", "pull-in", 1e-3, "kV"},
-      {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", "release", 1e-3, "kV"},
-      {ZP_STUDY_ISOMETRIC, "force_N", "force", 1, "N"},
-      {ZP_STUDY_PROFILE, "force_N", "force", 1, "N"},
-      {ZP_STUDY_PROFILE, "scale_factor", "field over plates", 1, ""},
-      {ZP_STUDY_PROFILE, "paper_factor", "by the paper's bookkeeping", 1, ""},
-      {ZP_STUDY_ISOMETRIC, "zipped_length_m", "zipped", 1e3, "mm"},
-      {ZP_STUDY_MODES, "frequency_1_Hz", "frequency", 1, "Hz"},
+#define ZP_HEADLINE(enumerator, scalar, label, factor, unit) {enumerator, scalar, label, factor, unit},
+#include <zipact/studies.def>
   };
   for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
     double value = zp_result_get(result, shown[i].scalar);
@@ -139,10 +130,8 @@ static int run_and_report(ZpBatch *batch, const Options *o, const Place *place) 
 /* Have the folder for as long as the runs and their report take. */
 static int run_in_folder(ZpBatch *batch, const Options *o) {
   ZpError err;
-  ZpActuatorDef def;
-  if (zp_scenario_def(batch->scenario, 0, &def, &err) != ZP_OK) return cli_fail(&err);
   char directory[64];
-  snprintf(directory, sizeof directory, "out/%s", zp_key(zp_key_find("study"))->choices[def.study].word);
+  snprintf(directory, sizeof directory, "out/%s", zp_study_name(zp_scenario_study(batch->scenario)));
   Place place = {o->directory ? o->directory : directory, NULL};
   if (zp_folder_open(place.directory, &place.folder, &err) != ZP_OK) return cli_fail(&err);
   int exit_code = run_and_report(batch, o, &place);

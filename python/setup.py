@@ -78,10 +78,11 @@ def arguments(path, macro):
 def choices():
     """Words of each choice type."""
     words, of = [], {}
+    of["ZpStudy"] = ['"%s"' % given[1] for _, given in arguments("include/zipact/studies.def", "STUDY")]
     for name, given in arguments("include/zipact/choices.def", "CHOICE|CHOICES_END"):
         if name == "CHOICE":
             words.append(given[1])
-        else:
+        elif words:
             of[given[0]], words = words, []
     return of
 
@@ -101,7 +102,9 @@ def keywords():
         "class Keywords(TypedDict, total=False):",
         '    """Keys, the dot written as two underscores."""',
     ]
-    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT"):
+    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
+        if kind == "OF_SCENARIO":  # a choice key without a group
+            kind, given = "ENUM", ["", *given]
         type_ = "Literal[%s]" % ", ".join(words[given[2]]) if kind == "ENUM" else types[kind]
         unit = ast.literal_eval(given[2]) if kind.startswith("REAL") else "1"
         help_ = ast.literal_eval(given[-1]) + (" [%s]" % unit if unit != "1" else "")

@@ -62,7 +62,7 @@ static void run_a_study() {
   hooks.user = &calls;
   hooks.progress = [](void *user, const char *, double) { return ++*static_cast<int *>(user) < 0; };
   ZpResult *result = nullptr;
-  check(zp_study_run(&def, &hooks, &result, &err) == ZP_OK, err.message);
+  check(zp_study_run(ZP_STUDY_ACTUATE, &def, nullptr, &hooks, &result, &err) == ZP_OK, err.message);
   Result owner(result, zp_result_destroy);
   check(result && result->series && result->series->rows > 1, "a table");
   check(std::isfinite(zp_result_get(result, "stroke_m")), "a stroke of the study");

@@ -38,10 +38,10 @@ static void fail(const char *name, const ZpError *err) {
 }
 
 /* Table, last shape and summary of a study. */
-static void print_study(const char *name, const ZpActuatorDef *def) {
+static void print_study(const char *name, ZpStudy study, const ZpActuatorDef *def) {
   ZpResult *result;
   ZpError err;
-  if (zp_study_run(def, NULL, &result, &err) != ZP_OK) fail(name, &err);
+  if (zp_study_run(study, def, NULL, NULL, &result, &err) != ZP_OK) fail(name, &err);
   printf("%s: %s, %s\n", name, zp_outcome_name(result->outcome), result->message);
   for (size_t i = 0; i < result->scalars; i++)
     put_array(result->scalar[i].name, &result->scalar[i].value, 1);
@@ -79,27 +79,27 @@ static ZpActuatorDef preset_def(ZpPreset preset) {
 
 static void print_studies(void) {
   ZpActuatorDef def = default_def();
-  print_study("default", &def);
+  print_study("default", ZP_STUDY_ACTUATE, &def);
   def.drive.waveform = ZP_WAVEFORM_SINE;
   def.drive.frequency = 77;
-  print_study("sine", &def);
+  print_study("sine", ZP_STUDY_ACTUATE, &def);
   def = default_def();
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.drive.voltage = 0;
-  print_study("straight", &def);
+  print_study("straight", ZP_STUDY_ACTUATE, &def);
   def = default_def();
   def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
-  print_study("explicit", &def);
+  print_study("explicit", ZP_STUDY_ACTUATE, &def);
   def.contact.model = ZP_CONTACT_SEQUENTIAL;
-  print_study("sequential", &def);
+  print_study("sequential", ZP_STUDY_ACTUATE, &def);
   def = default_def();
   def.actuator.kind = ZP_KIND_RIBBON;
   def.damping.drag = 0.5;
-  print_study("ribbon", &def);
+  print_study("ribbon", ZP_STUDY_ACTUATE, &def);
   def = preset_def(ZP_PRESET_PAPER_CODE);
-  print_study("paper-code", &def);
+  print_study("paper-code", ZP_STUDY_ACTUATE, &def);
   def.electro.refresh_period = 0;
-  print_study("paper-code, field in every step", &def);
+  print_study("paper-code, field in every step", ZP_STUDY_ACTUATE, &def);
 }
 
 /* Without motion: naturally curved, the solved field, modes. */
@@ -108,10 +108,9 @@ static void print_rests(void) {
                                   ZP_STUDY_PROFILE};
   for (size_t k = 0; k < sizeof study / sizeof study[0]; k++) {
     ZpActuatorDef def = zp_actuator_def_default();
-    def.study = study[k];
     def.mesh.nodes = 9;
     def.segment_3.curvature = 5;
-    print_study("at rest", &def);
+    print_study("at rest", study[k], &def);
   }
 }
 

@@ -30,6 +30,7 @@ static void compare_defs(const ZpActuatorDef *a, const ZpActuatorDef *b) {
 static void compare(const ZpScenario *a, const ZpScenario *b) {
   ZpError err = {0};
   require(zp_scenario_count(a) == zp_scenario_count(b), "count changed", &err);
+  require(zp_scenario_study(a) == zp_scenario_study(b), "study changed", &err);
   for (size_t i = 0; i < zp_scenario_count(a) && i < DEFS_MOST; i++) {
     ZpActuatorDef x, y;
     ZpStatus status = zp_scenario_def(a, i, &x, &err);

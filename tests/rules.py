@@ -38,13 +38,17 @@ MAY_INCLUDE = {
 PUBLIC = {
     "error.h": "base",
     "table.h": "base",
+    "api.h": "base",
     "version.h": "base",
     "def.h": "def",
+    "layout.h": "def",
     "choices.def": "def",
     "keys.def": "def",
+    "studies.def": "def",
     "presets.def": "def",
     "drive.h": "drive",
     "model.h": "actuator",
+    "rest.h": "rest",
     "sim.h": "sim",
     "checkpoint.h": "sim",
     "signals.def": "sim",
@@ -53,7 +57,6 @@ PUBLIC = {
     "io.h": "io",
     "calibrate.h": "fit",
     "batch.h": "fit",
-    "reproduce.h": "reproduce",
 }
 
 ABOVE_CORE = ("io", "fit", "reproduce", "cli")  # may use libraries, files and streams
@@ -146,7 +149,7 @@ def include_is_right(folder, mark, target):
     if mark == "<":
         return True  # of the system; what may be used is another rule
     if folder == "cli":
-        return "/" not in target
+        return "/" not in target or target == "reproduce/reproduce.h"  # which is part of the command
     wanted = target.split("/")[0]
     return "/" in target and (wanted == folder or wanted in MAY_INCLUDE[folder])
 
@@ -185,6 +188,8 @@ def keys_of(repo):
     """(name, line) of each key of keys.def."""
     text = read(repo, "include/zipact/keys.def")
     text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
+    for found in re.finditer(r"^ZP_OF_SCENARIO\((\w+),", text, re.M):
+        yield found.group(1), line_at(text, found.start())
     for found in re.finditer(r"^ZP_(?:REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT)\(\s*([\w.]*)\s*,\s*(\w+)\s*,", text, re.M):
         yield found.group(1) + found.group(2), line_at(text, found.start())
 
@@ -402,6 +407,27 @@ def rule_readme_is_short(repo, files):
     yield pictures[:1] == ["docs/images/live.png"], "README.md:1", "its first picture is not the live page"
 
 
+# A program that asks for a study by its name is a user of it; whatever decides by the name knows what studies there are.
+ASKS_FOR_STUDY = re.compile(r"\bzp_(?:data_)?(?:study_run|study_check|check)\s*\(\s*$|\bzp_result_create\s*\(\s*$")
+
+
+def rule_a_study_is_known_to_its_own_file(repo, files):
+    """The name of a study is in its row of studies.def and in the files called like it. Others may run it by name."""
+    rows = re.findall(r"^ZP_STUDY\((ZP_STUDY_(\w+)), (\w+),", read(repo, "include/zipact/studies.def"), re.M)
+    yield len(rows) >= 7, "include/zipact/studies.def:1", "only %d studies found: is its form still known here?" % len(rows)
+    for enumerator, _, word in rows:
+        names = re.compile(r"\b(?:%s|zp_study_%s|zp_check_%s)\b" % (enumerator, word, word))
+        for name in files:
+            own = os.path.basename(name) == word + ".c" or name == "include/zipact/studies.def"
+            if own or not name.startswith(("src/", "cli/", "include/", "python/src/", "octave/src/")) or not name.endswith((".c", ".h", ".def")):
+                continue
+            code = code_of(read(repo, name))
+            for found in names.finditer(code):
+                asks = ASKS_FOR_STUDY.search(code[: found.start()])
+                yield bool(asks), "%s:%d" % (name, line_at(code, found.start())), "knows of study %s" % word
+        yield any(name == "src/study/%s.c" % word for name in files), "include/zipact/studies.def:1", "study %s has no file" % word
+
+
 # Phrases over which native speakers stumble, and what to say instead.
 STUMBLING = {
     r"(solved|found) anew": "re-solve, recompute",
@@ -444,6 +470,7 @@ RULES = [
     rule_equations_are_checked,
     rule_short_functions,
     rule_head_comment,
+    rule_a_study_is_known_to_its_own_file,
     rule_readme_is_short,
     rule_plain_words,
 ]
@@ -466,6 +493,7 @@ def self_test():
     assert not include_is_right("contact", '"', "electro/plates.h")
     assert not include_is_right("math", "<", "zipact/sim.h")
     assert include_is_right("sim", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")
+    assert ASKS_FOR_STUDY.search("status = zp_study_run(") and not ASKS_FOR_STUDY.search("if (study == ")
     assert not include_is_right("cli", '"', "io/report.h") and not include_is_right("io", '"', "sim/sim_internal.h")
 
 

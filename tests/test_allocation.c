@@ -254,7 +254,7 @@ static ZpStatus create_sim(ZpError *err, bool *whole) {
 static ZpStatus run_study(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
   ZpResult *result = NULL;
-  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
   if (result) *whole = result->outcome == ZP_REACHED_END && result->series && result->shapes;
   zp_result_destroy(result);
@@ -263,9 +263,8 @@ static ZpStatus run_study(ZpError *err, bool *whole) {
 
 static ZpStatus run_isometric(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
-  def.study = ZP_STUDY_ISOMETRIC;
   ZpResult *result = NULL;
-  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  ZpStatus status = zp_study_run(ZP_STUDY_ISOMETRIC, &def, NULL, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
   if (result) *whole = result->outcome == ZP_CONVERGED && result->series && result->shapes;
   zp_result_destroy(result);
@@ -275,9 +274,8 @@ static ZpStatus run_isometric(ZpError *err, bool *whole) {
 static ZpStatus run_profile(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
   ZpResult *result = NULL;
-  def.study = ZP_STUDY_PROFILE;
   def.profile.paper_factor = true;
-  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  ZpStatus status = zp_study_run(ZP_STUDY_PROFILE, &def, NULL, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
   if (result) *whole = result->outcome == ZP_CONVERGED && result->series && result->shapes && result->map;
   zp_result_destroy(result);
@@ -383,7 +381,7 @@ static ZpActuatorDef explicit_def(void) {
 static ZpStatus run_explicit(ZpError *err, bool *whole) {
   ZpActuatorDef def = explicit_def();
   ZpResult *result = NULL;
-  ZpStatus status = zp_study_run(&def, NULL, &result, err);
+  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
   zp_result_destroy(result);
   return status;
@@ -520,7 +518,7 @@ static ZpStatus run_by_table(ZpError *err, bool *whole) {
   ZpResult *result = NULL;
   def.drive.waveform = ZP_WAVEFORM_TABLE;
   strcpy(from_file ? def.drive.file : def.drive.table, from_file ? "memory.csv" : "0 = 0, 10 us = 100 V");
-  ZpStatus status = zp_data_study_run(&def, NULL, &result, err);
+  ZpStatus status = zp_data_study_run(ZP_STUDY_ACTUATE, &def, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
   if (result) *whole = result->outcome == ZP_REACHED_END && zp_table_get(result->series, 1, "voltage_V") > 0;
   zp_result_destroy(result);
@@ -560,7 +558,8 @@ static ZpStatus run_from_checkpoint(ZpError *err, bool *whole) {
   strcpy(def.initial.file, "memory.zps");
   FILE *file = fopen(def.initial.file, "wb");
   ZpStatus status = file ? write_checkpoint(file, err) : ZP_MACHINE;
-  if (file && fclose(file) == 0 && status == ZP_OK) status = zp_data_study_run(&def, NULL, &result, err);
+  if (file && fclose(file) == 0 && status == ZP_OK)
+    status = zp_data_study_run(ZP_STUDY_ACTUATE, &def, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
   if (result) *whole = result->outcome == ZP_REACHED_END && result->checkpoint;
   zp_result_destroy(result);
@@ -602,7 +601,7 @@ static bool same_scenario(const char *text, const char *other) {
   ZpScenario *a = zp_scenario_create(), *b = zp_scenario_create();
   bool same = zp_scenario_parse(a, text, strlen(text), "a", NULL) == ZP_OK &&
               zp_scenario_parse(b, other, strlen(other), "b", NULL) == ZP_OK &&
-              zp_scenario_count(a) == zp_scenario_count(b);
+              zp_scenario_count(a) == zp_scenario_count(b) && zp_scenario_study(a) == zp_scenario_study(b);
   for (size_t i = 0; same && i < zp_scenario_count(a); i++)
     same = same_def(a, b, i);
   zp_scenario_destroy(a);
@@ -717,7 +716,8 @@ static void make_report(const char *text) {
     ZpActuatorDef def;
     ZpError err;
     ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
-    ck_assert_msg(zp_study_run(&def, NULL, &result[i], &err) == ZP_OK, "%s", err.message);
+    ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
+                  err.message);
   }
   shared_report = (ZpReport){report_folder, scenario, result, count, 0.25, NULL, NULL};
 }

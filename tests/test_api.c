@@ -98,7 +98,7 @@ START_TEST(study_without_hooks) {
   ZpActuatorDef def = coarse_def();
   def.solver.end_time = 1e-4;
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
   ck_assert(isnan(zp_result_get(result, "real_time_factor")));
   ck_assert(isnan(zp_result_get(result, "no such scalar")));
@@ -132,7 +132,7 @@ START_TEST(hooks_are_asked) {
   Asked asked = {0, 1000000, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, on_clock};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(&def, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
   ck_assert_int_gt(asked.calls, 2);
   ck_assert_double_ge(asked.least, 0);
@@ -150,7 +150,7 @@ START_TEST(stops_when_asked) {
   Asked asked = {0, _i, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, NULL};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(&def, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_INTERRUPTED);
   ck_assert_int_le(asked.calls, _i + 2);
   ck_assert(!zp_outcome_good(result->outcome));
@@ -393,7 +393,8 @@ START_TEST(no_real_time_factor_without_wall_time) {
   ZpActuatorDef def = coarse_def();
   def.solver.end_time = 1e-4;
   ZpResult *result;
-  ck_assert_int_eq(zp_study_run(&def, &(ZpHooks){.clock = stopped_clock}, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &(ZpHooks){.clock = stopped_clock}, &result, NULL),
+                   ZP_OK);
   ck_assert(isnan(zp_result_get(result, "real_time_factor")));
   zp_result_destroy(result);
 }
@@ -437,9 +438,47 @@ START_TEST(three_ways_to_fill_a_def) {
 }
 END_TEST
 
+/* One state after another: that of study stationary without voltage, less open under one, none above the pull-in. */
+START_TEST(rest_hangs_as_the_study_says) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.mesh.nodes = 21;
+  ZpModel *model = NULL;
+  ZpRest *rest = NULL;
+  ZpResult *result = NULL;
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
+  ck_assert(zp_rest_hang(rest, 0));
+  double stroke = zp_rest_stroke(rest), opening = zp_rest_opening(rest);
+  ck_assert(stroke == zp_result_get(result, "stroke_m") && opening == zp_result_get(result, "opening_m"));
+  ck_assert(zp_rest_hang(rest, 4e3) && zp_rest_opening(rest) < 0.99 * opening);
+  ck_assert(!zp_rest_hang(rest, 10e3));
+  zp_rest_destroy(rest);
+  zp_rest_destroy(NULL);
+  zp_result_destroy(result);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A study is checked as its number says, which may be none. */
+START_TEST(study_out_of_range) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpResult *result = (ZpResult *)(void *)&def;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_study_run(ZpStudy_COUNT, &def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_null(result);
+  ck_assert_msg(strstr(err.message, "study = 7: out of range; 0 to 6"), "%s", err.message);
+  ck_assert_int_eq(zp_study_check((ZpStudy)-1, &def, &err), ZP_BAD_INPUT);
+  ck_assert_str_eq(zp_study_name((ZpStudy)-1), "unknown");
+  ck_assert_str_eq(zp_study_name(ZP_STUDY_MODES), "modes");
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("api");
   TCase *c = tcase_create("api");
+  tcase_add_test(c, rest_hangs_as_the_study_says);
+  tcase_add_test(c, study_out_of_range);
   tcase_add_test(c, program_of_a_user);
   tcase_add_test(c, null_is_allowed_where_it_says_so);
   tcase_add_test(c, destroying_nothing_does_nothing);

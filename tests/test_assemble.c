@@ -14,9 +14,8 @@ static const Setting kinds[][3] = {
 };
 
 static ZpModel *model_of_kind(size_t kind) {
-  ZpActuatorDef def =
-      DEF({"study", ZP_STUDY_STATIONARY}, {"mesh.nodes", NODES}, kinds[kind][0],
-          kinds[kind][1].key ? kinds[kind][1] : kinds[kind][0], kinds[kind][2].key ? kinds[kind][2] : kinds[kind][0]);
+  ZpActuatorDef def = DEF({"mesh.nodes", NODES}, kinds[kind][0], kinds[kind][1].key ? kinds[kind][1] : kinds[kind][0],
+                          kinds[kind][2].key ? kinds[kind][2] : kinds[kind][0]);
   return model_of(&def);
 }
 

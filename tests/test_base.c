@@ -229,6 +229,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #define ZP_INT(path, name, def, min, max, help)               check_key(&i, #path #name, d.path name, def, min, max);
 #define ZP_BOOL(path, name, def, help)                        check_key(&i, #path #name, d.path name, def, 0, 1);
 #define ZP_ENUM(path, name, type, def, help)                  check_key(&i, #path #name, d.path name, def, 0, (double)type##_COUNT - 1);
+#define ZP_OF_SCENARIO(name, type, def, help)                 check_key(&i, #name, NAN, NAN, 0, (double)type##_COUNT - 1);
 #define ZP_TEXT(path, name, def, help)                                                                                 \
   ck_assert_str_eq(d.path name, def);                                                                                  \
   check_key(&i, #path #name, NAN, NAN, 0, ZP_TEXT_SIZE - 1);
@@ -241,6 +242,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #undef ZP_BOOL
 #undef ZP_ENUM
 #undef ZP_TEXT
+#undef ZP_OF_SCENARIO
   ck_assert_int_eq(i, zp_key_count());
   ZpError err;
   ck_assert_int_eq(zp_def_check(&d, &err), ZP_OK);
@@ -470,6 +472,11 @@ START_TEST(test_set_range) {
     ck_assert_mem_eq(&def, &before, sizeof def);
   }
   if (key->type == ZP_KEY_TEXT) return;
+  if (key->offset == ZP_NO_FIELD) { /* study: of the scenario */
+    ck_assert_int_eq(zp_def_set(&def, _i, key->min, &err), ZP_BAD_INPUT);
+    ck_assert_ptr_nonnull(strstr(err.message, "belongs to a scenario"));
+    return;
+  }
   ck_assert_int_eq(zp_def_set(&def, _i, key->min, NULL), ZP_OK);
   ck_assert_double_eq(zp_def_get(&def, _i), key->min);
   ck_assert_int_eq(zp_def_set(&def, _i, key->max, NULL), ZP_OK);
@@ -514,6 +521,7 @@ typedef struct Cross {
   Setting setting[4];
   const char *named;
   bool right; /* the counterpart that is allowed */
+  ZpStudy study;
 } Cross;
 
 #define SEQUENTIAL                                                                                                     \
@@ -522,35 +530,47 @@ typedef struct Cross {
   }
 
 static const Cross crosses[] = {
-    {{{"electro.surface", ZP_SURFACE_BEZIER}}, "electro.surface", false},
-    {{{"contact.model", ZP_CONTACT_SEQUENTIAL}}, "contact.model", false},
-    {{SEQUENTIAL}, "", true},
-    {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}}, "", true},
-    {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, {"damping.internal", 1e-6}}, "damping.internal", false},
-    {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"damping.internal", 1e-6}}, "damping.internal", false},
-    {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}}, "", true},
-    {{{"platform.length", 0.0901}}, "platform.length", false},
-    {{{"platform.length", 0.09}}, "", true},
-    {{{"platform.length", 0.5}, {"actuator.kind", ZP_KIND_RIBBON}}, "", true},
-    {{{"insulator.thickness", 0}, {"electro.breakdown_cap", 0}}, "insulator.thickness", false},
-    {{{"insulator.thickness", 0}}, "short circuit", false},
-    {{{"insulator.thickness", 0}, {"electro.insulator_offset", 1e-6}}, "short circuit", false},
-    {{{"insulator.thickness", 0}, {"drive.voltage", 0}}, "", true},
-    {{{"insulator.thickness", 0}, {"study", ZP_STUDY_EQUILIBRIUM}}, "short circuit", false},
-    {{{"insulator.thickness", 0}, {"study", ZP_STUDY_ISOMETRIC}}, "short circuit", false},
-    {{{"insulator.thickness", 0}, {"study", ZP_STUDY_MODES}, {"modes.voltage", 1}}, "short circuit", false},
-    {{{"insulator.thickness", 0}, {"study", ZP_STUDY_MODES}}, "", true},
-    {{{"insulator.thickness", 0}, {"study", ZP_STUDY_STATIONARY}}, "", true},
-    {{{"insulator.thickness", 0}, {"actuator.kind", ZP_KIND_FLANGE}}, "short circuit", false},
-    {{{"insulator.thickness", 0}, {"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 1e-4}}, "", true},
-    {{{"insulator.thickness", 0}, {"actuator.kind", ZP_KIND_RIBBON}}, "", true},
-    {{{"electro.insulator_offset", 0}, {"electro.breakdown_cap", 0}}, "electro.breakdown_cap", false},
-    {{{"contact.complete_margin", 60}}, "contact.complete_margin", false},
-    {{{"contact.complete_margin", 59}}, "", true},
-    {{{"electro.switch_offset", 1e-4}}, "electro.switch_offset", false},
-    {{{"electro.switch_offset", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}, SEQUENTIAL}, "", true},
-    {{{"electro.refresh_period", 1e-4}}, "electro.refresh_period", false},
-    {{{"electro.refresh_period", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}, SEQUENTIAL}, "", true},
+    {{{"electro.surface", ZP_SURFACE_BEZIER}}, "electro.surface", false, ZP_STUDY_ACTUATE},
+    {{{"contact.model", ZP_CONTACT_SEQUENTIAL}}, "contact.model", false, ZP_STUDY_ACTUATE},
+    {{SEQUENTIAL}, "", true, ZP_STUDY_ACTUATE},
+    {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, {"damping.internal", 1e-6}},
+     "damping.internal",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"damping.internal", 1e-6}},
+     "damping.internal",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"platform.length", 0.0901}}, "platform.length", false, ZP_STUDY_ACTUATE},
+    {{{"platform.length", 0.09}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"platform.length", 0.5}, {"actuator.kind", ZP_KIND_RIBBON}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}, {"electro.breakdown_cap", 0}}, "insulator.thickness", false, ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}}, "short circuit", false, ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}, {"electro.insulator_offset", 1e-6}}, "short circuit", false, ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}, {"drive.voltage", 0}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}}, "short circuit", false, ZP_STUDY_EQUILIBRIUM},
+    {{{"insulator.thickness", 0}}, "short circuit", false, ZP_STUDY_ISOMETRIC},
+    {{{"insulator.thickness", 0}, {"modes.voltage", 1}}, "short circuit", false, ZP_STUDY_MODES},
+    {{{"insulator.thickness", 0}}, "", true, ZP_STUDY_MODES},
+    {{{"insulator.thickness", 0}}, "", true, ZP_STUDY_STATIONARY},
+    {{{"insulator.thickness", 0}, {"actuator.kind", ZP_KIND_FLANGE}}, "short circuit", false, ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}, {"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 1e-4}},
+     "",
+     true,
+     ZP_STUDY_ACTUATE},
+    {{{"insulator.thickness", 0}, {"actuator.kind", ZP_KIND_RIBBON}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"electro.insulator_offset", 0}, {"electro.breakdown_cap", 0}}, "electro.breakdown_cap", false, ZP_STUDY_ACTUATE},
+    {{{"contact.complete_margin", 60}}, "contact.complete_margin", false, ZP_STUDY_ACTUATE},
+    {{{"contact.complete_margin", 59}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"electro.switch_offset", 1e-4}}, "electro.switch_offset", false, ZP_STUDY_ACTUATE},
+    {{{"electro.switch_offset", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}, SEQUENTIAL}, "", true, ZP_STUDY_ACTUATE},
+    {{{"electro.refresh_period", 1e-4}}, "electro.refresh_period", false, ZP_STUDY_ACTUATE},
+    {{{"electro.refresh_period", 1e-4}, {"electro.surface", ZP_SURFACE_BEZIER}, SEQUENTIAL},
+     "",
+     true,
+     ZP_STUDY_ACTUATE},
 };
 
 START_TEST(test_check_crosses) {
@@ -560,7 +580,7 @@ START_TEST(test_check_crosses) {
     count++;
   ZpActuatorDef def = def_with(cross->setting, count);
   ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_def_check(&def, &err), cross->right ? ZP_OK : ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_study_check(cross->study, &def, &err), cross->right ? ZP_OK : ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, cross->named) != NULL, "no '%s' in: %s", cross->named, err.message);
 }
 END_TEST

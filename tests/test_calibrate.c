@@ -32,7 +32,6 @@ static void set_text(ZpActuatorDef *def, const char *key, const char *text) {
 
 static ZpActuatorDef calibration(const char *file, const char *keys) {
   ZpActuatorDef def = zp_actuator_def_default();
-  def.study = ZP_STUDY_CALIBRATE;
   set_text(&def, "data.file", file);
   set_text(&def, "calibrate.fit", keys);
   set(&def, "mesh.nodes", 31);
@@ -42,7 +41,7 @@ static ZpActuatorDef calibration(const char *file, const char *keys) {
 static ZpResult *fit(const ZpActuatorDef *def) {
   ZpResult *result;
   ZpError err = {0};
-  ck_assert_msg(zp_data_study_run(def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_data_study_run(ZP_STUDY_CALIBRATE, def, NULL, &result, &err) == ZP_OK, "%s", err.message);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   return result;
 }
@@ -50,10 +49,9 @@ static ZpResult *fit(const ZpActuatorDef *def) {
 /* Stroke of the hanging default actuator, m. */
 static double stroke(ZpActuatorDef def, double mass) {
   ZpResult *result;
-  def.study = ZP_STUDY_STATIONARY;
   def.load.mass = mass;
   *def.data.file = 0;
-  ck_assert_int_eq(zp_data_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &def, NULL, &result, NULL), ZP_OK);
   double value = zp_result_get(result, "stroke_m");
   zp_result_destroy(result);
   return value;
@@ -128,9 +126,8 @@ START_TEST(voltage_data) {
   ZpResult *result;
   char text[400] = "opening_mm,remark,voltage_kV\n";
   truth.medium.permittivity = 2.2;
-  truth.study = ZP_STUDY_EQUILIBRIUM;
   set(&truth, "output.samples", 20000);
-  ck_assert_int_eq(zp_data_study_run(&truth, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_EQUILIBRIUM, &truth, NULL, &result, NULL), ZP_OK);
   for (int i = 0; i < 4; i++) {
     double at = 1e3 * atof(volts[i]);
     const ZpTable *t = result->series;
@@ -202,26 +199,26 @@ START_TEST(table_1_of_the_paper) {
 }
 END_TEST
 
-static void refuse(const ZpActuatorDef *def, const char *words) {
+static void refuse(ZpStudy study, const ZpActuatorDef *def, const char *words) {
   ZpError err = {0};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_data_check(def, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_data_check(study, def, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, words) != NULL, "%s", err.message);
-  ck_assert_int_eq(zp_data_study_run(def, NULL, &result, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_ptr_null(result);
 }
 
 static void refuse_file(const char *text, const char *keys, const char *words) {
   write_file("bad.csv", text);
   ZpActuatorDef def = calibration("bad.csv", keys);
-  refuse(&def, words);
+  refuse(ZP_STUDY_CALIBRATE, &def, words);
 }
 
 START_TEST(bad_input_is_refused) {
   const char *E = "ribbon.young_modulus", *good = "load_g,stroke_mm\n8,2\n9,3\n";
   ZpActuatorDef missing = calibration("no such file.csv", E), nameless = calibration("", E);
-  refuse(&missing, "cannot be opened");
-  refuse(&nameless, "data.file: empty");
+  refuse(ZP_STUDY_CALIBRATE, &missing, "cannot be opened");
+  refuse(ZP_STUDY_CALIBRATE, &nameless, "data.file: empty");
   refuse_file("", E, "empty");
   refuse_file("# only a remark\n\n", E, "empty");
   refuse_file("load_g,stroke_mm\n", E, "0 rows of data");
@@ -282,8 +279,7 @@ START_TEST(area_error_of_stationary) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpResult *result;
   ZpError err = {0};
-  def.study = ZP_STUDY_STATIONARY;
-  ck_assert_int_eq(zp_data_study_run(&def, NULL, &result, &err), ZP_OK);
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &def, NULL, &result, &err), ZP_OK);
   ck_assert(isnan(zp_result_get(result, "area_error_m2")));
   FILE *file = fopen("shape.csv", "w");
   fprintf(file, "station,x_m,y_m\n");
@@ -292,13 +288,13 @@ START_TEST(area_error_of_stationary) {
   fclose(file);
   zp_result_destroy(result);
   set_text(&def, "data.file", "shape.csv");
-  ck_assert_int_eq(zp_data_study_run(&def, NULL, &result, &err), ZP_OK);
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &def, NULL, &result, &err), ZP_OK);
   ck_assert(zp_result_get(result, "area_error_m2") < 1e-12);
   zp_result_destroy(result);
   write_file("shape.csv", "x_mm,y_mm\n1,2\n1,3\n");
-  refuse(&def, "x must increase");
+  refuse(ZP_STUDY_STATIONARY, &def, "x must increase");
   write_file("shape.csv", "x_mm,height_mm\n1,2\n1,3\n");
-  refuse(&def, "no column y_m");
+  refuse(ZP_STUDY_STATIONARY, &def, "no column y_m");
 }
 END_TEST
 
@@ -373,7 +369,6 @@ START_TEST(held_force_data) {
     ZpActuatorDef def = calibration("held.csv", "medium.permittivity"), truth = def;
     ZpResult *result;
     truth.medium.permittivity = 2.2;
-    truth.study = ZP_STUDY_ISOMETRIC;
     FILE *file = fopen("held.csv", "w");
     fputs(by_separation ? "isometric.separation_mm,force_mN,voltage_kV\n"
                         : "voltage_kV,force_mN,isometric.separation_mm\n",
@@ -381,7 +376,7 @@ START_TEST(held_force_data) {
     for (size_t i = 0; i < 5; i++) {
       truth.drive.voltage = volts[i];
       truth.isometric.separation = 1e-3 * mm[i];
-      ck_assert_int_eq(zp_data_study_run(&truth, NULL, &result, NULL), ZP_OK);
+      ck_assert_int_eq(zp_data_study_run(ZP_STUDY_ISOMETRIC, &truth, NULL, &result, NULL), ZP_OK);
       double mN = 1e3 * zp_result_get(result, "force_N"), kV = 1e-3 * volts[i];
       fprintf(file, "%.17g,%.17g,%.17g\n", by_separation ? mm[i] : kV, mN, by_separation ? kV : mm[i]);
       zp_result_destroy(result);
@@ -409,7 +404,6 @@ START_TEST(drag_is_found_from_a_swing) {
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.mesh.nodes = 9;
   def.damping.drag = 0.03;
-  def.study = ZP_STUDY_ACTUATE;
   ZpModel *model;
   ZpSim *sim;
   ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
@@ -423,7 +417,6 @@ START_TEST(drag_is_found_from_a_swing) {
   ck_assert_int_eq(fclose(file), 0);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
-  def.study = ZP_STUDY_CALIBRATE;
   def.damping.drag = 0.05;
   ZpResult *result = fit(&def);
   assert_near(zp_result_get(result, "damping.drag"), 0.03, 1e-4);

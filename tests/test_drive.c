@@ -462,7 +462,7 @@ START_TEST(alternating_voltage_keeps_energy) {
   static const ZpWaveformKind kind[] = {ZP_WAVEFORM_SINE, ZP_WAVEFORM_SQUARE};
   ZpActuatorDef def = alternating(kind[_i], 1);
   ZpResult *result;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
   printf("%s of 50 Hz, 1 s: energy error %.1e in %g steps\n", _i ? "square" : "sine",
          zp_result_get(result, "energy_error"), zp_result_get(result, "steps"));
@@ -479,7 +479,7 @@ START_TEST(tolerance_rules_the_steps) {
     ZpActuatorDef def = alternating(ZP_WAVEFORM_SINE, 0.1);
     def.solver.tolerance = tolerance[i];
     ZpResult *result;
-    ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+    ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
     steps[i] = zp_result_get(result, "steps");
     opening[i] = zp_result_get(result, "opening_m");
     zp_result_destroy(result);
@@ -618,13 +618,13 @@ END_TEST
 START_TEST(only_a_constant_drive_stops) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 90e-3);
   ZpResult *step, *ramp, *table;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &step, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &step, NULL), ZP_OK);
   def.drive.waveform = ZP_WAVEFORM_RAMP;
   def.drive.rise_time = 1e-6;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &ramp, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &ramp, NULL), ZP_OK);
   def = driven(ZP_WAVEFORM_TABLE, 90e-3);
   ZpDriveTable rows = {2, (const double[]){0, 1}, (const double[]){10e3, 10e3}};
-  ck_assert_int_eq(zp_study_run_with(&def, &(ZpStudyInput){.table = &rows}, NULL, &table, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, &(ZpStudyInput){.table = &rows}, NULL, &table, NULL), ZP_OK);
   ck_assert_int_eq(step->outcome, ZP_ZIPPED);
   ck_assert_int_eq(ramp->outcome, ZP_REACHED_END);
   ck_near(zp_result_get(ramp, "zip_time_s"), zp_result_get(step, "zip_time_s"), 1e-3);
@@ -645,7 +645,7 @@ static const char *verdict(const char *text, ZpError *err) {
   *err = (ZpError){ZP_OK, ""};
   ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "s.yaml", err);
   if (status == ZP_OK) status = zp_scenario_def(scenario, 0, &def, err);
-  if (status == ZP_OK) status = zp_data_check(&def, err);
+  if (status == ZP_OK) status = zp_data_check(zp_scenario_study(scenario), &def, err);
   zp_scenario_destroy(scenario);
   ck_assert_int_eq(status == ZP_OK, *err->message == 0);
   return err->message;
@@ -760,7 +760,7 @@ static ZpResult *run_scenario(const char *text) {
   ck_assert_str_eq(def.drive.file, other.drive.file);
   ck_assert_int_eq(other.drive.waveform, ZP_WAVEFORM_TABLE);
   ZpResult *result;
-  ck_assert_msg(zp_data_study_run(&other, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_data_study_run(ZP_STUDY_ACTUATE, &other, NULL, &result, &err) == ZP_OK, "%s", err.message);
   zp_scenario_destroy(scenario);
   zp_scenario_destroy(again);
   free(written);

@@ -233,9 +233,8 @@ static const struct {
 };
 
 static void make_plates(Plates *p, int law) {
-  ZpActuatorDef def =
-      DEF({"actuator.kind", laws[law].kind}, {"mesh.nodes", STATIONS}, {"electro.edges", laws[law].edges},
-          {"electro.breakdown_cap", laws[law].cap}, {"study", ZP_STUDY_EQUILIBRIUM});
+  ZpActuatorDef def = DEF({"actuator.kind", laws[law].kind}, {"mesh.nodes", STATIONS},
+                          {"electro.edges", laws[law].edges}, {"electro.breakdown_cap", laws[law].cap});
   *p = (Plates){.model = model_of(&def), .U = laws[law].voltage};
   ZpCarver carver = {NULL, 0};
   carve_plates(p, &carver);
@@ -404,10 +403,9 @@ END_TEST
 
 static double first_frequency(const ZpActuatorDef *def) {
   ZpActuatorDef copy = *def;
-  copy.study = ZP_STUDY_MODES;
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(&copy, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_study_run(ZP_STUDY_MODES, &copy, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   double frequency = zp_result_get(result, "frequency_1_Hz");
   zp_result_destroy(result);
   return frequency;
@@ -662,8 +660,9 @@ static double energy_error_of(const ZpActuatorDef *def, size_t rows, const doubl
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
   ZpDriveTable table = {rows, t, U};
-  ck_assert_msg(zp_study_run_with(def, &(ZpStudyInput){.table = rows ? &table : NULL}, NULL, &result, &err) == ZP_OK,
-                "%s", err.message);
+  ck_assert_msg(
+      zp_study_run(ZP_STUDY_ACTUATE, def, &(ZpStudyInput){.table = rows ? &table : NULL}, NULL, &result, &err) == ZP_OK,
+      "%s", err.message);
   ck_assert(zp_outcome_good(result->outcome));
   double error = zp_result_get(result, "energy_error");
   printf("N = %d, %g steps: energy error %.1e\n", def->mesh.nodes, zp_result_get(result, "steps"), error);
@@ -837,7 +836,7 @@ START_TEST(test_flange) {
             {"solver.end_time", 1}, {"solver.tolerance", 1e-5});
     ZpResult *result = NULL;
     ZpError err = {ZP_OK, ""};
-    ck_assert_msg(zp_study_run(&def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+    ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
     ck_assert_int_eq(result->outcome, ZP_REACHED_END);
     stroke[k] = zp_result_get(result, "stroke_m");
     size_t last = result->series->rows - 1;

@@ -119,7 +119,7 @@ END_TEST
 
 /* Bare faces: with the cap the force stays bounded down to contact. */
 START_TEST(test_bare_faces) {
-  ZpActuatorDef def = DEF({"insulator.thickness", 0}, {"study", ZP_STUDY_STATIONARY});
+  ZpActuatorDef def = DEF({"insulator.thickness", 0});
   ZpModel *model = model_of(&def);
   ck_assert_double_eq(model->plates.d, 0);
   for (double U = 0; U < 11e3; U += 1e3) {

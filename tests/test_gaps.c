@@ -77,7 +77,7 @@ static void check_closed(const ZpActuatorDef *def, const char *distance, double 
   const double C = ZP_EPS0 * 2.75 * 12.7e-3 * length / (d + g);
   ZpResult *result;
   ZpError err;
-  ck_assert_msg(zp_study_run(def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_study_run(ZP_STUDY_EQUILIBRIUM, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   size_t row = closed_row(result->series, U);
   ck_assert_double_eq_tol(zp_table_get(result->series, row, distance), g, 1e-8);
   ck_near(zp_table_get(result->series, row, "capacitance_F"), C, 1e-4);
@@ -86,10 +86,9 @@ static void check_closed(const ZpActuatorDef *def, const char *distance, double 
 }
 
 START_TEST(closed_faces_lie_on_each_other) {
-  ZpActuatorDef flange =
-      DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 21},
-          {"ribbon.length", 20e-3}, {"load.mass", 0.1e-3}, {"electro.breakdown_cap", 0}, {"drive.voltage", 2e3});
-  ZpActuatorDef pair = DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"mesh.nodes", 21}, {"electro.breakdown_cap", 0});
+  ZpActuatorDef flange = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 21}, {"ribbon.length", 20e-3},
+                             {"load.mass", 0.1e-3}, {"electro.breakdown_cap", 0}, {"drive.voltage", 2e3});
+  ZpActuatorDef pair = DEF({"mesh.nodes", 21}, {"electro.breakdown_cap", 0});
   check_closed(&flange, "stroke_m", 20e-3);
   check_closed(&pair, "opening_m", 2 * (45e-3 + 5e-3));
 }
@@ -100,10 +99,9 @@ START_TEST(pull_in_does_not_depend_on_the_largest_voltage) {
   double pull_in[3];
   static const double largest[] = {5.2e3, 10e3, 50e3};
   for (int k = 0; k < 3; k++) {
-    ZpActuatorDef def = DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"mesh.nodes", 61}, {"electro.breakdown_cap", 0},
-                            {"drive.voltage", largest[k]});
+    ZpActuatorDef def = DEF({"mesh.nodes", 61}, {"electro.breakdown_cap", 0}, {"drive.voltage", largest[k]});
     ZpResult *result;
-    ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+    ck_assert_int_eq(zp_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, NULL, &result, NULL), ZP_OK);
     pull_in[k] = zp_result_get(result, "pull_in_voltage_V");
     zp_result_destroy(result);
   }
@@ -119,11 +117,10 @@ END_TEST
  * own weight. What bends at the clamp is sqrt(EI / P) = 5 um of it. */
 START_TEST(floppy_ribbon_hangs_straight_down) {
   const double L = 10, EA = 200e9 * 12.7e-3 * 1e-6, weight = 7850 * 12.7e-3 * 1e-6 * L * 9.81;
-  ZpActuatorDef def =
-      DEF({"study", ZP_STUDY_STATIONARY}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
-          {"ribbon.length", L}, {"ribbon.thickness", 1e-6}, {"load.mass", 1});
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", L},
+                          {"ribbon.thickness", 1e-6}, {"load.mass", 1});
   ZpResult *result;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, NULL), ZP_OK);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-6);
   zp_result_destroy(result);
@@ -133,11 +130,11 @@ END_TEST
 /* -- a held platform ------------------------------------------------------------------------------- */
 
 static ZpResult *hold(double voltage) {
-  ZpActuatorDef def = DEF({"study", ZP_STUDY_ISOMETRIC}, {"mesh.nodes", 21}, {"isometric.separation", 17e-3},
-                          {"drive.voltage", voltage}, {"output.samples", 20000});
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 21}, {"isometric.separation", 17e-3}, {"drive.voltage", voltage}, {"output.samples", 20000});
   ZpResult *result;
   ZpError err;
-  ck_assert_msg(zp_study_run(&def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_study_run(ZP_STUDY_ISOMETRIC, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   return result;
 }
@@ -173,7 +170,7 @@ START_TEST(steps_converge_in_three_iterations) {
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"mesh.nodes", 21}, {"solver.end_time", 0.5},
                           {"damping.internal", damping[_i]});
   ZpResult *result;
-  ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
   double tried = zp_result_get(result, "steps") + zp_result_get(result, "steps_rejected");
   double iterations = zp_result_get(result, "newton_iterations") / tried;
   printf("damping %g s: %.2f iterations a step\n", damping[_i], iterations);

@@ -428,7 +428,8 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
   set_all(scenario, scene);
   set_all(scenario, setting);
   ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s %s: %s", scene, setting, err.message);
-  ck_assert_msg(zp_data_study_run(&def, NULL, &result, &err) == ZP_OK, "%s %s: %s", scene, setting, err.message);
+  ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result, &err) == ZP_OK, "%s %s: %s", scene,
+                setting, err.message);
   zp_scenario_destroy(scenario);
   return result;
 }

@@ -215,7 +215,7 @@ START_TEST(test_imbalance_is_told) {
     ZpActuatorDef def = DEF({"mesh.nodes", 21}, SEQUENTIAL, EXPLICIT, {"solver.end_time", 0.03},
                             {"electro.surface", wrong ? ZP_SURFACE_BEZIER : ZP_SURFACE_POLYLINE});
     ZpResult *result = NULL;
-    ck_assert_int_eq(zp_study_run(&def, NULL, &result, NULL), ZP_OK);
+    ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
     double error = zp_result_get(result, "energy_error");
     bool told = false;
     for (size_t k = 0; k < result->notes; k++)

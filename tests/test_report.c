@@ -226,7 +226,8 @@ static void write_study(const char *name, const char *study, const char *assignm
   for (size_t i = 0; i < count; i++) {
     ZpActuatorDef def;
     ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
-    ck_assert_msg(zp_study_run(&def, NULL, &result[i], &err) == ZP_OK, "%s", err.message);
+    ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
+                  err.message);
   }
   const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);

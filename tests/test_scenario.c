@@ -69,6 +69,7 @@ static void assert_round_trip(const ZpScenario *s) {
   char *text = written(s);
   ZpScenario *back = scenario_of(text);
   ck_assert_uint_eq(zp_scenario_count(s), zp_scenario_count(back));
+  ck_assert_int_eq(zp_scenario_study(s), zp_scenario_study(back));
   for (size_t i = 0; i < zp_scenario_count(s); i++) {
     ZpActuatorDef a = def_of(s, i), b = def_of(back, i);
     assert_same_def(&a, &b);

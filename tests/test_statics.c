@@ -10,22 +10,22 @@
 
 /* -- running a study ------------------------------------------------------------------------------- */
 
-static ZpResult *study_of(const ZpActuatorDef *def) {
+static ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   return result;
 }
 
-static ZpResult *rest_of(const ZpActuatorDef *def) {
-  ZpResult *result = study_of(def);
+static ZpResult *rest_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = study_of(study, def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   return result;
 }
 
 /* One number of a study that ends well. */
-static double value_of(const ZpActuatorDef *def, const char *name) {
-  ZpResult *result = rest_of(def);
+static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
+  ZpResult *result = rest_of(study, def);
   double value = zp_result_get(result, name);
   zp_result_destroy(result);
   return value;
@@ -43,9 +43,9 @@ static double bending_stiffness(double b) {
 static ZpActuatorDef beam(ZpRightEnd end, double p, double q, int nodes) {
   double EI = bending_stiffness(thickness), mu = rho * width * thickness;
   double gravity = q > 0 ? q * EI / (mu * L * L * L) : 9.81;
-  return DEF({"study", ZP_STUDY_STATIONARY}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", end},
-             {"ribbon.length", L}, {"ribbon.plane", ZP_PLANE_STRESS}, {"ribbon.density", q > 0 ? rho : 0},
-             {"gravity", gravity}, {"load.mass", p * EI / (L * L * gravity)}, {"mesh.nodes", nodes});
+  return DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", end}, {"ribbon.length", L},
+             {"ribbon.plane", ZP_PLANE_STRESS}, {"ribbon.density", q > 0 ? rho : 0}, {"gravity", gravity},
+             {"load.mass", p * EI / (L * L * gravity)}, {"mesh.nodes", nodes});
 }
 
 typedef struct BeamCase {
@@ -75,7 +75,7 @@ START_TEST(test_elastica) {
   const BeamCase *c = &beams[_i];
   Elastica e = elastica(c->p, c->q, c->end == ZP_END_GUIDED);
   ZpActuatorDef def = beam(c->end, c->p, c->q, 61);
-  ZpResult *result = rest_of(&def);
+  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
   double y = zp_result_get(result, "stroke_m") / L, x = zp_table_get(result->series, 60, "x_m") / L;
   printf("%s, p = %g, q = %g: y %+.1e, x %+.1e off the elastica\n", c->end == ZP_END_FREE ? "free" : "guided", c->p,
          c->q, y / e.y - 1, x / e.x - 1);
@@ -88,13 +88,13 @@ END_TEST
 /* -- the actuator's opening ------------------------------------------------------------------------ */
 
 static ZpActuatorDef opening_def(double density, double mass, int nodes) {
-  return DEF({"study", ZP_STUDY_STATIONARY}, {"ribbon.plane", ZP_PLANE_STRESS}, {"ribbon.density", density},
-             {"load.mass", mass}, {"mesh.nodes", nodes});
+  return DEF({"ribbon.plane", ZP_PLANE_STRESS}, {"ribbon.density", density}, {"load.mass", mass},
+             {"mesh.nodes", nodes});
 }
 
 static double opening(double density, double mass, int nodes) {
   ZpActuatorDef def = opening_def(density, mass, nodes);
-  return value_of(&def, "opening_m");
+  return value_of(ZP_STUDY_STATIONARY, &def, "opening_m");
 }
 
 START_TEST(test_opening) {
@@ -111,7 +111,7 @@ static double beam_error(ZpRightEnd end, int nodes) {
   const double p = 0.4, q = 0.4;
   ZpActuatorDef def = beam(end, 0, q, nodes);
   def.load.mass = p / q * rho * width * thickness * L;
-  return value_of(&def, "stroke_m") / L / elastica(p, q, end == ZP_END_GUIDED).y - 1;
+  return value_of(ZP_STUDY_STATIONARY, &def, "stroke_m") / L / elastica(p, q, end == ZP_END_GUIDED).y - 1;
 }
 
 static double opening_error(int nodes) {
@@ -141,7 +141,7 @@ START_TEST(test_natural_curvature) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
   def.segment_1.length = L;
   def.segment_1.curvature = k;
-  ZpResult *result = rest_of(&def);
+  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
   ck_near(zp_table_get(result->series, 60, "x_m"), sin(k * L) / k, 1e-3);
   ck_near(zp_table_get(result->series, 60, "y_m"), (1 - cos(k * L)) / k, 1e-3);
   ck_near(zp_result_get(result, "stroke_m"), -(1 - cos(k * L)) / k, 1e-3); /* the end is above the clamp */
@@ -158,7 +158,7 @@ START_TEST(test_two_segments) {
   double P = def.load.mass * def.gravity;
   double beam_y =
       P * (L * L * L - b * b * b) / (3 * bending_stiffness(thick)) + P * b * b * b / (3 * bending_stiffness(thickness));
-  double y = value_of(&def, "stroke_m");
+  double y = value_of(ZP_STUDY_STATIONARY, &def, "stroke_m");
   printf("two segments: %+.1e off\n", y / beam_y - 1);
   ck_near(y, beam_y, 1e-3);
 }
@@ -173,7 +173,7 @@ static double step_error(double a, int nodes) {
   double P = def.load.mass * def.gravity;
   double y =
       P * (L * L * L - b * b * b) / (3 * bending_stiffness(thick)) + P * b * b * b / (3 * bending_stiffness(thickness));
-  return value_of(&def, "stroke_m") / y - 1;
+  return value_of(ZP_STUDY_STATIONARY, &def, "stroke_m") / y - 1;
 }
 
 /* A segment that ended between nodes counted as if it ended at one: off by +1.8 % and -2.2 % on either side of a node,
@@ -248,7 +248,7 @@ START_TEST(test_curvature_of_each_segment) {
     y += chord * sin(angle + turned / 2);
     angle += turned;
   }
-  ZpResult *result = rest_of(&def);
+  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
   double found_x = zp_table_get(result->series, 120, "x_m"), found_y = zp_table_get(result->series, 120, "y_m");
   printf("three arcs: x %+.1e, y %+.1e off\n", found_x / x - 1, found_y / y - 1);
   ck_near(found_x, x, 1e-4);
@@ -271,7 +271,7 @@ START_TEST(test_strong_curvature) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, NODES);
   def.segment_1.length = L;
   def.segment_1.curvature = curvatures[_i];
-  ZpResult *result = rest_of(&def);
+  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "x_m"), x, 1e-9 * L);
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "y_m"), y, 1e-9 * L);
   zp_result_destroy(result);
@@ -284,9 +284,9 @@ START_TEST(test_curled_ribbon_is_found) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
   def.segment_1.length = L;
   def.segment_1.curvature = 50;
-  ck_near(value_of(&def, "stroke_m"), -(1 - cos(50 * L)) / 50, 1e-2); /* measured 5e-4 */
+  ck_near(value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"), -(1 - cos(50 * L)) / 50, 1e-2); /* measured 5e-4 */
   def.load.mass = 8e-3;
-  ck_assert(isfinite(value_of(&def, "stroke_m")));
+  ck_assert(isfinite(value_of(ZP_STUDY_STATIONARY, &def, "stroke_m")));
 }
 END_TEST
 
@@ -296,9 +296,8 @@ START_TEST(test_paper_fe) {
   static const double grams[] = {0, 8, 40, 60, 61, 80, 100, 150, 200};
   static const double mm[] = {0.071, 2.592, 11.81, 16.39, 16.60, 20.04, 22.91, 27.75, 30.65};
   for (size_t i = 0; i < LENGTH_OF(grams); i++) {
-    ZpActuatorDef def =
-        DEF({"study", ZP_STUDY_STATIONARY}, {"preset", ZP_PRESET_PAPER_FE}, {"load.mass", 1e-3 * grams[i]});
-    double stroke = value_of(&def, "stroke_m");
+    ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_FE}, {"load.mass", 1e-3 * grams[i]});
+    double stroke = value_of(ZP_STUDY_STATIONARY, &def, "stroke_m");
     printf("paper-fe, %g g: %.4f mm, converged %.3f mm\n", grams[i], 1e3 * stroke, mm[i]);
     /* the last digit shown of 0.071 is worth 0.7 % */
     ck_assert_double_eq_tol(1e3 * stroke, mm[i], fmax(2e-3 * mm[i], 6e-4));
@@ -313,10 +312,9 @@ START_TEST(test_paper_code) {
                                   {12.261, 16.827, 20.466, 23.338, 28.224, 31.189}};
   static const double shear[] = {6031, 146115};
   for (size_t i = 0; i < LENGTH_OF(grams); i++) {
-    ZpActuatorDef def =
-        DEF({"study", ZP_STUDY_STATIONARY}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", _i ? 61 : 21},
-            {"mass_spring.shear_coefficient", shear[_i]}, {"load.mass", 1e-3 * grams[i]});
-    ck_assert_double_eq_tol(1e3 * value_of(&def, "stroke_m"), mm[_i][i], 0.005);
+    ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", _i ? 61 : 21},
+                            {"mass_spring.shear_coefficient", shear[_i]}, {"load.mass", 1e-3 * grams[i]});
+    ck_assert_double_eq_tol(1e3 * value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"), mm[_i][i], 0.005);
   }
 }
 END_TEST
@@ -324,8 +322,8 @@ END_TEST
 /* -- modes ----------------------------------------------------------------------------------------- */
 
 static ZpActuatorDef modes_def(ZpRightEnd end) {
-  return DEF({"study", ZP_STUDY_MODES}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", end},
-             {"ribbon.length", 45e-3}, {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0});
+  return DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", end}, {"ribbon.length", 45e-3},
+             {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0});
 }
 
 /* The roots beta L within 0.15 %, measured at most 0.015, 0.06, 0.125 %. Lumped masses and second differences lower a
@@ -334,7 +332,7 @@ START_TEST(test_modes) {
   static const double roots[2][3] = {{2.365020, 5.497804, 8.639380}, {1.875104, 4.694091, 7.854757}};
   static const char *const names[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
   ZpActuatorDef def = modes_def(_i ? ZP_END_FREE : ZP_END_GUIDED);
-  ZpResult *result = rest_of(&def);
+  ZpResult *result = rest_of(ZP_STUDY_MODES, &def);
   double unit = sqrt(bending_stiffness(thickness) / (rho * width * thickness)) / (2 * M_PI * 45e-3 * 45e-3);
   for (size_t k = 0; k < 3; k++) {
     double f = zp_result_get(result, names[k]), exact = roots[_i][k] * roots[_i][k] * unit;
@@ -353,7 +351,7 @@ START_TEST(test_modes_converge) {
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def = modes_def(ZP_END_GUIDED);
     def.mesh.nodes = nodes[k];
-    f[k] = value_of(&def, "frequency_3_Hz");
+    f[k] = value_of(ZP_STUDY_MODES, &def, "frequency_3_Hz");
   }
   ck_near((4 * f[1] - f[0]) / 3, 8.639380 * 8.639380 * unit, 5e-5);
 }
@@ -363,11 +361,12 @@ END_TEST
  * finds closed states, which are stable, too. */
 START_TEST(test_modes_above_pull_in) {
   static const double above[] = {5625, 5700, 8e3, 10e3};
-  ZpActuatorDef def = DEF({"study", ZP_STUDY_MODES}, {"modes.voltage", 5624});
-  ck_below(value_of(&def, "frequency_1_Hz"), 1.5); /* pull-in at 5624.5 V: the lowest frequency falls to 0 there */
+  ZpActuatorDef def = DEF({"modes.voltage", 5624});
+  ck_below(value_of(ZP_STUDY_MODES, &def, "frequency_1_Hz"),
+           1.5); /* pull-in at 5624.5 V: the lowest frequency falls to 0 there */
   for (size_t i = 0; i < LENGTH_OF(above); i++) {
     def.modes.voltage = above[i];
-    ZpResult *result = study_of(&def);
+    ZpResult *result = study_of(ZP_STUDY_MODES, &def);
     ck_assert_msg(result->outcome == ZP_PULLED_IN, "%g V: %s", above[i], result->message);
     ck_assert(zp_outcome_good(result->outcome));
     ck_assert_str_eq(zp_outcome_name(result->outcome), "pulled_in");
@@ -384,11 +383,10 @@ END_TEST
 static ZpActuatorDef flange_def(ZpRightEnd end, double b, double g) {
   const double eps0 = 8.8541878128e-12, thick = 1e-3;
   double V = sqrt(2 * b * bending_stiffness(thick) * g * g * g / (eps0 * width * L * L * L * L));
-  return DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", end},
-             {"ribbon.length", L}, {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0},
-             {"ribbon.thickness", thick}, {"insulator.thickness", 0}, {"medium.permittivity", 1},
-             {"medium.breakdown_field", V / (0.1 * g)}, {"electro.gap_offset", g}, {"drive.voltage", 1.2 * V},
-             {"output.samples", 20000});
+  return DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", end}, {"ribbon.length", L},
+             {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0}, {"ribbon.thickness", thick},
+             {"insulator.thickness", 0}, {"medium.permittivity", 1}, {"medium.breakdown_field", V / (0.1 * g)},
+             {"electro.gap_offset", g}, {"drive.voltage", 1.2 * V}, {"output.samples", 20000});
 }
 
 /* A point of the branch. */
@@ -436,7 +434,7 @@ START_TEST(test_pull_in) {
   static const double b[] = {4.38094, 1.68084}, travel[] = {0.3967, 0.4465};
   const double g = 1e-3;
   ZpActuatorDef def = flange_def(_i ? ZP_END_FREE : ZP_END_GUIDED, b[_i], g);
-  ZpResult *result = study_of(&def);
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
   double V = def.drive.voltage / 1.2, found = zp_result_get(result, "pull_in_voltage_V");
   Point limit = limit_of(&def);
   printf("%s: b %.5f, travel %.4f g\n", _i ? "free" : "guided", b[_i] * found * found / (V * V),
@@ -473,11 +471,10 @@ END_TEST
 START_TEST(test_weightless_flange_is_raised) {
   ZpActuatorDef def = flange_def(ZP_END_GUIDED, 4.38094, 0.2e-3);
   double V = def.drive.voltage / 1.2;
-  def.study = ZP_STUDY_MODES;
   def.modes.voltage = 0.99 * V;
-  ck_assert_double_gt(value_of(&def, "frequency_1_Hz"), 0);
+  ck_assert_double_gt(value_of(ZP_STUDY_MODES, &def, "frequency_1_Hz"), 0);
   def.modes.voltage = 1.01 * V;
-  ZpResult *result = study_of(&def);
+  ZpResult *result = study_of(ZP_STUDY_MODES, &def);
   ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
   zp_result_destroy(result);
 }
@@ -486,8 +483,7 @@ END_TEST
 /* -- the default actuator ---------------------------------------------------------------------------- */
 
 static ZpActuatorDef voltage_def(double mass, int nodes) {
-  return DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"load.mass", mass}, {"mesh.nodes", nodes}, {"output.samples", 20000},
-             {"output.shapes", 2000});
+  return DEF({"load.mass", mass}, {"mesh.nodes", nodes}, {"output.samples", 20000}, {"output.shapes", 2000});
 }
 
 /* How often the voltage turns round along branch 0, be it ever so little. */
@@ -505,7 +501,7 @@ START_TEST(test_mesh_independence) {
   double pull_in[2], release[2];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def = voltage_def(8e-3, k ? 241 : 121);
-    ZpResult *result = study_of(&def);
+    ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
     ck_assert_msg(result->outcome == ZP_FOLLOWED, "%s", result->message);
     pull_in[k] = zp_result_get(result, "pull_in_voltage_V");
     release[k] = zp_result_get(result, "release_voltage_V");
@@ -521,7 +517,7 @@ END_TEST
  * voltage along the middle leg may ripple by less than a thousandth and a point there be stable: measured 1 of 170. */
 START_TEST(test_default_branches) {
   ZpActuatorDef def = voltage_def(8e-3, 61);
-  ZpResult *result = study_of(&def);
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
   const ZpTable *t = result->series;
   ck_assert_msg(result->outcome == ZP_FOLLOWED, "%s", result->message);
   ck_assert_int_eq(turns(t), 2);
@@ -546,7 +542,7 @@ END_TEST
 /* 61 g hangs at 10 kV, and stays closed if it is. */
 START_TEST(test_heavy_load) {
   ZpActuatorDef def = voltage_def(61e-3, 61);
-  ZpResult *result = study_of(&def);
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
   const ZpTable *t = result->series;
   ck_assert_double_nan(zp_result_get(result, "pull_in_voltage_V"));
   size_t closed = 0;
@@ -565,7 +561,7 @@ START_TEST(test_faces_do_not_cross) {
   static const double grams[] = {8, 61};
   for (size_t i = 0; i < LENGTH_OF(grams); i++) {
     ZpActuatorDef def = voltage_def(1e-3 * grams[i], 61);
-    ZpResult *result = study_of(&def);
+    ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
     double least = INFINITY;
     for (size_t f = 0; f < result->shapes->frames; f++) {
       ZpShape shape = zp_shapes_get(result->shapes, f);
@@ -581,8 +577,8 @@ END_TEST
 
 /* -- release --------------------------------------------------------------------------------------- */
 
-static double release_of(const ZpActuatorDef *def) {
-  ZpResult *result = study_of(def);
+static double release_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = study_of(study, def);
   double release = zp_result_get(result, "release_voltage_V"), closing = zp_result_get(result, "closing_voltage_V");
   printf("%s; closes at %g V\n", result->message, closing);
   ck_assert_msg(result->outcome == ZP_FOLLOWED, "%s", result->message);
@@ -592,24 +588,24 @@ static double release_of(const ZpActuatorDef *def) {
 }
 
 static ZpActuatorDef long_def(int nodes) {
-  return DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"ribbon.length", 166e-3}, {"ribbon.thickness", 21e-6},
-             {"load.mass", 6e-3}, {"platform.length", 30e-3}, {"drive.voltage", 15e3}, {"mesh.nodes", nodes});
+  return DEF({"ribbon.length", 166e-3}, {"ribbon.thickness", 21e-6}, {"load.mass", 6e-3}, {"platform.length", 30e-3},
+             {"drive.voltage", 15e3}, {"mesh.nodes", nodes});
 }
 
 /* The last of all limit points, or of the first 256, was taken for the release: 529, 509, 683, 5764 V for N = 31, 61,
  * 91, 121 where a slow ramp opens at 493 V. */
 START_TEST(test_release_of_a_long_actuator) {
   ZpActuatorDef coarse = long_def(61), fine = long_def(91);
-  double release[] = {release_of(&coarse), release_of(&fine)};
+  double release[] = {release_of(ZP_STUDY_EQUILIBRIUM, &coarse), release_of(ZP_STUDY_EQUILIBRIUM, &fine)};
   ck_near(release[0], release[1], 0.01);
   ck_near(release[1], 500, 0.015);
 }
 END_TEST
 
 static ZpActuatorDef small_flange(double voltage) {
-  return DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 65e-3},
-             {"ribbon.thickness", 100e-6}, {"load.mass", 0}, {"electro.gap_offset", 0.1e-3},
-             {"insulator.thickness", 10e-6}, {"drive.voltage", voltage});
+  return DEF({"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 65e-3}, {"ribbon.thickness", 100e-6},
+             {"load.mass", 0}, {"electro.gap_offset", 0.1e-3}, {"insulator.thickness", 10e-6},
+             {"drive.voltage", voltage});
 }
 
 /* How a flange opens does not depend on the voltage at which it was closed: at 300 V its release came out as its
@@ -618,7 +614,7 @@ START_TEST(test_release_whatever_closed_it) {
   static const double voltages[] = {300, 500, 1e3, 3e3};
   for (size_t i = 0; i < LENGTH_OF(voltages); i++) {
     ZpActuatorDef def = small_flange(voltages[i]);
-    ck_near(release_of(&def), 21.27, 0.005);
+    ck_near(release_of(ZP_STUDY_EQUILIBRIUM, &def), 21.27, 0.005);
   }
 }
 END_TEST
@@ -633,7 +629,6 @@ static double opened_by_ramp(ZpActuatorDef def, double closing, double high, dou
   ZpError err;
   ZpModel *model;
   ZpSim *sim;
-  def.study = ZP_STUDY_ACTUATE;
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.drive.waveform = ZP_WAVEFORM_TABLE;
   def.damping.internal = 1e-3;
@@ -657,13 +652,12 @@ static double opened_by_ramp(ZpActuatorDef def, double closing, double high, dou
 START_TEST(test_release_is_that_of_a_slow_ramp) {
   const ZpActuatorDef defs[] = {
       voltage_def(8e-3, 61),
-      DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"ribbon.length", 89e-3}, {"ribbon.thickness", 100e-6}, {"load.mass", 39e-3},
-          {"platform.length", 15e-3}, {"insulator.thickness", 200e-6}),
-      DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"ribbon.length", 151e-3}, {"load.mass", 29e-3}, {"platform.length", 7e-3},
-          {"insulator.thickness", 25e-6}),
+      DEF({"ribbon.length", 89e-3}, {"ribbon.thickness", 100e-6}, {"load.mass", 39e-3}, {"platform.length", 15e-3},
+          {"insulator.thickness", 200e-6}),
+      DEF({"ribbon.length", 151e-3}, {"load.mass", 29e-3}, {"platform.length", 7e-3}, {"insulator.thickness", 25e-6}),
       small_flange(500),
   };
-  double release = release_of(&defs[_i]);
+  double release = release_of(ZP_STUDY_EQUILIBRIUM, &defs[_i]);
   bool flange = defs[_i].actuator.kind == ZP_KIND_FLANGE;
   double ramp = opened_by_ramp(defs[_i], flange ? 300 : 1.05 * release, 1.05 * release, 0.97 * release);
   printf("release %.4g V, by a ramp %+.2e off\n", release, ramp / release - 1);
@@ -673,8 +667,8 @@ END_TEST
 
 /* What is never closed has no release, and the message says why. */
 START_TEST(test_no_release) {
-  ZpActuatorDef low = DEF({"study", ZP_STUDY_EQUILIBRIUM}, {"drive.voltage", 500});
-  ZpResult *result = study_of(&low);
+  ZpActuatorDef low = DEF({"drive.voltage", 500});
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &low);
   ck_assert_double_nan(zp_result_get(result, "release_voltage_V"));
   ck_assert_double_nan(zp_result_get(result, "closing_voltage_V"));
   ck_assert_ptr_nonnull(strstr(result->message, "no release: it is not closed at drive.voltage"));
@@ -689,8 +683,8 @@ START_TEST(test_extremes) {
   static const ZpStudy studies[] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_MODES};
   static const Setting extremes[] = {{"load.mass", 1e3}, {"mesh.nodes", 4}, {"drive.voltage", 0}};
   for (size_t i = 0; i < LENGTH_OF(extremes); i++) {
-    ZpActuatorDef def = DEF({"study", studies[_i]}, extremes[i]);
-    ZpResult *result = study_of(&def);
+    ZpActuatorDef def = DEF(extremes[i]);
+    ZpResult *result = study_of(studies[_i], &def);
     printf("%s = %g: %s, %s\n", extremes[i].key, extremes[i].value, zp_outcome_name(result->outcome), result->message);
     ck_assert(*result->message);
     bool good = zp_outcome_good(result->outcome);
@@ -710,11 +704,10 @@ START_TEST(test_order_between_clamps) {
   double gravity = 1e-3, scaled[3];
   for (int i = 0; i < 3; i++) {
     ZpActuatorDef def =
-        DEF({"study", ZP_STUDY_STATIONARY}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED},
-            {"ribbon.length", L}, {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", gravity}, {"load.mass", 0},
-            {"mesh.nodes", nodes[i]});
+        DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED}, {"ribbon.length", L},
+            {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", gravity}, {"load.mass", 0}, {"mesh.nodes", nodes[i]});
     double exact = rho * width * thickness * gravity * L * L * L * L / (384 * bending_stiffness(thickness));
-    ZpResult *result = rest_of(&def);
+    ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
     double sag = -zp_table_get(result->series, (size_t)(nodes[i] - 1) / 2, "y_m");
     scaled[i] = (sag / exact - 1) * (nodes[i] - 1) * (nodes[i] - 1);
     zp_result_destroy(result);
@@ -729,7 +722,7 @@ END_TEST
 
 /* What a branch goes back to holds its load and its voltage. */
 START_TEST(test_restored_with_load_and_voltage) {
-  ZpActuatorDef def = DEF({"study", ZP_STUDY_EQUILIBRIUM});
+  ZpActuatorDef def = zp_actuator_def_default();
   ZpModel *model = model_of(&def);
   ZpStatics statics;
   ck_assert(zp_statics_create(model, &statics));
@@ -752,7 +745,7 @@ END_TEST
 
 /* The branch followed along the load meets the equilibria that are found from straight, and is stable all along. */
 START_TEST(test_branch_along_the_load) {
-  ZpActuatorDef def = DEF({"study", ZP_STUDY_STATIONARY}, {"load.mass", 0.008});
+  ZpActuatorDef def = DEF({"load.mass", 0.008});
   ZpModel *model;
   ZpStatics statics;
   ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
@@ -776,7 +769,8 @@ START_TEST(test_branch_along_the_load) {
   def.load.mass = statics.load;
   printf("along the load: %d points to %.4g g, stroke %.6f mm\n", points, 1e3 * statics.load,
          1e3 * zp_statics_stroke(&statics));
-  ck_near(zp_statics_stroke(&statics), value_of(&def, "stroke_m"), 1e-5); /* both to a residual of 1e-7 */
+  ck_near(zp_statics_stroke(&statics), value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"),
+          1e-5); /* both to a residual of 1e-7 */
   zp_free(memory);
   zp_statics_destroy(&statics);
   zp_model_destroy(model);

@@ -89,7 +89,6 @@ static double worst_entry(ZpStatics *s, const ZpStaticSystem *system, const ZpBa
 START_TEST(stiffness_is_the_derivative_of_the_forces) {
   const Case *c = &cases[_i];
   ZpActuatorDef def = def_with(c->setting, c->count);
-  def.study = ZP_STUDY_STATIONARY;
   ZpModel *model = model_of(&def);
   ZpStatics s;
   ZpNewtonWork work;

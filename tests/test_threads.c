@@ -51,13 +51,14 @@ START_TEST(test_runs_share_a_model) {
 END_TEST
 
 typedef struct Study {
+  ZpStudy name;
   ZpActuatorDef def;
   ZpResult *result;
 } Study;
 
 static void *run_study(void *job) {
   Study *study = job;
-  zp_study_run(&study->def, NULL, &study->result, NULL);
+  zp_study_run(study->name, &study->def, NULL, NULL, &study->result, NULL);
   return NULL;
 }
 
@@ -73,10 +74,10 @@ START_TEST(test_studies_beside_each_other) {
   static const ZpStudy name[THREADS] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
   Study study[THREADS];
   for (size_t k = 0; k < THREADS; k++)
-    study[k] = (Study){.def = DEF({"study", name[k]}, {"mesh.nodes", 9})};
+    study[k] = (Study){.name = name[k], .def = DEF({"mesh.nodes", 9})};
   at_once(run_study, study, sizeof(Study));
   for (size_t k = 0; k < THREADS; k++) {
-    Study alone = {.def = study[k].def};
+    Study alone = {.name = study[k].name, .def = study[k].def};
     run_study(&alone);
     expect_same_numbers(study[k].result, alone.result);
     zp_result_destroy(alone.result);

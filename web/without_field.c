@@ -48,7 +48,12 @@ ZpFieldEnd zp_surplus_solve(ZpSurplus *surplus, const double *q, double voltage)
   return ZP_FIELD_SINGULAR;
 }
 
-ZpStatus zp_study_profile(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  (void)def, (void)hooks, (void)result;
+ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
+  (void)task, (void)result;
+  return zp_check_profile(NULL, err);
+}
+
+ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
+  (void)def;
   return zp_fail(err, ZP_BAD_INPUT, "study = profile: needs the two-dimensional field");
 }

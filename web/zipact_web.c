@@ -22,6 +22,8 @@ typedef struct ZpWeb {
   char text[TEXT_SIZE];
   ZpAssignment list[MOST_ASSIGNMENTS];
   size_t assigned;
+  ZpStudy asked; /* with the assignments */
+  ZpStudy study; /* of the scenario as resolved */
   ZpActuatorDef def;
   ZpModelInfo info; /* of the scenario as resolved */
   ZpModel *model;
@@ -90,7 +92,7 @@ EXPORT double zp_web_key_default(int index) {
 
 /* Value of a key in the scenario as resolved, SI. */
 EXPORT double zp_web_key_value(const ZpWeb *web, int index) {
-  return zp_def_get(&web->def, index);
+  return zp_key(index)->offset == ZP_NO_FIELD ? (double)web->study : zp_def_get(&web->def, index);
 }
 
 /* (key, SI) => text "8 g". */
@@ -102,6 +104,7 @@ EXPORT void zp_web_print(ZpWeb *web, int index, double value) {
 
 EXPORT void zp_web_clear(ZpWeb *web) {
   web->assigned = 0;
+  web->asked = (ZpStudy)0;
 }
 
 /* Text "ribbon.length=80 mm" => one more assignment. Messages are those of the command's --set. */
@@ -121,20 +124,23 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   else if (zp_value_read(key, sign + 1, &value, &err) != ZP_OK)
     snprintf(message, sizeof message, "%s=%.80s: %s", web->text, sign + 1, err.message);
   else {
-    web->list[web->assigned++] = (ZpAssignment){key, value};
+    if (zp_key(key)->offset == ZP_NO_FIELD)
+      web->asked = (ZpStudy)value;
+    else
+      web->list[web->assigned++] = (ZpAssignment){key, value};
     return say(web, ZP_OK, "");
   }
   return say(web, ZP_BAD_INPUT, message);
 }
 
-static ZpStatus refuse_left_out(const ZpActuatorDef *def, ZpError *err) {
+static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.model == ZP_ELECTRO_FIELD || def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page leaves the two-dimensional field out; the command knows electro.model = field and "
                    "electro.edges = true");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "this page shows actuator.kind electro_ribbon; the command knows the others");
-  if (def->study != ZP_STUDY_ACTUATE)
+  if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs study actuate, and equilibrium beside it; the command knows more");
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
@@ -161,10 +167,11 @@ EXPORT int zp_web_resolve(ZpWeb *web) {
   ZpActuatorDef def;
   ZpModelInfo info;
   ZpStatus status = zp_def_resolve(&def, web->list, web->assigned, &err);
-  if (status == ZP_OK) status = zp_def_check(&def, &err);
-  if (status == ZP_OK) status = refuse_left_out(&def, &err);
+  if (status == ZP_OK) status = zp_study_check(web->asked, &def, &err);
+  if (status == ZP_OK) status = refuse_left_out(web->asked, &def, &err);
   if (status == ZP_OK) status = derive(&def, &info, &err);
   if (status == ZP_OK) {
+    web->study = web->asked;
     web->def = def;
     web->info = info;
   }
@@ -264,12 +271,10 @@ EXPORT const double *zp_web_line_force(ZpWeb *web) {
 /* Run the scenario in the study named in the text. How it ended is in the text, as a refusal is. */
 EXPORT int zp_web_study(ZpWeb *web) {
   ZpError err;
-  ZpActuatorDef def = web->def;
   int study = zp_key_choice(zp_key_find("study"), web->text);
   if (study < 0) return say(web, ZP_BAD_INPUT, "unknown study");
-  def.study = (ZpStudy)study;
   zp_result_destroy(web->result);
-  ZpStatus status = zp_study_run(&def, &hooks, &web->result, &err);
+  ZpStatus status = zp_study_run((ZpStudy)study, &web->def, NULL, &hooks, &web->result, &err);
   snprintf(web->text, TEXT_SIZE, "%s", status == ZP_OK ? web->result->message : err.message);
   return (int)status;
 }

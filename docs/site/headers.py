@@ -12,8 +12,10 @@ TYPES = {"REAL": "double", "REAL_AUTO": "double", "INT": "int", "BOOL": "bool"}
 STRING = r'"((?:[^"\\]|\\.)*)"'
 
 
-def choices(text):
-    """The enumerations of choices.def."""
+def choices(text, studies):
+    """The enumerations of choices.def; the studies have a table of their own."""
+    rows = re.findall(r'^ZP_STUDY\((\w+), (\w+), \w+, \w+, (%s)\)$' % STRING, studies, re.M)
+    text = re.sub(r"^#define ZP_STUDY.*\n#include.*\n", "".join('ZP_CHOICE(%s, "%s", %s)\n' % row[:3] for row in rows), text, flags=re.M)
     text = re.sub(r"^ZP_CHOICES\((\w+)\)", r"/* Words of a choice key. */\ntypedef enum \1 {", text, flags=re.M)
     text = re.sub(r"^ZP_CHOICES_END\((\w+)\)", r"  \1_COUNT\n} \1;", text, flags=re.M)
     return re.sub(r"^ZP_CHOICE\((\w+), %s, %s\)" % (STRING, STRING), r'  \1, /* "\2": \3 */', text, flags=re.M)
@@ -31,6 +33,7 @@ def field(match):
 
 def keys(text):
     """The fields of keys.def."""
+    text = re.sub(r"^ZP_OF_SCENARIO\(.*\)\n", "", text, flags=re.M)
     text = re.sub(r"^ZP_GROUP\(\w+\)", "struct {", text, flags=re.M)
     text = re.sub(r"^ZP_GROUP_END\((\w+)\)", r"} \1; /* the keys of \1 */", text, flags=re.M)
     return re.sub(r"^ZP_(\w+)\((.*)\)$", field, text, flags=re.M)
@@ -44,9 +47,10 @@ def body(path):
 def main():
     header = pathlib.Path(sys.argv[1])
     text = header.read_text(encoding="utf-8")
-    if "#include <zipact/keys.def>" in text:  # the macros that read the tables are nobody's business
+    text = re.sub(r"^ZP_API |\s+ZP_PRINTF\([^)]*\)", "", text, flags=re.M)
+    if header.name == "def.h":  # the macros that read the tables are nobody's business
         text = re.sub(r"^#define ZP_\w+\((?:[^\n]*\\\n)*[^\n]*\n|^#undef [^\n]*\n", "", text, flags=re.M)
-        text = text.replace("#include <zipact/choices.def>", choices(body(header.parent / "choices.def")))
+        text = text.replace("#include <zipact/choices.def>", choices(body(header.parent / "choices.def"), body(header.parent / "studies.def")))
         text = text.replace("#include <zipact/keys.def>", keys(body(header.parent / "keys.def")))
     text = re.sub(r"^/\*", "/** @file\n *", text, count=1)  # the first comment says what the file is,
     text = re.sub(r"^( *)/\* ", r"\1/** ", text, flags=re.M)  # one before a declaration belongs to it,

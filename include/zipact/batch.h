@@ -3,6 +3,7 @@
 #ifndef ZIPACT_BATCH_H
 #define ZIPACT_BATCH_H
 
+#include <zipact/api.h>
 #include <zipact/io.h>
 
 #ifdef __cplusplus
@@ -21,18 +22,18 @@ typedef struct ZpBatch {
 
 /* Check every Def of `scenario`, which must outlive the batch, before the first is run. ZP_BAD_INPUT as zp_scenario_def
  * and zp_data_check. To be freed whatever the status. */
-ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err);
-void zp_batch_free(ZpBatch *batch);
+ZP_API ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err);
+ZP_API void zp_batch_free(ZpBatch *batch);
 
 /* True while there is something to run. */
-bool zp_batch_open(const ZpBatch *batch);
+ZP_API bool zp_batch_open(const ZpBatch *batch);
 
 /* Run the next Def. `hooks` may be NULL. The results of a sweep keep their series, not their shapes. ZP_MACHINE, too,
  * when there would be no memory to write the report afterwards: what is done can be written. */
-ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err);
+ZP_API ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err);
 
 /* True if every outcome is an answer (zp_outcome_good). */
-bool zp_batch_good(const ZpBatch *batch);
+ZP_API bool zp_batch_good(const ZpBatch *batch);
 
 #ifdef __cplusplus
 }

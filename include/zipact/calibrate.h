@@ -3,23 +3,26 @@
 #ifndef ZIPACT_CALIBRATE_H
 #define ZIPACT_CALIBRATE_H
 
+#include <zipact/api.h>
 #include <zipact/study.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Read what data.file, drive.table, drive.file and the keys of group calibrate name, if def->study uses them, and check
+/* Read what data.file, drive.table, drive.file and the keys of group calibrate name, if `study` uses them, and check
  * it. ZP_BAD_INPUT names file, line, column and text, or the key. */
-ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err);
+ZP_API ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
 /* A model and a simulation of it, both the caller's, for every def: also with drive.waveform table and initial.state
  * checkpoint. NULL if it fails. */
-ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim, ZpError *err);
+ZP_API ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                                   ZpError *err);
 
 /* As zp_study_run, for every study: also calibrate, stationary with area_error_m2 where there is a data.file, and
  * actuate with drive.waveform table. */
-ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
+ZP_API ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                                  ZpError *err);
 
 #ifdef __cplusplus
 }

@@ -6,6 +6,7 @@
 #ifndef ZIPACT_CHECKPOINT_H
 #define ZIPACT_CHECKPOINT_H
 
+#include <zipact/api.h>
 #include <zipact/sim.h>
 
 #ifdef __cplusplus
@@ -13,30 +14,30 @@ extern "C" {
 #endif
 
 typedef struct ZpCheckpoint {
-  ZpActuatorDef def; /* of the run */
   size_t count;
-  double *number; /* [count] all that evolves; the first is the time, s */
+  double *number;    /* [count] all that evolves; the first is the time, s */
+  ZpActuatorDef def; /* of the run */
 } ZpCheckpoint;
 
 /* A checkpoint of `count` zeros and the default Def; NULL if there is no memory. */
-ZpCheckpoint *zp_checkpoint_create(size_t count);
-void zp_checkpoint_destroy(ZpCheckpoint *checkpoint);
+ZP_API ZpCheckpoint *zp_checkpoint_create(size_t count);
+ZP_API void zp_checkpoint_destroy(ZpCheckpoint *checkpoint);
 
 /* Must key `index` be the same where a run goes on? True of all that makes the actuator; what is done with it (drive,
  * end time, accuracy, output, keys of other studies) may change. */
-bool zp_checkpoint_holds(int index);
+ZP_API bool zp_checkpoint_holds(int index);
 
 /* Can a run of `def` go on from there? ZP_BAD_INPUT names the first key that differs, with both values, or says what
  * else is wrong: numbers that are no state, an end time before it. */
-ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err);
+ZP_API ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err);
 
 /* The last state of the simulation that a longer run passes through, too; after ZP_DIVERGED one shortly before that was
  * still sound. *out is NULL where it found no state to start from. */
-ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err);
+ZP_API ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err);
 
 /* Go on from there. A waveform that asks for another voltage at that time makes it jump. ZP_BAD_INPUT as
  * zp_checkpoint_check; the simulation is then as it was. */
-ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *err);
+ZP_API ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *err);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,9 @@
 /* What the user wants: plain data, one field per key of keys.def.
  *
+ * A Def begins as zp_actuator_def_default() or by zp_def_resolve, which note the layout of the headers in it. What was
+ * not made so, or by headers with other keys than the library has, is refused by whatever takes a Def (ZP_BAD_INPUT, or
+ * NAN and NULL where there is no status): a program is never given shifted keys.
+ *
  * A Def may be filled in three ways that give the same thing: by assigning its fields
  * (def.load.mass = 0.008), by key (zp_def_set), or from a list of assignments (zp_def_resolve), which
  * also applies presets. Nothing is checked until zp_def_check, which every user of a Def calls.
@@ -10,7 +14,10 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <string.h>
 
+#include <zipact/api.h>
 #include <zipact/error.h>
 
 #ifdef __cplusplus
@@ -33,7 +40,8 @@ extern "C" {
 #define ZP_TEXT_SIZE 256
 
 /* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; meaning, unit,
- * default and range of each are in keys.def (or: `zipact keys`). */
+ * default and range of each are in keys.def (or: `zipact keys`). Which study is run is no part of it: a scenario is a
+ * Def and a study (study.h). */
 #define ZP_GROUP(group) struct {
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \
@@ -44,7 +52,9 @@ extern "C" {
 #define ZP_BOOL(path, name, def, help)                        bool name;
 #define ZP_ENUM(path, name, type, def, help)                  type name;
 #define ZP_TEXT(path, name, def, help)                        char name[ZP_TEXT_SIZE];
+#define ZP_OF_SCENARIO(name, type, def, help)
 typedef struct ZpActuatorDef {
+  uint64_t layout; /* zp_def_layout of the headers that the program was compiled with; not to be changed */
 #include <zipact/keys.def>
 } ZpActuatorDef;
 #undef ZP_GROUP
@@ -55,6 +65,7 @@ typedef struct ZpActuatorDef {
 #undef ZP_BOOL
 #undef ZP_ENUM
 #undef ZP_TEXT
+#undef ZP_OF_SCENARIO
 
 /* Kind of value that a key takes. */
 typedef enum ZpKeyType {
@@ -65,6 +76,9 @@ typedef enum ZpKeyType {
   ZP_KEY_ENUM,      /* one of `choices`, by its place in the list */
   ZP_KEY_TEXT       /* a text; has no number (NAN) */
 } ZpKeyType;
+
+/* Offset of a key that is of the scenario and has no field in a Def: study. */
+#define ZP_NO_FIELD ((size_t)-1)
 
 /* A word of a choice key. */
 typedef struct ZpChoice {
@@ -83,7 +97,7 @@ typedef struct ZpKey {
   double max;              /* largest value allowed */
   const char *help;        /* one line */
   const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
-  size_t offset;           /* of its field in ZpActuatorDef, bytes */
+  size_t offset;           /* of its field in ZpActuatorDef, bytes; ZP_NO_FIELD: a key of the scenario */
   const char *text;        /* ZP_KEY_TEXT: default; else NULL */
 } ZpKey;
 
@@ -94,53 +108,80 @@ typedef struct ZpAssignment {
 } ZpAssignment;
 
 /* Number of keys. */
-int zp_key_count(void);
+ZP_API int zp_key_count(void);
 
 /* Key `index`, 0 <= index < zp_key_count(), in the order of keys.def. */
-const ZpKey *zp_key(int index);
+ZP_API const ZpKey *zp_key(int index);
 
 /* Index of the key called `name`, or -1. */
-int zp_key_find(const char *name);
+ZP_API int zp_key_find(const char *name);
 
 /* The key name that differs least from `name`, for "did you mean". Never NULL. */
-const char *zp_key_nearest(const char *name);
+ZP_API const char *zp_key_nearest(const char *name);
 
 /* Place of `word` in the list of the choice key `index`, or -1. */
-int zp_key_choice(int index, const char *word);
+ZP_API int zp_key_choice(int index, const char *word);
 
-/* The default of every key: the paper's actuator, physically right. */
-ZpActuatorDef zp_actuator_def_default(void);
-
-/* Value of key `index` in `def`, as in ZpAssignment; NAN of a text key. */
-double zp_def_get(const ZpActuatorDef *def, int index);
+/* Value of key `index` in `def`, as in ZpAssignment; NAN of a text key and of a key of the scenario. */
+ZP_API double zp_def_get(const ZpActuatorDef *def, int index);
 
 /* Set one key. ZP_BAD_INPUT with key, value, unit and range if the value is out of range or not a
- * number; `def` is then unchanged. */
-ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
+ * number, or the key is one of the scenario; `def` is then unchanged. */
+ZP_API ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
 
 /* Text of the text key `index` in `def`; NULL if the key is of another type. */
-const char *zp_def_text(const ZpActuatorDef *def, int index);
+ZP_API const char *zp_def_text(const ZpActuatorDef *def, int index);
 
 /* Set a text key. ZP_BAD_INPUT if the text is longer than 255 bytes or has control characters, or the key is
  * of another type; `def` is then unchanged. */
-ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
+ZP_API ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
 
-/* Fill `def` from the defaults, those of the kind, the preset and `count` assignments, in this order;
- * later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the
- * user and it is not given. */
-ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
+/* As zp_def_resolve, where def->layout is set already: for that function and zp_actuator_def_default. ZP_BAD_INPUT, and
+ * nothing but it is looked at, if the layout is not that of the library. */
+ZP_API ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
 
-/* Check the range of every key, what keys ask of one another, and what def->study asks. ZP_BAD_INPUT names the key. */
-ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
+/* Check the range of every key and what keys ask of one another. ZP_BAD_INPUT names the key. What a study asks besides,
+ * zp_study_check says. */
+ZP_API ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
 
-/* Check what motion asks of integrator, contact, mechanics and mass, whatever def->study is; zp_sim_create does.
+/* Check what motion asks of integrator, contact, mechanics and mass; zp_sim_create does.
  * ZP_BAD_INPUT names the key. Of a Def that zp_def_check has passed. */
-ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
+ZP_API ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
 
 /* Check that `voltage` (V, any sign) is no short circuit: without an insulator (insulator.thickness 0) only 0 V is
  * allowed where electrodes touch even at rest, at the clip of electro_ribbon or the clamp of a flange without a gap. A
  * flange with a gap may have none; a study then ends where it touches. ZP_BAD_INPUT says so. */
-ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
+ZP_API ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
+
+#ifdef __cplusplus
+}
+#endif
+
+#include <zipact/layout.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The two functions that make a Def are compiled into the program, since only there it is known how large it takes a
+ * Def to be. A library with other keys refuses what they made, by a sentence, and writes nothing into it. */
+
+/* The default of every key: the paper's actuator, physically right. */
+static inline ZpActuatorDef zp_actuator_def_default(void) {
+  ZpActuatorDef def;
+  memset(&def, 0, sizeof def);
+  def.layout = zp_def_layout();
+  zp_def_fill(&def, NULL, 0, NULL);
+  return def;
+}
+
+/* Fill `def` from the defaults, those of the kind, the preset and `count` assignments, in this order;
+ * later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the
+ * user and it is not given. */
+static inline ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+  def->layout = zp_def_layout();
+  return zp_def_fill(def, list, count, err);
+}
 
 #ifdef __cplusplus
 }

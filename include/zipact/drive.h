@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#include <zipact/api.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -17,7 +19,7 @@ typedef struct ZpDriveTable {
 } ZpDriveTable;
 
 /* What is wrong with a table, in half a sentence, and in which row (from 0); NULL if nothing is. */
-const char *zp_drive_table_fault(const ZpDriveTable *table, size_t *row);
+ZP_API const char *zp_drive_table_fault(const ZpDriveTable *table, size_t *row);
 
 #ifdef __cplusplus
 }

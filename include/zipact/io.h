@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 
+#include <zipact/api.h>
 #include <zipact/study.h>
 
 #ifdef __cplusplus
@@ -15,59 +16,68 @@ extern "C" {
 typedef struct ZpScenario ZpScenario;
 
 /* A new scenario in which every key has its default. NULL if there is no memory. */
-ZpScenario *zp_scenario_create(void);
-void zp_scenario_destroy(ZpScenario *scenario);
+ZP_API ZpScenario *zp_scenario_create(void);
+ZP_API void zp_scenario_destroy(ZpScenario *scenario);
 
 /* Read a YAML file into `scenario`. ZP_BAD_INPUT names file, line, key, value, unit, range and the
  * nearest known key, also a file that does not exist; ZP_MACHINE if it cannot be read. On failure `scenario` is as
  * before. */
-ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError *err);
+ZP_API ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError *err);
 
 /* The same from `size` bytes in memory; `name` stands for the file in messages. */
-ZpStatus zp_scenario_parse(ZpScenario *scenario, const char *text, size_t size, const char *name, ZpError *err);
+ZP_API ZpStatus zp_scenario_parse(ZpScenario *scenario, const char *text, size_t size, const char *name, ZpError *err);
 
 /* Set from "KEY=VALUE" as --set gives it; wins over the file. VALUE as in YAML, a list "[1, 2]" too. */
-ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
+ZP_API ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
 
 /* How many Defs the scenario stands for: the product of the lengths of its lists (1 without lists). */
-size_t zp_scenario_count(const ZpScenario *scenario);
+ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 
 /* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
-const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
+ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
-/* Def number `index`, resolved (zp_def_resolve) and checked. The last list key varies fastest. */
-ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
+/* The study of the scenario, the same for all its Defs. */
+ZP_API ZpStudy zp_scenario_study(const ZpScenario *scenario);
+
+/* As zp_scenario_def, where def->layout is set already: for that function. ZP_BAD_INPUT if it is not the library's. */
+ZP_API ZpStatus zp_scenario_fill(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
+
+/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). The last list key varies fastest. */
+static inline ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err) {
+  def->layout = zp_def_layout();
+  return zp_scenario_fill(scenario, index, def, err);
+}
 
 /* Write the scenario as YAML, all keys as resolved, lists as lists: it reads back to the same bits. */
-ZpStatus zp_scenario_write(const ZpScenario *scenario, FILE *file, ZpError *err);
+ZP_API ZpStatus zp_scenario_write(const ZpScenario *scenario, FILE *file, ZpError *err);
 
 /* Write the table of keys: as JSON, as a starter scenario with help as comments, or for people. */
 typedef enum ZpKeysFormat { ZP_KEYS_TEXT, ZP_KEYS_JSON, ZP_KEYS_YAML } ZpKeysFormat;
-ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
+ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
 
 /* Read a value for key `index` as a person writes it: "130 um", "auto", "true", "plates"; a bare number
  * is SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
-ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
+ZP_API ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
 /* Write a value of key `index` as a person would: "100 mm", "auto", "true", "plates". Reads back to the
  * same bits; of a text key, its default. `text` gets at most `size` bytes with the final 0. */
-void zp_value_print(int index, double value, char *text, size_t size);
+ZP_API void zp_value_print(int index, double value, char *text, size_t size);
 
 /* Write a checkpoint to `file`. */
-ZpStatus zp_checkpoint_write(const ZpCheckpoint *checkpoint, FILE *file, ZpError *err);
+ZP_API ZpStatus zp_checkpoint_write(const ZpCheckpoint *checkpoint, FILE *file, ZpError *err);
 
 /* Read one => *out, the caller's. ZP_BAD_INPUT says why: no such file, no checkpoint, cut short, damaged, of another
  * version. Whether it fits a model, zp_checkpoint_check says. */
-ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err);
+ZP_API ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err);
 
 /* Name of the library (libfyaml, UDUNITS-2, HDF5) that this thread is in, NULL if none. These libraries crash, or call
  * exit, when an allocation fails. A program that defines malloc itself can end in order there. */
-const char *zp_library_at_work(void);
+ZP_API const char *zp_library_at_work(void);
 
 /* Leave out what HDF5 does when the process exits, which crashes where there is no memory. For programs that use HDF5
  * through this library only: it has closed all that it opened. To be called before any other use of HDF5. ZP_MACHINE if
  * there is no memory. */
-ZpStatus zp_hdf5_skip_exit(ZpError *err);
+ZP_API ZpStatus zp_hdf5_skip_exit(ZpError *err);
 
 /* A folder for results that one run has for itself. */
 typedef struct ZpFolder ZpFolder;
@@ -75,10 +85,10 @@ typedef struct ZpFolder ZpFolder;
 /* Make `directory` and its parents, make sure, before a long run, that results can be written there, and lock it until
  * zp_folder_close. What killed runs left half written is removed. ZP_MACHINE if it cannot be written, or if another run
  * holds it: then the message says which process. *out is NULL on failure. */
-ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *err);
+ZP_API ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *err);
 
 /* Unlock it; NULL is allowed. */
-void zp_folder_close(ZpFolder *folder);
+ZP_API void zp_folder_close(ZpFolder *folder);
 
 /* Where results go, and what was run. */
 typedef struct ZpReport {
@@ -92,14 +102,14 @@ typedef struct ZpReport {
 } ZpReport;
 
 /* Write summary.json (also what --json prints) to `file`. */
-ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
+ZP_API ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
 
 /* Write scenario.yaml, table.csv, results.h5, shapes.pvd with its .vtp files, of one run in time checkpoint.zps, then
  * summary.json, at last the pictures in plots/.
  * Each file appears under its name when it is complete. A picture that cannot be drawn is no failure: without gnuplot,
  * or where it fails or takes longer than a minute, the picture is left out, its .gp file stays, and `notice` (may be
  * NULL) says so. */
-ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
+ZP_API ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
 
 #ifdef __cplusplus
 }

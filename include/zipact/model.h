@@ -2,6 +2,7 @@
 #ifndef ZIPACT_MODEL_H
 #define ZIPACT_MODEL_H
 
+#include <zipact/api.h>
 #include <zipact/def.h>
 #include <zipact/drive.h>
 
@@ -13,17 +14,18 @@ typedef struct ZpModel ZpModel;
 
 /* Check `def` and build a model of it. On success *model is new and the caller's; else it is NULL and
  * `err` says why (ZP_BAD_INPUT, or ZP_MACHINE if there is no memory). */
-ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err);
+ZP_API ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err);
 
 /* The same, driven by the rows of `table`, which are copied; drive.waveform must be `table`. NULL: as
  * zp_model_create. ZP_BAD_INPUT as zp_drive_table_fault says. */
-ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **model, ZpError *err);
+ZP_API ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **model,
+                                       ZpError *err);
 
 /* Free a model; NULL is allowed. Nothing that uses it may live longer. */
-void zp_model_destroy(ZpModel *model);
+ZP_API void zp_model_destroy(ZpModel *model);
 
 /* The definition that the model was built from. */
-const ZpActuatorDef *zp_model_def(const ZpModel *model);
+ZP_API const ZpActuatorDef *zp_model_def(const ZpModel *model);
 
 /* Derived constants of a model, for reading: they explain what runs. SI. */
 typedef struct ZpModelInfo {
@@ -44,7 +46,7 @@ typedef struct ZpModelInfo {
 } ZpModelInfo;
 
 /* Those of `model`. */
-ZpModelInfo zp_model_info(const ZpModel *model);
+ZP_API ZpModelInfo zp_model_info(const ZpModel *model);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include <zipact/api.h>
 #include <zipact/model.h>
 #include <zipact/table.h>
 
@@ -30,10 +31,10 @@ typedef enum ZpOutcome {
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" of any other number. */
-const char *zp_outcome_name(ZpOutcome outcome);
+ZP_API const char *zp_outcome_name(ZpOutcome outcome);
 
 /* True if the outcome is an answer, false if the solver failed (or was interrupted). */
-bool zp_outcome_good(ZpOutcome outcome);
+ZP_API bool zp_outcome_good(ZpOutcome outcome);
 
 /* What the caller may want to know and say while a long call works. All may be NULL. */
 typedef struct ZpHooks {
@@ -57,7 +58,7 @@ typedef enum ZpStepLimit {
 } ZpStepLimit;
 
 /* The word for a step limit, as in summary.json; "unknown" of any other number. */
-const char *zp_step_limit_name(ZpStepLimit limit);
+ZP_API const char *zp_step_limit_name(ZpStepLimit limit);
 
 /* How a run went. */
 typedef struct ZpRunInfo {
@@ -78,70 +79,70 @@ typedef struct ZpRunInfo {
 /* A new simulation at its initial state, at t = 0, the voltage that of the
  * waveform there. `model` must outlive it. Finds the
  * hanging equilibrium first, as the start and as the reference of contraction; if it is not found, the
- * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT as zp_def_check_motion, whatever the
- * study of the model's Def is; as zp_def_check_voltage at the highest voltage of the waveform; and if drive.waveform is
+ * next zp_sim_run says so and does nothing else. `hooks` may be NULL. ZP_BAD_INPUT as zp_def_check_motion; as
+ * zp_def_check_voltage at the highest voltage of the waveform; and if drive.waveform is
  * table and the model was made without one. With initial.state checkpoint it moves only after zp_sim_continue, or
  * another state has been given. */
-ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
-void zp_sim_destroy(ZpSim *sim);
+ZP_API ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
+ZP_API void zp_sim_destroy(ZpSim *sim);
 
 /* Where rows and shapes go during a run; each may be NULL. Columns are those of signals.def
  * (zp_signal_columns). The caller keeps them. */
-void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
+ZP_API void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 
 /* Run until `end_time` (s, from the time reached on; INFINITY: until another end), or until zipped where
  * `stop_when_zipped`. At the time reached already nothing moves. ZP_BAD_ARGUMENT, and nothing is done, if end_time is
  * before it or NAN. `hooks` and `info` may be NULL. */
-ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info);
+ZP_API ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info);
 
 /* Run on by `dt` (s, finite and above 0; else ZP_BAD_ARGUMENT, and nothing is done), for callers that come again and
  * again, as control loops: explicit steps are then of equal length. zp_sim_run ends with a shorter one, which,
  * repeated, would shake what vibrates near the bound of stability until the numbers diverge. */
-ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
+ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
 /* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
  * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
  * that is replaced before the simulation goes on counts for nothing (unless a field had to be solved for it); an
  * unchanged one costs nothing. ZP_BAD_INPUT if it is out of the range of drive.voltage, and as zp_def_check_voltage. */
-ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
+ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
  * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */
-double zp_sim_get(ZpSim *sim, const char *name);
+ZP_API double zp_sim_get(ZpSim *sim, const char *name);
 
 /* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current counts from the last
  * row at an earlier time, so that current times time adds up to the charge, jumps of the voltage included. */
-void zp_sim_read(ZpSim *sim, double *row);
+ZP_API void zp_sim_read(ZpSim *sim, double *row);
 
 /* Present shape; its pointers are valid until the simulation goes on. */
-ZpShape zp_sim_shape(ZpSim *sim);
+ZP_API ZpShape zp_sim_shape(ZpSim *sim);
 
 /* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN
  * if not yet. */
-double zp_sim_zip_time(const ZpSim *sim);
+ZP_API double zp_sim_zip_time(const ZpSim *sim);
 
 /* A copy of all that evolves. Its size is that of the model's state. */
-size_t zp_sim_state_size(const ZpSim *sim);
-void zp_sim_save(const ZpSim *sim, void *state);
+ZP_API size_t zp_sim_state_size(const ZpSim *sim);
+ZP_API void zp_sim_save(const ZpSim *sim, void *state);
 
 /* Go back to a state saved by a simulation of the same model. Where the waveform is another, the voltage jumps to it.
  * ZP_BAD_INPUT if it is of another size. Between programs and versions: checkpoint.h. */
-ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
+ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
 
 /* The same as bytes that the caller may give away: sealed with a fingerprint of the model and this version, and a
  * checksum. ZP_BAD_INPUT, and nothing is changed, if they are no state of this model and version, or damaged. */
-size_t zp_sim_sealed_size(const ZpSim *sim);
-void zp_sim_seal(const ZpSim *sim, void *sealed);
-ZpStatus zp_sim_unseal(ZpSim *sim, const void *sealed, size_t size, ZpError *err);
+ZP_API size_t zp_sim_sealed_size(const ZpSim *sim);
+ZP_API void zp_sim_seal(const ZpSim *sim, void *sealed);
+ZP_API ZpStatus zp_sim_unseal(ZpSim *sim, const void *sealed, size_t size, ZpError *err);
 
 /* The columns of a time series: one per line of signals.def. */
-const ZpColumn *zp_signal_columns(size_t *count);
+ZP_API const ZpColumn *zp_signal_columns(size_t *count);
 
 /* Go on from where `from` is, a simulation of another model with as many ribbons and nodes: its time, voltage, contact,
  * velocities and shape, stretched to this model's length. Energy and losses count from here on; contraction refers to
  * this model's own hanging equilibrium. drive.waveform does not count any more. ZP_BAD_INPUT if the models differ in
  * number. */
-ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
+ZP_API ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
 
 #ifdef __cplusplus
 }

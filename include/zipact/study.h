@@ -1,7 +1,8 @@
-/* A study: a Def goes in, numbers, a table and shapes come out. */
+/* A study: a Def goes in, numbers, a table and shapes come out. Which studies there are: studies.def. */
 #ifndef ZIPACT_STUDY_H
 #define ZIPACT_STUDY_H
 
+#include <zipact/api.h>
 #include <zipact/checkpoint.h>
 
 #ifdef __cplusplus
@@ -33,8 +34,8 @@ typedef struct ZpFieldMap {
 } ZpFieldMap;
 
 /* NULL if there is no memory. */
-ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
-void zp_field_map_destroy(ZpFieldMap *map);
+ZP_API ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
+ZP_API void zp_field_map_destroy(ZpFieldMap *map);
 
 /* What a study found. */
 typedef struct ZpResult {
@@ -51,9 +52,11 @@ typedef struct ZpResult {
   ZpCheckpoint *checkpoint; /* of a run in time, to go on from; NULL if there is none */
 } ZpResult;
 
-/* Run def->study. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and
- * `err` says why. `hooks` may be NULL. */
-ZpStatus zp_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
+/* The word of a study: "actuate"; "unknown" of any other number. */
+ZP_API const char *zp_study_name(ZpStudy study);
+
+/* Check `def` and what `study` asks of it besides. ZP_BAD_INPUT names the key. */
+ZP_API ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
 /* What study actuate takes beside a Def; NULL where it does not. */
 typedef struct ZpStudyInput {
@@ -61,18 +64,30 @@ typedef struct ZpStudyInput {
   const ZpCheckpoint *start; /* with initial.state checkpoint, as zp_sim_continue */
 } ZpStudyInput;
 
-/* The same with `input`. */
-ZpStatus zp_study_run_with(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult **result,
-                           ZpError *err);
+/* Run `study`. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and `err` says why:
+ * ZP_BAD_INPUT as zp_study_check, and of study calibrate, which needs a file (zp_data_study_run). `input` and `hooks`
+ * may be NULL. */
+ZP_API ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
+                             ZpResult **result, ZpError *err);
 
-/* A result without anything in it, for whoever fills one; NULL if there is no memory. */
-ZpResult *zp_result_create(void);
+/* A result of `study` without anything in it, for whoever fills one; NULL if there is no memory. */
+ZP_API ZpResult *zp_result_create(ZpStudy study);
+
+/* Append a number to the summary; one that follows from wall time; a sentence of note. Beyond ZP_MAX_SCALARS and
+ * ZP_MAX_NOTES they are left out. `name` and `unit` must outlive the result. */
+ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
+ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
+ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
+
+/* Note breakdown and a mesh that is too coarse, for `model` under voltages up to `highest` (V), of the first `frames`
+ * shapes of the result. */
+ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames);
 
 /* Free a result with all that it holds; NULL is allowed. */
-void zp_result_destroy(ZpResult *result);
+ZP_API void zp_result_destroy(ZpResult *result);
 
 /* The scalar called `name`, NAN if there is none. */
-double zp_result_get(const ZpResult *result, const char *name);
+ZP_API double zp_result_get(const ZpResult *result, const char *name);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include <zipact/api.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -32,18 +34,18 @@ typedef struct ZpTable {
 } ZpTable;
 
 /* A new empty table of at most `capacity` rows (2 or more), or NULL if there is no memory. */
-ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity);
-void zp_table_destroy(ZpTable *table);
+ZP_API ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity);
+ZP_API void zp_table_destroy(ZpTable *table);
 
 /* Offer a row of table->columns values; true if it was kept. */
-bool zp_table_offer(ZpTable *table, const double *row);
+ZP_API bool zp_table_offer(ZpTable *table, const double *row);
 
 /* Make `row` the last row, whatever the thinning says; nothing if it is the last row already (same
  * value in column 0). In a full table it takes the place of the last row. */
-void zp_table_keep_last(ZpTable *table, const double *row);
+ZP_API void zp_table_keep_last(ZpTable *table, const double *row);
 
 /* Value in row `row` of the column called `name`; NAN if there is none. */
-double zp_table_get(const ZpTable *table, size_t row, const char *name);
+ZP_API double zp_table_get(const ZpTable *table, size_t row, const char *name);
 
 /* What is known of every node in one shape. Station i of ribbon r is at [i * ribbons + r]; ribbon 0 is
  * the upper one (kind ribbon: the only one). Insulator faces, m; x to the right from the clip's place in
@@ -71,17 +73,17 @@ typedef struct ZpShapes {
 } ZpShapes;
 
 /* A new empty film of at most `capacity` frames (2 or more), or NULL if there is no memory. */
-ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity);
-void zp_shapes_destroy(ZpShapes *shapes);
+ZP_API ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity);
+ZP_API void zp_shapes_destroy(ZpShapes *shapes);
 
 /* Offer a shape; true if it was kept (copied). */
-bool zp_shapes_offer(ZpShapes *shapes, const ZpShape *shape);
+ZP_API bool zp_shapes_offer(ZpShapes *shapes, const ZpShape *shape);
 
 /* As zp_table_keep_last, told by the time. */
-void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape);
+ZP_API void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape);
 
 /* Frame `frame` of the film; its pointers are valid until the film changes. */
-ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame);
+ZP_API ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame);
 
 #ifdef __cplusplus
 }

@@ -3,11 +3,13 @@
 #ifndef ZIPACT_ZIPACT_H
 #define ZIPACT_ZIPACT_H
 
+#include <zipact/api.h>
 #include <zipact/checkpoint.h>
 #include <zipact/def.h>
 #include <zipact/drive.h>
 #include <zipact/error.h>
 #include <zipact/model.h>
+#include <zipact/rest.h>
 #include <zipact/sim.h>
 #include <zipact/study.h>
 #include <zipact/table.h>

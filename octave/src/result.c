@@ -66,11 +66,12 @@ mxArray *keys_struct(void) {
 }
 
 /* All keys, groups as structs: what zipact takes, too. */
-static mxArray *definition_struct(const ZpActuatorDef *def) {
+static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
   mxArray *all = new_struct();
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpKey *key = zp_key(i);
-    mxArray *value = key_value(key, zp_def_get(def, i), zp_def_text(def, i));
+    mxArray *value =
+        key_value(key, key->offset == ZP_NO_FIELD ? (double)study : zp_def_get(def, i), zp_def_text(def, i));
     const char *dot = strchr(key->name, '.');
     if (!dot) {
       set(all, 0, key->name, value);
@@ -173,7 +174,7 @@ static bool set_frequency(mxArray *structs, size_t index, const ZpScalar *scalar
 }
 
 void set_result(mxArray *structs, size_t index, const ZpResult *result, const ZpActuatorDef *def) {
-  set(structs, index, "study", mxCreateString(zp_key(zp_key_find("study"))->choices[result->study].word));
+  set(structs, index, "study", mxCreateString(zp_study_name(result->study)));
   set(structs, index, "outcome", mxCreateString(zp_outcome_name(result->outcome)));
   set(structs, index, "good", mxCreateLogicalScalar(zp_outcome_good(result->outcome)));
   set(structs, index, "message", mxCreateString(result->message));
@@ -184,5 +185,5 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
   if (result->series) set(structs, index, "series", series_struct(result->series));
   if (result->shapes) set(structs, index, "shapes", shapes_struct(result->shapes));
   if (result->map) set(structs, index, "field", map_struct(result->map));
-  set(structs, index, "definition", definition_struct(def));
+  set(structs, index, "definition", definition_struct(result->study, def));
 }

@@ -64,6 +64,7 @@ extern PyType_Spec definition_spec, simulation_spec, result_spec, view_spec;
 /* What a simulation is compiled from and a study run on: checked, never changed. */
 typedef struct Definition {
   PyObject_HEAD State *state;
+  ZpStudy study;
   ZpActuatorDef def;
   ZpDriveTable drive; /* rows of arrays that drive it; 0 rows: as def says */
 } Definition;

@@ -57,7 +57,7 @@ int quantity_of(const State *state, int key, const char *name, PyObject *object,
     raise_input(state, "%s: not a finite number", name);
     return -1;
   }
-  ZpActuatorDef scratch;
+  ZpActuatorDef scratch = zp_actuator_def_default();
   return zp_def_set(&scratch, key, *value, &err) == ZP_OK ? 0 : fail_renamed(state, key, name, &err);
 }
 
@@ -85,17 +85,26 @@ static int set_text(const State *state, ZpActuatorDef *def, int key, PyObject *v
   return -1;
 }
 
-/* Numbers of the dictionary `values` => assignments; how many, or -1. Values may run code of their own when they are
- * asked for their text: nobody else has this dictionary. */
-static Py_ssize_t assignments(const State *state, PyObject *values, ZpAssignment *list) {
+/* The key that is of the scenario and not of the Def. */
+static bool is_study(int key) {
+  return zp_key(key)->offset == ZP_NO_FIELD;
+}
+
+/* Numbers of the dictionary `values` => assignments and the study; how many, or -1. Values may run code of their own
+ * when they are asked for their text: nobody else has this dictionary. */
+static Py_ssize_t assignments(const State *state, PyObject *values, ZpAssignment *list, ZpStudy *study) {
   Py_ssize_t place = 0, used = 0;
   PyObject *name, *value;
   while (PyDict_Next(values, &place, &name, &value)) {
     int key = key_of(state, name);
     if (key < 0) return -1;
     if (zp_key(key)->type == ZP_KEY_TEXT) continue;
-    list[used].key = key;
-    if (number_of(state, key, value, &list[used++].value)) return -1;
+    double number;
+    if (number_of(state, key, value, &number)) return -1;
+    if (is_study(key))
+      *study = (ZpStudy)number;
+    else
+      list[used++] = (ZpAssignment){key, number};
   }
   return used;
 }
@@ -110,15 +119,15 @@ static int set_texts(const State *state, PyObject *values, ZpActuatorDef *def) {
   return 0;
 }
 
-static int resolve(const State *state, PyObject *values, ZpActuatorDef *def) {
+static int resolve(const State *state, PyObject *values, ZpStudy *study, ZpActuatorDef *def) {
   ZpAssignment *list = calloc((size_t)PyDict_Size(values) + 1, sizeof *list);
   ZpError err = {.status = ZP_MACHINE, .message = "no memory"};
-  Py_ssize_t count = list ? assignments(state, values, list) : 0;
+  Py_ssize_t count = list ? assignments(state, values, list, study) : 0;
   ZpStatus status = list && count >= 0 ? zp_def_resolve(def, list, (size_t)count, &err) : err.status;
   free(list);
   if (count < 0) return -1;
   if (status == ZP_OK && set_texts(state, values, def)) return -1;
-  if (status == ZP_OK) status = zp_def_check(def, &err);
+  if (status == ZP_OK) status = zp_study_check(*study, def, &err);
   if (status == ZP_OK) return 0;
   raise_error(state, &err);
   return -1;
@@ -172,7 +181,7 @@ static PyObject *definition_new(PyTypeObject *type, PyObject *args, PyObject *kw
   if (!self) return NULL;
   self->state = state;
   PyObject *own = PyDict_Copy(values);
-  if (!own || resolve(state, own, &self->def) || (drive && take_drive(self, drive))) Py_CLEAR(self);
+  if (!own || resolve(state, own, &self->study, &self->def) || (drive && take_drive(self, drive))) Py_CLEAR(self);
   Py_XDECREF(own);
   return (PyObject *)self;
 }
@@ -195,6 +204,7 @@ static PyObject *definitions_of(State *state, const ZpScenario *scenario) {
     bool good = definition != NULL;
     if (good) {
       definition->state = state;
+      definition->study = zp_scenario_study(scenario);
       good = zp_scenario_def(scenario, row, &definition->def, &err) == ZP_OK;
       if (!good) raise_error(state, &err);
     }
@@ -227,7 +237,7 @@ static PyObject *definition_get(PyObject *object, PyObject *name) {
   Definition *self = (Definition *)object;
   int key = key_of(self->state, name);
   if (key < 0) return NULL;
-  double value = zp_def_get(&self->def, key);
+  double value = is_study(key) ? (double)self->study : zp_def_get(&self->def, key);
   switch (zp_key(key)->type) {
   case ZP_KEY_TEXT:
     return text_from(zp_def_text(&self->def, key));
@@ -252,8 +262,8 @@ static PyObject *definition_run(PyObject *object, PyObject *progress) {
   ZpResult *result = NULL;
   ZpError err;
   ZpStudyInput arrays = {.table = &self->drive};
-  ZpStatus status = self->drive.rows ? zp_study_run_with(&self->def, &arrays, &hooks, &result, &err)
-                                     : zp_data_study_run(&self->def, &hooks, &result, &err);
+  ZpStatus status = self->drive.rows ? zp_study_run(self->study, &self->def, &arrays, &hooks, &result, &err)
+                                     : zp_data_study_run(self->study, &self->def, &hooks, &result, &err);
   watch_end(&watch);
   if (watch.failed) {
     zp_result_destroy(result);

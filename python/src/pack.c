@@ -177,7 +177,7 @@ static bool unpack_parts(const State *state, PyObject *parts, PyObject *columns,
 
 bool result_unpack(const State *state, PyObject *args, const ZpActuatorDef *def, Unpacked *to) {
   PyObject *parts, *message, *notes, *scalars, *columns;
-  *to = (Unpacked){.result = zp_result_create()};
+  *to = (Unpacked){.result = zp_result_create((ZpStudy)0)};
   if (!to->result) return no_memory();
   bool done = PyArg_ParseTuple(args, "O!UO!O!O", &PyTuple_Type, &parts, &message, &PyTuple_Type, &notes, &PyTuple_Type,
                                &scalars, &columns) &&

@@ -57,7 +57,7 @@ static const ZpResult *of(PyObject *object) {
 
 static PyObject *get_study(PyObject *self, void *unused) {
   (void)unused;
-  return text_from(zp_key(zp_key_find("study"))->choices[of(self)->study].word);
+  return text_from(zp_study_name(of(self)->study));
 }
 
 static PyObject *get_outcome(PyObject *self, void *unused) {

@@ -1,4 +1,5 @@
-/* How hot loops are compiled: for the plainest processor and again for wider vectors; the loader picks.
+/* How hot loops are compiled: for the plainest processor and again for wider vectors; the loader picks. Kernels are
+ * static: gcc exports the choice among the versions of any other, though it is hidden.
  * All versions give the same bits, since the build forbids contraction and loops sum in a fixed order. */
 #ifndef ZP_BASE_KERNEL_H
 #define ZP_BASE_KERNEL_H

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 
 /* The words of each choice type. */
 #define ZP_CHOICES(type)                  static const ZpChoice words_of_##type[] = {
@@ -33,6 +34,8 @@
   {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, OFFSET(path, name), NULL},
 #define ZP_TEXT(path, name, def, help)                                                                                 \
   {#path #name, ZP_KEY_TEXT, "1", "", NAN, 0, ZP_TEXT_SIZE - 1, help, NULL, OFFSET(path, name), def},
+#define ZP_OF_SCENARIO(name, type, def, help)                                                                          \
+  {#name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, ZP_NO_FIELD, NULL},
 static const ZpKey keys[] = {
 #include <zipact/keys.def>
 };
@@ -44,6 +47,7 @@ static const ZpKey keys[] = {
 #undef ZP_BOOL
 #undef ZP_ENUM
 #undef ZP_TEXT
+#undef ZP_OF_SCENARIO
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
@@ -136,6 +140,10 @@ int zp_key_choice(int index, const char *word) {
   return -1;
 }
 
+static bool has_field(const ZpKey *key) {
+  return key->offset != ZP_NO_FIELD;
+}
+
 /* Write a value that is known to be right into its field. */
 static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   void *field = (char *)def + key->offset;
@@ -156,19 +164,36 @@ static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   }
 }
 
-ZpActuatorDef zp_actuator_def_default(void) {
+static ZpActuatorDef defaults(void) {
   ZpActuatorDef def;
   memset(&def, 0, sizeof def);
+  def.layout = zp_def_layout();
   for (int i = 0; i < KEY_COUNT; i++)
     if (keys[i].type == ZP_KEY_TEXT)
       memcpy((char *)&def + keys[i].offset, keys[i].text, strlen(keys[i].text));
-    else
+    else if (has_field(&keys[i]))
       store(&def, &keys[i], keys[i].def);
   return def;
 }
 
+/* Before anything but its first field is looked at. */
+static bool is_ours(const ZpActuatorDef *def) {
+  return def->layout == zp_def_layout();
+}
+
+static ZpStatus check_layout(const ZpActuatorDef *def, ZpError *err) {
+  if (is_ours(def)) return ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "ZpActuatorDef is not that of this library, zipact %s: the program was compiled with headers that have "
+      "other keys, or has not begun with zp_actuator_def_default; compile it again with the headers of the "
+      "library",
+      ZP_VERSION);
+}
+
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = &keys[index];
+  if (!is_ours(def) || !has_field(key)) return NAN;
   const void *field = (const char *)def + key->offset;
   double real;
   int whole;
@@ -190,7 +215,7 @@ double zp_def_get(const ZpActuatorDef *def, int index) {
 }
 
 const char *zp_def_text(const ZpActuatorDef *def, int index) {
-  return keys[index].type == ZP_KEY_TEXT ? (const char *)def + keys[index].offset : NULL;
+  return is_ours(def) && keys[index].type == ZP_KEY_TEXT ? (const char *)def + keys[index].offset : NULL;
 }
 
 static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
@@ -206,7 +231,8 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
   const ZpKey *key = &keys[index];
   if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: does not take a text", key->name);
-  ZpStatus status = check_text(key, text, err);
+  ZpStatus status = check_layout(def, err);
+  if (status == ZP_OK) status = check_text(key, text, err);
   if (status != ZP_OK) return status;
   char *field = (char *)def + key->offset;
   memset(field, 0, ZP_TEXT_SIZE);
@@ -230,7 +256,10 @@ static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
 }
 
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
-  ZpStatus status = check_value(&keys[index], value, err);
+  ZpStatus status = check_layout(def, err);
+  if (status == ZP_OK) status = check_value(&keys[index], value, err);
+  if (status == ZP_OK && !has_field(&keys[index]))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: belongs to a scenario, not to a definition", keys[index].name);
   if (status == ZP_OK) store(def, &keys[index], value);
   return status;
 }
@@ -279,31 +308,31 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
   return ZP_OK;
 }
 
-ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
-  ZpActuatorDef given = zp_actuator_def_default();
-  ZpStatus status = apply_assignments(&given, list, count, err);
+ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+  ZpActuatorDef given = defaults();
+  ZpStatus status = check_layout(def, err);
+  if (status == ZP_OK) status = apply_assignments(&given, list, count, err);
   if (status == ZP_OK) status = check_preset_complete(given.preset, given.mesh.nodes, list, count, err);
   if (status != ZP_OK) return status;
 
-  ZpActuatorDef with_preset = zp_actuator_def_default();
+  ZpActuatorDef with_preset = defaults();
   apply_preset(&with_preset, given.preset, given.mesh.nodes);
   ZpActuatorKind kind =
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
-  *def = zp_actuator_def_default();
+  *def = defaults();
   apply_kind(def, kind);
   apply_preset(def, given.preset, given.mesh.nodes);
   return apply_assignments(def, list, count, err);
 }
 
-static const char *word_of(const char *key, int choice) {
+const char *zp_word_of(const char *key, int choice) {
   return zp_key(zp_key_find(key))->choices[choice].word;
 }
 
-/* m: then the nanometre that the field's grid keeps closed faces apart counts 0.2 % of the force. */
-static const double thinnest = 1e-6;
-
-static ZpStatus refuse_thin(const ZpActuatorDef *def, ZpError *err) {
+ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err) {
+  static const double thinnest = 1e-6; /* then the nanometre counts 0.2 % of the force */
+  if (def->insulator.thickness >= thinnest) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = %g m: electro.model field needs at least %g m, because its grid keeps closed "
                  "faces a nanometre "
@@ -323,7 +352,7 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: with electro.model field, faces that touch need an insulator between "
                    "the metals");
-  return def->insulator.thickness < thinnest ? refuse_thin(def, err) : ZP_OK;
+  return zp_check_insulator_of_field(def, err);
 }
 
 static ZpStatus check_square(const ZpActuatorDef *def, ZpError *err) {
@@ -378,43 +407,7 @@ static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus check_isometric(const ZpActuatorDef *def, ZpError *err) {
-  static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon, whose platform it holds",
-                   word_of("actuator.kind", (int)def->actuator.kind), word_of("study", (int)def->study));
-  double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
-  if (separation > longest)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "isometric.separation = %g m: out of reach; at most %g (ribbon.length - platform.length) = %g m",
-                   separation, most, longest);
-  return ZP_OK;
-}
-
-static ZpStatus check_profile(const ZpActuatorDef *def, ZpError *err) {
-  if (def->electro.edges)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.edges = true: study profile compares forces in the plane of the ribbons, without "
-                   "lateral edges; the other studies can include them");
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study profile requires actuator.kind electro_ribbon, which has two ribbons",
-                   word_of("actuator.kind", (int)def->actuator.kind));
-  if (def->insulator.thickness == 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
-        "the field there is infinite");
-  if (def->insulator.thickness < thinnest) return refuse_thin(def, err);
-  if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
-    return def->profile.shape == ZP_PROFILE_HELD ? check_isometric(def, err) : ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "electro.insulator_offset = 0 m: the plates law, which study profile compares with the field, is "
-                 "infinite at the clip");
-}
-
-static ZpStatus check_mass(const ZpActuatorDef *def, ZpError *err) {
+ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   if (def->ribbon.density > 0 || def->insulator.density > 0) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a moving ribbon needs a mass");
 }
@@ -431,6 +424,8 @@ static ZpStatus check_flange_in_motion(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus ours = check_layout(def, err);
+  if (ours != ZP_OK) return ours;
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool sequential = def->contact.model == ZP_CONTACT_SEQUENTIAL;
   if (def->actuator.kind == ZP_KIND_FLANGE) {
@@ -447,11 +442,13 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
                    def->damping.internal);
   if (def->ribbon.model != ZP_RIBBON_ROD && def->damping.internal > 0)
     return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires ribbon.model rod", def->damping.internal);
-  return check_mass(def, err);
+  return zp_check_mass(def, err);
 }
 
 /* Two ribbons touch at the clip, a flange without a gap at its clamp; a flange with a gap only beyond its pull-in. */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
+  ZpStatus ours = check_layout(def, err);
+  if (ours != ZP_OK) return ours;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
   if (voltage == 0 || def->insulator.thickness > 0 || !touches) return ZP_OK;
@@ -464,7 +461,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
 static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
   if (*def->initial.file && def->initial.state != ZP_INITIAL_CHECKPOINT)
     return zp_fail(err, ZP_BAD_INPUT, "initial.file: requires initial.state checkpoint, but it is %s",
-                   word_of("initial.state", (int)def->initial.state));
+                   zp_word_of("initial.state", (int)def->initial.state));
   return ZP_OK;
 }
 
@@ -474,58 +471,12 @@ static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK && def->electro.edges ? check_edges(def, err) : status;
 }
 
-static ZpStatus check_actuate(const ZpActuatorDef *def, ZpError *err) {
-  bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
-  ZpStatus status = zp_def_check_motion(def, err);
-  if (status != ZP_OK || table) return status;
-  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
-}
-
-static ZpStatus check_modes(const ZpActuatorDef *def, ZpError *err) {
-  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
-        def->modes.voltage);
-  ZpStatus status = check_mass(def, err);
-  return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
-}
-
-static ZpStatus check_calibrate(const ZpActuatorDef *def, ZpError *err) {
-  if (def->drive.waveform != ZP_WAVEFORM_TABLE) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: requires study actuate, not calibrate");
-}
-
-/* What is asked of one study only. */
-static ZpStatus check_study(const ZpActuatorDef *def, ZpError *err) {
-  if (def->initial.state == ZP_INITIAL_CHECKPOINT && def->study != ZP_STUDY_ACTUATE)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s",
-                   word_of("study", (int)def->study));
-  ZpStatus status = ZP_OK;
-  switch (def->study) {
-  case ZP_STUDY_ACTUATE:
-    return check_actuate(def, err);
-  case ZP_STUDY_MODES:
-    return check_modes(def, err);
-  case ZP_STUDY_PROFILE:
-    return check_profile(def, err);
-  case ZP_STUDY_CALIBRATE:
-    return check_calibrate(def, err);
-  case ZP_STUDY_ISOMETRIC:
-    status = check_isometric(def, err);
-    return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
-  case ZP_STUDY_EQUILIBRIUM:
-    return zp_def_check_voltage(def, def->drive.voltage, err);
-  case ZP_STUDY_STATIONARY: /* has no voltage */
-  case ZpStudy_COUNT:
-    break;
-  }
-  return ZP_OK;
-}
-
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus ours = check_layout(def, err);
+  if (ours != ZP_OK) return ours;
   for (int i = 0; i < KEY_COUNT; i++) {
     bool is_text = keys[i].type == ZP_KEY_TEXT;
+    if (!has_field(&keys[i])) continue;
     ZpStatus status = is_text ? check_text(&keys[i], (const char *)def + keys[i].offset, err)
                               : check_value(&keys[i], zp_def_get(def, i), err);
     if (status != ZP_OK) return status;
@@ -560,6 +511,5 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    def->electro.refresh_period);
   ZpStatus status = check_drive(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
-  if (status == ZP_OK) status = check_electro(def, err);
-  return status == ZP_OK ? check_study(def, err) : status;
+  return status == ZP_OK ? check_electro(def, err) : status;
 }

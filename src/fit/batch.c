@@ -18,7 +18,7 @@ ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *er
   *batch = (ZpBatch){.scenario = scenario, .count = zp_scenario_count(scenario)};
   for (size_t i = 0; i < batch->count && status == ZP_OK; i++) {
     status = zp_scenario_def(scenario, i, &def, err);
-    if (status == ZP_OK) status = zp_data_check(&def, err);
+    if (status == ZP_OK) status = zp_data_check(zp_scenario_study(scenario), &def, err);
   }
   if (status != ZP_OK) return status;
   batch->result = calloc(batch->count + 1, sizeof(ZpResult *));
@@ -62,7 +62,7 @@ ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
   ZpResult *result;
   ZpStatus status = need_room(batch, err);
   if (status == ZP_OK) status = zp_scenario_def(batch->scenario, batch->done, &def, err);
-  if (status == ZP_OK) status = zp_data_study_run(&def, hooks, &result, err);
+  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(batch->scenario), &def, hooks, &result, err);
   if (status != ZP_OK) return status;
   if (batch->count > 1) keep_the_series(result);
   batch->result[batch->done++] = result;

@@ -1,17 +1,10 @@
-/* Study `calibrate`: keys fitted to measured strokes or forces; and which studies need a file of data. */
+/* Study `calibrate`: keys fitted to measured strokes or forces. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <zipact/io.h>
-
 #include "base/fail.h"
 #include "fit/fit.h"
-#include "fit/reference.h"
-#include "io/drive_table.h"
-
-#include "study/notes.h"
-#include "study/studies.h"
 
 /* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
 typedef struct Names {
@@ -39,6 +32,7 @@ typedef struct Names {
 #define ZP_BOOL(path, name, def, help)                        NAMES(#path #name, "1")
 #define ZP_ENUM(path, name, type, def, help)                  NAMES(#path #name, "1")
 #define ZP_TEXT(path, name, def, help)                        NAMES(#path #name, "1")
+#define ZP_OF_SCENARIO(name, type, def, help)                 NAMES(#name, "1")
 static const Names names[] = {
 #include <zipact/keys.def>
 };
@@ -127,10 +121,9 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
     highest = voltage;
     def = row;
   }
-  def.study = ZP_STUDY_STATIONARY; /* which asks for nothing else */
   ZpModel *model;
   if (zp_model_create(&def, &model, err) == ZP_MACHINE) return ZP_MACHINE;
-  if (model) zp_note_model(result, model, fmax(highest, 0), 0);
+  if (model) zp_result_note_model(result, model, fmax(highest, 0), 0);
   zp_model_destroy(model);
   return ZP_OK;
 }
@@ -161,15 +154,21 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);
 }
 
-static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
+ZpStatus zp_fit_check(const ZpActuatorDef *def, ZpError *err) {
+  ZpFit fit;
+  ZpStatus status = zp_fit_open(def, &fit, err);
+  zp_fit_close(&fit);
+  return status;
+}
+
+ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
   ZpFit fit;
   ZpStatus status = zp_fit_open(def, &fit, err);
   fit.hooks = hooks;
-  ZpResult *result = status == ZP_OK ? zp_result_create() : NULL;
+  ZpResult *result = status == ZP_OK ? zp_result_create(ZP_STUDY_CALIBRATE) : NULL;
   double *fitted = status == ZP_OK ? calloc(fit.rows, sizeof *fitted) : NULL;
   double *J = status == ZP_OK ? calloc(fit.rows * (size_t)(fit.n + 1), sizeof *J) : NULL;
   if (status == ZP_OK && (!result || !fitted || !J)) status = zp_fail_memory(err);
-  if (result) result->study = ZP_STUDY_CALIBRATE;
   if (status == ZP_OK) status = solve_and_report(&fit, fitted, J, result, err);
   free(fitted);
   free(J);
@@ -178,109 +177,5 @@ static ZpStatus calibrate(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResu
     *out = result;
   else
     zp_result_destroy(result);
-  return status;
-}
-
-/* What study actuate takes from files. */
-typedef struct Files {
-  ZpDriveRows rows;
-  ZpDriveTable table;
-  ZpCheckpoint *start;
-  ZpStudyInput input; /* the same as the study takes it */
-} Files;
-
-static void close_files(Files *files) {
-  zp_drive_rows_free(&files->rows);
-  zp_checkpoint_destroy(files->start);
-}
-
-static ZpStatus read_checkpoint(const ZpActuatorDef *def, ZpCheckpoint **start, ZpError *err) {
-  ZpError reason;
-  if (!*def->initial.file) return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: give initial.file");
-  ZpStatus status = zp_checkpoint_read(def->initial.file, start, &reason);
-  if (status != ZP_OK) return zp_fail(err, status, "initial.file: %.450s", reason.message);
-  status = zp_checkpoint_check(*start, def, &reason);
-  return status == ZP_OK ? ZP_OK
-                         : zp_fail(err, status, "initial.file: %.300s: %.180s", def->initial.file, reason.message);
-}
-
-/* To be closed whatever the status. */
-static ZpStatus open_files(const ZpActuatorDef *def, Files *files, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  *files = (Files){0};
-  if (def->drive.waveform == ZP_WAVEFORM_TABLE) {
-    status = zp_drive_rows_read(def, &files->rows, err);
-    files->table = zp_drive_rows_table(&files->rows);
-    files->input.table = &files->table;
-  }
-  if (status == ZP_OK && def->initial.state == ZP_INITIAL_CHECKPOINT) {
-    status = read_checkpoint(def, &files->start, err);
-    files->input.start = files->start;
-  }
-  return status;
-}
-
-ZpStatus zp_data_check(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  if (def->study == ZP_STUDY_CALIBRATE) {
-    ZpFit fit;
-    status = zp_fit_open(def, &fit, err);
-    zp_fit_close(&fit);
-  } else if (def->study == ZP_STUDY_STATIONARY && *def->data.file) {
-    ZpReference reference;
-    status = zp_reference_read(def->data.file, &reference, err);
-    zp_reference_free(&reference);
-  } else if (def->study == ZP_STUDY_ACTUATE) {
-    Files files;
-    status = open_files(def, &files, err);
-    close_files(&files);
-  }
-  return status;
-}
-
-static ZpStatus create_from_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
-                                  ZpError *err) {
-  Files files;
-  ZpStatus status = open_files(def, &files, err);
-  if (status == ZP_OK) status = zp_model_create_driven(def, files.input.table, model, err);
-  if (status == ZP_OK) status = zp_sim_create(*model, hooks, sim, err);
-  if (status == ZP_OK && files.start) status = zp_sim_continue(*sim, files.start, err);
-  close_files(&files);
-  return status;
-}
-
-ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
-                            ZpError *err) {
-  *model = NULL;
-  *sim = NULL;
-  ZpStatus status = create_from_files(def, hooks, model, sim, err);
-  if (status == ZP_OK) return ZP_OK;
-  zp_sim_destroy(*sim);
-  zp_model_destroy(*model);
-  *model = NULL;
-  *sim = NULL;
-  return status;
-}
-
-static ZpStatus run_with_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
-  Files files;
-  ZpStatus status = open_files(def, &files, err);
-  if (status == ZP_OK) status = zp_study_run_with(def, &files.input, hooks, result, err);
-  close_files(&files);
-  return status;
-}
-
-ZpStatus zp_data_study_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err) {
-  *result = NULL;
-  ZpStatus status = zp_def_check(def, err);
-  if (status != ZP_OK) return status;
-  if (def->study == ZP_STUDY_CALIBRATE) return calibrate(def, hooks, result, err);
-  if (def->study == ZP_STUDY_ACTUATE) return run_with_files(def, hooks, result, err);
-  if (def->study != ZP_STUDY_STATIONARY || *def->data.file == 0) return zp_study_run(def, hooks, result, err);
-  ZpReference reference;
-  status = zp_reference_read(def->data.file, &reference, err);
-  if (status == ZP_OK) status = zp_study_run(def, hooks, result, err);
-  if (status == ZP_OK) zp_result_add(*result, "area_error_m2", "m2", zp_reference_area(&reference, (*result)->series));
-  zp_reference_free(&reference);
   return status;
 }

@@ -41,6 +41,10 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
 
+/* Read and check what study calibrate is given; run it. */
+ZpStatus zp_fit_check(const ZpActuatorDef *def, ZpError *err);
+ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err);
+
 /* Derivative of the fitted values by z => J [rows][n]. False where there is none. */
 bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J);
 

@@ -171,7 +171,8 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
     if (!zp_fit_row(fit, start, i, &def, &voltage)) continue; /* read_column has said it */
-    ZpStatus status = fit->held ? zp_def_check(&def, &reason) : zp_def_check_voltage(&def, voltage, &reason);
+    ZpStatus status =
+        fit->held ? zp_study_check(ZP_STUDY_ISOMETRIC, &def, &reason) : zp_def_check_voltage(&def, voltage, &reason);
     if (status != ZP_OK)
       return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, data->line[i + 1], reason.message);
   }

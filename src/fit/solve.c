@@ -5,11 +5,10 @@
 #include <string.h>
 
 #include <nlopt.h>
+#include <zipact/rest.h>
 
 #include "base/fail.h"
-#include "base/memory.h"
 #include "fit/fit.h"
-#include "rest/statics.h"
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };
 
@@ -17,27 +16,13 @@ enum { POLISH_MOST = 30, HALVINGS = 12 };
 static const double difference = 1e-4;
 
 static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
-  ZpStatics statics = {0};
-  ZpNewtonWork work;
-  ZpCarver carver = {NULL, 0};
+  ZpRest *rest;
   double value = NAN;
-  void *memory = NULL;
-  if (zp_statics_create(model, &statics)) {
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    memory = zp_calloc(1, carver.used);
-  }
-  if (memory) {
-    carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    bool found = zp_newton_good(zp_statics_hang(&statics, &work).end);
-    if (found && voltage > 0 && model->field) found = zp_statics_raise(&statics, voltage, &work);
-    if (found && !zp_statics_shorted(&statics))
-      value = fit->opening ? zp_statics_opening(&statics) : zp_statics_stroke(&statics);
-  } else {
-    fit->status = zp_fail_memory(fit->err);
-  }
-  zp_free(memory);
-  zp_statics_destroy(&statics);
+  if (zp_rest_create(model, &rest, fit->err) != ZP_OK)
+    fit->status = ZP_MACHINE;
+  else if (zp_rest_hang(rest, voltage))
+    value = fit->opening ? zp_rest_opening(rest) : zp_rest_stroke(rest);
+  zp_rest_destroy(rest);
   return value;
 }
 
@@ -64,7 +49,6 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
     set = zp_def_set(def, fit->other_key[k], fit->other[k][row], NULL) == ZP_OK;
     if (fit->other_key[k] == drive) *voltage = fit->other[k][row];
   }
-  if (fit->held) def->study = ZP_STUDY_ISOMETRIC;
   return set;
 }
 
@@ -73,7 +57,7 @@ static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
   ZpResult *result = NULL;
   def->output.samples = 10; /* of the way there only the end is asked for */
   def->output.shapes = 2;
-  ZpStatus status = zp_study_run(def, NULL, &result, NULL);
+  ZpStatus status = zp_study_run(ZP_STUDY_ISOMETRIC, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   double value = result ? zp_result_get(result, "force_N") : NAN;
   zp_result_destroy(result);
@@ -86,7 +70,6 @@ static double predict_rest(ZpFit *fit, const double *z, size_t row) {
   double voltage;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
   if (set && fit->held) return predict_force(fit, &def);
-  def.study = ZP_STUDY_STATIONARY;
   ZpModel *model = set ? build(fit, &def) : NULL;
   double value = model ? measure(fit, model, voltage) : NAN;
   zp_model_destroy(model);
@@ -96,14 +79,12 @@ static double predict_rest(ZpFit *fit, const double *z, size_t row) {
 /* One run in time through all rows; NAN from where the solver fails. */
 static void predict_run(ZpFit *fit, const double *z, double *fitted) {
   ZpActuatorDef def;
-  bool set = set_fitted(fit, z, &def), runs = false;
-  def.study = ZP_STUDY_ACTUATE;
+  bool set = set_fitted(fit, z, &def), runs;
   ZpModel *model = set ? build(fit, &def) : NULL;
   ZpSim *sim = NULL;
-  if (model && zp_sim_create(model, NULL, &sim, NULL) == ZP_OK)
-    runs = true;
-  else if (model)
-    fit->status = zp_fail_memory(fit->err);
+  ZpStatus status = model ? zp_sim_create(model, NULL, &sim, NULL) : ZP_BAD_INPUT;
+  runs = status == ZP_OK;
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   for (size_t i = 0; i < fit->rows; i++) {
     if (runs && fit->x[i] > 0) runs = zp_outcome_good(zp_sim_run(sim, fit->x[i], false, fit->hooks, NULL));
     fitted[i] = runs ? zp_sim_get(sim, fit->opening ? "opening" : "stroke") : (double)NAN;

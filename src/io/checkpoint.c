@@ -20,6 +20,7 @@
 #include "io/atomic.h"
 #include "io/report.h"
 #include "io/value.h"
+#include "io/writers.h"
 
 enum { MAGIC = 8, SUMMED = 16, HEADER = 32, VERSION = 2, TEXT_MOST = 1 << 20, NUMBERS_MOST = 1 << 22 };
 

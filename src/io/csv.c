@@ -9,6 +9,7 @@
 #include "io/atomic.h"
 #include "io/number.h"
 #include "io/report.h"
+#include "io/writers.h"
 
 static void put_number(FILE *file, double value) {
   char text[ZP_NUMBER_SIZE];

@@ -22,6 +22,8 @@
 #include "io/atomic.h"
 #include "io/guard.h"
 #include "io/report.h"
+#include "io/shows.h"
+#include "io/writers.h"
 
 /* The file grows in memory by this much at a time. */
 #define GROWTH (1 << 20)
@@ -132,7 +134,7 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStud
     voltage[i] = clean(shape.voltage);
     zipped[i] = (long long)shape.zipped;
   }
-  put_reals(store, group, study == ZP_STUDY_ACTUATE ? &moment : &mark, 1, &size, time);
+  put_reals(store, group, zp_study_shows(study) == ZP_SHOWS_motion ? &moment : &mark, 1, &size, time);
   put_reals(store, group, &(Meaning){"voltage", "V", "potential difference of the electrodes"}, 1, &size, voltage);
   put_array(store, group, &(Meaning){"zipped", "1", "pairs 0 .. zipped are closed; the clip is pair 0"}, H5T_STD_I64LE,
             H5T_NATIVE_LLONG, 1, &size, zipped);

@@ -7,12 +7,15 @@
 
 #include <zipact/io.h>
 
+#include "io/shows.h"
+
 /* What there is to draw. */
 typedef struct ZpPlot {
   const ZpReport *report;
   const ZpResult *single; /* the only run; NULL for a sweep */
   ZpActuatorDef def;      /* of the first run */
   ZpStudy study;
+  ZpShows shows;             /* what its results are */
   char subtitle[320];        /* under what: load, voltage, N, preset */
   const struct ZpRuns *runs; /* what pictures of several reports look at; else NULL */
 } ZpPlot;

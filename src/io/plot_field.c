@@ -15,7 +15,7 @@
 #define STEPS 20
 
 static bool has_profile(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_PROFILE && plot->single && zp_plot_has(plot->single->series, "ratio") &&
+  return plot->shows == ZP_SHOWS_field && plot->single && zp_plot_has(plot->single->series, "ratio") &&
          plot->def.drive.voltage > 0;
 }
 

@@ -19,7 +19,7 @@ static double computed(const ZpTable *table, size_t row) {
 }
 
 static bool has_fit(const ZpPlot *plot) {
-  if (plot->study != ZP_STUDY_CALIBRATE) return false;
+  if (plot->shows != ZP_SHOWS_fit) return false;
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = plot->report->result[run]->series;
     for (size_t row = 0; table && row < table->rows; row++)

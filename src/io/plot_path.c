@@ -30,12 +30,12 @@ static double get(const ZpPlot *plot, size_t row, const char *column) {
 }
 
 static bool is_held(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_ISOMETRIC;
+  return plot->shows == ZP_SHOWS_held_branch;
 }
 
 static bool is_path(const ZpPlot *plot) {
-  return (plot->study == ZP_STUDY_EQUILIBRIUM || is_held(plot)) && plot->single &&
-         zp_plot_has(series(plot), "voltage_V") && plot->def.drive.voltage > 0;
+  return (plot->shows == ZP_SHOWS_branch || is_held(plot)) && plot->single && zp_plot_has(series(plot), "voltage_V") &&
+         plot->def.drive.voltage > 0;
 }
 
 /* What tells how far it is closed: the opening, or the stroke of a kind that has none; of a held one, its force. */

@@ -12,13 +12,13 @@ static const ZpShapes *film(const ZpPlot *plot) {
   return plot->single->shapes;
 }
 
-static bool has_film(const ZpPlot *plot, ZpStudy study) {
-  if (plot->study != study || !plot->single || !film(plot) || film(plot)->frames == 0) return false;
+static bool has_film(const ZpPlot *plot, ZpShows shows) {
+  if (plot->shows != shows || !plot->single || !film(plot) || film(plot)->frames == 0) return false;
   return isfinite(zp_plot_box(film(plot)).left);
 }
 
 static bool has_shape(const ZpPlot *plot) {
-  return has_film(plot, ZP_STUDY_STATIONARY);
+  return has_film(plot, ZP_SHOWS_shape);
 }
 
 static void data_shape(const ZpPlot *plot, FILE *file) {
@@ -70,7 +70,7 @@ static bool starts_at_rest(const ZpPlot *plot) {
 }
 
 static bool has_modes(const ZpPlot *plot) {
-  return has_film(plot, ZP_STUDY_MODES) && film(plot)->frames > starts_at_rest(plot);
+  return has_film(plot, ZP_SHOWS_modes) && film(plot)->frames > starts_at_rest(plot);
 }
 
 /* How many modes are drawn. */

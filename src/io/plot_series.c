@@ -8,7 +8,7 @@
 #define RIGHT 0.76
 
 static bool is_film(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_ACTUATE && plot->single;
+  return plot->shows == ZP_SHOWS_motion && plot->single;
 }
 
 static bool is_ribbon(const ZpPlot *plot) {

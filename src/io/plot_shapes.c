@@ -31,18 +31,18 @@ static size_t frame_at(const ZpShapes *shapes, double part) {
 }
 
 static bool has_shapes(const ZpPlot *plot) {
-  if (plot->study != ZP_STUDY_ACTUATE || !plot->single || !plot->single->shapes) return false;
+  if (plot->shows != ZP_SHOWS_motion || !plot->single || !plot->single->shapes) return false;
   return film(plot)->frames >= 2 && isfinite(zp_plot_box(film(plot)).left);
 }
 
 /* Shapes along the voltage, whose time is the number of the state. */
 static bool is_path(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_EQUILIBRIUM || plot->study == ZP_STUDY_ISOMETRIC;
+  return plot->shows == ZP_SHOWS_branch || plot->shows == ZP_SHOWS_held_branch;
 }
 
 /* The platform is held, no load hangs on it. */
 static bool is_held(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_ISOMETRIC;
+  return plot->shows == ZP_SHOWS_held_branch;
 }
 
 static bool has_animation(const ZpPlot *plot) {

@@ -16,7 +16,7 @@
 #define RIGHT 0.76
 
 static bool is_sweep(const ZpPlot *plot) {
-  return plot->study == ZP_STUDY_ACTUATE && !plot->single && plot->report->count > 0;
+  return plot->shows == ZP_SHOWS_motion && !plot->single && plot->report->count > 0;
 }
 
 static bool is_ribbon(const ZpPlot *plot) {
@@ -166,33 +166,9 @@ typedef struct Answer {
 } Answer;
 
 static const Answer answers[] = {
-    {ZP_STUDY_ACTUATE, "zip_time", "Time to zip", "zip time", "s", {"zip_time_s", NULL}, {NULL, NULL}, "zip"},
-    {ZP_STUDY_STATIONARY, "strokes", "Stroke at rest", "stroke", "m", {"stroke_m", NULL}, {NULL, NULL}, "are drawn"},
-    {ZP_STUDY_EQUILIBRIUM,
-     "voltages",
-     "Pull-in and release",
-     "voltage",
-     "V",
-     {"pull_in_voltage_V", "release_voltage_V"},
-     {"pull-in", "release"},
-     "pull in"},
-    {ZP_STUDY_ISOMETRIC, "forces", "Force", "force", "N", {"force_N", NULL}, {NULL, NULL}, "are drawn"},
-    {ZP_STUDY_PROFILE,
-     "factors",
-     "Electric force, field over plates law",
-     "factor",
-     NULL,
-     {"scale_factor", "paper_factor"},
-     {"law as set", "paper's books"},
-     "are drawn"},
-    {ZP_STUDY_MODES,
-     "frequencies",
-     "Lowest frequency about the loaded equilibrium",
-     "frequency",
-     "Hz",
-     {"frequency_1_Hz", NULL},
-     {NULL, NULL},
-     "are drawn"},
+#define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
+  {enumerator, #picture, title, axis, unit, {scalar, scalar2}, {legend, legend2}, count},
+#include <zipact/studies.def>
 };
 
 /* The answer of the study of this sweep; NULL if it has none. */
@@ -207,38 +183,35 @@ static double answer(const ZpPlot *plot, size_t run, size_t curve) {
   return name ? zp_result_get(plot->report->result[run], name) : (double)NAN;
 }
 
-/* How many runs have a point on the curve. */
-static size_t points(const ZpPlot *plot, size_t curve) {
+/* How many runs have the scalar and a number of the list key; none where `name` is NULL. */
+static size_t points_of(const ZpPlot *plot, const char *name) {
   size_t count = 0;
-  for (size_t run = 0; run < plot->report->count; run++)
-    count += isfinite(answer(plot, run, curve)) && isfinite(key_value(plot, run));
+  for (size_t run = 0; name && run < plot->report->count; run++)
+    count += isfinite(zp_result_get(plot->report->result[run], name)) && isfinite(key_value(plot, run));
   return count;
 }
 
+/* How many runs have a point on the curve. */
+static size_t points(const ZpPlot *plot, size_t curve) {
+  return points_of(plot, answer_of(plot)->scalar[curve]);
+}
+
+/* Are there runs to draw against a key? */
+static bool has_axis(const ZpPlot *plot) {
+  return !plot->single && plot->report->count > 0 && x_key(plot) >= 0;
+}
+
 static bool has_answer(const ZpPlot *plot, ZpStudy study) {
-  if (plot->study != study || plot->single || plot->report->count == 0 || x_key(plot) < 0) return false;
+  if (plot->study != study || !has_axis(plot)) return false;
   return points(plot, 0) >= 2 || points(plot, 1) >= 2;
 }
 
-static bool has_zip_time(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_ACTUATE);
-}
-
-static bool has_strokes(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_STATIONARY);
-}
-
-static bool has_voltages(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_EQUILIBRIUM);
-}
-
-static bool has_factors(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_PROFILE);
-}
-
-static bool has_frequencies(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_MODES);
-}
+/* has_zip_time, has_strokes, ...: is there something to draw for the picture of a study? */
+#define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
+  static bool has_##picture(const ZpPlot *plot) {                                                                      \
+    return has_answer(plot, enumerator);                                                                               \
+  }
+#include <zipact/studies.def>
 
 static void data_answer(const ZpPlot *plot, FILE *file) {
   const Answer *a = answer_of(plot);
@@ -290,7 +263,7 @@ static void script_answer(const ZpPlot *plot, FILE *file) {
   snprintf(more, sizeof more, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
   snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
   zp_plot_head(plot, file, a->picture, a->title, a->scalar[1] ? 0.82 : 0.96);
-  if (a->study == ZP_STUDY_ACTUATE)
+  if (plot->shows == ZP_SHOWS_motion)
     zp_plot_foot(plot, file, more);
   else
     zp_plot_remark(file, more);
@@ -319,7 +292,8 @@ static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
 }
 
 static bool has_forces(const ZpPlot *plot) {
-  return has_answer(plot, ZP_STUDY_ISOMETRIC) || has_answer(plot, ZP_STUDY_PROFILE);
+  if (plot->shows == ZP_SHOWS_held_branch) return has_axis(plot) && points_of(plot, "force_N") >= 2;
+  return plot->shows == ZP_SHOWS_field && has_answer(plot, plot->study);
 }
 
 static double force(const ZpPlot *plot, size_t run) {
@@ -378,8 +352,7 @@ static void script_forces(const ZpPlot *plot, FILE *file) {
   char label[128];
   snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
   zp_plot_head(plot, file, "forces",
-               plot->study == ZP_STUDY_PROFILE ? "Electric force on a ribbon of one half"
-                                               : "Force on the held platform",
+               plot->shows == ZP_SHOWS_field ? "Electric force on a ribbon of one half" : "Force on the held platform",
                keys > 1 ? RIGHT : 0.96);
   if (keys > 1) legend_title(plot, file, 1);
   fputs("set xlabel ", file);
@@ -393,11 +366,9 @@ static void script_forces(const ZpPlot *plot, FILE *file) {
 
 const ZpPicture zp_sweep_pictures[] = {
     {"contraction", "svg", has_contraction, script_contraction, data_contraction},
-    {"zip_time", "svg", has_zip_time, script_answer, data_answer},
-    {"strokes", "svg", has_strokes, script_answer, data_answer},
-    {"voltages", "svg", has_voltages, script_answer, data_answer},
     {"forces", "svg", has_forces, script_forces, data_forces},
-    {"factors", "svg", has_factors, script_answer, data_answer},
-    {"frequencies", "svg", has_frequencies, script_answer, data_answer},
+#define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
+  {#picture, "svg", has_##picture, script_answer, data_answer},
+#include <zipact/studies.def>
     {0},
 };

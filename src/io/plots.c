@@ -14,6 +14,7 @@
 #include "io/gnuplot.h"
 #include "io/plot.h"
 #include "io/report.h"
+#include "io/writers.h"
 
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
@@ -127,6 +128,25 @@ static void add_drive(ZpPlot *plot) {
     snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%stable of voltages", used ? ", " : "");
 }
 
+typedef struct Subtitle {
+  ZpStudy study;
+  const char *key, *alone, *swept;
+} Subtitle;
+
+static const Subtitle subtitles[] = {
+#define ZP_SUBTITLE(enumerator, key, alone, swept) {enumerator, key, alone, swept},
+#include <zipact/studies.def>
+};
+
+/* A single ribbon has no voltage. */
+static void add_subtitle(ZpPlot *plot, const Subtitle *s) {
+  if (plot->def.actuator.kind == ZP_KIND_RIBBON && strncmp(s->key, "drive.", 6) == 0) return;
+  if (s->alone)
+    add_key(plot, s->key, plot->single ? s->alone : s->swept);
+  else
+    add_drive(plot);
+}
+
 /* (report) => what there is to draw; of a report without runs, nothing. */
 static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   *plot = (ZpPlot){.report = report, .single = zp_report_single(report)};
@@ -134,19 +154,10 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
   if (status != ZP_OK) return status;
   plot->study = report->result[0]->study;
-  const bool isometric = plot->study == ZP_STUDY_ISOMETRIC, profile = plot->study == ZP_STUDY_PROFILE;
-  const bool up_to = plot->study == ZP_STUDY_EQUILIBRIUM || isometric;
-  if (isometric)
-    add_key(plot, "isometric.separation", "held at ");
-  else if (profile)
-    add_key(plot, "isometric.separation", "opening ");
-  else if (plot->study != ZP_STUDY_CALIBRATE)
-    add_key(plot, "load.mass", "load ");
-  const bool electric = plot->def.actuator.kind != ZP_KIND_RIBBON;
-  if ((up_to || profile) && electric) add_key(plot, "drive.voltage", up_to && plot->single ? "up to " : "");
-  if (plot->study == ZP_STUDY_ACTUATE && electric) add_drive(plot);
-  if (profile) add_key(plot, "profile.shape", "shape ");
-  if (!profile || plot->def.profile.shape == ZP_PROFILE_HELD) add_key(plot, "mesh.nodes", "N = ");
+  plot->shows = zp_study_shows(plot->study);
+  for (size_t k = 0; k < sizeof subtitles / sizeof subtitles[0]; k++)
+    if (subtitles[k].study == plot->study) add_subtitle(plot, &subtitles[k]);
+  if (plot->shows != ZP_SHOWS_field || plot->def.profile.shape == ZP_PROFILE_HELD) add_key(plot, "mesh.nodes", "N = ");
   add_key(plot, "preset", "preset ");
   return ZP_OK;
 }

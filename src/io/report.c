@@ -1,15 +1,10 @@
-/* A report: all files that a study leaves in its folder, written in an order that keeps a promise.
- *
- * summary.json goes first when old results are replaced and comes after all other numbers when new ones are written,
- * so where it stands the numbers are complete. Pictures come last: another program draws them. */
+/* How a report is read. */
 #include "io/report.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
 
 bool zp_report_is_sweep(const ZpReport *report) {
   size_t lists = 0;
@@ -22,10 +17,7 @@ const ZpResult *zp_report_single(const ZpReport *report) {
 }
 
 const char *zp_report_study(const ZpReport *report) {
-  ZpActuatorDef def;
-  int key = zp_key_find("study");
-  if (report->count > 0) return zp_key_word(key, report->result[0]->study);
-  return zp_scenario_def(report->scenario, 0, &def, NULL) == ZP_OK ? zp_key_word(key, def.study) : "none";
+  return zp_study_name(report->count > 0 ? report->result[0]->study : zp_scenario_study(report->scenario));
 }
 
 static bool is_listed(const ZpScalarNames *names, const char *name) {
@@ -99,56 +91,5 @@ ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err) {
     free(*text);
     *text = NULL;
   }
-  return status;
-}
-
-static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
-  ZpAtomic out;
-  char *text;
-  ZpStatus status = zp_scenario_text(report, &text, err);
-  if (status == ZP_OK) status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
-  if (status == ZP_OK) {
-    fputs(text, out.file); /* the commit finds what goes wrong here */
-    status = zp_atomic_commit(&out, err);
-  }
-  free(text);
-  return status;
-}
-
-static ZpStatus write_summary(const ZpReport *report, ZpError *err) {
-  ZpAtomic out;
-  ZpStatus status = zp_atomic_open(&out, report->directory, "summary.json", err);
-  return status == ZP_OK ? zp_atomic_finish(&out, zp_summary_write(report, out.file, err), err) : status;
-}
-
-static ZpStatus write_all(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
-  ZpStatus status = zp_remove_file(report->directory, "summary.json", err);
-  if (status == ZP_OK) status = write_scenario(report, err);
-  if (status == ZP_OK) status = zp_csv_write(report, err);
-  if (status == ZP_OK) status = zp_hdf5_write(report, err);
-  if (status == ZP_OK) status = zp_vtk_write(report, err);
-  if (status == ZP_OK) status = zp_checkpoint_report(report, err);
-  if (status == ZP_OK) status = zp_plots_prepare(report, err);
-  if (status == ZP_OK) status = write_summary(report, err);
-  if (status == ZP_OK) zp_plots_write(report, notice);
-  return status;
-}
-
-/* The caller's locale may write 0.5 as 0,5: files must not. */
-static ZpStatus write_plainly(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
-  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-  if (!plain) return zp_fail_memory(err);
-  locale_t before = uselocale(plain);
-  ZpStatus status = write_all(report, notice, err);
-  uselocale(before);
-  freelocale(plain);
-  return status;
-}
-
-ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
-  ZpFolder *own = NULL;
-  ZpStatus status = report->folder ? ZP_OK : zp_folder_open(report->directory, &own, err);
-  if (status == ZP_OK) status = write_plainly(report, notice, err);
-  zp_folder_close(own);
   return status;
 }

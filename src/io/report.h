@@ -1,4 +1,4 @@
-/* What the writers of result files share: how a report is read, and the one function of each writer. */
+/* What the writers of result files share: how a report is read. */
 #ifndef ZP_IO_REPORT_H
 #define ZP_IO_REPORT_H
 
@@ -43,17 +43,5 @@ const char *zp_key_word(int key, double value);
 
 /* scenario.yaml as text, to be freed by the caller. */
 ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err);
-
-/* The writers. Each replaces its own files in report->directory and removes those that an earlier report
- * left and this one does not have. */
-ZpStatus zp_csv_write(const ZpReport *report, ZpError *err);
-ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err);
-ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err);
-ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err);
-
-/* Pictures: first those of an earlier report are removed and the scripts and data of this one are written; then, when
- * all numbers are on the disk, gnuplot draws. What cannot be drawn, the notice says. */
-ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err);
-void zp_plots_write(const ZpReport *report, void (*notice)(const char *message));
 
 #endif

@@ -217,7 +217,7 @@ static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpErr
   bool is_path = names_file(key);
   Slot slot = {calloc(1, sizeof(double)), 1, false,
                is_path ? absolute_path(reader->source, item->word) : strdup(item->word)};
-  ZpActuatorDef scratch;
+  ZpActuatorDef scratch = zp_actuator_def_default();
   ZpError reason;
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK && zp_def_set_text(&scratch, key, slot.text, &reason) != ZP_OK)
@@ -352,13 +352,24 @@ const int *zp_scenario_lists(const ZpScenario *s, size_t *count) {
   return s->list;
 }
 
+/* Of the scenario, not of its Defs. */
+static bool is_study(size_t key) {
+  return zp_key((int)key)->offset == ZP_NO_FIELD;
+}
+
+ZpStudy zp_scenario_study(const ZpScenario *s) {
+  for (size_t i = 0; i < key_count(); i++)
+    if (is_study(i) && slot_of(s, i)->count) return (ZpStudy)slot_of(s, i)->value[0];
+  return (ZpStudy)0;
+}
+
 /* All that is given for Def number `index`, one assignment per key. Returns how many. */
 static size_t assignments(const ZpScenario *s, size_t index, ZpAssignment *list) {
   size_t count = key_count();
   size_t used = 0;
   for (size_t i = count; i-- > 0;) { /* backwards: the last list varies fastest */
     const Slot *slot = slot_of(s, i);
-    if (slot->count == 0 || slot->text) continue;
+    if (slot->count == 0 || slot->text || is_study(i)) continue;
     list[used++] = (ZpAssignment){(int)i, slot->value[index % slot->count]};
     index /= slot->count;
   }
@@ -378,7 +389,7 @@ static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err)
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   ZpAssignment *list = calloc(key_count(), sizeof *list);
   if (!list) return zp_fail_memory(err);
-  ZpStatus status = zp_def_resolve(def, list, assignments(s, index, list), err);
+  ZpStatus status = zp_def_fill(def, list, assignments(s, index, list), err);
   free(list);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
@@ -392,12 +403,12 @@ static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reaso
   return zp_source_fail(&source, 0, err, "%s%s", row, reason->message);
 }
 
-ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   if (index >= s->count)
     return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->count);
   ZpError reason;
   ZpStatus status = resolve(s, index, def, &reason);
-  if (status == ZP_OK) status = zp_def_check(def, &reason);
+  if (status == ZP_OK) status = zp_study_check(zp_scenario_study(s), def, &reason);
   return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
 }
 
@@ -408,7 +419,7 @@ static bool same_value(double a, double b) {
 /* differs[key] set for every key that has not the same value in all Defs. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   for (size_t row = 1; row < s->count; row++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {.layout = zp_def_layout()};
     ZpError reason;
     if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
     for (int i = 0; i < zp_key_count(); i++)
@@ -448,7 +459,8 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
     if (words) {
       zp_yaml_write_text(file, words);
     } else {
-      zp_value_print(i, zp_def_get(first, i), text, sizeof text);
+      double value = is_study((size_t)i) ? (double)zp_scenario_study(s) : zp_def_get(first, i);
+      zp_value_print(i, value, text, sizeof text);
       fputs(text, file);
     }
     fputc('\n', file);
@@ -456,7 +468,7 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
 }
 
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
-  ZpActuatorDef first;
+  ZpActuatorDef first = {.layout = zp_def_layout()};
   ZpError reason;
   if (resolve(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
   bool *differs = calloc(key_count(), sizeof *differs);

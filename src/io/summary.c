@@ -9,11 +9,12 @@
 #include "base/fail.h"
 #include "io/json.h"
 #include "io/report.h"
+#include "io/shows.h"
 
 /* frequency_1_Hz, frequency_2_Hz, ...: scalars so that a sweep has columns, but an array in JSON. */
 static bool is_frequency(const ZpResult *result, const ZpScalar *scalar) {
   int mode, end = 0;
-  if (result->study != ZP_STUDY_MODES) return false;
+  if (zp_study_shows(result->study) != ZP_SHOWS_modes) return false;
   return sscanf(scalar->name, "frequency_%d_Hz%n", &mode, &end) == 1 && end > 0 && !scalar->name[end];
 }
 
@@ -29,7 +30,7 @@ static bool set_frequencies(json_t *object, const ZpResult *result) {
 }
 
 static bool set_scalars(json_t *object, const ZpResult *result) {
-  bool done = result->study != ZP_STUDY_MODES || set_frequencies(object, result);
+  bool done = zp_study_shows(result->study) != ZP_SHOWS_modes || set_frequencies(object, result);
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
     if (!is_frequency(result, scalar))

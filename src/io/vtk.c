@@ -13,6 +13,7 @@
 #include "io/atomic.h"
 #include "io/number.h"
 #include "io/report.h"
+#include "io/writers.h"
 
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 #define BYTE_ORDER_NAME "LittleEndian"

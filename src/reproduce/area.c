@@ -11,7 +11,7 @@ static double hang(ZpActuatorDef elements, double g, ZpResult **result) {
   elements.gravity = g;
   zp_result_destroy(*result);
   *result = NULL;
-  if (zp_study_run(&elements, NULL, result, NULL) != ZP_OK) return NAN;
+  if (zp_study_run(ZP_STUDY_STATIONARY, &elements, NULL, NULL, result, NULL) != ZP_OK) return NAN;
   return zp_result_get(*result, "stroke_m");
 }
 

@@ -105,12 +105,11 @@ static double fitted_area(const ZpRuns *runs, const ZpPublished *p) {
   double K_S = fitted_shear(runs, p);
   if (isnan(K_S)) return NAN;
   ZpActuatorDef def = zp_runs_def(runs, table_1(p), 0);
-  def.study = ZP_STUDY_STATIONARY;
   def.mesh.nodes = p->nodes;
   def.load.mass = 1e-3 * p->load;
   def.mass_spring.shear_coefficient = K_S;
   ZpResult *result;
-  if (zp_study_run(&def, NULL, &result, NULL) != ZP_OK) return NAN;
+  if (zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, NULL) != ZP_OK) return NAN;
   double area = area_error(runs, p, result, ZP_TABLE_1_STROKE);
   zp_result_destroy(result);
   return area;

@@ -2,8 +2,7 @@
 #ifndef ZP_REPRODUCE_COMPARE_H
 #define ZP_REPRODUCE_COMPARE_H
 
-#include <zipact/reproduce.h>
-
+#include "reproduce/reproduce.h"
 #include "reproduce/runs.h"
 
 #define ZP_VERDICT(id, word, judged, title) id,

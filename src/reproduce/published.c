@@ -1,5 +1,6 @@
 /* The published numbers as one list. */
-#include <zipact/reproduce.h>
+
+#include "reproduce/reproduce.h"
 
 #include <math.h>
 

@@ -1,5 +1,4 @@
 /* Reproduce the paper: run, compare, write. summary.json goes first and comes last, as in any report. */
-#include <zipact/reproduce.h>
 
 #include <locale.h>
 #include <math.h>
@@ -16,6 +15,7 @@
 #include "reproduce/compare.h"
 #include "reproduce/figures.h"
 #include "reproduce/page.h"
+#include "reproduce/reproduce.h"
 #include "reproduce/runs.h"
 
 /* -- comparison.csv -------------------------------------------------------------------------------- */

@@ -7,10 +7,9 @@
 #include <string.h>
 #include <time.h>
 
-#include <zipact/reproduce.h>
-
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "reproduce/reproduce.h"
 
 typedef struct Spec {
   const char *name;

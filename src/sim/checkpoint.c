@@ -42,7 +42,7 @@ _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == (REALS + 4) * sizeof(do
 ZpCheckpoint *zp_checkpoint_create(size_t count) {
   ZpCheckpoint *checkpoint = zp_calloc(1, sizeof *checkpoint);
   if (!checkpoint) return NULL;
-  *checkpoint = (ZpCheckpoint){zp_actuator_def_default(), count, zp_calloc(count + 1, sizeof(double))};
+  *checkpoint = (ZpCheckpoint){count, zp_calloc(count + 1, sizeof(double)), zp_actuator_def_default()};
   if (checkpoint->number) return checkpoint;
   zp_free(checkpoint);
   return NULL;
@@ -82,9 +82,10 @@ static void unpack(const ZpModel *model, const double *number, ZpState *state) {
 
 bool zp_checkpoint_holds(int index) {
   static const char *const may_change[] = {
-      "study",    "preset", "drive.",     "solver.end_time", "solver.tolerance", "solver.time_step", "solver.max_steps",
-      "initial.", "data.",  "calibrate.", "modes.",          "isometric.",       "profile.",         "output."};
+      "preset", "drive.",     "solver.end_time", "solver.tolerance", "solver.time_step", "solver.max_steps", "initial.",
+      "data.",  "calibrate.", "modes.",          "isometric.",       "profile.",         "output."};
   const char *name = zp_key(index)->name;
+  if (zp_key(index)->offset == ZP_NO_FIELD) return false;
   for (size_t k = 0; k < sizeof may_change / sizeof may_change[0]; k++) {
     size_t length = strlen(may_change[k]);
     bool group = may_change[k][length - 1] == '.';

@@ -22,9 +22,8 @@ static uint64_t hash(uint64_t before, const void *data, size_t size) {
 
 static uint64_t fingerprint_of(const ZpModel *model) {
   uint64_t sum = hash(UINT64_C(0xcbf29ce484222325), ZP_VERSION, sizeof ZP_VERSION);
-  int study = zp_key_find("study"); /* is no part of a model */
   for (int key = 0; key < zp_key_count(); key++) {
-    if (key == study) continue;
+    if (zp_key(key)->offset == ZP_NO_FIELD) continue;
     const char *text = zp_def_text(&model->def, key);
     double value = zp_def_get(&model->def, key);
     sum = text ? hash(sum, text, strlen(text) + 1) : hash(sum, &value, sizeof value);

@@ -71,7 +71,7 @@ static void keep(ZpSim *sim) {
   if (!sim->cut && !diverged(sim->model, sim->state)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
 }
 
-/* The study of the model's Def may be another, which asks less. */
+/* A model may be built of a Def that can only be at rest. */
 static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   if (model->def.drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0)
     return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: the model has none; zp_model_create_driven takes it");

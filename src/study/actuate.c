@@ -90,7 +90,7 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
 static void note(const ZpModel *model, ZpResult *result) {
   double highest = zp_waveform_largest(&model->waveform);
   note_imbalance(zp_model_def(model), result);
-  zp_note_model(result, model, highest, result->shapes->frames);
+  zp_result_note_model(result, model, highest, result->shapes->frames);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_note(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
@@ -108,7 +108,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
 static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start, ZpError *err) {
   bool goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
   if (goes_on && !start)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: there is none; zp_study_run_with takes it");
+    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: there is none; the input of zp_study_run takes it");
   if (start && !goes_on)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state: a checkpoint was given; it requires initial.state checkpoint");
   return ZP_OK;
@@ -146,13 +146,19 @@ static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHoo
   return status;
 }
 
-ZpStatus zp_study_actuate(const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks, ZpResult *result,
-                          ZpError *err) {
+ZpStatus zp_check_actuate(const ZpActuatorDef *def, ZpError *err) {
+  bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
+  ZpStatus status = zp_def_check_motion(def, err);
+  if (status != ZP_OK || table) return status;
+  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
+}
+
+ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = check_start(def, input->start, err);
-  if (status == ZP_OK) status = zp_model_create_driven(def, input->table, &model, err);
+  ZpStatus status = check_start(task->def, task->input.start, err);
+  if (status == ZP_OK) status = zp_model_create_driven(task->def, task->input.table, &model, err);
   if (status != ZP_OK) return status;
-  status = run(model, input->start, hooks, result, err);
+  status = run(model, task->input.start, task->hooks, result, err);
   zp_model_destroy(model);
   return status;
 }

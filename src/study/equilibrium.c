@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -25,9 +25,6 @@ static const ZpColumn columns[] = {
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000 };
-
-/* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
-static const double first_step = 0.01, longest_step = 0.1;
 
 /* Two neighbouring limit points closer than this, relative, are a ripple of the mesh: the front passing a node
  * of an unstable branch. Measured at N = 61 without breakdown cap, where it is largest: 0.35 %. */
@@ -46,11 +43,7 @@ typedef struct Follower {
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpResult *result;
-  ZpStatics statics;
-  ZpBranch branch;
-  ZpBranchSystem system;
-  void *memory;
-  double *line_force;
+  ZpRest rest;
   double *limit; /* [MOST_POINTS] voltages at the limit points of the branch under way */
   int limits, points;
   double shorted;  /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
@@ -65,31 +58,18 @@ typedef struct Follower {
   ZpOutcome outcome;
 } Follower;
 
-static bool allocate(Follower *f) {
-  if (!zp_statics_create(f->model, &f->statics)) return false;
-  f->system = zp_statics_branch(&f->statics, ZP_ALONG_VOLTAGE);
-  size_t saved = f->system.save_size / sizeof(double);
-  ZpCarver carver = {NULL, 0};
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass) {
-      f->memory = zp_calloc(1, carver.used);
-      carver = (ZpCarver){f->memory, 0};
-      if (!f->memory) return false;
-    }
-    zp_branch_carve(&f->branch, &f->system, f->statics.assembly.bandwidth, f->statics.assembly.symmetric, &carver);
-    f->line_force = zp_carve(&carver, f->model->nodes);
-    f->limit = zp_carve(&carver, MOST_POINTS);
-    f->start = zp_carve(&carver, saved);
-    f->before = zp_carve(&carver, saved);
-  }
-  return true;
+static void carve(void *user, ZpCarver *carver) {
+  Follower *f = user;
+  f->limit = zp_carve(carver, MOST_POINTS);
+  f->start = zp_carve(carver, zp_rest_save_size(&f->rest));
+  f->before = zp_carve(carver, zp_rest_save_size(&f->rest));
 }
 
 /* Distance of the faces that close last: at the platform or the right end, between two clamps in the middle. */
 static double opening(const Follower *f) {
   bool clamped = f->model->flat && f->model->def.actuator.right_end == ZP_END_CLAMPED;
   size_t last = f->model->nodes - 1;
-  return f->statics.eval.plates.gap[clamped ? last / 2 : last];
+  return f->rest.statics.eval.plates.gap[clamped ? last / 2 : last];
 }
 
 static bool is_closed(const Follower *f) {
@@ -98,8 +78,8 @@ static bool is_closed(const Follower *f) {
 
 static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
-  ZpStatics *s = &f->statics;
-  bool stable = zp_statics_stable(s, &f->branch.newton);
+  ZpStatics *s = &f->rest.statics;
+  bool stable = zp_statics_stable(s, &f->rest.branch.newton);
   double row[COLUMNS] = {s->U,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
@@ -109,7 +89,7 @@ static void record(Follower *f, int branch) {
                          stable,
                          branch};
   bool last = s->U == model->def.drive.voltage && f->points > 0;
-  ZpShape shape = zp_statics_shape(s, f->points++, f->line_force);
+  ZpShape shape = zp_statics_shape(s, f->points++, f->rest.line_force);
   zp_table_offer(f->result->series, row);
   zp_shapes_offer(f->result->shapes, &shape);
   if (!last) return;
@@ -119,7 +99,7 @@ static void record(Follower *f, int branch) {
 
 static bool asked_to_stop(const Follower *f) {
   const ZpHooks *hooks = f->hooks;
-  double fraction = fabs(f->statics.U) / fmax(f->model->def.drive.voltage, 1);
+  double fraction = fabs(f->rest.statics.U) / fmax(f->model->def.drive.voltage, 1);
   return hooks && hooks->progress && hooks->progress(hooks->user, "following", fmin(fraction, 1));
 }
 
@@ -149,22 +129,15 @@ static void smooth_limits(Follower *f) {
 
 static bool is_beyond(void *user) {
   const Follower *f = user;
-  return f->growing ? f->statics.U > f->end : f->statics.U < f->end;
+  return f->growing ? f->rest.statics.U > f->end : f->rest.statics.U < f->end;
 }
 
 /* The equilibrium at `voltage`, which the last step passed. */
 static bool arrive(Follower *f, bool growing, double voltage) {
-  enum { MOST = 30 };
-  ZpStaticSystem system = zp_statics_system(&f->statics);
   f->growing = growing;
   f->end = voltage;
-  zp_branch_approach(&f->branch, is_beyond, f);
-  f->statics.U = voltage;
-  return zp_newton_good(zp_newton(&system, zp_statics_tolerance(&f->statics), MOST, &f->branch.newton).end);
-}
-
-static bool start(Follower *f, bool growing) {
-  return zp_branch_start(&f->branch, growing, first_step, longest_step, 2 * zp_statics_tolerance(&f->statics));
+  zp_branch_approach(&f->rest.branch, is_beyond, f);
+  return zp_newton_good(zp_rest_settle(&f->rest, voltage).end);
 }
 
 /* -- branches ------------------------------------------------------------------------------------- */
@@ -180,19 +153,19 @@ static bool follow(Follower *f, bool growing, int mark) {
   double top = f->model->def.drive.voltage;
   f->limits = 0;
   record(f, mark);
-  if (!start(f, growing)) return false;
-  double direction = f->branch.direction_m;
+  if (!zp_rest_follow(&f->rest, growing)) return false;
+  double direction = f->rest.branch.direction_m;
   for (int k = 0; k < MOST_POINTS; k++) {
-    if (!zp_branch_advance(&f->branch)) return false;
-    if (f->branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->branch));
-    direction = f->branch.direction_m;
-    if (f->statics.U < 0) f->ran_back = growing && is_hanging(f);
-    if (f->statics.U < 0) return !f->ran_back;
-    if (zp_statics_shorted(&f->statics)) {
-      f->shorted = f->statics.U;
+    if (!zp_branch_advance(&f->rest.branch)) return false;
+    if (f->rest.branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->rest.branch));
+    direction = f->rest.branch.direction_m;
+    if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
+    if (f->rest.statics.U < 0) return !f->ran_back;
+    if (zp_statics_shorted(&f->rest.statics)) {
+      f->shorted = f->rest.statics.U;
       return true;
     }
-    if (f->statics.U > top) {
+    if (f->rest.statics.U > top) {
       if (!arrive(f, true, top)) return false;
       record(f, mark);
       return true;
@@ -224,9 +197,10 @@ static bool has_changed(void *user) {
 /* Fall from near a limit point at `voltage` to what is beyond it; the branch goes on from there. */
 static bool fall(Follower *f, bool growing, double voltage) {
   static const double beyond = 1e-3;
-  f->system.restore(&f->statics, f->before);
-  ZpNewtonInfo info = zp_statics_fall(&f->statics, voltage * (growing ? 1 + beyond : 1 - beyond), &f->branch.newton);
-  return zp_newton_good(info.end) && start(f, growing);
+  f->rest.system.restore(&f->rest.statics, f->before);
+  ZpNewtonInfo info =
+      zp_statics_fall(&f->rest.statics, voltage * (growing ? 1 + beyond : 1 - beyond), &f->rest.branch.newton);
+  return zp_newton_good(info.end) && zp_rest_follow(&f->rest, growing);
 }
 
 /* Go on along a stable branch: change the voltage slowly to `end`, or until the actuator closes or opens. => *at: the
@@ -234,10 +208,10 @@ static bool fall(Follower *f, bool growing, double voltage) {
 static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
   f->was_closed = is_closed(f);
   for (int k = 0; k < MOST_POINTS; k++) {
-    f->system.save(&f->statics, f->before);
-    if (!zp_branch_advance(&f->branch)) return LOST;
-    bool turned = growing ? f->branch.direction_m < 0 : f->branch.direction_m > 0;
-    *at = turned || has_changed(f) ? zp_branch_where(&f->branch, has_changed, f) : f->statics.U;
+    f->rest.system.save(&f->rest.statics, f->before);
+    if (!zp_branch_advance(&f->rest.branch)) return LOST;
+    bool turned = growing ? f->rest.branch.direction_m < 0 : f->rest.branch.direction_m > 0;
+    *at = turned || has_changed(f) ? zp_branch_where(&f->rest.branch, has_changed, f) : f->rest.statics.U;
     if (growing ? *at >= end : *at <= end) return arrive(f, growing, end) ? ARRIVED : LOST;
     if (turned && !fall(f, growing, *at)) return LOST;
     f->jumped = turned;
@@ -255,8 +229,8 @@ static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
 static bool raise_voltage(Follower *f, Voltages *v) {
   double at;
   Slow end = CHANGED;
-  f->system.restore(&f->statics, f->start);
-  if (!start(f, true)) return false;
+  f->rest.system.restore(&f->rest.statics, f->start);
+  if (!zp_rest_follow(&f->rest, true)) return false;
   while (end == CHANGED) {
     end = change_slowly(f, true, f->model->def.drive.voltage, &at);
     if (end == CHANGED) v->closing = is_closed(f) ? at : (double)NAN;
@@ -268,7 +242,7 @@ static bool raise_voltage(Follower *f, Voltages *v) {
 /* From closed at drive.voltage down to 0. */
 static void lower_voltage(Follower *f, Voltages *v) {
   double at;
-  Slow end = start(f, false) ? change_slowly(f, false, 0, &at) : LOST;
+  Slow end = zp_rest_follow(&f->rest, false) ? change_slowly(f, false, 0, &at) : LOST;
   if (end == CHANGED) v->release = isnan(v->closing) ? at : fmin(at, v->closing);
   v->no_release = end == ARRIVED ? "it stays closed down to 0 V" : end == LOST ? "the closed state was lost" : NULL;
 }
@@ -276,22 +250,23 @@ static void lower_voltage(Follower *f, Voltages *v) {
 /* The closed state at drive.voltage: that to which a rising voltage leads, or else the one next to straight ribbons. =>
  * is there one? */
 static bool find_closed(Follower *f, Voltages *v) {
-  const ZpStatics *s = &f->statics;
+  const ZpStatics *s = &f->rest.statics;
   bool closed = raise_voltage(f, v);
   if (f->outcome == ZP_INTERRUPTED) return false;
   if (!closed)
-    closed = zp_newton_good(zp_statics_close(&f->statics, f->model->def.drive.voltage, &f->branch.newton).end) &&
-             is_closed(f);
+    closed =
+        zp_newton_good(zp_statics_close(&f->rest.statics, f->model->def.drive.voltage, &f->rest.branch.newton).end) &&
+        is_closed(f);
   return closed && !zp_statics_fault(s);
 }
 
 /* -- the study ------------------------------------------------------------------------------------ */
 
 static bool hang(Follower *f) {
-  ZpNewtonInfo info = zp_statics_hang(&f->statics, &f->branch.newton);
+  ZpNewtonInfo info = zp_statics_hang(&f->rest.statics, &f->rest.branch.newton);
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", info.residual);
-  f->system.save(&f->statics, f->start);
+  f->rest.system.save(&f->rest.statics, f->start);
   f->hanging = f->model->field ? opening(f) : 0;
   return zp_newton_good(info.end);
 }
@@ -313,17 +288,17 @@ static Voltages find(Follower *f) {
   if (f->hanging <= f->model->contact.range) return v;
   v.no_release = "it is not closed at drive.voltage";
   if (!find_closed(f, &v)) return v;
-  f->system.save(&f->statics, f->start);
+  f->rest.system.save(&f->rest.statics, f->start);
   if (!whole) follow_whole(f, false, 1);
   if (f->outcome == ZP_INTERRUPTED) return v;
-  f->system.restore(&f->statics, f->start);
+  f->rest.system.restore(&f->rest.statics, f->start);
   lower_voltage(f, &v);
   return v;
 }
 
 static void note(Follower *f) {
   ZpResult *r = f->result;
-  zp_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
   if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
   if (!isnan(f->shorted))
     zp_result_note(r, "at %.4g V electrodes without an insulator touch, a short circuit: the branch ends there",
@@ -333,7 +308,7 @@ static void note(Follower *f) {
 static void describe(Follower *f, const Voltages *v) {
   ZpResult *r = f->result;
   char pull_in[96], release[128] = "";
-  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->statics);
+  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->rest.statics);
   if (!isnan(v->pull_in))
     snprintf(pull_in, sizeof pull_in, "pulls in at %.4g V", v->pull_in);
   else if (!isnan(f->shorted))
@@ -356,7 +331,8 @@ static ZpStatus run(Follower *f, ZpError *err) {
   const ZpActuatorDef *def = &f->model->def;
   f->result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
   f->result->shapes = zp_shapes_create(f->model->s, f->model->nodes, (size_t)def->output.shapes);
-  if (!f->result->series || !f->result->shapes || !allocate(f)) return zp_fail_memory(err);
+  if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, carve, f))
+    return zp_fail_memory(err);
   const size_t first = f->result->scalars;
   zp_result_add(f->result, "pull_in_voltage_V", "V", NAN);
   zp_result_add(f->result, "release_voltage_V", "V", NAN);
@@ -372,14 +348,17 @@ static ZpStatus run(Follower *f, ZpError *err) {
   return ZP_OK;
 }
 
-ZpStatus zp_study_equilibrium(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+ZpStatus zp_check_equilibrium(const ZpActuatorDef *def, ZpError *err) {
+  return zp_def_check_voltage(def, def->drive.voltage, err);
+}
+
+ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(def, &model, err);
+  ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {.model = model, .hooks = hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
+  Follower f = {.model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
   status = run(&f, err);
-  zp_free(f.memory);
-  zp_statics_destroy(&f.statics);
+  zp_rest_close(&f.rest);
   zp_model_destroy(model);
   return status;
 }

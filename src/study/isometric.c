@@ -11,7 +11,9 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "rest/statics.h"
+#include "def/check.h"
+#include "rest/rest.h"
+#include "study/held.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -26,9 +28,6 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000, MOST_BEYOND = 2000 };
 
-/* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
-static const double first_step = 0.01, longest_step = 0.1;
-
 /* Other states at drive.voltage are looked for where the branch comes back from up to this times it. */
 static const double look_beyond = 1.25;
 
@@ -36,18 +35,14 @@ typedef struct Holder {
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpResult *result;
-  ZpStatics statics;
-  ZpBranch branch;
-  ZpBranchSystem system;
-  void *memory;
+  ZpRest rest;
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
-  double *line_force;
-  double unpowered; /* holds the platform without voltage, N, whole actuator */
-  double highest;   /* voltage that the branch has come to, V */
-  double force;     /* at the last state that was passed, N */
-  double leap;      /* the largest change of force in a jump, N */
+  double unpowered;    /* holds the platform without voltage, N, whole actuator */
+  double highest;      /* voltage that the branch has come to, V */
+  double force;        /* at the last state that was passed, N */
+  double leap;         /* the largest change of force in a jump, N */
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
@@ -55,44 +50,32 @@ typedef struct Holder {
   ZpOutcome outcome;
 } Holder;
 
-static bool allocate(Holder *h) {
-  if (!zp_statics_create(h->model, &h->statics)) return false;
-  h->system = zp_statics_branch(&h->statics, ZP_ALONG_VOLTAGE);
-  ZpCarver carver = {NULL, 0};
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass) {
-      h->memory = zp_calloc(1, carver.used);
-      carver = (ZpCarver){h->memory, 0};
-      if (!h->memory) return false;
-    }
-    zp_branch_carve(&h->branch, &h->system, h->statics.assembly.bandwidth, h->statics.assembly.symmetric, &carver);
-    h->before = zp_carve(&carver, h->system.save_size / sizeof(double));
-    h->edge = zp_carve(&carver, h->system.save_size / sizeof(double));
-    h->near = zp_carve(&carver, h->system.save_size / sizeof(double));
-    h->line_force = zp_carve(&carver, h->model->nodes);
-  }
-  return true;
+static void carve(void *user, ZpCarver *carver) {
+  Holder *h = user;
+  void **const point[] = {&h->before, &h->edge, &h->near};
+  for (size_t k = 0; k < sizeof point / sizeof point[0]; k++)
+    *point[k] = zp_carve(carver, zp_rest_save_size(&h->rest));
 }
 
 /* Whole actuator, N. */
 static double force(const Holder *h) {
-  return h->model->parts * h->statics.reaction - h->unpowered;
+  return h->model->parts * h->rest.statics.reaction - h->unpowered;
 }
 
 static double zipped_length(const Holder *h) {
-  return (double)zp_statics_front(&h->statics) * h->model->l;
+  return (double)zp_statics_front(&h->rest.statics) * h->model->l;
 }
 
 static bool is_stable(Holder *h) {
-  return zp_statics_stable(&h->statics, &h->branch.newton);
+  return zp_statics_stable(&h->rest.statics, &h->rest.branch.newton);
 }
 
 static void record(Holder *h, bool passed, bool last) {
-  ZpStatics *s = &h->statics;
+  ZpStatics *s = &h->rest.statics;
   bool stable = is_stable(h);
   double row[COLUMNS] = {s->U,   force(h), zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s),
                          stable, passed};
-  ZpShape shape = zp_statics_shape(s, h->points++, h->line_force);
+  ZpShape shape = zp_statics_shape(s, h->points++, h->rest.line_force);
   zp_table_offer(h->result->series, row);
   zp_shapes_offer(h->result->shapes, &shape);
   if (!last) return;
@@ -102,15 +85,15 @@ static void record(Holder *h, bool passed, bool last) {
 
 static bool asked_to_stop(const Holder *h) {
   const ZpHooks *hooks = h->hooks;
-  double fraction = fmax(h->statics.U, 0) / h->model->def.drive.voltage;
+  double fraction = fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage;
   return hooks && hooks->progress && hooks->progress(hooks->user, "raising the voltage", fmin(fraction, 1));
 }
 
 /* Can the present state be? Its force is at most the attraction of closed faces. */
 static bool is_possible(Holder *h) {
-  const ZpPlatesParams *plates = &h->statics.model->plates;
-  double most = zp_plates_law(plates, h->statics.U, 0).W * (h->model->L + plates->flat_length) * h->model->parts;
-  h->fault = zp_statics_fault(&h->statics);
+  const ZpPlatesParams *plates = &h->rest.statics.model->plates;
+  double most = zp_plates_law(plates, h->rest.statics.U, 0).W * (h->model->L + plates->flat_length) * h->model->parts;
+  h->fault = zp_statics_fault(&h->rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
 }
@@ -123,17 +106,17 @@ static void pass(Holder *h, bool jumped) {
     if (fabs(now - h->force) > fabs(h->leap)) h->leap = now - h->force;
   }
   h->force = now;
-  h->highest = h->statics.U;
+  h->highest = h->rest.statics.U;
 }
 
 /* After a step of the branch: where has it come to? */
 static void look_at(Holder *h, double direction, bool *turned) {
-  if (direction > 0 && h->branch.direction_m < 0) {
-    if (!*turned) memcpy(h->edge, h->before, h->system.save_size);
+  if (direction > 0 && h->rest.branch.direction_m < 0) {
+    if (!*turned) memcpy(h->edge, h->before, h->rest.system.save_size);
     *turned = true;
-    h->highest = fmax(h->highest, zp_branch_limit(&h->branch));
+    h->highest = fmax(h->highest, zp_branch_limit(&h->rest.branch));
   }
-  if (h->statics.U <= h->highest || !is_stable(h)) return;
+  if (h->rest.statics.U <= h->highest || !is_stable(h)) return;
   pass(h, *turned);
   *turned = false;
 }
@@ -144,19 +127,20 @@ typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
 /* Follow the branch until it has come to drive.voltage within its last step. */
 static End follow(Holder *h) {
   double top = h->model->def.drive.voltage;
-  ZpStatics *s = &h->statics;
+  ZpStatics *s = &h->rest.statics;
   bool turned = false;
-  if (!zp_branch_start(&h->branch, true, first_step, longest_step, 2 * zp_statics_tolerance(s))) return LOST;
+  if (!zp_rest_follow(&h->rest, true)) return LOST;
   for (int k = 0; k < MOST_POINTS; k++) {
-    double direction = h->branch.direction_m;
+    double direction = h->rest.branch.direction_m;
     h->rising = direction > 0;
-    h->system.save(s, h->before);
-    if (!zp_branch_advance(&h->branch) || s->U < 0) return turned ? TURNED_FOR_GOOD : LOST;
+    h->rest.system.save(s, h->before);
+    if (!zp_branch_advance(&h->rest.branch) || s->U < 0) return turned ? TURNED_FOR_GOOD : LOST;
     if (!is_possible(h)) return LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
-      h->system.save(s, h->near);
-      if (s->U < top) memcpy(h->near, h->before, h->system.save_size); /* come there and turned back within this step */
+      h->rest.system.save(s, h->near);
+      if (s->U < top)
+        memcpy(h->near, h->before, h->rest.system.save_size); /* come there and turned back within this step */
       return ARRIVED;
     }
     record(h, s->U == h->highest, false);
@@ -168,10 +152,10 @@ static End follow(Holder *h) {
 /* Release at the last turn, just above its voltage. */
 static bool fall(Holder *h) {
   static const double above = 1e-3;
-  ZpStatics *s = &h->statics;
-  h->system.restore(s, h->edge);
+  ZpStatics *s = &h->rest.statics;
+  h->rest.system.restore(s, h->edge);
   ZpNewtonInfo info =
-      zp_statics_fall(s, fmin((1 + above) * h->highest, h->model->def.drive.voltage), &h->branch.newton);
+      zp_statics_fall(s, fmin((1 + above) * h->highest, h->model->def.drive.voltage), &h->rest.branch.newton);
   if (!zp_newton_good(info.end) || !is_possible(h)) return false;
   pass(h, true);
   record(h, true, false);
@@ -189,11 +173,8 @@ static End rise(Holder *h) {
 
 /* The state at drive.voltage from the present point near it. */
 static bool settle(Holder *h, ZpNewtonInfo *info) {
-  enum { MOST = 30 };
-  ZpStaticSystem system = zp_statics_system(&h->statics);
   int iterations = info->iterations;
-  h->statics.U = h->model->def.drive.voltage;
-  *info = zp_newton(&system, zp_statics_tolerance(&h->statics), MOST, &h->branch.newton);
+  *info = zp_rest_settle(&h->rest, h->model->def.drive.voltage);
   info->iterations += iterations;
   return zp_newton_good(info->end) && is_stable(h) && is_possible(h);
 }
@@ -201,14 +182,14 @@ static bool settle(Holder *h, ZpNewtonInfo *info) {
 /* Where that fails, limit points are near: the branch's last step again in shorter and shorter ones. */
 static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
   enum { LEVELS = 4, FINER = 8 };
-  ZpStatics *s = &h->statics;
+  ZpStatics *s = &h->rest.statics;
   double step = taken;
   for (int level = 0, most = 4 * FINER; level < LEVELS; level++, most *= FINER) {
     step /= FINER;
-    h->system.restore(s, h->before);
-    if (!zp_branch_start(&h->branch, h->rising, step, step, 2 * zp_statics_tolerance(s))) return false;
+    h->rest.system.restore(s, h->before);
+    if (!zp_rest_follow_by(&h->rest, h->rising, step, step)) return false;
     for (int k = 0; k < most && s->U < h->model->def.drive.voltage; k++)
-      if (!zp_branch_advance(&h->branch)) return false;
+      if (!zp_branch_advance(&h->rest.branch)) return false;
     if (settle(h, info)) return true;
   }
   return false;
@@ -217,10 +198,10 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
 /* Further along the branch: other stable states at drive.voltage. */
 static void count_others(Holder *h) {
   double top = h->model->def.drive.voltage;
-  ZpStatics *s = &h->statics;
+  ZpStatics *s = &h->rest.statics;
   for (int k = 0; k < MOST_BEYOND; k++) {
     bool below = s->U < top;
-    if (!zp_branch_advance(&h->branch) || s->U < 0 || s->U > look_beyond * top) return;
+    if (!zp_branch_advance(&h->rest.branch) || s->U < 0 || s->U > look_beyond * top) return;
     if (!below || s->U < top || !is_stable(h) || zp_statics_fault(s)) continue;
     h->others++;
     h->other_force = force(h);
@@ -229,7 +210,7 @@ static void count_others(Holder *h) {
 
 static void summarize(Holder *h, const ZpNewtonInfo *info) {
   ZpResult *r = h->result;
-  const ZpStatics *s = &h->statics;
+  const ZpStatics *s = &h->rest.statics;
   bool found = h->outcome == ZP_CONVERGED, held = h->outcome != ZP_NOT_SETTLED;
   zp_result_add(r, "force_N", "N", found ? force(h) : NAN);
   zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
@@ -245,7 +226,7 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 
 static void note(Holder *h) {
   ZpResult *r = h->result;
-  zp_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
+  zp_result_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
   if (h->jumps > 0)
     zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
@@ -263,15 +244,15 @@ static void describe(Holder *h) {
   ZpResult *r = h->result;
   size_t size = sizeof r->message;
   double top = h->model->def.drive.voltage;
-  const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->statics);
+  const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->rest.statics);
   if (h->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, size, "no equilibrium without voltage found at isometric.separation = %g m",
              h->model->def.isometric.separation);
   else if (h->outcome == ZP_INTERRUPTED)
-    snprintf(r->message, size, "interrupted at %.4g V", h->statics.U);
+    snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
   else if (h->outcome == ZP_BRANCH_LOST)
     snprintf(r->message, size, "lost the branch at %.4g V, drive.voltage = %g V%s%s; what was found is kept",
-             h->statics.U, top, trouble ? ": " : "", trouble ? trouble : "");
+             h->rest.statics.U, top, trouble ? ": " : "", trouble ? trouble : "");
   else
     snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
 }
@@ -281,9 +262,9 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
   End end = rise(h);
   if (end != ARRIVED) h->outcome = end == INTERRUPTED ? ZP_INTERRUPTED : ZP_BRANCH_LOST;
   if (end != ARRIVED) return;
-  double taken = h->branch.taken;
+  double taken = h->rest.branch.taken;
   count_others(h);
-  h->system.restore(&h->statics, h->near);
+  h->rest.system.restore(&h->rest.statics, h->near);
   if (settle(h, info) || settle_closer(h, taken, info))
     record(h, true, true);
   else
@@ -291,8 +272,8 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
 }
 
 static void run(Holder *h) {
-  ZpStatics *s = &h->statics;
-  ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->branch.newton);
+  ZpStatics *s = &h->rest.statics;
+  ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
   if (zp_newton_good(info.end)) {
     h->unpowered = h->model->parts * s->reaction;
     record(h, true, false);
@@ -306,22 +287,40 @@ static void run(Holder *h) {
   h->result->outcome = h->outcome;
 }
 
+ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
+  static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon, whose platform it holds",
+                   zp_word_of("actuator.kind", (int)def->actuator.kind), study);
+  double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
+  if (separation > longest)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "isometric.separation = %g m: out of reach; at most %g (ribbon.length - platform.length) = %g m",
+                   separation, most, longest);
+  return ZP_OK;
+}
+
+ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = zp_check_held(def, "isometric", err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
+}
+
 /* What hangs there does not count: the load is taken off before anything is scaled by it. */
-ZpStatus zp_study_isometric(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = *def;
+ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpActuatorDef bare = *task->def;
   bare.load.mass = 0;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Holder h = {.model = model, .hooks = hooks, .result = result, .outcome = ZP_CONVERGED};
-  result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
-  result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)def->output.shapes);
-  if (result->series && result->shapes && allocate(&h))
+  Holder h = {.model = model, .hooks = task->hooks, .result = result, .outcome = ZP_CONVERGED};
+  result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
+  result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)bare.output.shapes);
+  if (result->series && result->shapes && zp_rest_open(&h.rest, model, carve, &h))
     run(&h);
   else
     status = zp_fail_memory(err);
-  zp_free(h.memory);
-  zp_statics_destroy(&h.statics);
+  zp_rest_close(&h.rest);
   zp_model_destroy(model);
   return status;
 }

@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "math/eigen.h"
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -26,39 +27,25 @@ static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "fr
                                          "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
 
 typedef struct Problem {
-  ZpStatics statics;
-  ZpNewtonWork newton;
+  ZpRest rest;
   size_t n, m;      /* equations, vectors iterated */
   double *mass;     /* [n] */
   double *u, *next; /* [m][n] the subspace, and K^-1 m of it */
   double *residual; /* [m] */
-  double *line_force;
-  double *q; /* [2 stride] of the equilibrium */
+  double *q;        /* [2 stride] of the equilibrium */
   double reduced[SUBSPACE * SUBSPACE], turn[SUBSPACE * SUBSPACE];
   double omega2[SUBSPACE];
-  void *memory;
 } Problem;
 
-static bool allocate(Problem *p, const ZpModel *model) {
-  if (!zp_statics_create(model, &p->statics)) return false;
-  p->n = p->statics.assembly.n;
+static void carve(void *user, ZpCarver *carver) {
+  Problem *p = user;
+  p->n = p->rest.statics.assembly.n;
   p->m = p->n < SUBSPACE ? p->n : SUBSPACE;
-  ZpCarver carver = {NULL, 0};
-  for (int pass = 0; pass < 2; pass++) {
-    if (pass) {
-      p->memory = zp_calloc(1, carver.used);
-      carver = (ZpCarver){p->memory, 0};
-      if (!p->memory) return false;
-    }
-    zp_newton_carve(&p->newton, p->n, p->statics.assembly.bandwidth, p->statics.assembly.symmetric, &carver);
-    p->mass = zp_carve(&carver, p->n);
-    p->u = zp_carve(&carver, p->m * p->n);
-    p->next = zp_carve(&carver, p->m * p->n);
-    p->residual = zp_carve(&carver, p->m);
-    p->line_force = zp_carve(&carver, model->nodes);
-    p->q = zp_carve(&carver, 2 * model->stride);
-  }
-  return true;
+  p->mass = zp_carve(carver, p->n);
+  p->u = zp_carve(carver, p->m * p->n);
+  p->next = zp_carve(carver, p->m * p->n);
+  p->residual = zp_carve(carver, p->m);
+  p->q = zp_carve(carver, 2 * p->rest.statics.model->stride);
 }
 
 /* Multiples of the golden ratio, which scatter over -1 .. 1. */
@@ -69,9 +56,9 @@ static double scattered(size_t k) {
 
 /* Masses by equation, and a start that has a part of every mode. */
 static void prepare(Problem *p) {
-  const ZpModel *model = p->statics.model;
+  const ZpModel *model = p->rest.statics.model;
   for (size_t k = 0; k < 2 * model->count; k++)
-    if (p->statics.assembly.equation[k] >= 0) p->mass[p->statics.assembly.equation[k]] += model->mass[k / 2];
+    if (p->rest.statics.assembly.equation[k] >= 0) p->mass[p->rest.statics.assembly.equation[k]] += model->mass[k / 2];
   for (size_t j = 0; j < p->m; j++)
     for (size_t i = 0; i < p->n; i++)
       p->u[j * p->n + i] = scattered((i + 1) * (j + 1)) + (i % p->m == j);
@@ -106,7 +93,7 @@ static void iterate(Problem *p) {
   for (size_t j = 0; j < m; j++) {
     for (size_t i = 0; i < n; i++)
       p->next[j * n + i] = p->mass[i] * p->u[j * n + i];
-    zp_band_solve(&p->newton.K, p->next + j * n);
+    zp_band_solve(&p->rest.branch.newton.K, p->next + j * n);
   }
   /* of u, orthonormal in m: u' m K^-1 m u has the eigenvalues 1 / omega^2 */
   for (size_t j = 0; j < m; j++)
@@ -144,15 +131,15 @@ static bool solve(Problem *p, size_t modes) {
 
 /* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
-  const ZpModel *model = p->statics.model;
-  double *q = p->statics.q;
+  const ZpModel *model = p->rest.statics.model;
+  double *q = p->rest.statics.q;
   for (size_t k = 0; k < 2 * model->count; k++) {
     size_t place = k / 2 + (k % 2) * model->stride;
-    int row = p->statics.assembly.equation[k];
+    int row = p->rest.statics.assembly.equation[k];
     q[place] = p->q[place] + (row >= 0 ? amplitude * p->u[j * p->n + (size_t)row] : 0);
   }
-  if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->statics.eval.plates);
-  ZpShape shape = zp_statics_shape(&p->statics, frame, p->line_force);
+  if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->rest.statics.eval.plates);
+  ZpShape shape = zp_statics_shape(&p->rest.statics, frame, p->rest.line_force);
   zp_shapes_offer(shapes, &shape);
 }
 
@@ -161,12 +148,12 @@ static double amplitude_of(const Problem *p, size_t j) {
   double largest = 0;
   for (size_t i = 0; i < p->n; i++)
     largest = fmax(largest, fabs(p->u[j * p->n + i]));
-  return 0.1 * p->statics.model->L / largest;
+  return 0.1 * p->rest.statics.model->L / largest;
 }
 
 static void report(Problem *p, size_t modes, ZpResult *result) {
   const double two_pi = 6.283185307179586;
-  memcpy(p->q, p->statics.q, 2 * p->statics.model->stride * sizeof *p->q);
+  memcpy(p->q, p->rest.statics.q, 2 * p->rest.statics.model->stride * sizeof *p->q);
   record_shape(p, 0, 0, 0, result->shapes);
   for (size_t j = 0; j < modes; j++) {
     double frequency = sqrt(p->omega2[j]) / two_pi;
@@ -178,13 +165,14 @@ static void report(Problem *p, size_t modes, ZpResult *result) {
 
 static void run(Problem *p, ZpResult *result) {
   size_t modes = p->m < MODES ? p->m : MODES;
-  ZpNewtonInfo info = zp_statics_hang(&p->statics, &p->newton);
+  ZpNewtonInfo info = zp_statics_hang(&p->rest.statics, &p->rest.branch.newton);
   result->outcome = ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return;
-  double voltage = p->statics.model->def.modes.voltage;
-  if (voltage > 0 && p->statics.model->field && !zp_statics_raise(&p->statics, voltage, &p->newton)) {
-    const char *trouble = zp_statics_trouble(&p->statics);
+  double voltage = p->rest.statics.model->def.modes.voltage;
+  if (voltage > 0 && p->rest.statics.model->field &&
+      !zp_statics_raise(&p->rest.statics, voltage, &p->rest.branch.newton)) {
+    const char *trouble = zp_statics_trouble(&p->rest.statics);
     if (!trouble) result->outcome = ZP_PULLED_IN;
     snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
              trouble ? trouble : "the actuator pulls in below it");
@@ -192,14 +180,14 @@ static void run(Problem *p, ZpResult *result) {
       zp_result_add(result, names[j], "Hz", NAN);
     return;
   }
-  if (zp_statics_shorted(&p->statics)) {
+  if (zp_statics_shorted(&p->rest.statics)) {
     result->outcome = ZP_SHORT_CIRCUIT;
     snprintf(result->message, sizeof result->message,
              "short circuit at modes.voltage = %g V: electrodes without an insulator touch", voltage);
     return;
   }
-  p->statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
-  if (!zp_statics_stable(&p->statics, &p->newton)) {
+  p->rest.statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
+  if (!zp_statics_stable(&p->rest.statics, &p->rest.branch.newton)) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
     return;
   }
@@ -215,27 +203,33 @@ static void run(Problem *p, ZpResult *result) {
   if (found) report(p, modes, result);
 }
 
-ZpStatus zp_study_modes(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  (void)hooks; /* a matter of milliseconds */
+ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   if (def->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
+  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
+        def->modes.voltage);
+  ZpStatus status = zp_check_mass(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
+}
+
+ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(def, &model, err);
+  ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Problem *p = zp_calloc(1, sizeof *p);
   result->series = zp_table_create(columns, COLUMNS, MODES);
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
-  if (result->series && result->shapes && allocate(p, model)) {
+  if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
     run(p, result);
-    zp_note_model(result, model, def->modes.voltage, 1); /* the others are no shapes at rest */
+    zp_result_note_model(result, model, task->def->modes.voltage, 1); /* the others are no shapes at rest */
   } else {
     status = zp_fail_memory(err);
   }
-  if (p) {
-    zp_free(p->memory);
-    zp_statics_destroy(&p->statics);
-  }
+  if (p) zp_rest_close(&p->rest);
   zp_free(p);
   zp_model_destroy(model);
   return status;

@@ -66,7 +66,7 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
         model->nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
 }
 
-void zp_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames) {
+void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames) {
   if (model->field) zp_note_breakdown(result, model, zp_seen_in(model, highest, result->shapes, frames));
   zp_note_mesh(result, model, highest);
 }

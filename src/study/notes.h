@@ -22,9 +22,6 @@ void zp_note_breakdown(ZpResult *result, const ZpModel *model, ZpSeen seen);
 /* Note a mesh too coarse for `voltage`, the highest (V), 0 for none. */
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);
 
-/* All of the above for a study under voltages up to `highest`, of whose film the first `frames` count. */
-void zp_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames);
-
 /* Note a start that is nearly closed: opening of the platforms (m; NAN: there are none). */
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening);
 

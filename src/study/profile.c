@@ -8,10 +8,12 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "electro/field.h"
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "study/bookkeeping.h"
 #include "study/faces.h"
+#include "study/held.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -105,22 +107,15 @@ static bool allocate(Profiler *p) {
 /* The unpowered shape. *found tells whether there is one; false if there is no memory. */
 static bool hold(Profiler *p, bool *found) {
   const ZpModel *model = p->model;
-  ZpStatics statics;
-  ZpNewtonWork newton;
-  ZpCarver carver = {NULL, 0};
-  if (!zp_statics_create(model, &statics)) return false;
-  zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  if (memory) {
-    carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&newton, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    ZpNewtonInfo info = zp_statics_hold(&statics, model->def.isometric.separation, &newton);
+  ZpRest rest;
+  bool opened = zp_rest_open(&rest, model, NULL, NULL);
+  if (opened) {
+    ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation, &rest.branch.newton);
     *found = zp_newton_good(info.end);
-    zp_faces_smooth(model->nodes, statics.q, statics.q + model->stride, &p->stations);
+    zp_faces_smooth(model->nodes, rest.statics.q, rest.statics.q + model->stride, &p->stations);
   }
-  zp_free(memory);
-  zp_statics_destroy(&statics);
-  return memory != NULL;
+  zp_rest_close(&rest);
+  return opened;
 }
 
 static bool find_shape(Profiler *p, bool *found) {
@@ -398,18 +393,42 @@ static ZpStatus run(Profiler *p, ZpError *err) {
   return end == ZP_FIELD_SOLVED ? report(p, err) : end_badly(p, ZP_DIVERGED, zp_field_words(end));
 }
 
+ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
+  if (def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges = true: study profile compares forces in the plane of the ribbons, without "
+                   "lateral edges; the other studies can include them");
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = %s: study profile requires actuator.kind electro_ribbon, which has two ribbons",
+                   zp_word_of("actuator.kind", (int)def->actuator.kind));
+  if (def->insulator.thickness == 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
+        "the field there is infinite");
+  ZpStatus status = zp_check_insulator_of_field(def, err);
+  if (status != ZP_OK) return status;
+  if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
+    return def->profile.shape == ZP_PROFILE_HELD ? zp_check_held(def, "profile", err) : ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "electro.insulator_offset = 0 m: the plates law, which study profile compares with the field, is "
+                 "infinite at the clip");
+}
+
 /* As in study isometric, what hangs there does not count. The model is that of plates: the shape has no voltage, and
  * the field is solved here. */
-ZpStatus zp_study_profile(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  (void)hooks; /* a matter of milliseconds */
-  ZpActuatorDef bare = *def;
+ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpActuatorDef bare = *task->def;
   bare.load.mass = 0;
   bare.electro.model = ZP_ELECTRO_PLATES;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Profiler p = {
-      .model = model, .result = result, .U = def->drive.voltage, .by_field = def->electro.model == ZP_ELECTRO_FIELD};
+  Profiler p = {.model = model,
+                .result = result,
+                .U = bare.drive.voltage,
+                .by_field = task->def->electro.model == ZP_ELECTRO_FIELD};
   status = run(&p, err);
   zp_free(p.memory);
   zp_field_destroy(&p.field);

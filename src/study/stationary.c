@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "base/fail.h"
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -49,17 +49,9 @@ static const char *words_of(ZpNewtonEnd end) {
   return "no equilibrium found within the largest number of iterations";
 }
 
-static bool run(ZpStatics *s, ZpResult *result) {
-  ZpNewtonWork work;
-  ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, s->assembly.n, s->assembly.bandwidth, s->assembly.symmetric, &carver);
-  zp_carve(&carver, s->model->nodes);
-  void *memory = zp_calloc(1, carver.used);
-  if (!memory) return false;
-  carver = (ZpCarver){memory, 0};
-  zp_newton_carve(&work, s->assembly.n, s->assembly.bandwidth, s->assembly.symmetric, &carver);
-  double *line_force = zp_carve(&carver, s->model->nodes);
-  ZpNewtonInfo info = zp_statics_hang(s, &work);
+static void run(ZpRest *rest, ZpResult *result) {
+  ZpStatics *s = &rest->statics;
+  ZpNewtonInfo info = zp_statics_hang(s, &rest->branch.newton);
   bool found = zp_newton_good(info.end);
   result->outcome = found ? ZP_CONVERGED : ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "%s", words_of(info.end));
@@ -67,26 +59,32 @@ static bool run(ZpStatics *s, ZpResult *result) {
   if (s->model->s == 2) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  zp_note_model(result, s->model, 0, 0);
+  zp_result_note_model(result, s->model, 0, 0);
   if (found) {
     fill_table(s, result->series);
-    ZpShape shape = zp_statics_shape(s, 0, line_force);
+    ZpShape shape = zp_statics_shape(s, 0, rest->line_force);
     zp_shapes_offer(result->shapes, &shape);
   }
-  zp_free(memory);
-  return true;
 }
 
-ZpStatus zp_study_stationary(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  (void)hooks; /* done in less than a millisecond */
+/* It has no voltage and asks for nothing. */
+ZpStatus zp_check_stationary(const ZpActuatorDef *def, ZpError *err) {
+  (void)def, (void)err;
+  return ZP_OK;
+}
+
+ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(def, &model, err);
+  ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  ZpStatics statics = {0};
+  ZpRest rest = {0};
   result->series = zp_table_create(columns, COLUMNS, model->nodes);
   result->shapes = zp_shapes_create(model->s, model->nodes, 2);
-  bool done = result->series && result->shapes && zp_statics_create(model, &statics) && run(&statics, result);
-  zp_statics_destroy(&statics);
+  if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))
+    run(&rest, result);
+  else
+    status = zp_fail_memory(err);
+  zp_rest_close(&rest);
   zp_model_destroy(model);
-  return done ? ZP_OK : zp_fail_memory(err);
+  return status;
 }

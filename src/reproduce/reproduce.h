@@ -1,13 +1,9 @@
-/* The paper's tables and figures beside ours: every published number, and the page that shows them. Part of the io
- * library. */
-#ifndef ZIPACT_REPRODUCE_H
-#define ZIPACT_REPRODUCE_H
+/* The paper's tables and figures beside ours: every published number, and the page that shows them. Part of the
+ * command, not of the library. */
+#ifndef ZP_REPRODUCE_REPRODUCE_H
+#define ZP_REPRODUCE_REPRODUCE_H
 
 #include <zipact/batch.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /* What the paper gives numbers for. */
 typedef enum ZpQuantity {
@@ -52,9 +48,5 @@ double zp_published(ZpQuantity quantity, int nodes, double load);
  * summary.json holds. */
 ZpStatus zp_reproduce(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message), FILE *summary,
                       ZpOutcome *outcome, ZpError *err);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,0 +1,5 @@
+#include <zipact/version.h>
+
+const char *zp_version(void) {
+  return ZP_VERSION;
+}

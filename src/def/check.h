@@ -1,0 +1,16 @@
+/* Checks that more than one study shares, and the words of messages. All name the key in ZP_BAD_INPUT. */
+#ifndef ZP_DEF_CHECK_H
+#define ZP_DEF_CHECK_H
+
+#include <zipact/def.h>
+
+/* (name of a choice key, place in its list) => the word. */
+const char *zp_word_of(const char *key, int choice);
+
+/* What moves needs a mass. */
+ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err);
+
+/* The grid of the field keeps closed faces a nanometre apart: the insulator must be far thicker. */
+ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err);
+
+#endif

@@ -1,0 +1,155 @@
+/* Studies and their files: what each study of studies.def takes from files is read here, above all studies. */
+#include <zipact/calibrate.h>
+#include <zipact/io.h>
+
+#include "base/fail.h"
+#include "fit/fit.h"
+#include "fit/reference.h"
+#include "io/drive_table.h"
+
+/* -- none ------------------------------------------------------------------------------------------- */
+
+static ZpStatus check_none(const ZpActuatorDef *def, ZpError *err) {
+  (void)def, (void)err;
+  return ZP_OK;
+}
+
+static ZpStatus run_none(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                         ZpError *err) {
+  return zp_study_run(study, def, NULL, hooks, result, err);
+}
+
+/* -- course: a table of voltages, a checkpoint ------------------------------------------------------- */
+
+typedef struct Files {
+  ZpDriveRows rows;
+  ZpDriveTable table;
+  ZpCheckpoint *start;
+  ZpStudyInput input; /* the same as the study takes it */
+} Files;
+
+static void close_files(Files *files) {
+  zp_drive_rows_free(&files->rows);
+  zp_checkpoint_destroy(files->start);
+}
+
+static ZpStatus read_checkpoint(const ZpActuatorDef *def, ZpCheckpoint **start, ZpError *err) {
+  ZpError reason;
+  if (!*def->initial.file) return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: give initial.file");
+  ZpStatus status = zp_checkpoint_read(def->initial.file, start, &reason);
+  if (status != ZP_OK) return zp_fail(err, status, "initial.file: %.450s", reason.message);
+  status = zp_checkpoint_check(*start, def, &reason);
+  return status == ZP_OK ? ZP_OK
+                         : zp_fail(err, status, "initial.file: %.300s: %.180s", def->initial.file, reason.message);
+}
+
+/* To be closed whatever the status. */
+static ZpStatus open_files(const ZpActuatorDef *def, Files *files, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  *files = (Files){0};
+  if (def->drive.waveform == ZP_WAVEFORM_TABLE) {
+    status = zp_drive_rows_read(def, &files->rows, err);
+    files->table = zp_drive_rows_table(&files->rows);
+    files->input.table = &files->table;
+  }
+  if (status == ZP_OK && def->initial.state == ZP_INITIAL_CHECKPOINT) {
+    status = read_checkpoint(def, &files->start, err);
+    files->input.start = files->start;
+  }
+  return status;
+}
+
+static ZpStatus check_course(const ZpActuatorDef *def, ZpError *err) {
+  Files files;
+  ZpStatus status = open_files(def, &files, err);
+  close_files(&files);
+  return status;
+}
+
+static ZpStatus run_course(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                           ZpError *err) {
+  Files files;
+  ZpStatus status = open_files(def, &files, err);
+  if (status == ZP_OK) status = zp_study_run(study, def, &files.input, hooks, result, err);
+  close_files(&files);
+  return status;
+}
+
+static ZpStatus create_from_files(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                                  ZpError *err) {
+  Files files;
+  ZpStatus status = open_files(def, &files, err);
+  if (status == ZP_OK) status = zp_model_create_driven(def, files.input.table, model, err);
+  if (status == ZP_OK) status = zp_sim_create(*model, hooks, sim, err);
+  if (status == ZP_OK && files.start) status = zp_sim_continue(*sim, files.start, err);
+  close_files(&files);
+  return status;
+}
+
+ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
+                            ZpError *err) {
+  *model = NULL;
+  *sim = NULL;
+  ZpStatus status = create_from_files(def, hooks, model, sim, err);
+  if (status == ZP_OK) return ZP_OK;
+  zp_sim_destroy(*sim);
+  zp_model_destroy(*model);
+  *model = NULL;
+  *sim = NULL;
+  return status;
+}
+
+/* -- reference: a curve to compare with -------------------------------------------------------------- */
+
+static ZpStatus check_reference(const ZpActuatorDef *def, ZpError *err) {
+  ZpReference reference;
+  if (*def->data.file == 0) return ZP_OK;
+  ZpStatus status = zp_reference_read(def->data.file, &reference, err);
+  zp_reference_free(&reference);
+  return status;
+}
+
+static ZpStatus run_reference(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                              ZpError *err) {
+  ZpReference reference;
+  if (*def->data.file == 0) return zp_study_run(study, def, NULL, hooks, result, err);
+  ZpStatus status = zp_reference_read(def->data.file, &reference, err);
+  if (status == ZP_OK) status = zp_study_run(study, def, NULL, hooks, result, err);
+  if (status == ZP_OK) zp_result_add(*result, "area_error_m2", "m2", zp_reference_area(&reference, (*result)->series));
+  zp_reference_free(&reference);
+  return status;
+}
+
+/* -- measurements: what keys are fitted to ----------------------------------------------------------- */
+
+static ZpStatus check_measurements(const ZpActuatorDef *def, ZpError *err) {
+  return zp_fit_check(def, err);
+}
+
+static ZpStatus run_measurements(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                                 ZpError *err) {
+  (void)study;
+  return zp_fit_run(def, hooks, result, err);
+}
+
+/* -- which study takes which ------------------------------------------------------------------------- */
+
+static const struct {
+  ZpStatus (*check)(const ZpActuatorDef *def, ZpError *err);
+  ZpStatus (*run)(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
+} with_files[ZpStudy_COUNT] = {
+#define ZP_STUDY(enumerator, word, shows, files, help) [enumerator] = {check_##files, run_##files},
+#include <zipact/studies.def>
+};
+
+ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = zp_study_check(study, def, err);
+  return status == ZP_OK ? with_files[study].check(def, err) : status;
+}
+
+ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                           ZpError *err) {
+  *result = NULL;
+  ZpStatus status = zp_study_check(study, def, err);
+  return status == ZP_OK ? with_files[study].run(study, def, hooks, result, err) : status;
+}

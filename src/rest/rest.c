@@ -1,0 +1,80 @@
+#include "rest/rest.h"
+
+#include "base/fail.h"
+
+/* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
+static const double first_step = 0.01, longest_step = 0.1;
+
+bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user) {
+  ZpCarver carver = {NULL, 0};
+  *rest = (ZpRest){0};
+  if (!zp_statics_create(model, &rest->statics)) return false;
+  rest->system = zp_statics_branch(&rest->statics, ZP_ALONG_VOLTAGE);
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass) {
+      rest->memory = zp_calloc(1, carver.used);
+      carver = (ZpCarver){rest->memory, 0};
+      if (!rest->memory) return false;
+    }
+    zp_branch_carve(&rest->branch, &rest->system, rest->statics.assembly.bandwidth, rest->statics.assembly.symmetric,
+                    &carver);
+    rest->line_force = zp_carve(&carver, model->nodes);
+    if (carve) carve(user, &carver);
+  }
+  return true;
+}
+
+void zp_rest_close(ZpRest *rest) {
+  zp_free(rest->memory);
+  zp_statics_destroy(&rest->statics);
+}
+
+size_t zp_rest_save_size(const ZpRest *rest) {
+  return rest->system.save_size / sizeof(double);
+}
+
+bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest) {
+  return zp_branch_start(&rest->branch, growing, first, longest, 2 * zp_statics_tolerance(&rest->statics));
+}
+
+bool zp_rest_follow(ZpRest *rest, bool growing) {
+  return zp_rest_follow_by(rest, growing, first_step, longest_step);
+}
+
+ZpNewtonInfo zp_rest_settle(ZpRest *rest, double voltage) {
+  enum { MOST = 30 };
+  ZpStaticSystem system = zp_statics_system(&rest->statics);
+  rest->statics.U = voltage;
+  return zp_newton(&system, zp_statics_tolerance(&rest->statics), MOST, &rest->branch.newton);
+}
+
+/* -- for programs ---------------------------------------------------------------------------------- */
+
+ZpStatus zp_rest_create(const ZpModel *model, ZpRest **out, ZpError *err) {
+  *out = zp_calloc(1, sizeof **out);
+  if (*out && zp_rest_open(*out, model, NULL, NULL)) return ZP_OK;
+  zp_rest_destroy(*out);
+  *out = NULL;
+  return zp_fail_memory(err);
+}
+
+void zp_rest_destroy(ZpRest *rest) {
+  if (rest) zp_rest_close(rest);
+  zp_free(rest);
+}
+
+bool zp_rest_hang(ZpRest *rest, double voltage) {
+  ZpStatics *s = &rest->statics;
+  ZpNewtonWork *newton = &rest->branch.newton;
+  bool found = zp_newton_good(zp_statics_hang(s, newton).end);
+  if (found && voltage > 0 && s->model->field) found = zp_statics_raise(s, voltage, newton);
+  return found && !zp_statics_shorted(s);
+}
+
+double zp_rest_stroke(const ZpRest *rest) {
+  return zp_statics_stroke(&rest->statics);
+}
+
+double zp_rest_opening(const ZpRest *rest) {
+  return zp_statics_opening(&rest->statics);
+}

@@ -1,0 +1,37 @@
+/* A model at rest with all that it takes to find and follow its equilibria: the system, Newton's and the branch's work
+ * space, and the arrays of whoever asks, in one block. The one place that puts these together. */
+#ifndef ZP_REST_REST_H
+#define ZP_REST_REST_H
+
+#include <zipact/rest.h>
+
+#include "rest/statics.h"
+
+struct ZpRest {
+  ZpStatics statics;
+  ZpBranch branch;       /* along the voltage; its `newton` also serves without a branch */
+  ZpBranchSystem system; /* of the branch */
+  double *line_force;    /* [nodes] for zp_statics_shape */
+  void *memory;
+};
+
+/* Fill `rest`: straight, without voltage. `carve` (may be NULL) takes the caller's own arrays from the same block; it
+ * is called twice with `user`. False if there is no memory. `rest` must not be moved, and is to be closed, also if this
+ * fails. */
+bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user);
+void zp_rest_close(ZpRest *rest);
+
+/* A copy of the present point takes so many doubles. */
+size_t zp_rest_save_size(const ZpRest *rest);
+
+/* Start to follow the branch from the present equilibrium, towards a growing or falling voltage; then
+ * zp_branch_advance. False if the stiffness is singular there. */
+bool zp_rest_follow(ZpRest *rest, bool growing);
+
+/* The same with steps of arc length from `first` to `longest`. */
+bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest);
+
+/* From the present point, which is near, to the equilibrium at `voltage`, V. */
+ZpNewtonInfo zp_rest_settle(ZpRest *rest, double voltage);
+
+#endif

@@ -1,0 +1,80 @@
+/* A result: what every study fills. */
+#include <zipact/study.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+ZpResult *zp_result_create(ZpStudy study) {
+  ZpResult *result = zp_calloc(1, sizeof *result);
+  if (result) result->study = study;
+  return result;
+}
+
+void zp_result_destroy(ZpResult *result) {
+  if (!result) return;
+  zp_table_destroy(result->series);
+  zp_shapes_destroy(result->shapes);
+  zp_field_map_destroy(result->map);
+  zp_checkpoint_destroy(result->checkpoint);
+  zp_free(result);
+}
+
+static size_t carve_map(ZpFieldMap *map, void *block) {
+  ZpCarver carver = {block, 0};
+  size_t cells = (map->nx - 1) * (map->ny - 1);
+  double **of_nodes[] = {&map->x, &map->y, &map->potential}, **of_cells[] = {&map->strength, &map->permittivity};
+  for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
+    *of_nodes[k] = zp_carve(&carver, map->nx * map->ny);
+  for (size_t k = 0; k < sizeof of_cells / sizeof of_cells[0]; k++)
+    *of_cells[k] = zp_carve(&carver, cells);
+  return carver.used;
+}
+
+ZpFieldMap *zp_field_map_create(size_t nx, size_t ny) {
+  ZpFieldMap *map = zp_calloc(1, sizeof *map);
+  if (!map) return NULL;
+  *map = (ZpFieldMap){.nx = nx, .ny = ny};
+  map->memory = zp_calloc(1, carve_map(map, NULL));
+  if (!map->memory) {
+    zp_free(map);
+    return NULL;
+  }
+  carve_map(map, map->memory);
+  return map;
+}
+
+void zp_field_map_destroy(ZpFieldMap *map) {
+  if (!map) return;
+  zp_free(map->memory);
+  zp_free(map);
+}
+
+double zp_result_get(const ZpResult *result, const char *name) {
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strcmp(result->scalar[i].name, name) == 0) return result->scalar[i].value;
+  return NAN;
+}
+
+static void add(ZpResult *result, ZpScalar scalar) {
+  if (result->scalars < ZP_MAX_SCALARS) result->scalar[result->scalars++] = scalar;
+}
+
+void zp_result_add(ZpResult *result, const char *name, const char *unit, double value) {
+  add(result, (ZpScalar){name, unit, value, false});
+}
+
+void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value) {
+  add(result, (ZpScalar){name, unit, value, true});
+}
+
+void zp_result_note(ZpResult *result, const char *format, ...) {
+  if (result->notes == ZP_MAX_NOTES) return;
+  va_list args;
+  va_start(args, format);
+  vsnprintf(result->note[result->notes++], sizeof result->note[0], format, args);
+  va_end(args);
+}
