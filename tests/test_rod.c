@@ -7,7 +7,7 @@
 #include "math/band.h"
 #include "math/eigen.h"
 #include "ribbon/massspring.h"
-#include "ribbon/rod.h"
+#include "ribbon/rod_step.h"
 
 /* -- a rod of no particular shape ------------------------------------------------------------------ */
 
@@ -16,10 +16,16 @@ enum { NODES = 9, MOST = 2 * NODES, PLACES = 32 };
 typedef struct Rod {
   ZpRodParams params;
   ZpRodEval eval;
+  ZpRodStep forces; /* at rest */
   double l[PLACES], S[PLACES], B[PLACES], k0[PLACES];
   double x[PLACES], y[PLACES];
   void *memory;
 } Rod;
+
+static void carve(Rod *r, ZpCarver *carver) {
+  zp_rod_carve(&r->params, &r->eval, carver);
+  zp_rod_step_carve(&r->params, &r->forces, carver);
+}
 
 /* Unequal edges and joints, naturally curved, bent up to 0.5 rad a joint and stretched by a few percent.
  * `free_ends`: no slope is held. */
@@ -39,10 +45,10 @@ static void make_rod(Rod *r, size_t ribbons, bool free_ends, uint64_t seed) {
     r->y[j + ribbons] = r->y[j] + length * sin(angle);
   }
   ZpCarver carver = {NULL, 0};
-  zp_rod_carve(&r->params, &r->eval, &carver);
+  carve(r, &carver);
   r->memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){r->memory, 0};
-  zp_rod_carve(&r->params, &r->eval, &carver);
+  carve(r, &carver);
 }
 
 static double *coordinate(Rod *r, size_t k) {
@@ -65,7 +71,8 @@ static void gather(const double *Rx, const double *Ry, size_t ribbons, double *f
 
 static void rod_forces(Rod *r, double *force) {
   zp_rod_eval(&r->params, r->x, r->y, &r->eval);
-  gather(r->eval.Rx, r->eval.Ry, r->params.ribbons, force);
+  zp_rod_step(&r->params, &r->eval, &r->eval, 0, &r->forces);
+  gather(r->forces.Rx, r->forces.Ry, r->params.ribbons, force);
 }
 
 /* Central difference of the fourth order. */
@@ -133,7 +140,11 @@ START_TEST(test_stiffness_is_second_derivative) {
     Rod r;
     make_rod(&r, ribbons, _i / 2, seed);
     zp_rod_eval(&r.params, r.x, r.y, &r.eval);
-    zp_rod_stiffness(&r.params, &r.eval, r.eval.T, D);
+    zp_rod_step(&r.params, &r.eval, &r.eval, 0, &r.forces);
+    zp_rod_stiffness(&r.params, &r.eval, &r.eval, 0, &r.forces, r.eval.T, D);
+    for (size_t j = 0; j < 3 * PLACES; j++)
+      for (int entry = 0; entry < 4; entry++)
+        D[j][entry] *= 2; /* both ends move */
     assemble(D, ribbons, K);
     for (size_t k = 0; k < n; k++) {
       double kept = *coordinate(&r, k);

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "base/kernel.h"
-#include "ribbon/rod.h"
+#include "ribbon/rod_step.h"
 #include "solve/relax.h"
 
 enum { N = 101, PLACES = 128, EDGES = N - 1 };
@@ -25,6 +25,7 @@ static void floor_push(const double *y, double *push) {
 typedef struct Strip {
   ZpRodParams rod;
   ZpRodEval eval;
+  ZpRodStep forces; /* at rest: both ends of the step are one point */
   double worst; /* largest force left, N */
 } Strip;
 
@@ -33,12 +34,13 @@ static void accelerate(void *self, const double *q, double *a) {
   Strip *s = self;
   double push[N], mass = 0.5 * (4 * EA / l + 16 * EI / (l * l * l) + k * l);
   zp_rod_eval(&s->rod, q, q + PLACES, &s->eval);
+  zp_rod_step(&s->rod, &s->eval, &s->eval, 0, &s->forces);
   floor_push(q + PLACES, push);
   s->worst = 0;
   for (size_t i = 1; i < N; i++) { /* node 0 is clamped */
     double left = i < EDGES ? 1 : 0, weight = q_line * l * (i < EDGES ? 1 : 0.5);
-    double Fx = s->eval.Rx[i - 1] - left * s->eval.Rx[i];
-    double Fy = s->eval.Ry[i - 1] - left * s->eval.Ry[i] + push[i] - weight - (i == EDGES ? P : 0);
+    double Fx = s->forces.Rx[i - 1] - left * s->forces.Rx[i];
+    double Fy = s->forces.Ry[i - 1] - left * s->forces.Ry[i] + push[i] - weight - (i == EDGES ? P : 0);
     s->worst = fmax(s->worst, fmax(fabs(Fx), fabs(Fy)));
     a[i] = Fx / mass;
     a[PLACES + i] = Fy / mass;
@@ -50,7 +52,7 @@ static double residual(void *self) {
 }
 
 int main(void) {
-  static _Alignas(ZP_ALIGNMENT) double block[20 * PLACES];
+  static _Alignas(ZP_ALIGNMENT) double block[40 * PLACES];
   static double rest[PLACES], S[PLACES], B[PLACES], k0[PLACES], q[2 * PLACES], work[10 * PLACES];
   for (size_t i = 0; i < PLACES; i++) {
     rest[i] = l;
@@ -60,7 +62,9 @@ int main(void) {
     q[PLACES + i] = -q_line / k;
   }
   Strip strip = {.rod = {1, N, PLACES, rest, S, B, k0}};
-  zp_rod_carve(&strip.rod, &strip.eval, &(ZpCarver){(char *)block, 0});
+  ZpCarver carver = {(char *)block, 0};
+  zp_rod_carve(&strip.rod, &strip.eval, &carver);
+  zp_rod_step_carve(&strip.rod, &strip.forces, &carver);
   ZpRelaxSystem system = {2 * PLACES, &strip, accelerate, residual, NULL};
   ZpRelaxInfo info = zp_relax(&system, 1e-5, 2000000, q, work);
   double lambda = pow(k / (4 * EI), 0.25), expected = 2 * P * lambda / k + q_line / k, found = -q[PLACES + EDGES];

@@ -10,7 +10,8 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   ZpCarver carver = {block, 0};
   if (model->is_rod) {
     zp_rod_carve(&model->rod, &e->rod, &carver);
-    e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod.Rx, e->rod.Ry};
+    zp_rod_step_carve(&model->rod, &e->rod_forces, &carver);
+    e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod_forces.Rx, e->rod_forces.Ry};
   } else {
     zp_massspring_carve(&model->spring, &e->spring, &carver);
     e->edges =
@@ -38,18 +39,23 @@ void zp_eval_destroy(ZpEval *e) {
 }
 
 static void mechanics(const ZpModel *model, const double *q, ZpEval *e) {
-  if (model->is_rod)
-    zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
-  else
+  if (!model->is_rod) {
     zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+    return;
+  }
+  zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+  zp_rod_step(&model->rod, &e->rod, &e->rod, 0, &e->rod_forces);
 }
 
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *e, const double *tension, double (*D)[4]) {
-  if (!tension) tension = e->edges.T;
-  if (model->is_rod)
-    zp_rod_stiffness(&model->rod, &e->rod, tension, D);
-  else
+  if (!model->is_rod) {
     zp_massspring_stiffness(&model->spring, &e->spring, tension, D);
+    return;
+  }
+  zp_rod_stiffness(&model->rod, &e->rod, &e->rod, 0, &e->rod_forces, tension, D);
+  for (size_t k = 0; k < 3 * (model->count - model->s); k++)
+    for (size_t c = 0; c < 4; c++)
+      D[k][c] *= 2; /* both ends move */
 }
 
 /* Direction of the closed part where it ends: that of the last closed link, horizontal at the clip. */

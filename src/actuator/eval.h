@@ -13,7 +13,8 @@ typedef struct ZpEdges {
 typedef struct ZpEval {
   ZpMassSpringEval spring; /* one of the two is in use */
   ZpRodEval rod;
-  ZpEdges edges; /* of the one in use */
+  ZpRodStep rod_forces; /* at rest in rod */
+  ZpEdges edges;        /* of the one in use */
   ZpPlatesEval plates;
   ZpSurplus surplus;       /* where the field is solved */
   double drag_power;       /* lost now, W */
@@ -45,7 +46,8 @@ void zp_eval_static_forces(const ZpModel *model, const double *q, double voltage
 /* Solve the field at these positions and voltage, where the model does; false if it cannot be. */
 bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, ZpEval *eval);
 
-/* Stiffness of the mechanics at the last positions, as zp_rod_stiffness; `tension` NULL: the present one. */
+/* Stiffness of the mechanics at the last positions: minus the derivative of the forces of edges by edges, in the form
+ * of zp_rod_stiffness. */
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
 
 /* Should a held electric force be recomputed at this state? And do so, into the state. What a solved field has

@@ -18,7 +18,7 @@
 #include "electro/field.h"
 #include "electro/surface.h"
 #include "ribbon/massspring.h"
-#include "ribbon/rod.h"
+#include "ribbon/rod_step.h"
 #include "ribbon/section.h"
 
 /* 1 / mass of nodes and of joined pairs along x and y, 0 where held. For true and for pseudo-masses. */

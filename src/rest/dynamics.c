@@ -180,7 +180,7 @@ static void tangent(void *self, ZpBand *A) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   zp_band_clear(A);
-  zp_rod_step_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->D);
+  zp_rod_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->rod.tension, d->D);
   zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
   if (!model->is_rod) add_shear_tangent(d, A);
   if (model->def.damping.drag > 0) add_drag_tangent(d, A);

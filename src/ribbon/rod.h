@@ -1,4 +1,5 @@
-/* A planar discrete elastic rod: edges that stretch, joints that bend; exact forces and stiffness.
+/* A planar discrete elastic rod: edges that stretch, joints that bend. Its strains and energies at a point; its forces
+ * are those of rod_step.h, over a time step or at rest.
  *
  * All ribbons at once: node i of ribbon r is at [i * ribbons + r], edge i (node i to i+1) and joint i (at
  * node i) likewise. Joints stand at every node; those of the first and last nodes tie the rod to a held
@@ -28,22 +29,15 @@ typedef struct ZpRodEval {
   double *inverse;   /* 1 / length; outside: 0, a held slope does not turn */
   double *T;         /* [stride] tension of edges, N */
   double *k;         /* [stride] 2 tan(phi / 2) of joints */
-  double *M;         /* [stride] moment of joints, dE/dphi, N m */
-  double *Rx, *Ry;   /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodEval;
 
 void zp_rod_carve(const ZpRodParams *params, ZpRodEval *eval, ZpCarver *carver);
 
-/* (positions [stride]) => all of eval. Force on node j: R[j - s] - R[j], minus the energy's gradient. */
+/* (positions [stride]) => all of eval. */
 void zp_rod_eval(const ZpRodParams *params, const double *x, const double *y, ZpRodEval *eval);
 
 /* Energies at the last eval, J. */
 double zp_rod_stretching_energy(const ZpRodParams *params, const ZpRodEval *eval);
 double zp_rod_bending_energy(const ZpRodParams *params, const ZpRodEval *eval);
-
-/* Stiffness at the last eval: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row by row; with
- * tension = eval->T the second derivatives of the energy by the edges. A solver may give a better estimate of
- * the tensions to come (solve/newton.h). */
-void zp_rod_stiffness(const ZpRodParams *params, const ZpRodEval *eval, const double *tension, double (*D)[4]);
 
 #endif

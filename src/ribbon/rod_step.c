@@ -50,8 +50,9 @@ static inline double angle_over_sine(double sine, double cosine) {
   return 8 * atan_over(y * y) / (quarter * half * (1 + cosine));
 }
 
-ZP_KERNEL static void step_edges(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
-                                 double damping, const ZpRodStep *s) {
+/* `still`: both ends are one point, where nothing turns; a constant where this is inlined. */
+ZP_INLINE void mean_edges(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1, double damping,
+                          bool still, const ZpRodStep *s) {
   const double *restrict x0 = e0->dpx, *restrict y0 = e0->dpy, *restrict x1 = e1->dpx, *restrict y1 = e1->dpy;
   const double *restrict ux0 = e0->ux, *restrict uy0 = e0->uy, *restrict ux1 = e1->ux, *restrict uy1 = e1->uy;
   const double *restrict over0 = e0->inverse, *restrict over1 = e1->inverse, *restrict S = p->S, *restrict T0 = e0->T,
@@ -63,14 +64,23 @@ ZP_KERNEL static void step_edges(const ZpRodParams *p, size_t padded, const ZpRo
     double sx = x0[j] + x1[j], sy = y0[j] + y1[j];
     double L0 = x0[j] * ux0[j] + y0[j] * uy0[j], L1 = x1[j] * ux1[j] + y1[j] * uy1[j], over = 1 / (L0 + L1);
     double sine = ux0[j] * uy1[j] - uy0[j] * ux1[j], cosine = ux0[j] * ux1[j] + uy0[j] * uy1[j];
-    double ratio = angle_over_sine(sine, cosine), per_area = 0.5 * over0[j] * over1[j] * ratio;
+    double ratio = still ? 1 : angle_over_sine(sine, cosine), per_area = 0.5 * over0[j] * over1[j] * ratio;
     tx[j] = sx * over;
     ty[j] = sy * over;
-    turn[j] = ratio * sine;
+    turn[j] = still ? 0 : ratio * sine;
     gx[j] = -per_area * sy;
     gy[j] = per_area * sx;
     T[j] = 0.5 * (T0[j] + T1[j]) + damping * S[j] * (L1 - L0);
   }
+}
+
+ZP_KERNEL static void edges_over_step(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
+                                      double damping, const ZpRodStep *s) {
+  mean_edges(p, padded, e0, e1, damping, false, s);
+}
+
+ZP_KERNEL static void edges_at_rest(const ZpRodParams *p, size_t padded, const ZpRodEval *e, const ZpRodStep *s) {
+  mean_edges(p, padded, e, e, 0, true, s);
 }
 
 /* What lies beyond the last edges, where the kernel over whole lanes has written: held slopes never turn. */
@@ -79,20 +89,29 @@ static void hold_right_ends(const ZpRodParams *p, const ZpRodStep *s) {
     s->turn[j] = s->gx[j] = s->gy[j] = 0;
 }
 
-ZP_KERNEL static void step_joints(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
-                                  double damping, const ZpRodStep *s) {
+ZP_INLINE void mean_joints(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
+                           double damping, bool still, const ZpRodStep *s) {
   const double *restrict turn = s->turn, *restrict before = turn - p->ribbons, *restrict k0 = e0->k,
                          *restrict k1 = e1->k, *restrict B = p->B, *restrict natural = p->k0;
   double *restrict M = s->M, *restrict stiffness = s->stiffness;
   ZP_SIMD
   for (size_t j = 0; j < padded; j++) {
-    double slope =
-        sine_over(0.5 * (turn[j] - before[j])) * sqrt((1 + 0.25 * k0[j] * k0[j]) * (1 + 0.25 * k1[j] * k1[j]));
+    double q1 = 1 + 0.25 * k1[j] * k1[j];
+    double slope = still ? q1 : sine_over(0.5 * (turn[j] - before[j])) * sqrt((1 + 0.25 * k0[j] * k0[j]) * q1);
     double moment = B[j] * (0.5 * (k0[j] + k1[j]) - natural[j] + damping * (k1[j] - k0[j]));
     M[j] = moment * slope;
     /* the slope itself changes by k1 / 4 of it; what it changes with the turn vanishes with the step */
     stiffness[j] = (B[j] * (0.5 + damping) * slope + moment * 0.25 * k1[j]) * slope;
   }
+}
+
+ZP_KERNEL static void joints_over_step(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
+                                       double damping, const ZpRodStep *s) {
+  mean_joints(p, padded, e0, e1, damping, false, s);
+}
+
+ZP_KERNEL static void joints_at_rest(const ZpRodParams *p, size_t padded, const ZpRodEval *e, const ZpRodStep *s) {
+  mean_joints(p, padded, e, e, 0, true, s);
 }
 
 ZP_KERNEL static void edge_forces(const ZpRodParams *p, size_t edges, const ZpRodStep *s) {
@@ -129,12 +148,18 @@ void zp_rod_step_begin(const ZpRodParams *p, const ZpRodEval *e0, ZpRodStep *s) 
 }
 
 void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping, ZpRodStep *s) {
-  size_t edges = edge_count(p);
-  foresee(p, zp_round_up(edges), e1, damping, s);
-  s->begun = true;
-  step_edges(p, zp_round_up(edges), e0, e1, damping, s);
-  hold_right_ends(p, s);
-  step_joints(p, zp_round_up(edges + p->ribbons), e0, e1, damping, s);
+  size_t edges = edge_count(p), padded = zp_round_up(edges), joints = zp_round_up(edges + p->ribbons);
+  if (e0 == e1) {
+    edges_at_rest(p, padded, e1, s);
+    hold_right_ends(p, s);
+    joints_at_rest(p, joints, e1, s);
+  } else {
+    foresee(p, padded, e1, damping, s);
+    s->begun = true;
+    edges_over_step(p, padded, e0, e1, damping, s);
+    hold_right_ends(p, s);
+    joints_over_step(p, joints, e0, e1, damping, s);
+  }
   edge_forces(p, edges, s);
 }
 
@@ -152,11 +177,11 @@ double zp_rod_step_loss(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEv
 }
 
 /* The edge with itself: stretching, bending of both joints, tension, and what moments do as the edge turns. */
-static void own_stiffness(const ZpRodParams *p, const ZpRodStep *s, double damping, double over, size_t j,
+static void own_stiffness(const ZpRodParams *p, const ZpRodStep *s, double T, double damping, double over, size_t j,
                           double D[4]) {
   size_t next = j + p->ribbons;
   double tx = s->tx[j], ty = s->ty[j], gx = s->gx[j], gy = s->gy[j];
-  double tension = s->tension[j] * over, stretch = (0.5 + damping) * p->S[j] - tension;
+  double tension = T * over, stretch = (0.5 + damping) * p->S[j] - tension;
   double bend = s->stiffness[j] + s->stiffness[next], twist = -0.5 * (s->M[j] - s->M[next]);
   /* 0.5 dg/dd of g = n / L turned with the edge: -(t n + n t) / L^2, and (gy, -gx) is t / L */
   D[0] = stretch * tx * tx + tension + bend * gx * gx + twist * 2 * gy * gx;
@@ -172,13 +197,13 @@ static void coupling(const ZpRodStep *s, size_t joint, ptrdiff_t j, ptrdiff_t k,
   D[3] = c * s->gy[j] * s->gy[k];
 }
 
-void zp_rod_step_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping,
-                           const ZpRodStep *s, double (*D)[4]) {
+void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping,
+                      const ZpRodStep *s, const double *tension, double (*D)[4]) {
   for (size_t j = 0; j < edge_count(p); j++) {
     ptrdiff_t here = (ptrdiff_t)j, step = (ptrdiff_t)p->ribbons;
     double L0 = e0->dpx[j] * e0->ux[j] + e0->dpy[j] * e0->uy[j], L1 = e1->dpx[j] * e1->ux[j] + e1->dpy[j] * e1->uy[j];
     coupling(s, j, here, here - step, D[3 * j]);
-    own_stiffness(p, s, damping, 1 / (L0 + L1), j, D[3 * j + 1]);
+    own_stiffness(p, s, tension[j], damping, 1 / (L0 + L1), j, D[3 * j + 1]);
     coupling(s, j + p->ribbons, here, here + step, D[3 * j + 2]);
   }
 }

@@ -1,5 +1,6 @@
-/* The rod over a time step: forces that do exactly the work by which its energy changes from one end of the step to
- * the other, whatever the step, and Kelvin-Voigt damping in the same form. docs/theory.md, section 18. */
+/* The rod's forces over a time step: they do exactly the work by which its energy changes from one end of the step to
+ * the other, whatever the step, with Kelvin-Voigt damping in the same form. At rest both ends are one point (`start ==
+ * end`, damping 0): the forces are then minus the energy's gradient. docs/theory.md, sections 8 and 18. */
 #ifndef ZP_RIBBON_ROD_STEP_H
 #define ZP_RIBBON_ROD_STEP_H
 
@@ -18,7 +19,7 @@ typedef struct ZpRodStep {
   double *endx, *endy; /* edges at the end, m */
   double *tension;     /* edges: tension that the last change of the end foresaw, N; the stiffness takes it */
   bool begun;          /* an end was tried since zp_rod_step_begin */
-  double *Rx, *Ry;     /* edges: force on the right node, N, as in ZpRodEval */
+  double *Rx, *Ry;     /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodStep;
 
 void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);
@@ -26,16 +27,19 @@ void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *car
 /* A step is to be tried: its tension is first taken for that at its start. */
 void zp_rod_step_begin(const ZpRodParams *params, const ZpRodEval *start, ZpRodStep *step);
 
-/* (evals at both ends of the step, internal damping time over the step's length) => all of `step`. */
+/* (evals at both ends of the step, internal damping time over the step's length) => all of `step`. Force on node j:
+ * R[j - s] - R[j]. */
 void zp_rod_step(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
                  ZpRodStep *step);
 
 /* What internal damping takes over the step, J. */
 double zp_rod_step_loss(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping);
 
-/* Derivative by the end's edges at the last zp_rod_step, in the form of zp_rod_stiffness, symmetric: what makes the
- * exact one unsymmetric, a quarter of the step's rotation times the stretching stiffness, is left out. */
-void zp_rod_step_stiffness(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
-                           const ZpRodStep *step, double (*D)[4]);
+/* Derivative by the end's edges at the last zp_rod_step: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row
+ * by row. At rest it is half of the second derivatives of the energy. Symmetric: what makes the exact one unsymmetric,
+ * a quarter of the step's rotation times the stretching stiffness, is left out. `tension` [edges] is that which a
+ * solver foresees, N; step->T for that of the last zp_rod_step. */
+void zp_rod_stiffness(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
+                      const ZpRodStep *step, const double *tension, double (*D)[4]);
 
 #endif
