@@ -280,7 +280,8 @@ static ZpPlatesTotals totals_of(Pair *pair, double U) {
 }
 
 static void polyline(Pair *pair, double U) {
-  zp_plates_polyline(&pair->model->plates, pair->q, pair->q + pair->model->stride, U, &pair->eval.plates);
+  zp_plates_rest(&pair->model->plates, pair->q, pair->q + pair->model->stride, U, &pair->eval.plates,
+                 &pair->eval.attraction);
 }
 
 /* Nodal forces are minus the gradient of the potential; their sum is the total of the line. Node counts around the
@@ -290,8 +291,8 @@ static double gradient_error(Pair *pair, double U) {
   size_t count = pair->model->count, stride = pair->model->stride;
   double *F = malloc(2 * count * sizeof *F), worst = 0, largest = 0, sum = 0;
   polyline(pair, U);
-  memcpy(F, pair->eval.plates.Fx, count * sizeof *F);
-  memcpy(F + count, pair->eval.plates.Fy, count * sizeof *F);
+  memcpy(F, pair->eval.attraction.Fx, count * sizeof *F);
+  memcpy(F + count, pair->eval.attraction.Fy, count * sizeof *F);
   for (size_t j = 1; j < count; j += 2)
     sum += F[count + j];
   for (size_t k = 0; k < 2 * count; k++) {
@@ -329,7 +330,7 @@ END_TEST
 
 /* Closing force of station i. */
 static double closing(const Pair *pair, size_t i) {
-  return pair->eval.plates.Fy[2 * i + 1];
+  return pair->eval.attraction.Fy[2 * i + 1];
 }
 
 /* Stiffness against differences of forces: by the gap of a station and of its neighbour, by an x-length. Measured
@@ -337,13 +338,17 @@ static double closing(const Pair *pair, size_t i) {
 START_TEST(test_stiffness) {
   enum { N = 21 };
   static const double h = 1e-8;
-  double own[N], next[N], along0[N], along1[N];
+  double own[N], next[N], along0[N];
   for (int cap = 0; cap < 2; cap++) {
     Pair pair = make_pair(edge_model(N, cap, true, true));
     double worst = 0, largest = 0, *y = pair.q + pair.model->stride;
     shape_wedge(&pair, 4e-3, 0, 1);
     polyline(&pair, 5e3);
-    zp_plates_stiffness(&pair.model->plates, &pair.eval.plates, 5e3, own, next, along0, along1);
+    for (size_t i = 0; i < N; i++) { /* both ends move */
+      own[i] = 2 * pair.eval.attraction.own[i];
+      next[i] = 2 * pair.eval.attraction.next[i];
+      along0[i] = 2 * pair.eval.attraction.along0[i];
+    }
     for (size_t i = 0; i < N; i++) {
       double F[2][2], FX[2];
       for (int k = 0; k < 2; k++) {

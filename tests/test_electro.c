@@ -193,10 +193,10 @@ typedef struct Gradient {
 
 static Gradient compare_gradient(Pair *pair, double U, double h) {
   const ZpPlatesParams *p = &pair->model->plates;
-  ZpPlatesEval *e = &pair->eval.plates;
+  ZpPlatesStep *e = &pair->eval.attraction;
   size_t count = pair->model->count, bytes = count * sizeof(double);
   double *Fx = malloc(bytes), *Fy = malloc(bytes);
-  zp_plates_polyline(p, pair->x, pair->y, U, e);
+  zp_plates_rest(p, pair->x, pair->y, U, &pair->eval.plates, e);
   memcpy(Fx, e->Fx, bytes);
   memcpy(Fy, e->Fy, bytes);
   Gradient g = {0, 0, 0};
@@ -243,7 +243,7 @@ END_TEST
 /* Equal and opposite, whatever the shape: exactly so along y, to rounding along x. And what the nodes feel
  * is the total of the line. */
 static void check_opposite(const Pair *pair, double total) {
-  const ZpPlatesEval *e = &pair->eval.plates;
+  const ZpPlatesStep *e = &pair->eval.attraction;
   double x = 0, upper = 0, lower = 0, scale = 0;
   for (size_t i = 0; i < pair->model->nodes; i++) {
     x += e->Fx[2 * i] + e->Fx[2 * i + 1];
@@ -262,7 +262,7 @@ START_TEST(test_polyline_momentum) {
   for (uint64_t seed = 1; seed <= 20; seed++) {
     Pair pair = make_pair(default_model(21, seed % 2, true));
     shape_random(&pair, seed);
-    zp_plates_polyline(&pair.model->plates, pair.x, pair.y, 8e3, &pair.eval.plates);
+    zp_plates_rest(&pair.model->plates, pair.x, pair.y, 8e3, &pair.eval.plates, &pair.eval.attraction);
     check_opposite(&pair, zp_plates_totals(&pair.model->plates, &pair.eval.plates, 8e3).force);
     free_pair(&pair);
   }
@@ -306,24 +306,25 @@ END_TEST
 
 /* -- the Bezier surface ---------------------------------------------------------------------------- */
 
-/* Attraction by the Bezier surface into eval.plates.Fy. => total force. */
+/* Attraction by the Bezier surface into eval.attraction.Fy. => total force. */
 static double bezier_force(Pair *pair, size_t front, const double direction[2], double U) {
   ZpModel *model = pair->model;
   zp_surface_prepare(&pair->eval.surface, model->nodes - front);
-  zp_surface_bezier(&model->plates, &pair->eval.surface, pair->x, pair->y, front, direction, U, &pair->eval.plates);
+  zp_surface_bezier(&model->plates, &pair->eval.surface, pair->x, pair->y, front, direction, U,
+                    pair->eval.attraction.Fy);
   double sum = 0;
   for (size_t i = 0; i < model->nodes; i++)
-    sum += pair->eval.plates.Fy[2 * i + 1];
+    sum += pair->eval.attraction.Fy[2 * i + 1];
   return sum;
 }
 
 static const double horizontal[2] = {1, 0};
 
 static double polyline_force(Pair *pair, double U) {
-  zp_plates_polyline(&pair->model->plates, pair->x, pair->y, U, &pair->eval.plates);
+  zp_plates_rest(&pair->model->plates, pair->x, pair->y, U, &pair->eval.plates, &pair->eval.attraction);
   double sum = 0;
   for (size_t i = 0; i < pair->model->nodes; i++)
-    sum += pair->eval.plates.Fy[2 * i + 1];
+    sum += pair->eval.attraction.Fy[2 * i + 1];
   return sum;
 }
 
@@ -428,7 +429,7 @@ START_TEST(test_wedge_profile) {
     double all = polyline_force(&pair, 6e3), sum = 0;
     size_t i = 0, front = 0;
     for (; sum < 0.9 * all; i++)
-      sum += pair.eval.plates.Fy[2 * i + 1];
+      sum += pair.eval.attraction.Fy[2 * i + 1];
     while (pair.eval.plates.gap[front] + cap.d < zp_plates_least_h(&cap, 6e3))
       front++;
     ck_assert_double_eq_tol(((double)i - 0.5) * pair.model->l, ninety[s], 0.1e-3);
@@ -468,9 +469,9 @@ START_TEST(test_surface_momentum) {
       bezier_force(&pair, front, horizontal, 8e3);
     else
       zp_surface_bezier(&pair.model->plates, &pair.eval.surface, pair.x, pair.y, front, horizontal, 8e3,
-                        &pair.eval.plates);
+                        pair.eval.attraction.Fy);
     for (size_t i = 0; i < 21; i++) {
-      double upper = pair.eval.plates.Fy[2 * i], lower = pair.eval.plates.Fy[2 * i + 1];
+      double upper = pair.eval.attraction.Fy[2 * i], lower = pair.eval.attraction.Fy[2 * i + 1];
       ck_assert_double_eq(upper, -lower);
       if (i <= front)
         ck_assert_double_eq(lower, 0);
@@ -489,9 +490,9 @@ START_TEST(test_platform_electrode) {
     Pair pair = make_pair(default_model(21, true, platform));
     shape_wedge(&pair, 1e-3);
     bezier_force(&pair, 0, horizontal, 6e3);
-    last[0][platform] = pair.eval.plates.Fy[41];
+    last[0][platform] = pair.eval.attraction.Fy[41];
     polyline_force(&pair, 6e3);
-    last[1][platform] = pair.eval.plates.Fy[41];
+    last[1][platform] = pair.eval.attraction.Fy[41];
     double flat = 5e-3 * zp_plates_law(&pair.model->plates, 6e3, 1e-3).W;
     if (platform)
       for (int k = 0; k < 2; k++)

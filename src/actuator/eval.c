@@ -18,6 +18,7 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
         (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
   }
   zp_plates_carve(&model->plates, &e->plates, &carver);
+  zp_plates_step_carve(&model->plates, &e->attraction, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   e->none = zp_carve(&carver, model->stride);
   return carver.used;
@@ -76,24 +77,24 @@ static void bezier_forces(const ZpModel *model, const ZpState *state, const doub
   if (front + 1 < model->nodes) zp_surface_prepare(&e->surface, model->nodes - front);
   double direction[2];
   closed_direction(model, front, &e->edges, direction);
-  zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, &e->plates);
+  zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, e->attraction.Fy);
 }
 
 /* U^2 F added to the attraction by the plates law. */
 static void add_beyond_plates(const ZpModel *model, const double *F, double U, ZpEval *e) {
   for (size_t j = 0; j < model->count; j++) {
-    e->plates.Fx[j] += U * U * F[j];
-    e->plates.Fy[j] += U * U * F[model->stride + j];
+    e->attraction.Fx[j] += U * U * F[j];
+    e->attraction.Fy[j] += U * U * F[model->stride + j];
   }
 }
 
-/* Attraction of the ribbons into e->plates; 0 where there is none. */
+/* Attraction of the ribbons into e->attraction; 0 where there is none. */
 static void electric_forces(const ZpModel *model, const ZpState *state, const double *q, ZpEval *e) {
   const ZpActuatorDef *def = &model->def;
   if (def->electro.surface == ZP_SURFACE_POLYLINE)
-    zp_plates_polyline(&model->plates, q, q + model->stride, state->U, &e->plates);
+    zp_plates_rest(&model->plates, q, q + model->stride, state->U, &e->plates, &e->attraction);
   else if (def->electro.refresh_period > 0)
-    memcpy(e->plates.Fy, state->data + 5 * model->stride, model->stride * sizeof(double));
+    memcpy(e->attraction.Fy, state->data + 5 * model->stride, model->stride * sizeof(double));
   else
     bezier_forces(model, state, q, e);
   if (model->field_solved) add_beyond_plates(model, state->data + 4 * model->stride, state->U, e);
@@ -116,8 +117,8 @@ static Addends addends(const ZpModel *model, const ZpMasses *masses, const ZpEva
                    .Rx = e->edges.Rx,
                    .Ry = e->edges.Ry,
                    .weight = model->weight,
-                   .Fx = e->plates.Fx,
-                   .Fy = e->plates.Fy,
+                   .Fx = e->attraction.Fx,
+                   .Fy = e->attraction.Fy,
                    .mx = masses->x.inverse,
                    .my = masses->y.inverse,
                    .c = model->def.damping.drag};
@@ -185,11 +186,11 @@ void zp_eval_static_forces(const ZpModel *model, const double *q, double U, ZpEv
   size_t s = model->s, stride = model->stride;
   const double *Rx = e->edges.Rx, *Ry = e->edges.Ry, *Lx = Rx - s, *Ly = Ry - s;
   mechanics(model, q, e);
-  if (model->field) zp_plates_polyline(&model->plates, q, q + stride, U, &e->plates);
+  if (model->field) zp_plates_rest(&model->plates, q, q + stride, U, &e->plates, &e->attraction);
   if (model->field_solved) add_beyond_plates(model, e->surplus.F, U, e);
   for (size_t j = 0; j < model->count; j++) {
-    force[j] = Lx[j] - Rx[j] + e->plates.Fx[j];
-    force[stride + j] = Ly[j] - Ry[j] + e->plates.Fy[j] - model->weight[j];
+    force[j] = Lx[j] - Rx[j] + e->attraction.Fx[j];
+    force[stride + j] = Ly[j] - Ry[j] + e->attraction.Fy[j] - model->weight[j];
   }
 }
 
@@ -250,7 +251,7 @@ void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   }
   mechanics(model, q, e);
   bezier_forces(model, state, q, e);
-  memcpy(zp_state_held(model, state) + model->stride, e->plates.Fy, model->stride * sizeof(double));
+  memcpy(zp_state_held(model, state) + model->stride, e->attraction.Fy, model->stride * sizeof(double));
 }
 
 static double ratio_bound(double length, double speed) {

@@ -16,6 +16,7 @@ typedef struct ZpEval {
   ZpRodStep rod_forces; /* at rest in rod */
   ZpEdges edges;        /* of the one in use */
   ZpPlatesEval plates;
+  ZpPlatesStep attraction; /* at rest there */
   ZpSurplus surplus;       /* where the field is solved */
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */

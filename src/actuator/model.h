@@ -16,6 +16,7 @@
 #include "drive/waveform.h"
 #include "electro/edges.h"
 #include "electro/field.h"
+#include "electro/plates_step.h"
 #include "electro/surface.h"
 #include "ribbon/massspring.h"
 #include "ribbon/rod_step.h"

@@ -45,12 +45,15 @@ ZpPlatesLaw zp_plates_law(const ZpPlatesParams *p, double U, double gap) {
   return law;
 }
 
+double zp_plates_slope(const ZpPlatesParams *p, double U, double gap) {
+  double h = gap + p->d, h_c = zp_plates_least_h(p, U), K = p->k * U * U, slope = h > h_c ? -2 * K / (h * h * h) : 0;
+  if (p->edges && edge_gap(p, h_c, gap) == gap) slope -= K * zp_edges_value(p->edges, gap).bend;
+  return slope;
+}
+
 void zp_plates_carve(const ZpPlatesParams *p, ZpPlatesEval *e, ZpCarver *carver) {
-  e->Fx = zp_carve(carver, p->stride);
-  e->Fy = zp_carve(carver, p->stride);
-  double **arrays[] = {&e->gap, &e->A, &e->B, &e->P, &e->dx};
-  for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_carve(carver, p->nodes);
+  e->gap = zp_carve(carver, p->nodes);
+  e->dx = zp_carve(carver, p->nodes);
 }
 
 ZP_KERNEL static void gaps(size_t nodes, const double *restrict x, const double *restrict y, double *restrict gap,
@@ -83,160 +86,6 @@ double zp_plates_least_gap(const ZpPlatesParams *p, const double *y) {
   for (size_t i = 0; i < p->nodes; i++)
     least = fmin(least, p->flat ? p->flat_height - y[i] : y[2 * i] - y[2 * i + 1]);
   return least;
-}
-
-/* Law at the Gauss points of each element, weighted to its two ends. Error of the force on the paper's wedges up to
- * 4 mm, measured (test_electro): 3e-6, 1e-8, 3e-9 at N = 21, 61, 130 without cap; its kink makes it 2e-3, 6e-5, 3e-5.
- */
-ZP_KERNEL static void elements(const ZpPlatesParams *p, double K, double h_c, ZpPlatesEval *e) {
-  size_t elements = p->nodes - 1;
-  double d = p->d;
-  const double *restrict gap = e->gap, *restrict dx = e->dx;
-  double *restrict A = e->A, *restrict B = e->B, *restrict P = e->P;
-  ZP_SIMD
-  for (size_t i = 0; i < elements; i++) {
-    double h[GAUSS], bounded[GAUSS], left = 0, right = 0, potential = 0;
-    for (int q = 0; q < GAUSS; q++) {
-      h[q] = gap[i] + d + (gap[i + 1] - gap[i]) * gauss_at[q];
-      bounded[q] = h[q] > h_c ? h[q] : h_c;
-    }
-    /* the three reciprocals from one division, which is what costs here */
-    double h01 = bounded[0] * bounded[1], all = 1 / (h01 * bounded[2]);
-    double inverse[GAUSS] = {all * (bounded[1] * bounded[2]), all * (bounded[0] * bounded[2]), all * h01};
-    for (int q = 0; q < GAUSS; q++) {
-      double W = gauss_weight[q] * K * inverse[q] * inverse[q];
-      left += W * (1 - gauss_at[q]);
-      right += W * gauss_at[q];
-      potential -= gauss_weight[q] * K * inverse[q] * (2 - h[q] * inverse[q]);
-    }
-    A[i] = left * dx[i];
-    B[i] = right * dx[i];
-    P[i] = potential;
-  }
-}
-
-/* e and e' at some gaps within the ends of the law. */
-static inline void edge_lanes(const ZpEdgeLaw *law, const double *restrict at, double *restrict e,
-                              double *restrict e1) {
-  ZP_SIMD
-  for (int l = 0; l < ZP_LANES; l++) {
-    double s = sqrt(at[l] + law->d), sum = s + law->s0, inverse = 1 / (s * sum);
-    double z = law->stretch * (s - law->s0) * s * inverse, z1 = law->stretch * law->s0 * s * inverse * inverse;
-    double p = law->p[ZP_EDGE_TERMS - 1], p1 = 0;
-    for (int k = ZP_EDGE_TERMS - 1; k-- > 0;) {
-      p1 = p1 * z + p;
-      p = p * z + law->p[k];
-    }
-    e[l] = p;
-    e1[l] = p1 * z1;
-  }
-}
-
-/* What the edges add to each element: a pass of its own, so that without them nothing is slower. */
-ZP_KERNEL static void add_edges(const ZpPlatesParams *p, double K, double h_c, ZpPlatesEval *out) {
-  size_t elements = p->nodes - 1;
-  double least = h_c - p->d > 0 ? h_c - p->d : 0, most = p->edges->largest;
-  for (size_t block = 0; block < elements; block += ZP_LANES) {
-    size_t count = elements - block < ZP_LANES ? elements - block : ZP_LANES;
-    double from[ZP_LANES] = {0}, rise[ZP_LANES] = {0}, left[ZP_LANES] = {0}, right[ZP_LANES] = {0},
-           potential[ZP_LANES] = {0}, g[ZP_LANES], at[ZP_LANES], e[ZP_LANES], e1[ZP_LANES];
-    for (size_t l = 0; l < count; l++) {
-      from[l] = out->gap[block + l];
-      rise[l] = out->gap[block + l + 1] - from[l];
-    }
-    for (int q = 0; q < GAUSS; q++) {
-      ZP_SIMD
-      for (int l = 0; l < ZP_LANES; l++) {
-        g[l] = from[l] + rise[l] * gauss_at[q];
-        double bounded = g[l] > least ? g[l] : least;
-        at[l] = bounded < most ? bounded : most;
-      }
-      edge_lanes(p->edges, at, e, e1);
-      ZP_SIMD
-      for (int l = 0; l < ZP_LANES; l++) {
-        double W = -gauss_weight[q] * K * e1[l];
-        left[l] += W * (1 - gauss_at[q]);
-        right[l] += W * gauss_at[q];
-        potential[l] += W * (g[l] - at[l]) - gauss_weight[q] * K * e[l];
-      }
-    }
-    for (size_t l = 0; l < count; l++) {
-      out->A[block + l] += left[l] * out->dx[block + l];
-      out->B[block + l] += right[l] * out->dx[block + l];
-      out->P[block + l] += potential[l];
-    }
-  }
-}
-
-/* Attraction `closing` and pull along x on both nodes of station i. */
-static inline void act(ZpPlatesEval *e, size_t i, double along, double closing) {
-  e->Fx[2 * i] = e->Fx[2 * i + 1] = along;
-  e->Fy[2 * i] = -closing;
-  e->Fy[2 * i + 1] = closing;
-}
-
-/* Element parts gathered at the stations, eq. (4.7): dE/dg, and -dE/dx of each ribbon. */
-ZP_KERNEL static void stations(size_t nodes, const double *restrict A, const double *restrict B,
-                               const double *restrict P, double *restrict Fx, double *restrict Fy) {
-  size_t last = nodes - 1;
-  ZP_SIMD
-  for (size_t i = 1; i < last; i++) {
-    double closing = A[i] + B[i - 1], along = 0.5 * (P[i] - P[i - 1]);
-    Fx[2 * i] = along;
-    Fx[2 * i + 1] = along;
-    Fy[2 * i] = -closing;
-    Fy[2 * i + 1] = closing;
-  }
-}
-
-/* The same on the one ribbon below a flat electrode, which takes all of the pull along x. */
-static void stations_below_flat(const ZpPlatesParams *p, ZpPlatesEval *e) {
-  size_t last = p->nodes - 1;
-  for (size_t i = 0; i <= last; i++) {
-    e->Fy[i] = (i < last ? e->A[i] : 0) + (i > 0 ? e->B[i - 1] : 0);
-    e->Fx[i] = (i < last ? e->P[i] : 0) - (i > 0 ? e->P[i - 1] : 0);
-  }
-}
-
-void zp_plates_polyline(const ZpPlatesParams *p, const double *x, const double *y, double U, ZpPlatesEval *e) {
-  size_t last = p->nodes - 1;
-  zp_plates_gaps(p, x, y, e);
-  elements(p, p->k * U * U, zp_plates_least_h(p, U), e);
-  if (p->edges) add_edges(p, p->k * U * U, zp_plates_least_h(p, U), e);
-  if (p->flat) {
-    stations_below_flat(p, e);
-    return;
-  }
-  stations(p->nodes, e->A, e->B, e->P, e->Fx, e->Fy);
-  act(e, 0, 0.5 * e->P[0], e->A[0]);
-  act(e, last, -0.5 * e->P[last - 1], e->B[last - 1] + p->flat_length * zp_plates_law(p, U, e->gap[last]).W);
-}
-
-/* dW/dg: the force of a capped piece does not change with its gap. */
-static double slope(const ZpPlatesParams *p, double K, double h_c, double gap) {
-  double h = gap + p->d, sum = h > h_c ? -2 * K / (h * h * h) : 0;
-  if (p->edges && edge_gap(p, h_c, gap) == gap) sum -= K * zp_edges_value(p->edges, gap).bend;
-  return sum;
-}
-
-void zp_plates_stiffness(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, double *own, double *next,
-                         double *along0, double *along1) {
-  double K = p->k * U * U, h_c = zp_plates_least_h(p, U);
-  size_t last = p->nodes - 1;
-  memset(own, 0, p->nodes * sizeof *own);
-  for (size_t i = 0; i < last; i++) {
-    next[i] = 0;
-    for (int q = 0; q < GAUSS; q++) {
-      double gap = e->gap[i] + (e->gap[i + 1] - e->gap[i]) * gauss_at[q], right = gauss_at[q], left = 1 - right;
-      double c = gauss_weight[q] * e->dx[i] * slope(p, K, h_c, gap);
-      own[i] += c * left * left;
-      own[i + 1] += c * right * right;
-      next[i] += c * left * right;
-    }
-    along0[i] = e->A[i] / e->dx[i];
-    along1[i] = e->B[i] / e->dx[i];
-  }
-  own[last] += p->flat_length * slope(p, K, h_c, e->gap[last]);
 }
 
 double zp_plates_inverse_gap(const ZpPlatesParams *p, double gap) {

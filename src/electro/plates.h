@@ -1,6 +1,6 @@
 /* The parallel-plates law: attraction of two insulated electrodes per length, as if each piece were a
- * plane capacitor of liquid and two insulators in series, with or without what its lateral edges add; and its sum over
- * a polyline of nodes.
+ * plane capacitor of liquid and two insulators in series, with or without what its lateral edges add; and its totals
+ * over a polyline of nodes. Forces on the nodes are those of plates_step.h, over a time step or at rest.
  *
  * Stations are pairs of nodes that face each other. All forces are of one modelled half.
  */
@@ -30,13 +30,10 @@ typedef struct ZpPlatesParams {
   const struct ZpEdgeLaw *edges; /* what lateral edges add, edges.h; NULL without */
 } ZpPlatesParams;
 
-/* Written by zp_plates_polyline. */
+/* Written by zp_plates_gaps. */
 typedef struct ZpPlatesEval {
-  double *gap;     /* [N] face distance, m */
-  double *Fx, *Fy; /* [stride] force on upper [2 i] and lower node [2 i + 1] of station i (flat: on [i]), N; 0 beyond */
-  double *A, *B;   /* [N-1] parts of attraction from the element right (A) and left (B) of a station, N */
-  double *P;       /* [N-1] mean potential per length of an element, J/m */
-  double *dx;      /* [N-1] mean of both ribbons' x-lengths of an element, m */
+  double *gap; /* [N] face distance, m */
+  double *dx;  /* [N-1] mean of both ribbons' x-lengths of an element, m */
 } ZpPlatesEval;
 
 /* The law at one gap. */
@@ -46,6 +43,9 @@ typedef struct ZpPlatesLaw {
   double q; /* charge per length = -dP/dU, C/m, eq. (4.5) */
 } ZpPlatesLaw;
 ZpPlatesLaw zp_plates_law(const ZpPlatesParams *params, double voltage, double gap);
+
+/* dW/dg there, N/m^2; 0 where the law is capped. */
+double zp_plates_slope(const ZpPlatesParams *params, double voltage, double gap);
 
 /* The g + d below which the force does not rise any more at this voltage, m. */
 double zp_plates_least_h(const ZpPlatesParams *params, double voltage);
@@ -60,16 +60,6 @@ void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double 
 
 /* (y of interleaved upper and lower nodes; flat: of one ribbon's) => the smallest gap of facing nodes, m. */
 double zp_plates_least_gap(const ZpPlatesParams *params, const double *y);
-
-/* (x, y of interleaved upper and lower nodes, voltage) => gaps and nodal forces, the exact gradient
- * of the potential in zp_plates_totals. */
-void zp_plates_polyline(const ZpPlatesParams *params, const double *x, const double *y, double voltage,
-                        ZpPlatesEval *eval);
-
-/* Second derivatives of the potential at the last eval: by the gaps, own [N] and with the next station [N-1],
- * N/m; by an element's x-length and the gap of its left and right station, along0 and along1 [N-1], N/m. */
-void zp_plates_stiffness(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage, double *own,
-                         double *next, double *along0, double *along1);
 
 /* Integrals over the polyline at the gaps of the last eval. */
 typedef struct ZpPlatesTotals {

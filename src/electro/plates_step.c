@@ -44,8 +44,12 @@ typedef struct Between {
 } Between;
 
 /* P = -K (2 / h* - h / h*^2). Where both ends are on one side of the cap the quotient has no difference in it:
- * K / (h0 h1) above, K / h_c^2 below. */
-static inline Between between(double K, double h_c, double h0, double h1) {
+ * K / (h0 h1) above, K / h_c^2 below. `still`: they are one point; a constant where this is inlined. */
+ZP_INLINE Between between(double K, double h_c, double h0, double h1, bool still) {
+  if (still) {
+    double b = 1 / (h1 > h_c ? h1 : h_c), W = K * b * b;
+    return (Between){W, h1 > h_c ? -W * b : 0, -K * b * (2 - h1 * b), W};
+  }
   double c0 = h0 > h_c ? h0 : h_c, c1 = h1 > h_c ? h1 : h_c, b0 = 1 / c0, b1 = 1 / c1;
   double P0 = -K * b0 * (2 - h0 * b0), P1 = -K * b1 * (2 - h1 * b1), W1 = K * b1 * b1;
   bool open0 = h0 > h_c, open1 = h1 > h_c, across = open0 != open1;
@@ -62,7 +66,10 @@ static Between between_with_edges(const ZpPlatesParams *p, double U, double shar
   ZpPlatesLaw law0 = zp_plates_law(p, U, g0), law1 = zp_plates_law(p, U, g1);
   law0.P *= share, law0.W *= share, law1.P *= share, law1.W *= share;
   Between law = {.P = 0.5 * (law0.P + law1.P), .W1 = law1.W, .W = 0.5 * (law0.W + law1.W)};
-  if (fabs(g1 - g0) < near) return law;
+  if (fabs(g1 - g0) < near) {
+    law.slope = 0.5 * share * zp_plates_slope(p, U, g1);
+    return law;
+  }
   law.W = (law1.P - law0.P) / (g1 - g0);
   law.slope = (law1.W - law.W) / (g1 - g0);
   return law;
@@ -73,7 +80,7 @@ static Between mean_between(const ZpPlatesParams *p, const Laws *laws, double g0
   Between mean = {0, 0, 0, 0};
   for (int k = 0; k < laws->count; k++) {
     Between law = p->edges ? between_with_edges(p, laws->U[k], laws->share, g0, g1)
-                           : between(laws->K[k], laws->h_c[k], g0 + p->d, g1 + p->d);
+                           : between(laws->K[k], laws->h_c[k], g0 + p->d, g1 + p->d, false);
     mean = (Between){mean.W + law.W, mean.slope + law.slope, mean.P + law.P, mean.W1 + law.W1};
   }
   return mean;
@@ -108,7 +115,7 @@ static inline void put(const ZpPlatesStep *s, size_t i, Parts of) {
 }
 
 /* The sum of `laws` laws: a constant where this is inlined. */
-ZP_INLINE void element_parts(size_t count, int laws, const Laws *law, double d, const ZpPlatesEval *e0,
+ZP_INLINE void element_parts(size_t count, int laws, bool still, const Laws *law, double d, const ZpPlatesEval *e0,
                              const ZpPlatesEval *e1, const ZpPlatesStep *s) {
   const double *restrict g0 = e0->gap, *restrict g1 = e1->gap, *restrict dx0 = e0->dx, *restrict dx1 = e1->dx;
   ZpPlatesStep out = *s;
@@ -120,7 +127,7 @@ ZP_INLINE void element_parts(size_t count, int laws, const Laws *law, double d, 
     for (int q = 0; q < GAUSS; q++) {
       double r = gauss_at[q], l = 1 - r, h0 = l * g0[i] + r * g0[i + 1] + d, h1 = l * g1[i] + r * g1[i + 1] + d;
       for (int k = 0; k < laws; k++)
-        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1), dx, q);
+        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, q);
     }
     put(&out, i, parts);
   }
@@ -128,12 +135,17 @@ ZP_INLINE void element_parts(size_t count, int laws, const Laws *law, double d, 
 
 ZP_KERNEL static void elements_at_one(size_t count, const Laws *law, double d, const ZpPlatesEval *e0,
                                       const ZpPlatesEval *e1, const ZpPlatesStep *s) {
-  element_parts(count, 1, law, d, e0, e1, s);
+  element_parts(count, 1, false, law, d, e0, e1, s);
 }
 
 ZP_KERNEL static void elements_at_two(size_t count, const Laws *law, double d, const ZpPlatesEval *e0,
                                       const ZpPlatesEval *e1, const ZpPlatesStep *s) {
-  element_parts(count, 2, law, d, e0, e1, s);
+  element_parts(count, 2, false, law, d, e0, e1, s);
+}
+
+ZP_KERNEL static void elements_at_rest(size_t count, const Laws *law, double d, const ZpPlatesEval *e,
+                                       const ZpPlatesStep *s) {
+  element_parts(count, 1, true, law, d, e, e, s);
 }
 
 static void elements_with_edges(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0,
@@ -180,9 +192,17 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
   size_t last = p->nodes - 1;
   if (p->edges)
     elements_with_edges(p, &laws, e0, e1, s);
+  else if (e0 == e1)
+    elements_at_rest(last, &laws, p->d, e1, s);
   else if (laws.count == 1)
     elements_at_one(last, &laws, p->d, e0, e1, s);
   else
     elements_at_two(last, &laws, p->d, e0, e1, s);
   stations(p, s, mean_between(p, &laws, e0->gap[last], e1->gap[last]));
+}
+
+void zp_plates_rest(const ZpPlatesParams *p, const double *x, const double *y, double U, ZpPlatesEval *e,
+                    ZpPlatesStep *s) {
+  zp_plates_gaps(p, x, y, e);
+  zp_plates_step(p, e, e, U, U, s);
 }

@@ -113,9 +113,9 @@ ZP_KERNEL static void spread(size_t count, const double *restrict closing, doubl
 }
 
 void zp_surface_bezier(const ZpPlatesParams *p, const ZpBezierSurface *surface, const double *x, const double *y,
-                       size_t front, const double direction[2], double U, ZpPlatesEval *e) {
+                       size_t front, const double direction[2], double U, double *Fy) {
   size_t end = p->nodes - 1;
-  memset(e->Fy, 0, 2 * (front + 1) * sizeof(double)); /* what acts between joined nodes moves nothing */
+  memset(Fy, 0, 2 * (front + 1) * sizeof(double)); /* what acts between joined nodes moves nothing */
   if (front == end) return;
   double gap[4], slope[3];
   fit(&surface->fit, x, y, front, end, direction, gap, slope);
@@ -124,8 +124,8 @@ void zp_surface_bezier(const ZpPlatesParams *p, const ZpBezierSurface *surface, 
   Law law = {p->d, p->k * U * U, zp_plates_least_h(p, U), h_on, h_switched};
   size_t count = end - front, padded = zp_round_up(count);
   intervals(count, padded, gap, slope, law, surface->t0, surface->t1, surface->closing);
-  spread(count, surface->closing, e->Fy + 2 * (front + 1));
+  spread(count, surface->closing, Fy + 2 * (front + 1));
   double platform = p->flat_length * zp_plates_law(p, U, y[2 * end] - y[2 * end + 1]).W;
-  e->Fy[2 * end] -= platform;
-  e->Fy[2 * end + 1] += platform;
+  Fy[2 * end] -= platform;
+  Fy[2 * end + 1] += platform;
 }

@@ -23,10 +23,9 @@ void zp_surface_carve(size_t nodes, ZpBezierSurface *surface, ZpCarver *carver);
 void zp_surface_prepare(ZpBezierSurface *surface, size_t stations);
 
 /* (plates law, surface prepared for the free stations, x and y of interleaved nodes, first free station `front`,
- * direction of the closed part there, voltage) => eval->Fy of all stations; eval->Fx is not
- * touched and must be 0. The curves
+ * direction of the closed part there, voltage) => Fy on the nodes of all stations, N; along x nothing acts. The curves
  * arrive horizontally at the platform. Not the gradient of an energy. */
 void zp_surface_bezier(const ZpPlatesParams *params, const ZpBezierSurface *surface, const double *x, const double *y,
-                       size_t front, const double direction[2], double voltage, ZpPlatesEval *eval);
+                       size_t front, const double direction[2], double voltage, double *Fy);
 
 #endif

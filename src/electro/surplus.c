@@ -6,6 +6,7 @@
 static size_t carve(ZpSurplus *s, void *block) {
   ZpCarver carver = {block, 0};
   zp_plates_carve(&s->plates, &s->eval, &carver);
+  zp_plates_step_carve(&s->plates, &s->attraction, &carver);
   s->q = zp_carve(&carver, 2 * s->plates.stride);
   s->floored = zp_carve(&carver, 2 * s->plates.stride);
   s->F = zp_carve(&carver, 2 * s->plates.stride);
@@ -67,10 +68,10 @@ static void hold_capped(ZpSurplus *s) {
 
 static void subtract_plates(ZpSurplus *s) {
   size_t stride = s->plates.stride;
-  zp_plates_polyline(&s->plates, s->floored, s->floored + stride, 1, &s->eval);
+  zp_plates_rest(&s->plates, s->floored, s->floored + stride, 1, &s->eval, &s->attraction);
   for (size_t k = 0; k < 2 * s->plates.nodes; k++) {
-    s->F[k] = s->scale * s->field.Fx[k] - s->eval.Fx[k];
-    s->F[stride + k] = s->scale * s->field.Fy[k] - s->eval.Fy[k];
+    s->F[k] = s->scale * s->field.Fx[k] - s->attraction.Fx[k];
+    s->F[stride + k] = s->scale * s->field.Fy[k] - s->attraction.Fy[k];
   }
   ZpPlatesTotals plates = zp_plates_totals(&s->plates, &s->eval, 1);
   s->energy = s->scale * s->field.energy + plates.potential;

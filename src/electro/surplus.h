@@ -6,12 +6,13 @@
 #define ZP_ELECTRO_SURPLUS_H
 
 #include "electro/field.h"
-#include "electro/plates.h"
+#include "electro/plates_step.h"
 
 typedef struct ZpSurplus {
   ZpField field;
   ZpPlatesParams plates; /* without cap */
   ZpPlatesEval eval;
+  ZpPlatesStep attraction;
   double scale;      /* on the field's force and energy, as in the plates law */
   double h_per_volt; /* of the cap, as in ZpPlatesParams */
   double U;          /* V, and */

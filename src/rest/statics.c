@@ -372,10 +372,15 @@ static void add_mechanics(ZpStatics *s, ZpBand *K) {
 
 static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
+  const ZpPlatesStep *half = &s->eval.attraction;
   const ZpGapDerivatives *gaps = &s->gaps;
-  const double *gap = s->eval.plates.gap;
-  zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, gaps->own, gaps->next, gaps->along0, gaps->along1);
-  if (s->contact_acts) zp_unilateral_stiffness(&s->model->contact, gap, gaps->own, gaps->next);
+  for (size_t i = 0; i < model->nodes; i++) {
+    gaps->own[i] = 2 * half->own[i]; /* both ends move */
+    gaps->next[i] = 2 * half->next[i];
+    gaps->along0[i] = 2 * half->along0[i];
+    gaps->along1[i] = 2 * half->along1[i];
+  }
+  if (s->contact_acts) zp_unilateral_stiffness(&model->contact, s->eval.plates.gap, gaps->own, gaps->next);
   zp_assemble_gaps(&s->assembly, gaps, K);
 }
 
