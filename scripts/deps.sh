@@ -57,9 +57,9 @@ watcher=""
 trap 'rm -f "$log"; [ -z "$watcher" ] || kill "$watcher" 2>/dev/null || true' EXIT
 trap 'exit 130' INT TERM
 
-# What apt-get is at, every 10 s.
+# What apt-get is at, every 10 s, as long as this script lives: it may be killed.
 report() {
-  while sleep 10 >/dev/null; do
+  while sleep 10 >/dev/null && kill -0 $$ 2>/dev/null; do
     echo "  $(tail -n 1 "$log" | cut -c 1-110)"
   done
 }

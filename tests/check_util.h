@@ -12,6 +12,8 @@
 
 #include <zipact/zipact.h>
 
+#include "sanitized.h"
+
 #define LENGTH_OF(array) (sizeof(array) / sizeof((array)[0]))
 
 /* Where ZIPACT_CHECKS names a file, what a check compares, measures and allows is added there: docs/verification.md is

@@ -15,18 +15,9 @@
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SLOWER 20
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SLOWER 20
-#endif
-#endif
-#ifndef SLOWER
-#define SLOWER 1
-#endif
+#include "sanitized.h"
 
-static const double most_seconds = 5.0 * SLOWER; /* a run of these few steps is a hang beyond */
+static const double most_seconds = FULL_OR(5.0, 100.0); /* a run of these few steps is a hang beyond */
 
 /* Small and short, so that each run takes milliseconds: five nodes settle in 142400 steps by default (measured;
  * 0.01 s), all extremes but one in 600000, and then move for 0.1 ms, 80 steps. Large meshes end at max_steps: not
@@ -34,7 +25,7 @@ static const double most_seconds = 5.0 * SLOWER; /* a run of these few steps is 
 static ZpActuatorDef small_def(void) {
   ZpActuatorDef def = zp_actuator_def_default();
   def.mesh.nodes = 5;
-  def.solver.max_steps = 600000;
+  def.solver.max_steps = FULL_OR(600000, 20000);
   def.solver.end_time = 1e-4;
   def.output.samples = 20;
   def.output.shapes = 4;

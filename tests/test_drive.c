@@ -61,7 +61,7 @@ static void walk_square(double frequency, double duty, double rise_time) {
   int corners = rise_time > 0 ? 4 : 2;
   double t = 0;
   ck_assert(zp_waveform_voltage(&w, 0) == (rise_time > 0 ? w.offset : w.voltage));
-  for (int k = 1; k < 5000 * corners; k++) {
+  for (int k = 1; k < FULL_OR(5000, 500) * corners; k++) {
     int place = k % corners;
     double next = zp_waveform_next_corner(&w, t), cycle = floor((double)k / corners);
     double expected = cycle / frequency;
@@ -255,6 +255,7 @@ START_TEST(energy_balances) {
     def[i].contact.model = ZP_CONTACT_SEQUENTIAL;
     def[i].solver.time_step = 0.4e-6;
     Balance whole = balance_of(&def[i]);
+    if (SANITIZED) continue;
     def[i].solver.time_step = 0.2e-6;
     Balance half = balance_of(&def[i]);
     printf("%s: work %.6g J, most %.6g J, imbalance %.2e of it, half the step %.2e\n", name[i], whole.work, whole.most,
@@ -460,7 +461,7 @@ static ZpActuatorDef alternating(ZpWaveformKind kind, double end) {
  * 0.015 of the work in 3 s. Measured now: 1.6e-8 and 2.4e-8; over 10 s 1.6e-8 and 4.0e-8. */
 START_TEST(alternating_voltage_keeps_energy) {
   static const ZpWaveformKind kind[] = {ZP_WAVEFORM_SINE, ZP_WAVEFORM_SQUARE};
-  ZpActuatorDef def = alternating(kind[_i], 1);
+  ZpActuatorDef def = alternating(kind[_i], FULL_OR(1, 0.1));
   ZpResult *result;
   ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
@@ -807,7 +808,7 @@ int main(void) {
   tcase_add_test(runs, jump_at_the_start);
   tcase_add_test(runs, account_over_corners);
   tcase_add_loop_test(runs, alternating_voltage_keeps_energy, 0, 2);
-  tcase_add_test(runs, tolerance_rules_the_steps);
+  if (!SANITIZED) tcase_add_test(runs, tolerance_rules_the_steps);
   tcase_add_test(runs, setting_and_reading_change_nothing);
   tcase_add_test(runs, set_by_hand_counts);
   tcase_add_test(runs, restart_inside_a_ramp);

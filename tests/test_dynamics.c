@@ -386,7 +386,7 @@ static double first_frequency(const ZpActuatorDef *def) {
 static double swing(double tolerance) {
   ZpActuatorDef def =
       DEF(CANTILEVER, {"load.mass", 0}, {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", tolerance});
-  double end = 100 / first_frequency(&def), off = 0, fall = 0, stroke = 0;
+  double end = FULL_OR(100, 2) / first_frequency(&def), off = 0, fall = 0, stroke = 0;
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   size_t columns;
@@ -513,7 +513,7 @@ END_TEST
  */
 START_TEST(test_decrement) {
   static const double tau[] = {1e-4, 1e-3};
-  for (size_t k = 0; k < LENGTH_OF(tau); k++) {
+  for (size_t k = 0; k < LENGTH_OF(tau); k += FULL_OR(1, 2)) {
     ZpActuatorDef def =
         DEF(CANTILEVER, {"load.mass", 2e-3}, {"gravity", 0}, {"damping.internal", tau[k]}, {"solver.tolerance", 1e-6});
     double mode = first_frequency(&def), expected = M_PI * 2 * M_PI * mode * tau[k];
@@ -771,6 +771,7 @@ END_TEST
 START_TEST(test_restart) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   if (_i) def.electro.model = ZP_ELECTRO_FIELD;
+  if (_i && SANITIZED) def.electro.refresh_change = 1;
   ZpModel *model = model_of(&def);
   ZpSim *one = sim_of(model), *two = sim_of(model);
   size_t size = zp_sim_state_size(one);
@@ -837,20 +838,20 @@ int main(void) {
   suite_add_tcase(suite, forces);
   TCase *ribbon = tcase_create("ribbon");
   tcase_add_test(ribbon, test_swing_keeps_energy);
-  tcase_add_test(ribbon, test_frequency_is_that_of_modes);
+  if (!SANITIZED) tcase_add_test(ribbon, test_frequency_is_that_of_modes);
   tcase_add_test(ribbon, stroke_changes_sign_smoothly);
   tcase_add_test(ribbon, test_decrement);
   suite_add_tcase(suite, ribbon);
   TCase *two = tcase_create("two ribbons");
-  tcase_add_test(two, test_zip_time);
   tcase_add_test(two, test_zip_otherwise);
-#ifndef __SANITIZE_ADDRESS__ /* a minute each there, of code that the others run, too */
-  tcase_add_loop_test(two, test_zip_explicit, 0, 2);
-  tcase_add_test(two, test_pull_in_in_motion);
-  tcase_add_test(two, test_energy_on_a_fine_mesh);
-  tcase_add_test(two, test_energy_of_a_slow_release);
-#endif
-  tcase_add_test(two, test_zip_by_field);
+  if (!SANITIZED) { /* of code that the others run, too */
+    tcase_add_test(two, test_zip_time);
+    tcase_add_loop_test(two, test_zip_explicit, 0, 2);
+    tcase_add_test(two, test_pull_in_in_motion);
+    tcase_add_test(two, test_zip_by_field);
+    tcase_add_test(two, test_energy_on_a_fine_mesh);
+    tcase_add_test(two, test_energy_of_a_slow_release);
+  }
   tcase_add_test(two, test_opens_again);
   tcase_add_test(two, test_rests_where_statics_does);
   tcase_add_loop_test(two, test_restart, 0, 2);

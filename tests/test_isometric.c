@@ -242,7 +242,7 @@ END_TEST
  * with a finer mesh. What is passed rises in voltage and is stable, what is jumped over lies below. */
 START_TEST(test_jumps) {
   double force[2];
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < FULL_OR(2, 1); k++) {
     ZpActuatorDef def = held_def(MM(20), KV(10), false, k ? 121 : 61);
     ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
     const ZpTable *t = result->series;
@@ -265,14 +265,14 @@ START_TEST(test_jumps) {
     printf("20 mm, no cap, N = %d: %g jumps, %d states jumped over, %.5f N\n", def.mesh.nodes, jumps, over, force[k]);
     zp_result_destroy(result);
   }
-  ck_near(force[0], force[1], 0.05);
+  if (!SANITIZED) ck_near(force[0], force[1], 0.05);
 }
 END_TEST
 
 /* A floppy ribbon's zipped states hang together with no other: it falls there, to the same place on any mesh. */
 START_TEST(test_falls) {
   double force[2];
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < FULL_OR(2, 1); k++) {
     ZpActuatorDef def = held_def(MM(2), KV(10), true, k ? 121 : 61);
     def.ribbon.thickness = 10e-6;
     ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
@@ -282,7 +282,7 @@ START_TEST(test_falls) {
     ck_assert_double_gt(zp_result_get(result, "zipped_length_m"), MM(35));
     zp_result_destroy(result);
   }
-  ck_near(force[0], force[1], 0.02); /* measured 1.3 %; N = 121 is 0.1 % off 241 */
+  if (!SANITIZED) ck_near(force[0], force[1], 0.02); /* measured 1.3 %; N = 121 is 0.1 % off 241 */
 }
 END_TEST
 
@@ -302,7 +302,7 @@ START_TEST(test_everywhere) {
   static const double separations[] = {1e-6,   3e-6,   1e-5,   1e-4,   MM(0.7), MM(5),
                                        MM(12), MM(25), MM(45), MM(70), MM(88.2)};
   for (size_t i = 0; i < LENGTH_OF(separations); i++)
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < FULL_OR(4, 2); k++) {
       ZpActuatorDef def = held_def(separations[i], KV(10), k % 2, k / 2 ? 61 : 21);
       ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
       ck_near(zp_result_get(result, "opening_m"), separations[i], 1e-9);
@@ -313,7 +313,7 @@ START_TEST(test_everywhere) {
 END_TEST
 
 START_TEST(test_mass_spring) {
-  ZpActuatorDef rod = held_def(MM(2), KV(6), true, 121), chain = rod;
+  ZpActuatorDef rod = held_def(MM(2), KV(6), true, FULL_OR(121, 61)), chain = rod;
   chain.ribbon.model = ZP_RIBBON_MASS_SPRING;
   double force = value_of(ZP_STUDY_ISOMETRIC, &rod, "force_N"), other = value_of(ZP_STUDY_ISOMETRIC, &chain, "force_N");
   printf("mass_spring: %.5f N, rod %.5f N\n", other, force);
@@ -397,16 +397,16 @@ int main(void) {
   tcase_add_test(force, test_holds_what_hangs_powered);
   tcase_add_test(force, test_elastica);
   tcase_add_test(force, test_load_does_not_matter);
-  tcase_add_test(force, test_peeling);
-  tcase_add_test(force, test_second_order_unpowered);
-  tcase_add_test(force, test_mesh_powered);
+  if (!SANITIZED) tcase_add_test(force, test_peeling);
+  if (!SANITIZED) tcase_add_test(force, test_second_order_unpowered);
+  if (!SANITIZED) tcase_add_test(force, test_mesh_powered);
   tcase_add_test(force, test_jumps);
   tcase_add_test(force, test_falls);
   tcase_add_test(force, test_unpowered_is_stable);
   tcase_add_test(force, test_everywhere);
   tcase_add_test(force, test_mass_spring);
   tcase_add_test(force, test_no_voltage);
-  tcase_add_loop_test(force, test_thin_insulators_stay_apart, 0, 27);
+  tcase_add_loop_test(force, test_thin_insulators_stay_apart, 0, FULL_OR(27, 9));
   tcase_add_test(force, test_impossible_states_are_told);
   tcase_add_test(force, test_refused);
   suite_add_tcase(suite, force);

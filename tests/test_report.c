@@ -25,6 +25,7 @@
 #include "io/gnuplot.h"
 #include "io/number.h"
 #include "io/plot.h"
+#include "sanitized.h"
 
 #define NODES    61
 #define HALF     45e-3
@@ -669,7 +670,8 @@ END_TEST
 
 START_TEST(rest_is_the_same_each_time) {
   const char *const study[] = {"equilibrium", "stationary", "modes", "isometric", "profile"};
-  for (size_t i = 0; i < 5; i++) {
+  if (SANITIZED) setenv("PATH", "/nowhere", 1); /* the pictures are files_of_rest's */
+  for (size_t i = 0; i < 5; i += FULL_OR(1, 2)) {
     write_study("a", study[i], NULL); /* over what the study before left there */
     write_study(study[i], study[i], NULL);
     same_files("a", study[i]);

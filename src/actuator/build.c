@@ -314,15 +314,14 @@ static ZpStopParams stop_of(const ZpModel *model) {
   return (ZpStopParams){model->nodes, model->l, layer_stiffness(model), platform_faces(model)};
 }
 
-/* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
- * insulators. */
+/* Largest attraction of closed faces short of a breakdown, N/m, without any force_scale: of the liquid where the law is
+ * capped, else of the insulators. */
 static double largest_attraction(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  const ZpPlatesParams *p = &model->plates;
-  double field = def->medium.breakdown_field / def->electro.voltage_share;
-  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field, d = fmax(p->d, p->h_least);
+  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field;
   bool capped = def->electro.breakdown_cap || voltage == 0;
-  return p->k * (capped ? field * field : voltage * voltage / (d * d));
+  double field = capped ? def->medium.breakdown_field : voltage / fmax(model->plates.d, model->plates.h_least);
+  return 0.5 * ZP_EPS0 * def->medium.permittivity * def->ribbon.width * field * field;
 }
 
 /* Eq. (9.2). */

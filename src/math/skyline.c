@@ -75,7 +75,11 @@ static inline double *column(const ZpSkylineBlock *block, size_t j) {
 
 /* COLUMNS columns c of a block, less `count` columns p of it times the same columns of the rows q, which are the
  * rows that cross c on the diagonal. Here the time goes. */
-static inline void subtract(size_t count, const double *restrict p, const double *restrict q, double *restrict c) {
+ZP_CHECKED_WHOLE static inline void subtract(size_t count, const double *restrict p, const double *restrict q,
+                                             double *restrict c) {
+  zp_check_numbers(p, count * LANES);
+  zp_check_numbers(q, count ? (count - 1) * LANES + COLUMNS : 0);
+  zp_check_numbers(c, TILE / 2);
   double s0[LANES], s1[LANES], s2[LANES], s3[LANES];
   ZP_SIMD
   for (size_t r = 0; r < LANES; r++) {

@@ -153,6 +153,5 @@ export class View {
       `${fixed(1e3 * frame.get('zipped_length'), 1)} millimetres of each half zipped, at ${fixed(frame.get('voltage') / 1e3, 2)} kilovolts`);
     $('plot-time').setAttribute('aria-label', `Stroke over time. ${$('time-note').textContent}`);
     $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all states of rest. ${$('voltage-note').textContent}`);
-    $('plot-profile').setAttribute('aria-label', 'Attraction per length and field in the liquid along the ribbon');
   }
 }
