@@ -314,14 +314,15 @@ static ZpStopParams stop_of(const ZpModel *model) {
   return (ZpStopParams){model->nodes, model->l, layer_stiffness(model), platform_faces(model)};
 }
 
-/* Largest attraction of closed faces short of a breakdown, N/m, without any force_scale: of the liquid where the law is
- * capped, else of the insulators. */
+/* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
+ * insulators. */
 static double largest_attraction(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field;
+  const ZpPlatesParams *p = &model->plates;
+  double field = def->medium.breakdown_field / def->electro.voltage_share;
+  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field, d = fmax(p->d, p->h_least);
   bool capped = def->electro.breakdown_cap || voltage == 0;
-  double field = capped ? def->medium.breakdown_field : voltage / fmax(model->plates.d, model->plates.h_least);
-  return 0.5 * ZP_EPS0 * def->medium.permittivity * def->ribbon.width * field * field;
+  return p->k * (capped ? field * field : voltage * voltage / (d * d));
 }
 
 /* Eq. (9.2). */
