@@ -296,42 +296,14 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-/* Of both layers pressed together, per length of ribbon, N/m^2. */
-static double layer_stiffness(const ZpModel *model) {
+static ZpStopParams stop_of(const ZpModel *model) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  return E * def->ribbon.width / ((model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest));
-}
-
-/* Of the platform's faces, m. */
-static double platform_faces(const ZpModel *model) {
-  return model->s == 2 ? model->def.platform.length / 2 : 0;
-}
-
-static ZpStopParams stop_of(const ZpModel *model) {
-  return (ZpStopParams){model->nodes, model->l, layer_stiffness(model), platform_faces(model)};
-}
-
-/* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
- * insulators. */
-static double largest_attraction(const ZpModel *model) {
-  const ZpActuatorDef *def = &model->def;
-  const ZpPlatesParams *p = &model->plates;
-  double field = def->medium.breakdown_field / def->electro.voltage_share;
-  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field, d = fmax(p->d, p->h_least);
-  bool capped = def->electro.breakdown_cap || voltage == 0;
-  return p->k * (capped ? field * field : voltage * voltage / (d * d));
-}
-
-/* Eq. (9.2). */
-static ZpUnilateralParams contact_of(const ZpModel *model) {
-  static const double touch = 5e-7;                      /* m: far below a micrometre, far above rounding */
-  static const double shortest = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
-  double range = fmin(fmax(part * model->plates.d, shortest), touch);
-  double p_c = fmin(largest_attraction(model), layer_stiffness(model) * range / 3);
-  return (ZpUnilateralParams){model->nodes, model->l, p_c, range, touch, platform_faces(model)};
+  double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
+  return (ZpStopParams){model->nodes, model->l, E * def->ribbon.width / layers,
+                        model->s == 2 ? def->platform.length / 2 : 0};
 }
 
 /* damping.internal, or what auto stands for: docs/theory.md, section 18. */
@@ -370,7 +342,6 @@ static void derive(ZpModel *model) {
   model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
   model->stop = stop_of(model);
-  model->contact = contact_of(model);
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part

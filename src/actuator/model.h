@@ -11,7 +11,6 @@
 #include <zipact/model.h>
 
 #include "contact/stop.h"
-#include "contact/unilateral.h"
 #include "contact/zip.h"
 #include "drive/waveform.h"
 #include "electro/edges.h"
@@ -41,10 +40,9 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpRodParams rod; /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
-  ZpUnilateralParams contact; /* of unilateral contact at rest */
-  ZpStopParams stop;          /* of unilateral contact in motion */
-  double internal_damping;    /* s */
-  ZpEdgeLaw edge_law;         /* of plates, where electro.edges */
+  ZpStopParams stop;       /* of unilateral contact in motion */
+  double internal_damping; /* s */
+  ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
   ZpWaveform waveform;
   double field_scale;   /* force_scale * voltage_share^2 */

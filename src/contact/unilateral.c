@@ -1,5 +1,5 @@
 /* Soft contact. Letters of docs/theory.md, section 9: g gap, m; with s = 1 - g / range, where it is positive,
- * the pressure per length is p_c s^3, its stiffness 3 p_c s^2 / range. */
+ * the pressure per length is p0 s^3, its stiffness 3 p0 s^2 / range. */
 #include "contact/unilateral.h"
 
 #include <string.h>
@@ -18,18 +18,18 @@ void zp_unilateral_push(const ZpUnilateralParams *p, const double *gap, double *
     if (gap[i] >= p->range && gap[i + 1] >= p->range) continue;
     for (int q = 0; q < GAUSS; q++) {
       double s = depth(p, gap[i] + (gap[i + 1] - gap[i]) * gauss_at[q]);
-      double f = p->p_c * s * s * s * gauss_weight[q] * p->l;
+      double f = p->p0 * s * s * s * gauss_weight[q] * p->l;
       push[i] += f * (1 - gauss_at[q]);
       push[i + 1] += f * gauss_at[q];
     }
   }
   double s = depth(p, gap[p->nodes - 1]);
-  push[p->nodes - 1] += p->p_c * s * s * s * p->flat_length;
+  push[p->nodes - 1] += p->p0 * s * s * s * p->flat_length;
 }
 
 static double stiffness(const ZpUnilateralParams *p, double gap) {
   double s = depth(p, gap);
-  return 3 * p->p_c * s * s / p->range;
+  return 3 * p->p0 * s * s / p->range;
 }
 
 void zp_unilateral_stiffness(const ZpUnilateralParams *p, const double *gap, double *own, double *next) {

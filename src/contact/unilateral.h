@@ -12,7 +12,7 @@
 typedef struct ZpUnilateralParams {
   size_t nodes;       /* N stations */
   double l;           /* element length, m */
-  double p_c;         /* p_c: push per length at gap 0, N/m */
+  double p0;          /* push per length at gap 0, N/m */
   double range;       /* gap below which faces push, m */
   double touch;       /* gap below which they count as closed, m; at least the range */
   double flat_length; /* of the platform's faces, at the gap of the last station, m */
