@@ -11,6 +11,8 @@
 
 #include "cli.h"
 
+#define FOR_LIBRARIES __attribute__((visibility("default"))) /* in place of those of the C library */
+
 static void say(const char *text) {
   ssize_t ignored = write(STDERR_FILENO, text, strlen(text));
   (void)ignored;
@@ -26,19 +28,19 @@ static void *checked(void *memory) {
   _exit(EXIT_MACHINE);
 }
 
-void *malloc(size_t size) {
+FOR_LIBRARIES void *malloc(size_t size) {
   static void *(*next)(size_t);
   if (!next) next = (void *(*)(size_t))dlsym(RTLD_NEXT, "malloc");
   return checked(next(size));
 }
 
-void *calloc(size_t count, size_t size) {
+FOR_LIBRARIES void *calloc(size_t count, size_t size) {
   static void *(*next)(size_t, size_t);
   if (!next) next = (void *(*)(size_t, size_t))dlsym(RTLD_NEXT, "calloc");
   return checked(next(count, size));
 }
 
-void *realloc(void *old, size_t size) {
+FOR_LIBRARIES void *realloc(void *old, size_t size) {
   static void *(*next)(void *, size_t);
   if (!next) next = (void *(*)(void *, size_t))dlsym(RTLD_NEXT, "realloc");
   void *memory = next(old, size);
