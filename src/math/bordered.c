@@ -1,7 +1,6 @@
 /* x = A^-1 f - V z with V = A^-1 B and S z = g - C A^-1 f, S = D - C V. */
 #include "math/bordered.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -53,22 +52,23 @@ void zp_bordered_multiply(const ZpBordered *m, const double *x, double *y) {
 
 /* -- factors -------------------------------------------------------------------------------------- */
 
-static double largest_entry(const ZpBand *A) {
-  double largest = 0;
-  for (size_t i = 0; i < A->n * A->stride; i++)
-    largest = fmax(largest, fabs(A->a[i]));
-  return largest;
+static double largest(size_t n, const double *a) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = fmax(most, fabs(a[i]));
+  return most;
 }
 
-/* An A that is singular alone may be regular with its border: the shift, some of its rounding, is refined away. */
+/* An A that is singular alone may be regular with its border. It is shifted by the root of rounding: what the shift
+ * changes and what rounding makes of its inverse are then alike, and each refinement takes out all but as little. */
 static bool factor_inner(ZpBordered *m) {
-  static const double shift = 64 * DBL_EPSILON;
-  size_t bytes = m->A.n * m->A.stride * sizeof *m->A.a;
-  memcpy(m->LU.a, m->A.a, bytes);
+  static const double shift = 0x1p-26;
+  size_t inner = m->A.n, entries = inner * m->A.stride;
+  memcpy(m->LU.a, m->A.a, entries * sizeof *m->A.a);
   if (zp_band_factor(&m->LU)) return true;
-  double some = shift * largest_entry(&m->A);
-  memcpy(m->LU.a, m->A.a, bytes);
-  for (size_t i = 0; i < m->A.n; i++)
+  double size = largest(entries, m->A.a), some = shift * (size > 0 ? size : largest(m->border * inner, m->B));
+  memcpy(m->LU.a, m->A.a, entries * sizeof *m->A.a);
+  for (size_t i = 0; i < inner; i++)
     *zp_band_at(&m->LU, i, i) += some;
   return zp_band_factor(&m->LU);
 }

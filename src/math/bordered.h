@@ -2,8 +2,8 @@
  *   [A B] [x]   [f]
  *   [C D] [z] = [g]
  * by block elimination with two steps of iterative refinement, which makes it accurate even where A alone is singular
- * (Govaerts and Pryce, BIT 30, 1990, for one step and an A that is nearly so). Without a border it is the band alone,
- * at its cost. Factor in place, solve. */
+ * or, with a border of one, nearly so (Govaerts and Pryce, BIT 30, 1990). Without a border it is the band alone, at its
+ * cost. */
 #ifndef ZP_MATH_BORDERED_H
 #define ZP_MATH_BORDERED_H
 

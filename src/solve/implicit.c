@@ -153,17 +153,19 @@ static void filtered_error(ZpImplicit *s, double h, const double *q, const doubl
 }
 
 /* Of an unknown of first order: the change of its mean rate since the last step, over the time between their middles.
- * Before a first step it was at rest for as long. */
+ */
 static double rate_change(double h, double w, size_t i, const ZpImplicitHistory *history) {
-  return 2 * (w - history->w[i]) / (h + (history->last > 0 ? history->last : h));
+  return history->last > 0 ? 2 * (w - history->w[i]) / (h + history->last) : 0;
 }
 
-/* An unknown of first order has the error (18.8), from three steps, of which the first two count as equal. It is not
- * filtered: what decays faster than a step changes its sign in each, and is followed until it is gone. */
-static double first_order_error(const ZpImplicit *s, double h, const double *q, size_t i,
+/* An unknown of first order has the error (18.8), from three steps, of which the first two count as equal; in a first
+ * step, that of a decay by its scale. It is not filtered: what decays faster than a step changes its sign in each, and
+ * is followed until it is gone. */
+static double first_order_error(const ZpImplicit *s, double h, double moved, size_t i,
                                 const ZpImplicitHistory *history) {
-  double last = history->last > 0 ? history->last : h, change = rate_change(h, (s->q[i] - q[i]) / h, i, history);
-  return h * h * h / 3 * (change - history->a[i]) / (h + 3 * last);
+  double scale = scale_of(s->system, i), share = moved / scale, change = rate_change(h, moved / h, i, history);
+  if (!(history->last > 0)) return scale * share * share * share / 12;
+  return h * h * h / 3 * (change - history->a[i]) / (h + 3 * history->last);
 }
 
 /* Local error over the accuracy asked for. Algebraic unknowns follow from the others. */
@@ -175,7 +177,7 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
   else
     memset(s->r, 0, system->n * sizeof *s->r);
   for (size_t i = 0; system->kind && i < system->n; i++) {
-    if (system->kind[i] == ZP_FIRST_ORDER) s->r[i] = first_order_error(s, h, q, i, history);
+    if (system->kind[i] == ZP_FIRST_ORDER) s->r[i] = first_order_error(s, h, s->q[i] - q[i], i, history);
     if (system->kind[i] != ZP_ALGEBRAIC) continue;
     s->r[i] = 0;
     counted--;
