@@ -4,6 +4,7 @@
 
 #include "solve/explicit.h"
 #include "solve/implicit.h"
+#include "solve/newton.h"
 #include "solve/relax.h"
 
 /* -- symplectic Euler ------------------------------------------------------------------------------ */
@@ -524,6 +525,58 @@ START_TEST(test_implicit_fills_time) {
 }
 END_TEST
 
+/* -- rest ------------------------------------------------------------------------------------------ */
+
+/* A spring that only holds up to a stretch of 1: beyond there is no force. */
+typedef struct Rest {
+  double q, pull;
+  int asked;
+} Rest;
+
+static ZpEnd rest_left(void *self, double *r, double *size) {
+  Rest *rest = self;
+  rest->asked++;
+  if (rest->q > 1) return ZP_END_SHORTER;
+  r[0] = rest->pull - rest->q;
+  if (size) *size = fabs(r[0]);
+  return ZP_END_FOUND;
+}
+
+static void rest_stiffness(void *self, ZpBand *K, double *r) {
+  (void)self, (void)r;
+  *zp_band_at(K, 0, 0) = 1;
+}
+
+static double rest_length(void *self, const double *step) {
+  (void)self, (void)step;
+  return 0;
+}
+
+static double rest_change(void *self, const double *step) {
+  (void)self;
+  return fabs(step[0]) / 1e-9;
+}
+
+static void rest_move(void *self, const double *step, double fraction) {
+  ((Rest *)self)->q += fraction * step[0];
+}
+
+/* Newton's method goes nowhere from a point that has no residual, and says so. */
+START_TEST(test_newton_without_residual) {
+  double K[1], r[1];
+  ZpNewtonWork work = {.K = {.n = 1, .stride = 1, .a = K}, .r = r};
+  Rest rest = {0, 0.5, 0};
+  ZpStaticSystem system = {1, &rest, rest_left, rest_stiffness, rest_length, rest_change, rest_move, NULL};
+  ck_assert_int_eq(zp_newton(&system, 1e-12, 20, &work).end, ZP_NEWTON_CONVERGED);
+  ck_assert_double_eq(rest.q, 0.5);
+  rest = (Rest){0, 2, 0};
+  ZpNewtonInfo info = zp_newton(&system, 1e-12, 20, &work);
+  ck_assert_int_eq(info.end, ZP_NEWTON_DIVERGED);
+  ck_assert(isinf(info.residual));
+  ck_assert_int_eq(rest.asked, 2);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("solve");
   TCase *euler = tcase_create("explicit");
@@ -553,5 +606,8 @@ int main(void) {
   tcase_add_test(implicit, test_implicit_cut);
   tcase_add_test(implicit, test_implicit_fills_time);
   suite_add_tcase(suite, implicit);
+  TCase *rest = tcase_create("rest");
+  tcase_add_test(rest, test_newton_without_residual);
+  suite_add_tcase(suite, rest);
   return run_suite(suite);
 }
