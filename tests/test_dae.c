@@ -611,6 +611,24 @@ START_TEST(test_pendulum) {
 }
 END_TEST
 
+/* A multiplier may stand in the band, too, where that is not symmetric: the motion is the same. */
+START_TEST(test_pendulum_in_the_band) {
+  Motion border, band;
+  make_pendulum(&border);
+  make_pendulum(&band);
+  zp_free(band.memory);
+  band.system.border = 0;
+  band.system.lower = band.system.bandwidth = 2;
+  start(&band);
+  run_fixed(&border, 10, 200);
+  run_fixed(&band, 10, 200);
+  for (size_t i = 0; i < 3; i++)
+    ck_near(band.y[i], border.y[i], 1e-10);
+  zp_free(border.memory);
+  zp_free(band.memory);
+}
+END_TEST
+
 /* -- masses coupled by their rates ----------------------------------------------------------------- */
 
 /* Two masses 1 on springs, a dashpot c between them, and a liquid that both move: its mass a goes with the sum of their
@@ -850,6 +868,7 @@ int main(void) {
   TCase *constraint = tcase_create("constraint");
   tcase_add_test(constraint, test_volume_stays);
   tcase_add_test(constraint, test_pendulum);
+  tcase_add_test(constraint, test_pendulum_in_the_band);
   suite_add_tcase(suite, constraint);
   TCase *pair = tcase_create("pair");
   tcase_add_test(pair, test_pair_order_two);

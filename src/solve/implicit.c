@@ -158,7 +158,7 @@ static double rate_change(double h, double w, size_t i, const ZpImplicitHistory 
   return history->last > 0 ? 2 * (w - history->w[i]) / (h + history->last) : 0;
 }
 
-/* An unknown of first order has the error (18.8), from three steps, of which the first two count as equal; in a first
+/* An unknown of first order has the error (18.9), from three steps, of which the first two count as equal; in a first
  * step, that of a decay by its scale. It is not filtered: what decays faster than a step changes its sign in each, and
  * is followed until it is gone. */
 static double first_order_error(const ZpImplicit *s, double h, double moved, size_t i,

@@ -17,7 +17,8 @@
 typedef enum ZpUnknown {
   ZP_SECOND_ORDER, /* a position, with a velocity */
   ZP_FIRST_ORDER,  /* as a charge behind a resistor: it has a mean rate over a step, and no velocity */
-  ZP_ALGEBRAIC     /* as a pressure or a multiplier: of one step, without memory */
+  ZP_ALGEBRAIC     /* as a pressure or a multiplier: of one step, without memory. Where its own diagonal is 0 it belongs
+                    * to the border, or to a band that is not symmetric */
 } ZpUnknown;
 
 /* Rows of the residual are conjugate to their unknowns: row i times a change of unknown i is an energy, J. */
