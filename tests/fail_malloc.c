@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#pragma GCC visibility push(default) /* seen by the command and its libraries */
+
 /* glibc's own, under names that nobody replaces. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);

@@ -46,9 +46,9 @@ static void difference(ZpStatics *s, size_t k, double *column) {
   ZpStaticSystem system = zp_statics_system(s);
   double up[4 * NODES];
   nudge(s, k, h);
-  system.residual(s, up);
+  system.residual(s, up, NULL);
   nudge(s, k, -2 * h);
-  system.residual(s, column);
+  system.residual(s, column, NULL);
   nudge(s, k, h);
   for (size_t i = 0; i < system.n; i++)
     column[i] = (column[i] - up[i]) / (2 * h);
@@ -66,7 +66,7 @@ START_TEST(test_stiffness_is_the_residuals_difference) {
   void *memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){memory, 0};
   zp_newton_carve(&work, s.assembly.n, s.assembly.bandwidth, s.assembly.symmetric, &carver);
-  system.residual(&s, work.r);
+  system.residual(&s, work.r, NULL);
   memcpy(s.tension, s.eval.edges.T, (model->count - model->s) * sizeof *s.tension);
   system.stiffness(&s, &work.K, NULL);
   double worst = 0, largest = 0;

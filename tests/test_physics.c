@@ -212,6 +212,34 @@ START_TEST(test_solved_field_in_motion) {
 }
 END_TEST
 
+/* A field that cannot be solved, of a ribbon that runs back, ends the run before the next step and says why. It left a
+ * force that was no number in the state. */
+START_TEST(test_unsolvable_field_ends_the_run) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, UNILATERAL, FIELD,
+                          {"solver.integrator", _i ? ZP_INTEGRATOR_EXPLICIT : ZP_INTEGRATOR_IMPLICIT});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, NULL), ZP_REACHED_END);
+  double *x = zp_state_q(model, sim->state);
+  x[2 * 10] = x[2 * 13];
+  sim->state->refreshed = NAN; /* due */
+  size_t bytes = zp_state_size(model);
+  ZpState *before = malloc(bytes);
+  memcpy(before, sim->state, bytes);
+  for (int k = 0; k < 2; k++) { /* asked again, it says so again */
+    ZpRunInfo info;
+    ck_assert_int_eq(zp_sim_run(sim, 2e-3, false, NULL, &info), ZP_DIVERGED);
+    ck_assert_msg(strstr(info.message, "the field could not be solved") != NULL, "%s", info.message);
+    ck_assert_msg(strstr(info.message, "runs back") != NULL, "%s", info.message);
+    ck_assert_int_eq(info.steps, 0);
+    ck_assert_mem_eq(sim->state, before, bytes);
+  }
+  free(before);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A run whose energy is off by more than 1e-4 of the work says so. */
 START_TEST(test_imbalance_is_told) {
   for (int wrong = 0; wrong < 2; wrong++) {
@@ -616,6 +644,7 @@ int main(void) {
   tcase_add_test(energy, test_imbalance_is_told);
   tcase_add_test(energy, test_no_voltage_no_field);
   tcase_add_test(energy, test_balance_over_voltage_step);
+  tcase_add_loop_test(energy, test_unsolvable_field_ends_the_run, 0, 2);
   suite_add_tcase(suite, energy);
   TCase *motion = tcase_create("motion");
   tcase_add_test(motion, test_drag_law);

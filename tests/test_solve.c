@@ -4,6 +4,7 @@
 
 #include "solve/explicit.h"
 #include "solve/implicit.h"
+#include "solve/newton.h"
 #include "solve/relax.h"
 
 /* -- symplectic Euler ------------------------------------------------------------------------------ */
@@ -258,7 +259,8 @@ END_TEST
  * a cubic part of the first spring whose mean does exactly the work of its energy c q^4 / 4. */
 typedef struct Springs {
   double k[2], c, mass[2], q0[2], q1[2];
-  double longest; /* beyond steps of this length there is no force, s */
+  double longest; /* beyond steps of this length there is no force, s, */
+  ZpEnd beyond;   /* but this answer */
   ZpImplicitSystem system;
   ZpImplicit stepper;
   ZpImplicitHistory history;
@@ -266,8 +268,9 @@ typedef struct Springs {
   void *memory;
 } Springs;
 
-static double springs_begin(void *self, const double *q0) {
+static double springs_begin(void *self, const double *q0, const double *v0) {
   Springs *s = self;
+  (void)v0;
   memcpy(s->q0, q0, sizeof s->q0);
   return 0.5 * s->k[0] * q0[0] * q0[0] + 0.5 * s->k[1] * (q0[1] - q0[0]) * (q0[1] - q0[0]);
 }
@@ -276,18 +279,19 @@ static double cubic(double a, double b) {
   return 0.25 * (a + b) * (a * a + b * b); /* (b^4 - a^4) / 4 over b - a */
 }
 
-static void springs_force(void *self, const double *q1, double h, double *f) {
+static ZpEnd springs_force(void *self, const double *q1, double h, double *f) {
   Springs *s = self;
   memcpy(s->q1, q1, sizeof s->q1);
   double first = 0.5 * s->k[0] * (s->q0[0] + q1[0]) + s->c * cubic(s->q0[0], q1[0]);
   double second = 0.5 * s->k[1] * (s->q0[1] - s->q0[0] + q1[1] - q1[0]);
   f[0] = second - first;
   f[1] = -second;
-  if (h > s->longest) f[1] = NAN;
+  return h > s->longest ? s->beyond : ZP_END_FOUND;
 }
 
-static void springs_tangent(void *self, ZpBand *A) {
+static void springs_tangent(void *self, ZpBordered *J) {
   Springs *s = self;
+  ZpBand *A = &J->A;
   double a = s->q0[0], b = s->q1[0];
   zp_band_clear(A);
   *zp_band_at(A, 0, 0) = 0.5 * (s->k[0] + s->k[1]) + s->c * 0.25 * (a * a + 2 * a * b + 3 * b * b);
@@ -297,13 +301,13 @@ static void springs_tangent(void *self, ZpBand *A) {
 
 /* The first mass 1 off its rest, all still. */
 static void make_springs(Springs *s, double k0, double k1, double c) {
-  *s = (Springs){.k = {k0, k1}, .c = c, .mass = {1, 0.5}, .longest = 1, .q = {1, 1}};
+  *s = (Springs){.k = {k0, k1}, .c = c, .mass = {1, 0.5}, .longest = 1, .beyond = ZP_END_SHORTER, .q = {1, 1}};
   s->system = (ZpImplicitSystem){.n = 2,
                                  .bandwidth = 1,
                                  .self = s,
                                  .mass = s->mass,
                                  .begin = springs_begin,
-                                 .force = springs_force,
+                                 .residual = springs_force,
                                  .tangent = springs_tangent};
   ZpCarver carver = {NULL, 0};
   zp_implicit_carve(&s->stepper, &s->system, &carver);
@@ -434,6 +438,7 @@ START_TEST(test_implicit_no_force) {
   ck_assert(s.history.last == before.history.last && s.history.next == before.history.next);
   ck_assert_int_eq(s.stepper.counts.steps, before.stepper.counts.steps);
   ck_assert_int_gt(s.stepper.counts.failures, before.stepper.counts.failures);
+  ck_assert_int_eq(s.stepper.end, ZP_END_SHORTER);
   s.longest = 1; /* and goes on when the force is back */
   ck_assert_double_gt(springs_step(&s, 1), 0);
   zp_free(s.memory);
@@ -449,6 +454,24 @@ START_TEST(test_implicit_shorter_step) {
   ck_assert_double_eq(springs_step(&s, 1), 0.1 / 8);
   ck_assert_int_eq(s.stepper.counts.failures, 3);
   ck_assert_int_eq(s.stepper.counts.steps, 1);
+  zp_free(s.memory);
+}
+END_TEST
+
+/* A system that says that no shorter step would do is asked once, and left as it was. */
+START_TEST(test_implicit_stops) {
+  Springs s;
+  make_springs(&s, 4, 0, 0);
+  s.stepper.fixed = 0.1;
+  s.longest = 0.02;
+  s.beyond = ZP_END_STOP;
+  ck_assert_double_eq(springs_step(&s, 1), 0);
+  ck_assert_int_eq(s.stepper.end, ZP_END_STOP);
+  ck_assert_int_eq(s.stepper.counts.failures, 0);
+  ck_assert(s.q[0] == 1 && s.v[0] == 0 && s.history.last == 0);
+  s.longest = 1;
+  ck_assert_double_eq(springs_step(&s, 1), 0.1);
+  ck_assert_int_eq(s.stepper.end, ZP_END_FOUND);
   zp_free(s.memory);
 }
 END_TEST
@@ -502,6 +525,58 @@ START_TEST(test_implicit_fills_time) {
 }
 END_TEST
 
+/* -- rest ------------------------------------------------------------------------------------------ */
+
+/* A spring that only holds up to a stretch of 1: beyond there is no force. */
+typedef struct Rest {
+  double q, pull;
+  int asked;
+} Rest;
+
+static ZpEnd rest_left(void *self, double *r, double *size) {
+  Rest *rest = self;
+  rest->asked++;
+  if (rest->q > 1) return ZP_END_SHORTER;
+  r[0] = rest->pull - rest->q;
+  if (size) *size = fabs(r[0]);
+  return ZP_END_FOUND;
+}
+
+static void rest_stiffness(void *self, ZpBand *K, double *r) {
+  (void)self, (void)r;
+  *zp_band_at(K, 0, 0) = 1;
+}
+
+static double rest_length(void *self, const double *step) {
+  (void)self, (void)step;
+  return 0;
+}
+
+static double rest_change(void *self, const double *step) {
+  (void)self;
+  return fabs(step[0]) / 1e-9;
+}
+
+static void rest_move(void *self, const double *step, double fraction) {
+  ((Rest *)self)->q += fraction * step[0];
+}
+
+/* Newton's method goes nowhere from a point that has no residual, and says so. */
+START_TEST(test_newton_without_residual) {
+  double K[1], r[1];
+  ZpNewtonWork work = {.K = {.n = 1, .stride = 1, .a = K}, .r = r};
+  Rest rest = {0, 0.5, 0};
+  ZpStaticSystem system = {1, &rest, rest_left, rest_stiffness, rest_length, rest_change, rest_move, NULL};
+  ck_assert_int_eq(zp_newton(&system, 1e-12, 20, &work).end, ZP_NEWTON_CONVERGED);
+  ck_assert_double_eq(rest.q, 0.5);
+  rest = (Rest){0, 2, 0};
+  ZpNewtonInfo info = zp_newton(&system, 1e-12, 20, &work);
+  ck_assert_int_eq(info.end, ZP_NEWTON_DIVERGED);
+  ck_assert(isinf(info.residual));
+  ck_assert_int_eq(rest.asked, 2);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("solve");
   TCase *euler = tcase_create("explicit");
@@ -526,9 +601,13 @@ int main(void) {
   tcase_add_test(implicit, test_implicit_error_control);
   tcase_add_test(implicit, test_implicit_no_force);
   tcase_add_test(implicit, test_implicit_shorter_step);
+  tcase_add_test(implicit, test_implicit_stops);
   tcase_add_test(implicit, test_implicit_restart);
   tcase_add_test(implicit, test_implicit_cut);
   tcase_add_test(implicit, test_implicit_fills_time);
   suite_add_tcase(suite, implicit);
+  TCase *rest = tcase_create("rest");
+  tcase_add_test(rest, test_newton_without_residual);
+  suite_add_tcase(suite, rest);
   return run_suite(suite);
 }

@@ -70,9 +70,9 @@ static double worst_entry(ZpStatics *s, const ZpStaticSystem *system, const ZpBa
   double worst = 0, largest = 0, up[MOST], down[MOST];
   for (size_t j = 0; j < system->n; j++) {
     shift(s, j, by);
-    system->residual(s, up);
+    system->residual(s, up, NULL);
     shift(s, j, -2 * by);
-    system->residual(s, down);
+    system->residual(s, down, NULL);
     shift(s, j, by);
     for (size_t i = 0; i < system->n; i++) {
       bool below = K->lower == 0 && i > j; /* a symmetric matrix has its upper triangle only */
@@ -103,7 +103,7 @@ START_TEST(stiffness_is_the_derivative_of_the_forces) {
   bend(&s, c->gap);
   s.U = c->U;
   s.contact_acts = c->contact;
-  system.residual(&s, work.r);
+  system.residual(&s, work.r, NULL);
   memcpy(s.tension, s.eval.edges.T, (model->count - model->s) * sizeof *s.tension);
   system.stiffness(&s, &work.K, NULL);
   double worst = worst_entry(&s, &system, &work.K, 1e-4 * (c->gap > 0 ? c->gap : 0.01 * model->l));

@@ -229,29 +229,27 @@ bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state) {
   return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
 }
 
-/* NAN where the field cannot be solved: the run then ends as diverged. */
-static void refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
+static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
   size_t bytes = 2 * model->stride * sizeof(double);
-  bool solved = zp_eval_solve_field(model, q, state->U, e);
+  if (!zp_eval_solve_field(model, q, state->U, e)) return ZP_END_STOP;
+  state->refreshed = state->t;
   memcpy(zp_state_held(model, state), e->surplus.F, bytes);
   memcpy(zp_state_held_at(model, state), q, bytes);
   state->held_U = state->U;
   state->held_energy = e->surplus.energy;
   state->held_charge = e->surplus.charge;
   state->held_capacitance = e->surplus.capacitance;
-  if (!solved) zp_state_held(model, state)[0] = NAN;
+  return ZP_END_FOUND;
 }
 
-void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
+ZpEnd zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   double *q = zp_state_q(model, state);
+  if (model->field_solved) return refresh_beyond_plates(model, state, q, e);
   state->refreshed = state->t;
-  if (model->field_solved) {
-    refresh_beyond_plates(model, state, q, e);
-    return;
-  }
   mechanics(model, q, e);
   bezier_forces(model, state, q, e);
   memcpy(zp_state_held(model, state) + model->stride, e->attraction.Fy, model->stride * sizeof(double));
+  return ZP_END_FOUND;
 }
 
 static double ratio_bound(double length, double speed) {

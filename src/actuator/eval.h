@@ -3,6 +3,7 @@
 #define ZP_ACTUATOR_EVAL_H
 
 #include "actuator/model.h"
+#include "base/end.h"
 #include "electro/surplus.h"
 
 /* What both mechanics say of their edges; [-s .. edges + s) where the mechanics has it so. */
@@ -51,14 +52,16 @@ bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, 
  * of zp_rod_stiffness. */
 void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
 
-/* Should a held electric force be recomputed at this state? And do so, into the state. What a solved field has
- * beyond plates is due when a gap with its insulators, or the one where breakdown sets in, has changed by more than
- * electro.refresh_change. */
+/* Should a held electric force be recomputed at this state? What a solved field has beyond plates is due when a gap
+ * with its insulators, or the one where breakdown sets in, has changed by more than electro.refresh_change. */
 bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);
 
 /* Is it due for the sake of a voltage that has just become another? */
 bool zp_eval_voltage_outdates(const ZpModel *model, const ZpState *state);
-void zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
+
+/* Recompute it, into the state. ZP_END_STOP where the field cannot be solved: the state is then as it was, the refresh
+ * still due. */
+ZpEnd zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
 
 /* The three bounds of eq. (9) of the paper at the last accelerations, s; INFINITY where nothing moves. */
 typedef struct ZpStepBounds {

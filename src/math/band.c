@@ -204,6 +204,19 @@ void zp_band_solve(const ZpBand *band, double *b) {
     solve_lu(band, b);
 }
 
+/* Of a symmetric matrix each entry beside the diagonal counts twice. */
+void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
+  size_t n = band->n, lower = band->lower;
+  memset(y, 0, n * sizeof *y);
+  for (size_t i = 0; i < n; i++) {
+    size_t first = i - least(i, lower), last = least(i + band->upper, n - 1);
+    for (size_t j = first; j <= last; j++)
+      y[i] += *zp_band_at(band, i, j) * x[j];
+    for (size_t j = i + 1; lower == 0 && j <= last; j++)
+      y[j] += *zp_band_at(band, i, j) * x[i];
+  }
+}
+
 size_t zp_band_negative(const ZpBand *band) {
   size_t negative = 0;
   for (size_t i = 0; i < band->n; i++)

@@ -37,6 +37,9 @@ static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
  * matrices that are definite or have few negative eigenvalues. False if a pivot is 0 or not finite. */
 bool zp_band_factor(ZpBand *band);
 
+/* The matrix, not factored, times x [n] => y [n]. */
+void zp_band_multiply(const ZpBand *band, const double *x, double *y);
+
 /* Solve with the factors: b => x, in place. */
 void zp_band_solve(const ZpBand *band, double *b);
 

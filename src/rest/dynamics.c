@@ -51,8 +51,9 @@ static double internal_damping(const ZpDynamics *d) {
 }
 
 /* => bending energy and what the source has given: an imbalance is small or large beside them. */
-static double begin(void *self, const double *q0) {
+static double begin(void *self, const double *q0, const double *v0) {
   ZpDynamics *d = self;
+  (void)v0;
   const ZpModel *model = d->model;
   scatter(d, q0, d->start);
   memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
@@ -140,7 +141,7 @@ static double end_voltage(const ZpDynamics *d) {
   return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
-static void force(void *self, const double *q1, double h, double *f) {
+static ZpEnd force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   d->h = h;
@@ -153,6 +154,7 @@ static void force(void *self, const double *q1, double h, double *f) {
   memset(f, 0, d->system.n * sizeof *f);
   for (size_t k = 0; k < 2 * model->count; k++)
     if (d->assembly.equation[k] >= 0) f[d->assembly.equation[k]] += d->force[place(d, k)];
+  return ZP_END_FOUND;
 }
 
 /* Drag at its present speed: its change with direction is left out. */
@@ -176,9 +178,10 @@ static void add_shear_tangent(ZpDynamics *d, ZpBand *A) {
   zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
 }
 
-static void tangent(void *self, ZpBand *A) {
+static void tangent(void *self, ZpBordered *J) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
+  ZpBand *A = &J->A;
   zp_band_clear(A);
   zp_rod_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->rod.tension, d->D);
   zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
@@ -296,7 +299,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
                                  .bandwidth = d->assembly.bandwidth,
                                  .self = d,
                                  .begin = begin,
-                                 .force = force,
+                                 .residual = force,
                                  .tangent = tangent,
                                  .attempt = attempt,
                                  .unforeseen = unforeseen};

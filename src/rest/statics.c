@@ -192,7 +192,7 @@ static bool has_jumped(const ZpStatics *s) {
 static void go_back(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
-  system.residual(s, work->r);
+  system.residual(s, work->r, NULL);
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
 }
 
@@ -349,7 +349,7 @@ static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
 
 /* -- residual ------------------------------------------------------------------------------------- */
 
-static double residual(void *self, double *r) {
+static ZpEnd residual(void *self, double *r, double *size) {
   ZpStatics *s = self;
   const ZpModel *model = s->model;
   size_t stride = model->stride;
@@ -375,7 +375,8 @@ static double residual(void *self, double *r) {
   double largest = 0;
   for (size_t i = 0; i < s->assembly.n; i++)
     if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
-  return largest / s->scale;
+  if (size) *size = largest / s->scale;
+  return isfinite(largest) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 /* -- stiffness ------------------------------------------------------------------------------------ */
@@ -520,9 +521,10 @@ static void move(void *self, const double *step, double fraction) {
     lay_one(s);
 }
 
-static bool refresh(void *self) {
+static ZpEnd refresh(void *self) {
   ZpStatics *s = self;
-  return s->U == 0 || zp_eval_solve_field(s->model, s->q, s->U, &s->eval);
+  bool solved = s->U == 0 || zp_eval_solve_field(s->model, s->q, s->U, &s->eval);
+  return solved ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
@@ -552,11 +554,11 @@ static void set_load(void *self, double load) {
 static void difference(ZpStatics *s, double *parameter, double h, double *r_m) {
   double m = *parameter;
   *parameter = m + h;
-  residual(s, s->r_up);
+  residual(s, s->r_up, NULL);
   *parameter = m - h;
-  residual(s, s->r_down);
+  residual(s, s->r_down, NULL);
   *parameter = m;
-  residual(s, r_m);
+  residual(s, r_m, NULL);
   for (size_t i = 0; i < s->assembly.n; i++)
     r_m[i] = (s->r_up[i] - s->r_down[i]) / (2 * h);
 }
@@ -615,7 +617,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
 
 bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
-  system.residual(s, work->r);
+  system.residual(s, work->r, NULL);
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
   system.stiffness(s, &work->K, NULL);
   return zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0;

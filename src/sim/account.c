@@ -34,6 +34,7 @@ void zp_sim_start_account(ZpSim *sim) {
   state->base_U = state->U;
 }
 
+/* A field that cannot be solved stays due, and ends the run before the next step. */
 void zp_sim_close_account(ZpSim *sim) {
   ZpState *state = sim->state;
   ZpElectric before = zp_eval_electric_now(sim->model, state, state->base_U, &sim->eval);

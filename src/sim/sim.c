@@ -142,11 +142,14 @@ static void follow_waveform(ZpSim *sim) {
   zp_sim_jump(sim, zp_waveform_voltage(waveform, state->t));
 }
 
-/* Before anything moves: a jump of the voltage is over, and what is held is up to date. */
-static void prepare_step(ZpSim *sim) {
+/* Before anything moves: a jump of the voltage is over, and what is held is up to date. Without that there is no step:
+ * a field that cannot be solved ends the run. */
+static bool prepare_step(ZpSim *sim) {
   ZpState *state = sim->state;
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
+  bool due = zp_eval_refresh_due(sim->model, state);
+  sim->stuck = due && zp_eval_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND;
+  return !sim->stuck;
 }
 
 /* -- one step ------------------------------------------------------------------------------------- */
@@ -282,7 +285,7 @@ static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   ZpExplicitSystem system = {2 * model->stride, sim, accelerate, is_sequential(model) ? next_event : NULL};
-  prepare_step(sim);
+  if (!prepare_step(sim)) return;
   double corner = next_corner(sim), stop = fmin(end_time, corner);
   ZpExplicitStep taken =
       zp_explicit_step(&system, stop - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
@@ -334,7 +337,7 @@ static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   double corner = next_corner(sim), latest = fmin(end_time, corner);
   if (!state->by_hand) latest = fmin(latest, state->t + zp_waveform_resolution(&model->waveform, state->t));
   double before = model->s == 2 ? opening(model, state) : 0;
-  prepare_step(sim);
+  if (!prepare_step(sim)) return;
   double taken = advance_implicit(sim, latest);
   sim->stuck = !(taken > 0);
   if (sim->stuck) return;

@@ -41,7 +41,7 @@ static double find_direction(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
-  rest->residual(rest->self, b->newton.r);
+  if (rest->residual(rest->self, b->newton.r, NULL) != ZP_END_FOUND) return 0;
   rest->stiffness(rest->self, &b->newton.K, NULL);
   sys->sensitivity(rest->self, b->a);
   if (!zp_band_factor(&b->newton.K)) return 0;
@@ -73,7 +73,7 @@ bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, do
 }
 
 static bool refresh(const ZpStaticSystem *rest) {
-  return !rest->refresh || rest->refresh(rest->self);
+  return !rest->refresh || rest->refresh(rest->self) == ZP_END_FOUND;
 }
 
 /* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, the most between
@@ -88,12 +88,12 @@ static int correct(ZpBranch *b, double s, double m_start) {
   zp_closing_start(&closing);
   if (!fresh) return -1;
   for (int k = 0; k <= MOST_CORRECTIONS;) {
-    double left = rest->residual(rest->self, b->newton.r);
+    double left;
+    if (rest->residual(rest->self, b->newton.r, &left) != ZP_END_FOUND) return -1;
     sys->position(rest->self, b->q);
     double gone = (sys->get(rest->self) - m_start) / sys->m_scale * b->direction_m;
     for (size_t i = 0; i < n; i++)
       gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
-    if (!isfinite(left)) return -1;
     bool close = zp_closing_done(&closing, left, b->tolerance) || zp_closing_stalled(&closing, left, b->tolerance);
     if (close && fabs(s - gone) < 1e-3 * s) {
       effort = k > effort ? k : effort;
@@ -130,7 +130,7 @@ static int try_step(ZpBranch *b, double s) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   double m_start = sys->get(rest->self);
-  rest->residual(rest->self, b->newton.r); /* the edges that a move turns are those of the last residual */
+  rest->residual(rest->self, b->newton.r, NULL); /* the edges that a move turns are those of the last residual */
   sys->position(rest->self, b->q_start);
   for (size_t i = 0; i < rest->n; i++)
     b->a[i] = b->direction[i] * s * sys->q_scale;
@@ -197,7 +197,7 @@ double zp_branch_where(ZpBranch *b, bool (*passed)(void *user), void *user) {
   zp_branch_approach(b, passed, user);
   double where = sys->get(self);
   sys->restore(self, b->saved);
-  sys->at_rest.residual(self, b->newton.r);
+  sys->at_rest.residual(self, b->newton.r, NULL);
   memcpy(b->direction, b->direction_after, bytes);
   b->direction_m = after_m;
   return where;

@@ -30,10 +30,9 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
   double c = 0, stiffest = 0;
   bool fresh = !system->refresh;
   for (; info.iterations < most; info.iterations++) {
-    info.residual = system->residual(system->self, work->r);
+    if (system->residual(system->self, work->r, &info.residual) != ZP_END_FOUND)
+      return (ZpNewtonInfo){ZP_NEWTON_DIVERGED, info.iterations, INFINITY};
     bool close = zp_closing_done(&closing, info.residual, tolerance);
-    info.end = ZP_NEWTON_DIVERGED;
-    if (!isfinite(info.residual)) return info;
     if (info.iterations == 0) {
       system->stiffness(system->self, &work->K, NULL);
       stiffest = largest_diagonal(&work->K);
@@ -45,7 +44,7 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
     info.end = ZP_NEWTON_CONVERGED;
     if (c == 0 && close) {
       if (fresh) return info;
-      fresh = system->refresh(system->self);
+      fresh = system->refresh(system->self) == ZP_END_FOUND;
       info.end = ZP_NEWTON_DIVERGED;
       if (!fresh) return info;
       continue;

@@ -1,4 +1,4 @@
-/* Letters: q position, w mean velocity of a step, a its mean acceleration 2 (w - v0) / h; h its length. */
+/* Letters: q unknowns, w their mean rates over a step, a mean acceleration 2 (w - v0) / h; h its length. */
 #include "solve/implicit.h"
 
 #include <float.h>
@@ -19,25 +19,37 @@ void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *
   s->system = system;
   s->q = zp_carve(carver, system->n);
   s->r = zp_carve(carver, system->n);
-  zp_band_carve(&s->A, system->n, 0, system->bandwidth, carver);
+  s->x = zp_carve(carver, system->n);
+  zp_bordered_carve(&s->A, system->n, system->border, system->lower, system->bandwidth, carver);
 }
 
-static double rms(const double *x, size_t n) {
+static ZpUnknown kind_of(const ZpImplicitSystem *system, size_t i) {
+  return system->kind ? system->kind[i] : ZP_SECOND_ORDER;
+}
+
+static double scale_of(const ZpImplicitSystem *system, size_t i) {
+  return system->scale ? system->scale[i] : 1;
+}
+
+/* Root mean square of `counted` unknowns in their scales; the others are 0. */
+static double rms(const ZpImplicitSystem *system, const double *x, size_t counted) {
   double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += x[i] * x[i];
-  return sqrt(sum / (double)n);
+  for (size_t i = 0; i < system->n; i++) {
+    double size = x[i] / scale_of(system, i);
+    sum += size * size;
+  }
+  return counted > 0 ? sqrt(sum / (double)counted) : 0;
 }
 
-static double largest(const double *x, size_t n) {
+static double largest(const ZpImplicitSystem *system, const double *x) {
   double most = 0;
-  for (size_t i = 0; i < n; i++)
-    most = fmax(most, fabs(x[i]));
+  for (size_t i = 0; i < system->n; i++)
+    most = fmax(most, fabs(x[i] / scale_of(system, i)));
   return most;
 }
 
-/* As if the ribbon moved on as in the last step: its mean velocity has none of the fast modes that v alternates with.
- */
+/* As if all moved on as in the last step: its mean velocity has none of the fast modes that v alternates with.
+ * Algebraic unknowns have no rate: they are guessed as they were. */
 static void predict(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
   const double *w = history->last > 0 ? history->w : v;
   for (size_t i = 0; i < s->system->n; i++)
@@ -51,22 +63,33 @@ typedef struct Imbalance {
   double allowed; /* as a share of the energies there, and what the rounding of q makes */
 } Imbalance;
 
+/* What an algebraic unknown's equation is off by does work with the whole of the unknown, not with its change alone. */
+static double algebraic_work(const ZpImplicit *s, const double *q) {
+  double work = 0;
+  for (size_t i = 0; s->system->kind && i < s->system->n; i++)
+    if (s->system->kind[i] == ZP_ALGEBRAIC) work += s->r[i] * q[i];
+  return work;
+}
+
 /* f - M a of (18.1) => r, and the Jacobian factored. */
-static bool linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
+static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
   const ZpImplicitSystem *system = s->system;
   double work = 0, turnover = 0, rounding = 0;
-  system->force(system->self, s->q, h, s->r);
+  ZpEnd end = system->residual(system->self, s->q, h, s->r);
+  if (end != ZP_END_FOUND) return end;
   system->tangent(system->self, &s->A);
   for (size_t i = 0; i < system->n; i++) {
     double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
     s->r[i] -= inertia * (moved - h * v[i]);
-    double stiffness = *zp_band_at(&s->A, i, i) += inertia, rounded = stiffness * s->reach * moved;
+    double stiffness = *zp_bordered_at(&s->A, i, i) += inertia;
+    double rounded = stiffness * (s->reach * scale_of(system, i)) * moved;
     work += s->r[i] * moved;
     turnover += inertia * moved * moved;
     rounding += rounded * rounded;
   }
+  work += algebraic_work(s, q);
   *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + DBL_EPSILON * sqrt(rounding)};
-  return zp_band_factor(&s->A);
+  return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 /* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`, 0 of the first?
@@ -84,42 +107,101 @@ static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
   return !system->unforeseen || system->unforeseen(system->self, s->q) <= imbalance.allowed;
 }
 
-/* => iterations that it took; 0: it found no end. */
-static int converge(ZpImplicit *s, double h, const double *q, const double *v) {
+/* => how it ended, and the iterations that it took. */
+static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v, int *iterations) {
   double least = INFINITY, before = 0;
   Imbalance imbalance;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
-    if (!linearise(s, h, q, v, &imbalance)) return 0;
-    zp_band_solve(&s->A, s->r);
+    ZpEnd end = linearise(s, h, q, v, &imbalance);
+    if (end != ZP_END_FOUND) return end;
+    zp_bordered_solve(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
-    double size = rms(s->r, s->system->n) / s->accuracy;
-    if (!isfinite(size) || (k >= PATIENCE && size > least)) return 0;
-    if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return k + 1;
+    *iterations = k + 1;
+    double size = rms(s->system, s->r, s->system->n) / s->accuracy;
+    if (!isfinite(size) || (k >= PATIENCE && size > least)) return ZP_END_SHORTER;
+    if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;
     least = fmin(least, size);
     before = size;
   }
-  return 0;
+  return ZP_END_SHORTER;
 }
 
-/* Local error over the accuracy asked for, from the change of acceleration since the last step; what is too fast for
- * the step is filtered out of it by the iteration's matrix. */
-static double local_error(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
+/* -- local error ----------------------------------------------------------------------------------- */
+
+/* f += the inertia beyond `mass` times a x. */
+static void add_inertia(ZpImplicit *s, double a, const double *x, double *f) {
+  if (!s->system->inertia) return;
+  for (size_t i = 0; i < s->system->n; i++)
+    s->x[i] = a * x[i];
+  s->system->inertia(s->system->self, s->x, f);
+}
+
+/* From the change of acceleration since the last step => s->r; what is too fast for the step is filtered out of it by
+ * the iteration's matrix. */
+static void filtered_error(ZpImplicit *s, double h, const double *q, const double *v,
+                           const ZpImplicitHistory *history) {
   size_t n = s->system->n;
-  if (!(history->last > 0)) return 0;
+  double *jump = s->x;
   for (size_t i = 0; i < n; i++) {
-    double a = 2 * (s->q[i] - q[i] - h * v[i]) / (h * h);
-    s->r[i] = s->system->mass[i] * (a - history->a[i]) * h / (3 * (h + history->last));
+    jump[i] = 2 * (s->q[i] - q[i] - h * v[i]) / (h * h) - history->a[i];
+    s->r[i] = s->system->mass[i] * jump[i] * h / (3 * (h + history->last));
   }
-  zp_band_solve(&s->A, s->r);
-  return rms(s->r, n) / s->accuracy;
+  add_inertia(s, h / (3 * (h + history->last)), jump, s->r);
+  zp_bordered_solve(&s->A, s->r);
+}
+
+/* Of an unknown of first order: the change of its mean rate since the last step, over the time between their middles.
+ */
+static double rate_change(double h, double w, size_t i, const ZpImplicitHistory *history) {
+  return history->last > 0 ? 2 * (w - history->w[i]) / (h + history->last) : 0;
+}
+
+/* An unknown of first order has the error (18.9), from three steps, of which the first two count as equal; in a first
+ * step, that of a decay by its scale. It is not filtered: what decays faster than a step changes its sign in each, and
+ * is followed until it is gone. */
+static double first_order_error(const ZpImplicit *s, double h, double moved, size_t i,
+                                const ZpImplicitHistory *history) {
+  double scale = scale_of(s->system, i), share = moved / scale, change = rate_change(h, moved / h, i, history);
+  if (!(history->last > 0)) return scale * share * share * share / 12;
+  return h * h * h / 3 * (change - history->a[i]) / (h + 3 * history->last);
+}
+
+/* Local error over the accuracy asked for. Algebraic unknowns follow from the others. */
+static double local_error(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
+  const ZpImplicitSystem *system = s->system;
+  size_t counted = system->n;
+  if (history->last > 0)
+    filtered_error(s, h, q, v, history);
+  else
+    memset(s->r, 0, system->n * sizeof *s->r);
+  for (size_t i = 0; system->kind && i < system->n; i++) {
+    if (system->kind[i] == ZP_FIRST_ORDER) s->r[i] = first_order_error(s, h, s->q[i] - q[i], i, history);
+    if (system->kind[i] != ZP_ALGEBRAIC) continue;
+    s->r[i] = 0;
+    counted--;
+  }
+  return rms(system, s->r, counted) / s->accuracy;
+}
+
+/* -- a step ---------------------------------------------------------------------------------------- */
+
+static void accept_other(double h, double w, ZpUnknown kind, size_t i, ZpImplicitHistory *history) {
+  bool first_order = kind == ZP_FIRST_ORDER;
+  history->a[i] = first_order ? rate_change(h, w, i, history) : 0;
+  history->w[i] = first_order ? w : 0;
 }
 
 static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHistory *history) {
   size_t n = s->system->n;
   for (size_t i = 0; i < n; i++) {
     double w = (s->q[i] - q[i]) / h;
+    ZpUnknown kind = kind_of(s->system, i);
+    if (kind != ZP_SECOND_ORDER) {
+      accept_other(h, w, kind, i, history);
+      continue;
+    }
     history->w[i] = w;
     history->a[i] = 2 * (w - v[i]) / h;
     v[i] = 2 * w - v[i];
@@ -137,9 +219,10 @@ void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
   for (int k = 0; k < POWER; k++) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
-    zp_band_solve(&s->A, slow);
+    add_inertia(s, 2 / (h * h), fast, slow);
+    zp_bordered_solve(&s->A, slow);
     for (size_t i = 0; i < n; i++)
-      fast[i] -= slow[i];
+      fast[i] = kind_of(s->system, i) == ZP_SECOND_ORDER ? fast[i] - slow[i] : 0;
   }
   for (size_t i = 0; i < n; i++)
     v[i] -= fast[i];
@@ -148,12 +231,15 @@ void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
   bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
-  s->energy = s->system->begin(s->system->self, q);
-  s->reach = largest(q, s->system->n);
+  s->energy = s->system->begin(s->system->self, q, v);
+  s->reach = largest(s->system, q);
+  s->end = ZP_END_SHORTER;
   for (double h = cut ? longest : try; h >= shortest_step;) {
+    int iterations;
     predict(s, h, q, v, history);
-    int iterations = converge(s, h, q, v);
-    if (iterations == 0) {
+    s->end = converge(s, h, q, v, &iterations);
+    if (s->end == ZP_END_STOP) return 0;
+    if (s->end != ZP_END_FOUND) {
       s->counts.failures++;
       h *= 0.5;
       cut = false;
@@ -162,6 +248,7 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
     double error = local_error(s, h, q, v, history), growth = safety / zp_cube_root(fmax(error, 1e-6));
     if (error > 1.5 && !(s->fixed > 0)) {
       s->counts.rejected++;
+      s->end = ZP_END_SHORTER;
       h *= fmax(growth, sharpest_cut);
       cut = false;
       continue;
@@ -172,4 +259,18 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
     return h;
   }
   return 0;
+}
+
+/* -- the exact tangent ----------------------------------------------------------------------------- */
+
+void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver) {
+  zp_bordered_carve(J, system->n, system->border, system->bandwidth, system->bandwidth, carver);
+}
+
+bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J) {
+  if (!system->exact) return false;
+  system->exact(system->self, J);
+  for (size_t i = 0; i < system->n; i++)
+    *zp_bordered_at(J, i, i) += 2 * system->mass[i] / (h * h);
+  return true;
 }

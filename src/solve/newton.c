@@ -52,13 +52,13 @@ ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most,
   bool fresh = !system->refresh;
   int since = 0; /* linear solves since the last refresh: each gets as many as it takes without */
   for (int refreshes = 0;;) {
-    info.residual = system->residual(system->self, work->r);
+    if (system->residual(system->self, work->r, &info.residual) != ZP_END_FOUND)
+      return (ZpNewtonInfo){ZP_NEWTON_DIVERGED, info.iterations, INFINITY};
     info.end = ZP_NEWTON_SLOW;
     if (zp_closing_done(&closing, info.residual, tolerance)) info.end = ZP_NEWTON_CONVERGED;
-    if (!isfinite(info.residual)) info.end = ZP_NEWTON_DIVERGED;
     if (zp_closing_stalled(&closing, info.residual, tolerance)) info.end = ZP_NEWTON_FLOOR;
     if (zp_newton_good(info.end) && !fresh) {
-      fresh = refreshes++ < MOST_REFRESHES && system->refresh(system->self);
+      fresh = refreshes++ < MOST_REFRESHES && system->refresh(system->self) == ZP_END_FOUND;
       zp_closing_renew(&closing);
       since = 0;
       if (fresh) continue;

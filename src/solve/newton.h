@@ -6,13 +6,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/end.h"
 #include "math/band.h"
 
 typedef struct ZpStaticSystem {
   size_t n;   /* equations */
   void *self; /* handed to the functions below */
-  /* Forces left at the present point => r [n]; returns their size relative to what acts. */
-  double (*residual)(void *self, double *r);
+  /* Forces left at the present point => r [n], and their size relative to what acts (NULL: not asked for). */
+  ZpEnd (*residual)(void *self, double *r, double *size);
   /* -dr/dq at the point of the last residual => K. Where a coordinate moves as prescribed, what that does to the others
    * is taken into r (NULL: it does not move), and its row and column are those of no other. */
   void (*stiffness)(void *self, ZpBand *K, double *r);
@@ -23,9 +24,9 @@ typedef struct ZpStaticSystem {
   double (*change)(void *self, const double *step);
   /* Move the present point by fraction * step. */
   void (*move)(void *self, const double *step, double fraction);
-  /* Find anew, at the present point, what is dear and what the residual holds while a point moves; false if it cannot
-   * be found. NULL where nothing is held. An equilibrium is one with nothing out of date. */
-  bool (*refresh)(void *self);
+  /* Find again, at the present point, what is dear and what the residual holds while a point moves. NULL where nothing
+   * is held. An equilibrium is one with nothing out of date. */
+  ZpEnd (*refresh)(void *self);
 } ZpStaticSystem;
 
 /* By which test an iteration ended. */
@@ -33,7 +34,7 @@ typedef enum ZpNewtonEnd {
   ZP_NEWTON_CONVERGED, /* residual below tolerance, and the next correction below the accuracy */
   ZP_NEWTON_FLOOR,     /* residual and corrections stay where rounding leaves them, below 100 times what is asked */
   ZP_NEWTON_SINGULAR,  /* stiffness without inverse */
-  ZP_NEWTON_DIVERGED,  /* residual not finite, or what it holds cannot be found */
+  ZP_NEWTON_DIVERGED,  /* there is no residual, or what it holds cannot be found */
   ZP_NEWTON_SLOW       /* most iterations done */
 } ZpNewtonEnd;
 

@@ -1,0 +1,118 @@
+/* x = A^-1 f - V z with V = A^-1 B and S z = g - C A^-1 f, S = D - C V. */
+#include "math/bordered.h"
+
+#include <math.h>
+#include <string.h>
+
+void zp_bordered_carve(ZpBordered *m, size_t n, size_t border, size_t lower, size_t upper, ZpCarver *carver) {
+  size_t inner = n - border;
+  *m = (ZpBordered){.n = n, .border = border};
+  zp_band_carve(&m->A, inner, lower, upper, carver);
+  if (border == 0) return;
+  zp_band_carve(&m->LU, inner, lower, upper, carver);
+  zp_band_carve(&m->S, border, border - 1, border - 1, carver);
+  m->B = zp_carve(carver, border * inner);
+  m->C = zp_carve(carver, border * inner);
+  m->D = zp_carve(carver, border * border);
+  m->V = zp_carve(carver, border * inner);
+  m->b = zp_carve(carver, n);
+  m->left = zp_carve(carver, n);
+}
+
+void zp_bordered_clear(ZpBordered *m) {
+  size_t inner = m->n - m->border;
+  zp_band_clear(&m->A);
+  if (m->border == 0) return;
+  memset(m->B, 0, m->border * inner * sizeof *m->B);
+  memset(m->C, 0, m->border * inner * sizeof *m->C);
+  memset(m->D, 0, m->border * m->border * sizeof *m->D);
+}
+
+static double dot(size_t n, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/* y -= a x */
+static void take(size_t n, double a, const double *x, double *y) {
+  for (size_t i = 0; i < n; i++)
+    y[i] -= a * x[i];
+}
+
+void zp_bordered_multiply(const ZpBordered *m, const double *x, double *y) {
+  size_t inner = m->n - m->border;
+  zp_band_multiply(&m->A, x, y);
+  for (size_t k = 0; k < m->border; k++) {
+    take(inner, -x[inner + k], m->B + k * inner, y);
+    y[inner + k] = dot(inner, m->C + k * inner, x) + dot(m->border, m->D + k * m->border, x + inner);
+  }
+}
+
+/* -- factors -------------------------------------------------------------------------------------- */
+
+static double largest(size_t n, const double *a) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = fmax(most, fabs(a[i]));
+  return most;
+}
+
+/* An A that is singular alone may be regular with its border. It is shifted by the root of rounding: what the shift
+ * changes and what rounding makes of its inverse are then alike, and each refinement takes out all but as little. */
+static bool factor_inner(ZpBordered *m) {
+  static const double shift = 0x1p-26;
+  size_t inner = m->A.n, entries = inner * m->A.stride;
+  memcpy(m->LU.a, m->A.a, entries * sizeof *m->A.a);
+  if (zp_band_factor(&m->LU)) return true;
+  double size = largest(entries, m->A.a), some = shift * (size > 0 ? size : largest(m->border * inner, m->B));
+  memcpy(m->LU.a, m->A.a, entries * sizeof *m->A.a);
+  for (size_t i = 0; i < inner; i++)
+    *zp_band_at(&m->LU, i, i) += some;
+  return zp_band_factor(&m->LU);
+}
+
+bool zp_bordered_factor(ZpBordered *m) {
+  size_t inner = m->n - m->border, k = m->border;
+  if (k == 0) return zp_band_factor(&m->A);
+  if (!factor_inner(m)) return false;
+  memcpy(m->V, m->B, k * inner * sizeof *m->V);
+  for (size_t j = 0; j < k; j++)
+    zp_band_solve(&m->LU, m->V + j * inner);
+  zp_band_clear(&m->S);
+  for (size_t i = 0; i < k; i++)
+    for (size_t j = 0; j < k; j++)
+      *zp_band_at(&m->S, i, j) = m->D[i * k + j] - dot(inner, m->C + i * inner, m->V + j * inner);
+  return zp_band_factor(&m->S);
+}
+
+/* -- solution ------------------------------------------------------------------------------------- */
+
+static void eliminate(const ZpBordered *m, double *b) {
+  size_t inner = m->n - m->border;
+  double *g = b + inner;
+  zp_band_solve(&m->LU, b);
+  for (size_t k = 0; k < m->border; k++)
+    g[k] -= dot(inner, m->C + k * inner, b);
+  zp_band_solve(&m->S, g);
+  for (size_t k = 0; k < m->border; k++)
+    take(inner, g[k], m->V + k * inner, b);
+}
+
+void zp_bordered_solve(ZpBordered *m, double *b) {
+  enum { REFINEMENTS = 2 };
+  if (m->border == 0) {
+    zp_band_solve(&m->A, b);
+    return;
+  }
+  memcpy(m->b, b, m->n * sizeof *b);
+  eliminate(m, b);
+  for (int k = 0; k < REFINEMENTS; k++) {
+    zp_bordered_multiply(m, b, m->left);
+    for (size_t i = 0; i < m->n; i++)
+      m->left[i] = m->b[i] - m->left[i];
+    eliminate(m, m->left);
+    take(m->n, -1, m->left, b);
+  }
+}
