@@ -121,19 +121,17 @@ ZP_API ZpShape zp_sim_shape(ZpSim *sim);
  * if not yet. */
 ZP_API double zp_sim_zip_time(const ZpSim *sim);
 
-/* A copy of all that evolves. Its size is that of the model's state. */
+/* All that evolves, as a snapshot: bytes that may be stored anywhere and given to anyone, the same for equal states on
+ * every machine. They hold the version, the keys that make the model and a checksum; docs/interface.md has the format.
+ * `bytes` takes zp_sim_state_size bytes, as many for each state of one model. */
 ZP_API size_t zp_sim_state_size(const ZpSim *sim);
-ZP_API void zp_sim_save(const ZpSim *sim, void *state);
+ZP_API void zp_sim_save(const ZpSim *sim, void *bytes);
 
-/* Go back to a state saved by a simulation of the same model. Where the waveform is another, the voltage jumps to it.
- * ZP_BAD_INPUT if it is of another size. Between programs and versions: checkpoint.h. */
-ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
-
-/* The same as bytes that the caller may give away: sealed with a fingerprint of the model and this version, and a
- * checksum. ZP_BAD_INPUT, and nothing is changed, if they are no state of this model and version, or damaged. */
-ZP_API size_t zp_sim_sealed_size(const ZpSim *sim);
-ZP_API void zp_sim_seal(const ZpSim *sim, void *sealed);
-ZP_API ZpStatus zp_sim_unseal(ZpSim *sim, const void *sealed, size_t size, ZpError *err);
+/* Go back to such a state, of this simulation or another one of the same model (zp_checkpoint_holds says of each key
+ * whether it must be the same). Where the waveform is another, the voltage jumps to it. ZP_BAD_INPUT, and nothing is
+ * changed, if the bytes are no snapshot, cut short, damaged, of another version, or of another model; the message names
+ * the key that differs. */
+ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err);
 
 /* The columns of a time series: one per line of signals.def. */
 ZP_API const ZpColumn *zp_signal_columns(size_t *count);

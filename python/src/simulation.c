@@ -184,8 +184,8 @@ static PyObject *simulation_save(PyObject *object, PyObject *unused) {
   (void)unused;
   Simulation *self = (Simulation *)object;
   if (refuse_busy(self)) return NULL;
-  PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)zp_sim_sealed_size(self->sim));
-  if (bytes) zp_sim_seal(self->sim, PyBytes_AsString(bytes));
+  PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)zp_sim_state_size(self->sim));
+  if (bytes) zp_sim_save(self->sim, PyBytes_AsString(bytes));
   return bytes;
 }
 
@@ -197,7 +197,7 @@ static PyObject *simulation_restore(PyObject *object, PyObject *state) {
   if (!PyBytes_Check(state)) return raise_input(self->state, "state: takes the bytes that save() returned");
   if (PyBytes_AsStringAndSize(state, &bytes, &size)) return NULL;
   ZpError err;
-  if (zp_sim_unseal(self->sim, bytes, (size_t)size, &err) != ZP_OK) return raise_error(self->state, &err);
+  if (zp_sim_restore(self->sim, bytes, (size_t)size, &err) != ZP_OK) return raise_error(self->state, &err);
   self->time = zp_sim_get(self->sim, "time");
   self->hand_voltage = NAN;
   self->ended = false;

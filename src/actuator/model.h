@@ -57,7 +57,8 @@ struct ZpModel {
   void *memory;         /* the block that holds the arrays */
 };
 
-/* All that evolves. One block of zp_state_size bytes: copying it is snapshot, rollback and restart. */
+/* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
+ * is a snapshot (sim/snapshot.h). */
 typedef struct ZpState {
   double t;     /* s */
   double U;     /* potential difference, V */

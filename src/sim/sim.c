@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "sim/sim_internal.h"
+#include "sim/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
@@ -558,17 +559,17 @@ void zp_sim_resume(ZpSim *sim) {
 }
 
 size_t zp_sim_state_size(const ZpSim *sim) {
-  return zp_state_size(sim->model);
+  return zp_snapshot_size(sim->model);
 }
 
-void zp_sim_save(const ZpSim *sim, void *state) {
-  memcpy(state, sim->state, zp_state_size(sim->model));
+void zp_sim_save(const ZpSim *sim, void *bytes) {
+  zp_snapshot_write(sim->model, sim->state, bytes);
 }
 
-ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err) {
-  if (size != zp_state_size(sim->model))
-    return zp_fail(err, ZP_BAD_INPUT, "state of %zu bytes: this model needs %zu", size, zp_state_size(sim->model));
-  memcpy(sim->state, state, size);
+ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err) {
+  ZpError reason;
+  ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->state, &reason);
+  if (status != ZP_OK) return zp_fail(err, status, "state: %.500s", reason.message);
   zp_sim_resume(sim);
   return ZP_OK;
 }
