@@ -103,8 +103,28 @@ ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunI
 /* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
  * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
  * that is replaced before the simulation goes on counts for nothing (unless a field had to be solved for it); an
- * unchanged one costs nothing. ZP_BAD_INPUT if it is out of the range of drive.voltage, and as zp_def_check_voltage. */
+ * unchanged one costs nothing. The same as zp_sim_set_input with rate 0. ZP_BAD_INPUT if it is out of the range of
+ * drive.voltage, and as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
+
+/* What a program can change while a simulation runs. */
+typedef enum ZpInput {
+  ZP_INPUT_VOLTAGE, /* "voltage": potential difference, V; range of drive.voltage */
+  ZP_INPUT_LOAD,    /* "load": a force on the whole actuator, N, beside load.mass, without inertia; positive pulls the
+                       lower platform down (one ribbon: the right end); -10 kN to 10 kN, 0 until set; the modelled part
+                       carries load.share of it */
+  ZP_INPUT_COUNT
+} ZpInput;
+
+/* The word for an input; "unknown" of any other number. */
+ZP_API const char *zp_input_name(ZpInput input);
+
+/* Set an input: from now on it has this value, SI, and changes with `rate` per second (at most 1e12 in size),
+ * until it is set again or the end of its range is reached, where it stays. The voltage jumps to `value`, as with
+ * zp_sim_set_voltage, and changes without loss from there; its work is the signal electric_work, that of the load
+ * load_work. ZP_BAD_INPUT, and nothing is changed, if the value is out of range, if the rate is, or there is no such
+ * input; of a voltage that is or becomes other than 0 also as zp_def_check_voltage. */
+ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
  * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */

@@ -66,7 +66,16 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, held_U),
                                 NUMBER(REAL, held_energy),
                                 NUMBER(REAL, held_charge),
-                                NUMBER(REAL, held_capacitance)};
+                                NUMBER(REAL, held_capacitance),
+                                NUMBER(REAL, voltage_input.value),
+                                NUMBER(REAL, voltage_input.rate),
+                                NUMBER(REAL, voltage_input.since),
+                                NUMBER(REAL, voltage_input.until),
+                                NUMBER(REAL, load_input.value),
+                                NUMBER(REAL, load_input.rate),
+                                NUMBER(REAL, load_input.since),
+                                NUMBER(REAL, load_input.until),
+                                NUMBER(REAL, load_work)};
 #undef NUMBER
 
 static const char *const array[] = {"position", "velocity", "held force", "held at", "mean velocity", "mean accel."};
