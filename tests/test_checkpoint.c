@@ -1,11 +1,11 @@
 /* Checkpoints: a run that was cut and goes on from its file ends in the same bits as one that was not; what must not
  * go on is refused with the reason. */
-#include "check_util.h"
+#include "state_util.h"
 
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
-#include "actuator/model.h"
+#include "sim/snapshot.h"
 
 #define IMPLICIT                                                                                                       \
   {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}, {                                                                     \
@@ -80,15 +80,15 @@ START_TEST(test_goes_on_to_the_same_bits) {
   def.solver.end_time = cut;
   ZpResult *part = result_of(ZP_STUDY_ACTUATE, &def);
   write_to(path, part->checkpoint);
-  double t = part->checkpoint->number[0];
+  double t = zp_checkpoint_time(part->checkpoint);
   ck_assert(t < cut && t > 0.9 * cut);
   start_from(&def, path);
   def.solver.end_time = end;
   ZpResult *rest = result_of(ZP_STUDY_ACTUATE, &def);
   const ZpCheckpoint *a = whole->checkpoint, *b = rest->checkpoint;
-  ck_assert_uint_eq(a->count, b->count);
-  ck_assert_mem_eq(a->number, b->number, a->count * sizeof *a->number);
-  ck_assert(a->number[0] > t);
+  ck_assert_uint_eq(a->size, b->size);
+  ck_assert_mem_eq(a->byte, b->byte, a->size);
+  ck_assert(zp_checkpoint_time(a) > t);
   const char *columns[] = {"time_s", "stroke_m", "charge_C", "energy_imbalance_J", "electric_work_J"};
   for (size_t k = 0; k < LENGTH_OF(columns); k++)
     ck_assert_double_eq(value_at_end(whole, columns[k]), value_at_end(rest, columns[k]));
@@ -105,7 +105,7 @@ START_TEST(test_another_voltage) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21});
   ZpResult *zip = result_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(zip->outcome, ZP_ZIPPED);
-  double t = zip->checkpoint->number[0];
+  double t = zp_checkpoint_time(zip->checkpoint);
   ck_assert_double_eq(t, value_at_end(zip, "time_s")); /* closing cuts no step */
   write_to(path, zip->checkpoint);
   start_from(&def, path);
@@ -144,11 +144,11 @@ START_TEST(test_bad_ends) {
     ck_assert_int_eq(cut->outcome, ZP_STEP_LIMIT);
   }
   def.solver.max_steps = 1000000000;
-  ck_assert_double_eq(cut->checkpoint->number[0], value_at_end(cut, "time_s"));
+  ck_assert_double_eq(zp_checkpoint_time(cut->checkpoint), value_at_end(cut, "time_s"));
   write_to(path, cut->checkpoint);
   start_from(&def, path);
   rest = result_of(ZP_STUDY_ACTUATE, &def);
-  ck_assert_mem_eq(whole->checkpoint->number, rest->checkpoint->number, rest->checkpoint->count * sizeof(double));
+  ck_assert_mem_eq(whole->checkpoint->byte, rest->checkpoint->byte, rest->checkpoint->size);
   zp_result_destroy(whole);
   zp_result_destroy(cut);
   zp_result_destroy(rest);
@@ -163,14 +163,13 @@ START_TEST(test_diverged) {
   ZpCheckpoint *before = NULL, *after = NULL;
   ck_assert_int_eq(zp_sim_run(sim, 5e-3, false, NULL, NULL), ZP_REACHED_END);
   ck_assert_int_eq(zp_sim_checkpoint(sim, &before, NULL), ZP_OK);
-  size_t size = zp_sim_state_size(sim);
-  ZpState *state = malloc(size);
-  zp_sim_save(sim, state);
+  ZpState *state = malloc(zp_state_size(model));
+  copy_state(sim, state);
   zp_state_v(model, state)[10] = 1e5;
-  ck_assert_int_eq(zp_sim_restore(sim, state, size, NULL), ZP_OK);
+  put_state(sim, state);
   ck_assert_int_eq(zp_sim_run(sim, 20e-3, false, NULL, NULL), ZP_DIVERGED);
   ck_assert_int_eq(zp_sim_checkpoint(sim, &after, NULL), ZP_OK);
-  ck_assert_mem_eq(before->number, after->number, before->count * sizeof(double));
+  ck_assert_mem_eq(before->byte, after->byte, before->size);
   free(state);
   zp_checkpoint_destroy(before);
   zp_checkpoint_destroy(after);
@@ -195,7 +194,7 @@ static unsigned char *short_run(size_t *size) {
   return byte;
 }
 
-static void refused(const unsigned char *byte, size_t size, const char *reason) {
+static void refused_as_file(const unsigned char *byte, size_t size, const char *reason) {
   ZpError err = {ZP_OK, ""};
   ZpCheckpoint *checkpoint;
   FILE *file = fopen(path, "wb");
@@ -206,12 +205,22 @@ static void refused(const unsigned char *byte, size_t size, const char *reason) 
   ck_assert_msg(strstr(err.message, path) && strstr(err.message, reason), "no '%s' in: %s", reason, err.message);
 }
 
+/* As bytes, and at some places, which take longer, as a file. */
+static void refused(const unsigned char *byte, size_t size, size_t place, const char *reason) {
+  ZpError err = {ZP_OK, ""};
+  ZpCheckpoint *checkpoint;
+  ck_assert_int_eq(zp_checkpoint_from(byte, size, &checkpoint, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_null(checkpoint);
+  ck_assert_msg(strstr(err.message, reason), "no '%s' in: %s", reason, err.message);
+  if (place < 32 || place % 97 == 0) refused_as_file(byte, size, reason);
+}
+
 START_TEST(test_cut_short_at_every_byte) {
   size_t size;
   unsigned char *byte = short_run(&size);
-  refused(byte, 0, "not a checkpoint");
-  for (size_t cut = 1; cut < size; cut += FULL_OR(1, 13))
-    refused(byte, cut, "cut short");
+  refused(byte, 0, 0, "not a snapshot");
+  for (size_t cut = 1; cut < size; cut++)
+    refused(byte, cut, cut, "cut short");
   free(byte);
 }
 END_TEST
@@ -219,72 +228,215 @@ END_TEST
 START_TEST(test_every_byte_damaged) {
   size_t size;
   unsigned char *byte = short_run(&size);
-  for (size_t i = 0; i < size; i += FULL_OR(1, 13)) {
+  for (size_t i = 0; i < size; i++) {
     byte[i] ^= (unsigned char)(1 << i % 8);
-    refused(byte, size, i < 8 ? "not a checkpoint" : i < 12 ? "version" : i >= 16 && i < 32 ? "" : "damaged");
+    refused(byte, size, i, i < 8 ? "not a snapshot" : i < 12 ? "version" : i >= 16 && i < 24 ? "" : "damaged");
     byte[i] ^= (unsigned char)(1 << i % 8);
   }
   byte[size] = 0;
-  refused(byte, size + 1, "damaged");
+  refused(byte, size + 1, 0, "damaged");
   free(byte);
 }
 END_TEST
 
-static void write_key(const char *key, double value, const ZpCheckpoint *like) {
-  ZpCheckpoint *checkpoint = zp_checkpoint_create(like->count);
-  checkpoint->def = like->def;
-  memcpy(checkpoint->number, like->number, like->count * sizeof(double));
-  ck_assert_int_eq(zp_def_set(&checkpoint->def, zp_key_find(key), value, NULL), ZP_OK);
-  write_to(path, checkpoint);
-  zp_checkpoint_destroy(checkpoint);
-}
-
-/* Every key that makes the actuator must be the same, every other may change. */
+/* Every key that makes the actuator must be the same, every other may change; a saved state and a file alike. */
 START_TEST(test_another_model) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
-  ZpResult *result = result_of(ZP_STUDY_ACTUATE, &def);
-  start_from(&def, path);
-  def.solver.end_time = 2e-3;
+  ZpModel *model = model_of(&def), *changed = model_of(&def);
+  ZpSim *sim = sim_of(model), *other = sim_of(changed);
+  unsigned char *saved = malloc(1 << 16), *before = malloc(1 << 16), *after = malloc(1 << 16);
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpKey *key = zp_key(i);
-    double value = zp_def_get(&def, i), other = value == key->max ? key->min : key->max;
+    double value = zp_def_get(&def, i), its = value == key->max ? key->min : key->max;
     if (key->type == ZP_KEY_TEXT || key->offset == ZP_NO_FIELD) continue;
-    write_key(key->name, other, result->checkpoint);
+    changed->def = def;
+    ck_assert_int_eq(zp_def_set(&changed->def, i, its, NULL), ZP_OK);
+    size_t size = zp_sim_state_size(other);
+    zp_sim_save(other, saved);
+    zp_sim_save(sim, before);
     ZpError err = {ZP_OK, ""};
     bool holds = zp_checkpoint_holds(i);
-    ck_assert_msg(zp_data_check(ZP_STUDY_ACTUATE, &def, &err) == (holds ? ZP_BAD_INPUT : ZP_OK), "%s: %s", key->name,
+    ck_assert_msg(zp_sim_restore(sim, saved, size, &err) == (holds ? ZP_BAD_INPUT : ZP_OK), "%s: %s", key->name,
                   err.message);
     ck_assert_msg(!holds || (strstr(err.message, "another model") && strstr(err.message, key->name)), "%s: %s",
                   key->name, err.message);
+    zp_sim_save(sim, after);
+    ck_assert_mem_eq(before, after, zp_sim_state_size(sim));
   }
-  zp_result_destroy(result);
+  free(saved), free(before), free(after);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+  zp_model_destroy(changed);
 }
 END_TEST
 
+/* CRC-32 as its definition says, bit by bit. */
+static uint32_t crc_of(const unsigned char *byte, size_t size) {
+  uint32_t sum = 0xFFFFFFFFu;
+  for (size_t i = 0; i < size; i++) {
+    sum ^= byte[i];
+    for (int bit = 0; bit < 8; bit++)
+      sum = sum >> 1 ^ (sum & 1 ? 0xEDB88320u : 0);
+  }
+  return ~sum;
+}
+
+/* Make the checksum right again, as one would who forges a file. */
+static void forge(unsigned char *byte, size_t size) {
+  uint32_t sum = crc_of(byte + 16, size - 16);
+  for (int k = 0; k < 4; k++)
+    byte[12 + k] = (unsigned char)(sum >> (8 * k));
+}
+
+/* Where the items of a block begin. */
+static unsigned char *block(unsigned char *byte, size_t size, const char *name) {
+  for (size_t i = 24; i + 32 < size; i++)
+    if (memcmp(byte + i, name, strlen(name) + 1) == 0) return byte + i + 32;
+  ck_abort_msg("no block %s", name);
+  return NULL;
+}
+
 /* Numbers that no run leaves: by hand, the file is whole. */
 START_TEST(test_no_state) {
+  static const double wrong[] = {1e300, NAN, -1, 0.5};
+  enum { NUMBERS = 33, TIME = 0, VOLTAGE = 1, BY_HAND = 2, WAS_OPEN = 5 };
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
-  ZpResult *result = result_of(ZP_STUDY_ACTUATE, &def);
-  ZpCheckpoint *checkpoint = result->checkpoint;
+  size_t size;
+  unsigned char *byte = short_run(&size), *number = block(byte, size, "state.values");
   start_from(&def, path);
   def.solver.end_time = 2e-3;
-  for (size_t k = 0; k < checkpoint->count; k++) {
-    ZpError err = {ZP_OK, ""};
-    double kept = checkpoint->number[k];
-    checkpoint->number[k] = 1e300;
-    write_to(path, checkpoint);
-    checkpoint->number[k] = kept;
-    ZpResult *again = NULL;
-    ZpStatus status = zp_data_study_run(ZP_STUDY_ACTUATE, &def, NULL, &again, &err);
-    bool refuses = k == 0 || (k >= 20 && k < 24); /* a time beyond the end, words */
-    ck_assert_msg(status == (refuses ? ZP_BAD_INPUT : ZP_OK), "%zu: %s", k, err.message);
-    zp_result_destroy(again);
+  for (size_t k = 0; k < NUMBERS; k++)
+    for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
+      ZpError err = {ZP_OK, ""};
+      ZpCheckpoint *checkpoint;
+      unsigned char kept[8];
+      memcpy(kept, number + 8 * k, 8);
+      memcpy(number + 8 * k, &wrong[w], 8); /* the tests' machines are little-endian */
+      forge(byte, size);
+      ck_assert_int_eq(zp_checkpoint_from(byte, size, &checkpoint, NULL), ZP_OK);
+      memcpy(number + 8 * k, kept, 8);
+      bool refuses = k == TIME || (k == VOLTAGE && isnan(wrong[w])) || (k >= BY_HAND && k <= WAS_OPEN);
+      ZpStatus status = zp_checkpoint_check(checkpoint, &def, &err);
+      ck_assert_msg(status == (refuses ? ZP_BAD_INPUT : ZP_OK), "%zu = %g: %s", k, wrong[w], err.message);
+      zp_checkpoint_destroy(checkpoint);
+    }
+  free(byte);
+}
+END_TEST
+
+/* Whatever byte is forged, with the right checksum: refused or taken, never a crash, and what is taken can run. */
+START_TEST(test_forged_bytes) {
+  ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  size_t size;
+  unsigned char *byte = short_run(&size);
+  for (size_t i = 16; i < size; i++) {
+    unsigned char kept = byte[i];
+    byte[i] = (unsigned char)(kept ^ (i % 3 == 0 ? 0xFF : 1 << i % 8));
+    forge(byte, size);
+    if (zp_sim_restore(sim, byte, size, NULL) == ZP_OK) zp_sim_step(sim, 1e-6, NULL, NULL);
+    byte[i] = kept;
   }
-  checkpoint->count--;
-  write_to(path, checkpoint);
-  ZpResult *again = NULL;
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_ACTUATE, &def, NULL, &again, NULL), ZP_BAD_INPUT);
-  zp_result_destroy(result);
+  free(byte);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A saved state that is cut short at any byte or damaged at any was taken if only its length was right. Now it is
+ * refused and the simulation stays where it is. */
+START_TEST(test_damaged_state_changes_nothing) {
+  ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  unsigned char *saved = malloc(size), *before = malloc(size), *after = malloc(size);
+  zp_sim_save(sim, saved);
+  zp_sim_run(sim, 1e-3, false, NULL, NULL);
+  zp_sim_save(sim, before);
+  ZpError err;
+  for (size_t i = 0; i < size; i++) {
+    unsigned char *cut = malloc(i + 1); /* of its own size, so that reading beyond it is found */
+    memcpy(cut, saved, i);
+    ck_assert_int_eq(zp_sim_restore(sim, cut, i, &err), ZP_BAD_INPUT);
+    free(cut);
+    for (int bit = 0; bit < 8; bit++) {
+      saved[i] ^= (unsigned char)(1 << bit);
+      ck_assert_int_eq(zp_sim_restore(sim, saved, size, &err), ZP_BAD_INPUT);
+      ck_assert_msg(strncmp(err.message, "state: ", 7) == 0, "%s", err.message);
+      saved[i] ^= (unsigned char)(1 << bit);
+    }
+  }
+  zp_sim_save(sim, after);
+  ck_assert_mem_eq(before, after, size);
+  ck_assert_int_eq(zp_sim_restore(sim, saved, size, NULL), ZP_OK);
+  free(saved), free(before), free(after);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Padding and numbers that are none (zip_time) have bits of their own in memory: a snapshot has not, and gives all
+ * members and arrays back. */
+START_TEST(test_equal_states_give_equal_bytes) {
+  ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 1e-3, false, NULL, NULL);
+  size_t size = zp_snapshot_size(model), bytes = zp_state_size(model);
+  ZpState *there = malloc(bytes), *back = malloc(bytes);
+  unsigned char *one = malloc(size), *two = malloc(size);
+  memset(there, 0xA5, bytes);
+  memset(back, 0x5A, bytes);
+  zp_snapshot_write(model, sim->state, one);
+  ck_assert_int_eq(zp_snapshot_read(model, one, size, there, NULL), ZP_OK);
+  there->zip_time = copysign(there->zip_time, -1);
+  zp_snapshot_write(model, there, two);
+  ck_assert_mem_eq(one, two, size);
+  ck_assert_int_eq(zp_snapshot_read(model, two, size, back, NULL), ZP_OK);
+  ck_assert_mem_eq(back->data, sim->state->data, bytes - sizeof *back);
+  ck_assert(back->t == 1e-3 && isnan(back->zip_time) && back->was_open == sim->state->was_open);
+  ck_assert(back->U == sim->state->U && back->work == sim->state->work && back->base_charge == sim->state->base_charge);
+  free(there), free(back), free(one), free(two);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The in-memory form and the snapshot lead to the same bits: in a zip, with a held force, implicit and explicit. */
+START_TEST(test_copy_and_snapshot_are_the_same) {
+  double cut, end;
+  ZpActuatorDef def = def_of(_i, &cut, &end);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model), *copied = sim_of(model), *restored = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  void *state = malloc(zp_state_size(model));
+  unsigned char *saved = malloc(size), *one = malloc(size), *two = malloc(size);
+  zp_sim_run(sim, cut, false, NULL, NULL);
+  copy_state(sim, state);
+  zp_sim_save(sim, saved);
+  put_state(copied, state);
+  ck_assert_int_eq(zp_sim_restore(restored, saved, size, NULL), ZP_OK);
+  zp_sim_run(copied, end, false, NULL, NULL);
+  zp_sim_run(restored, end, false, NULL, NULL);
+  zp_sim_save(copied, one);
+  zp_sim_save(restored, two);
+  ck_assert_mem_eq(one, two, size);
+  ck_assert_int_ne(memcmp(one, saved, size), 0);
+  free(state), free(saved), free(one), free(two);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(copied);
+  zp_sim_destroy(restored);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* What an earlier program wrote says so. */
+START_TEST(test_earlier_file) {
+  unsigned char old[64] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n', 2};
+  refused(old, sizeof old, 0, "of version 2 of the format; zipact " ZP_VERSION " reads version 3");
 }
 END_TEST
 
@@ -322,12 +474,17 @@ int main(void) {
   tcase_add_test(same, test_another_voltage);
   tcase_add_loop_test(same, test_bad_ends, 0, 2);
   tcase_add_test(same, test_diverged);
+  tcase_add_test(same, test_equal_states_give_equal_bytes);
+  tcase_add_loop_test(same, test_copy_and_snapshot_are_the_same, 0, 5);
   suite_add_tcase(suite, same);
   TCase *refusals = tcase_create("refusals");
   tcase_add_test(refusals, test_cut_short_at_every_byte);
   tcase_add_test(refusals, test_every_byte_damaged);
   tcase_add_test(refusals, test_another_model);
   tcase_add_test(refusals, test_no_state);
+  tcase_add_test(refusals, test_forged_bytes);
+  tcase_add_test(refusals, test_damaged_state_changes_nothing);
+  tcase_add_test(refusals, test_earlier_file);
   tcase_add_loop_test(refusals, test_keys, 0, 5);
   suite_add_tcase(suite, refusals);
   return run_suite(suite);

@@ -3,7 +3,7 @@
  *
  * Against: closed-form roots of the relative motion g + w s + c s^2 of one step, conservation of momentum and
  * the loss of an inelastic impact, m1 m2 / (m1 + m2) dv^2 / 2, and the invariants of contact/zip.h. */
-#include "check_util.h"
+#include "state_util.h"
 
 #include "actuator/model.h"
 #include "contact/zip.h"
@@ -256,7 +256,7 @@ typedef struct Run {
 static Run start_run(const ZpActuatorDef *def) {
   Run run = {.model = model_of(def)};
   run.sim = sim_of(run.model);
-  run.saved = malloc(zp_sim_state_size(run.sim));
+  run.saved = malloc(zp_state_size(run.model));
   return run;
 }
 
@@ -286,7 +286,7 @@ static void check_joined(Run *run, const ZpState *state, const ZpShape *shape, s
 /* Invariants 1 and 3, and that gaps of the next pair and the platform do not turn negative. */
 static void check_invariants(Run *run, bool powered) {
   ZpState *state = (ZpState *)(void *)run->saved;
-  zp_sim_save(run->sim, state);
+  copy_state(run->sim, state);
   ZpShape shape = zp_sim_shape(run->sim);
   size_t nodes = run->model->nodes, front = shape.zipped;
   ck_assert_uint_eq(front, state->zip.front);
@@ -379,15 +379,15 @@ START_TEST(test_loss_of_joining) {
   def.damping.drag = 0;
   Run run = start_run(&def);
   ZpState *state = (ZpState *)(void *)run.saved;
-  zp_sim_save(run.sim, state);
+  copy_state(run.sim, state);
   double *vx = zp_state_v(run.model, state), *vy = vx + run.model->stride;
   vx[2] = vy[3] = speed;
   vx[3] = vy[2] = -speed;
   double *y = zp_state_q(run.model, state) + run.model->stride;
   y[3] = y[2] - gap;
-  zp_sim_restore(run.sim, state, zp_sim_state_size(run.sim), NULL);
+  put_state(run.sim, state);
   zp_sim_run(run.sim, 1.5 * gap / (2 * speed), false, NULL, NULL);
-  zp_sim_save(run.sim, state);
+  copy_state(run.sim, state);
   ck_assert_uint_eq(state->zip.front, 1);
   double m = run.model->mass[2], dv = 2 * speed;
   ck_near(state->contact_loss, 0.5 * (m / 2) * (dv * dv + dv * dv), 0.01);

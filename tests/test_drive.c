@@ -5,9 +5,8 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
-#include "check_util.h"
 #include "drive/waveform.h"
-#include "sim/sim_internal.h"
+#include "state_util.h"
 
 /* -- waveforms alone ------------------------------------------------------------------------------- */
 
@@ -510,9 +509,10 @@ END_TEST
 
 /* The state after 20 steps by hand, each set `often` times, before which another voltage was set that does not last,
  * and looked at where `looks`. */
-static void *state_by_hand(const ZpModel *model, int often, bool looks, int *solutions) {
+static void *state_by_hand(const ZpModel *model, int often, bool looks, int *solutions, size_t *size) {
   ZpSim *sim = sim_of(model);
-  void *state = malloc(zp_sim_state_size(sim));
+  *size = zp_sim_state_size(sim);
+  void *state = malloc(*size);
   for (int k = 0; k < 20; k++) {
     if (often > 1) zp_sim_set_voltage(sim, 9.999e3, NULL);
     for (int i = 0; i < often; i++)
@@ -534,8 +534,9 @@ START_TEST(setting_and_reading_change_nothing) {
     def.electro.model = field ? ZP_ELECTRO_FIELD : ZP_ELECTRO_PLATES;
     ZpModel *model = model_of(&def);
     int once, more;
-    void *plain = state_by_hand(model, 1, false, &once), *again = state_by_hand(model, 3, true, &more);
-    ck_assert_mem_eq(plain, again, zp_state_size(model));
+    size_t size;
+    void *plain = state_by_hand(model, 1, false, &once, &size), *again = state_by_hand(model, 3, true, &more, &size);
+    ck_assert_mem_eq(plain, again, size);
     ck_assert_int_eq(more, once);
     ck_below(once, field ? 4 : 1); /* far fewer than calls */
     free(plain), free(again);
@@ -634,6 +635,226 @@ START_TEST(only_a_constant_drive_stops) {
   zp_result_destroy(step);
   zp_result_destroy(ramp);
   zp_result_destroy(table);
+}
+END_TEST
+
+/* -- inputs by hand -------------------------------------------------------------------------------- */
+
+/* Hangs, 21 nodes: explicit or implicit. */
+static ZpActuatorDef hanging(bool implicit) {
+  return implicit ? DEF({"mesh.nodes", 21}, {"damping.internal", 0})
+                  : DEF({"mesh.nodes", 21}, {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
+                        {"contact.model", ZP_CONTACT_SEQUENTIAL});
+}
+
+static void set_input(ZpSim *sim, ZpInput input, double value, double rate) {
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_sim_set_input(sim, input, value, rate, &err) == ZP_OK, "%s", err.message);
+}
+
+static void run_to(ZpSim *sim, double time) {
+  ZpRunInfo info;
+  ck_assert_msg(zp_sim_run(sim, time, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
+}
+
+/* A voltage by hand could only jump, and U dQ of a jump loses half. With a rate it does what the same waveform does: 20
+ * ms up to 10 kV, then held. */
+START_TEST(ramp_by_hand_is_the_waveform) {
+  static const char *const signals[] = {"electric_work", "charge", "stroke", "voltage", "field_energy"};
+  ZpActuatorDef def = hanging(_i);
+  def.drive.waveform = ZP_WAVEFORM_RAMP;
+  def.drive.rise_time = 20e-3;
+  ZpModel *model = model_of(&def);
+  ZpSim *wave = sim_of(model), *hand = sim_of(model);
+  set_input(hand, ZP_INPUT_VOLTAGE, 0, 10e3 / 20e-3);
+  const double times[] = {15e-3, 20e-3, 25e-3};
+  for (size_t k = 0; k < LENGTH_OF(times); k++) {
+    run_to(wave, times[k]);
+    run_to(hand, times[k]);
+    if (times[k] == 20e-3) set_input(hand, ZP_INPUT_VOLTAGE, 10e3, 0);
+    for (size_t i = 0; i < LENGTH_OF(signals); i++)
+      ck_near(zp_sim_get(hand, signals[i]), zp_sim_get(wave, signals[i]), 1e-9);
+    ck_below(fabs(zp_sim_get(hand, "charging_loss")), 1e-9 * zp_sim_get(hand, "electric_work"));
+  }
+  zp_sim_destroy(wave);
+  zp_sim_destroy(hand);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A force that rises, stays, falls, jumps: its work is force times path, and the energy balances. Explicit steps of the
+ * rod have an error of energy of their own, of first order in the step; see energy_balances. */
+START_TEST(load_by_hand_books_its_work) {
+  ZpActuatorDef def = hanging(_i);
+  def.drive.voltage = 0;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double start = zp_sim_get(sim, "opening"), most = 0, worst = 0;
+  set_input(sim, ZP_INPUT_LOAD, 0.04, 0);
+  run_to(sim, 7e-3);
+  ck_near(zp_sim_get(sim, "load_work"), 0.04 * (zp_sim_get(sim, "opening") - start), 1e-9);
+  const double at[] = {0.04, 0.1, 0.1, 0.02}, rate[] = {6, 0, -8, 0}, until[] = {17e-3, 30e-3, 40e-3, 80e-3};
+  for (size_t k = 0; k < LENGTH_OF(at); k++) {
+    set_input(sim, ZP_INPUT_LOAD, at[k], rate[k]);
+    run_to(sim, until[k]);
+    most = fmax(most, fabs(zp_sim_get(sim, "load_work")));
+    worst = fmax(worst, fabs(zp_sim_get(sim, "energy_imbalance")));
+  }
+  printf("load by hand, %s: imbalance %.1e of its work\n", _i ? "implicit" : "explicit", worst / most);
+  ck_assert_double_gt(most, 1e-6);
+  ck_below(worst, (_i ? 1e-7 : 1e-5) * most);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Both inputs at once while the actuator zips. */
+START_TEST(inputs_keep_energy_in_a_zip) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  set_input(sim, ZP_INPUT_VOLTAGE, 1e3, 9e3 / 30e-3);
+  set_input(sim, ZP_INPUT_LOAD, 0, 0.5);
+  run_to(sim, 30e-3);
+  set_input(sim, ZP_INPUT_VOLTAGE, 10e3, 0);
+  run_to(sim, 80e-3);
+  ck_assert_double_gt(zp_sim_get(sim, "zipped_length"), 10e-3);
+  ck_assert_double_lt(zp_sim_get(sim, "load_work"), 0);
+  double error = fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work");
+  printf("both inputs in a zip: imbalance %.1e of the work\n", error);
+  ck_below(error, 1e-5);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Where the actuator hangs with a mass it hangs with a force of the same weight, by either integrator and of one
+ * ribbon, which carries all of it: it stays there. Without the force it springs up. */
+START_TEST(load_by_hand_hangs_as_a_mass) {
+  ZpActuatorDef def = hanging(_i);
+  if (_i == 2) def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 21}, {"load.mass", 1e-3});
+  def.drive.voltage = 0;
+  ZpActuatorDef heavier = def;
+  heavier.load.mass *= 1.5;
+  ZpModel *model = model_of(&def), *other = model_of(&heavier);
+  ZpSim *with = sim_of(model), *without = sim_of(model), *hung = sim_of(other);
+  double stroke = zp_sim_get(hung, "stroke");
+  ck_assert_int_eq(zp_sim_take_over(with, hung, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_take_over(without, hung, NULL), ZP_OK);
+  set_input(with, ZP_INPUT_LOAD, 0.5 * def.load.mass * def.gravity, 0);
+  for (int k = 1; k <= 10; k++) {
+    run_to(with, 10e-3 * k);
+    ck_near(zp_sim_get(with, "stroke"), stroke, 1e-6);
+  }
+  run_to(without, 10e-3);
+  ck_assert_double_gt(fabs(zp_sim_get(without, "stroke") / stroke - 1), 1e-3);
+  zp_sim_destroy(with);
+  zp_sim_destroy(without);
+  zp_sim_destroy(hung);
+  zp_model_destroy(model);
+  zp_model_destroy(other);
+}
+END_TEST
+
+/* Inside ramps of both inputs a saved state goes on to the same bits, and another model takes the inputs over. */
+START_TEST(inputs_are_part_of_the_state) {
+  ZpActuatorDef def = hanging(_i);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model), *other = sim_of(model), *next = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  void *middle = malloc(size), *first = malloc(size), *second = malloc(size);
+  run_to(sim, 1e-3);
+  set_input(sim, ZP_INPUT_VOLTAGE, 1e3, 1e5);
+  set_input(sim, ZP_INPUT_LOAD, 0.01, -1);
+  run_to(sim, 4e-3);
+  ck_near(zp_sim_get(sim, "voltage"), 1.3e3, 1e-12);
+  zp_sim_save(sim, middle);
+  ck_assert_int_eq(zp_sim_take_over(next, sim, NULL), ZP_OK);
+  run_to(sim, 9e-3);
+  run_to(next, 9e-3);
+  zp_sim_save(sim, first);
+  ck_assert_int_eq(zp_sim_restore(other, middle, size, NULL), ZP_OK);
+  run_to(other, 9e-3);
+  zp_sim_save(other, second);
+  ck_assert_mem_eq(first, second, size);
+  ck_assert_double_eq(zp_sim_get(next, "voltage"), zp_sim_get(sim, "voltage"));
+  ck_near(zp_sim_get(next, "stroke"), zp_sim_get(sim, "stroke"), 1e-9);
+  free(middle), free(first), free(second);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_sim_destroy(next);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A ramp ends where its range does; the fastest one comes there, too. */
+START_TEST(ramps_end_with_their_range) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 11});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  set_input(sim, ZP_INPUT_VOLTAGE, 0, 2e8);
+  run_to(sim, 4e-3);
+  ck_near(zp_sim_get(sim, "voltage"), 8e5, 1e-12);
+  run_to(sim, 6e-3);
+  ck_near(zp_sim_get(sim, "voltage"), 1e6, 1e-12);
+  set_input(sim, ZP_INPUT_VOLTAGE, 1e6, -1e12);
+  run_to(sim, 7e-3);
+  ck_below(fabs(zp_sim_get(sim, "voltage")), 1e-4);
+  set_input(sim, ZP_INPUT_VOLTAGE, 0, -1);
+  run_to(sim, 8e-3);
+  ck_assert_double_eq(zp_sim_get(sim, "voltage"), 0);
+  set_input(sim, ZP_INPUT_LOAD, 0, 1e12);
+  set_input(sim, ZP_INPUT_LOAD, 0, 0); /* replaced before anything moves: nothing */
+  run_to(sim, 9e-3);
+  ck_assert_double_eq(zp_sim_get(sim, "load_work"), 0);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+START_TEST(wrong_inputs) {
+  static const struct {
+    int input;
+    double value, rate;
+    const char *named;
+  } wrong[] = {
+      {ZP_INPUT_VOLTAGE, -1, 0, "drive.voltage"},
+      {ZP_INPUT_VOLTAGE, NAN, 0, "drive.voltage"},
+      {ZP_INPUT_VOLTAGE, 1e3, NAN, "rate of nan"},
+      {ZP_INPUT_VOLTAGE, 1e3, INFINITY, "rate of inf"},
+      {ZP_INPUT_LOAD, 2e4, 0, "load = 20000 N"},
+      {ZP_INPUT_LOAD, NAN, 0, "-10000 N to 10000 N"},
+      {ZP_INPUT_LOAD, 0, -2e12, "rate of -2e+12"},
+      {ZP_INPUT_COUNT, 0, 0, "there is none"},
+      {-1, 0, 0, "there is none"},
+      {ZP_INPUT_VOLTAGE, 1e7, 0, "drive.voltage"},
+  };
+  ZpActuatorDef def = hanging(true);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  void *before = malloc(size), *after = malloc(size);
+  zp_sim_save(sim, before);
+  for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
+    ZpError err = {ZP_OK, ""};
+    ck_assert_int_eq(zp_sim_set_input(sim, (ZpInput)wrong[k].input, wrong[k].value, wrong[k].rate, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, wrong[k].named), "no '%s' in: %s", wrong[k].named, err.message);
+  }
+  zp_sim_save(sim, after);
+  ck_assert_mem_eq(before, after, size);
+  ck_assert_str_eq(zp_input_name(ZP_INPUT_LOAD), "load");
+  ck_assert_str_eq(zp_input_name((ZpInput)-1), "unknown");
+  free(before), free(after);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  def.insulator.thickness = 0; /* a ramp from 0 V is a short circuit after no time */
+  def.drive.voltage = 0;
+  model = model_of(&def);
+  sim = sim_of(model);
+  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_VOLTAGE, 0, 1, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_VOLTAGE, 0, 0, NULL), ZP_OK);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
 }
 END_TEST
 
@@ -810,6 +1031,13 @@ int main(void) {
   tcase_add_loop_test(runs, alternating_voltage_keeps_energy, 0, 2);
   if (!SANITIZED) tcase_add_test(runs, tolerance_rules_the_steps);
   tcase_add_test(runs, setting_and_reading_change_nothing);
+  tcase_add_loop_test(runs, ramp_by_hand_is_the_waveform, 0, 2);
+  tcase_add_loop_test(runs, load_by_hand_books_its_work, 0, 2);
+  tcase_add_test(runs, inputs_keep_energy_in_a_zip);
+  tcase_add_loop_test(runs, load_by_hand_hangs_as_a_mass, 0, 3);
+  tcase_add_loop_test(runs, inputs_are_part_of_the_state, 0, 2);
+  tcase_add_test(runs, ramps_end_with_their_range);
+  tcase_add_test(runs, wrong_inputs);
   tcase_add_test(runs, set_by_hand_counts);
   tcase_add_test(runs, restart_inside_a_ramp);
   tcase_add_test(runs, field_follows_the_cap);

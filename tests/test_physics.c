@@ -3,9 +3,7 @@
  * Against: conservation of energy with the order of symplectic Euler, terminal velocity sqrt(m g / c) and
  * v_t tanh(g t / v_t), g t^2 / 2, the clamped-guided beam's beta L = 2.365020, and the documented outcomes.
  * Where the model has no energy (shear law, Bezier surface) the drift is measured and bounded. */
-#include "check_util.h"
-
-#include "sim/sim_internal.h"
+#include "state_util.h"
 
 /* -- energy ---------------------------------------------------------------------------------------- */
 
@@ -297,9 +295,9 @@ START_TEST(test_drag_law) {
   ZpSim *sim = sim_of(model);
   ZpEval eval;
   ck_assert(zp_eval_create(model, &eval));
-  size_t size = zp_sim_state_size(sim), stride = model->stride;
+  size_t size = zp_state_size(model), stride = model->stride;
   ZpState *state = malloc(size);
-  zp_sim_save(sim, state);
+  copy_state(sim, state);
   double *speed = zp_state_v(model, state), *a = malloc(2 * stride * sizeof *a);
   for (size_t j = 1; j < 21; j++) {
     speed[j] = vx;
@@ -574,13 +572,12 @@ START_TEST(test_diverged) {
   const double poison[] = {1e6, NAN, -INFINITY};
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
-  size_t size = zp_sim_state_size(sim);
-  ZpState *state = malloc(size);
+  ZpState *state = malloc(zp_state_size(model));
   for (size_t k = 0; k < LENGTH_OF(poison); k++) {
-    zp_sim_save(sim, state);
+    copy_state(sim, state);
     ZpSim *broken = sim_of(model);
     zp_state_v(model, state)[model->stride + 21] = poison[k];
-    ck_assert_int_eq(zp_sim_restore(broken, state, size, NULL), ZP_OK);
+    put_state(broken, state);
     ZpRunInfo info;
     check_words(zp_sim_run(broken, 1e-3, false, NULL, &info), &info, "diverged", false);
     zp_sim_destroy(broken);

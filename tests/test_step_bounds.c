@@ -1,6 +1,6 @@
 /* Bounds of explicit steps: the largest stable step against the fastest vibration that there is, found by iteration;
  * the bounds of eq. (9) of the paper node by node; drag's bound in a run. */
-#include "check_util.h"
+#include "state_util.h"
 
 #include "actuator/eval.h"
 #include "contact/stop.h"
@@ -22,8 +22,8 @@ typedef struct Rest {
 static Rest rest_of(const ZpActuatorDef *def, bool faces_press) {
   Rest r = {.model = model_of(def), .faces_press = faces_press};
   r.sim = sim_of(r.model);
-  r.state = malloc(zp_sim_state_size(r.sim));
-  zp_sim_save(r.sim, r.state);
+  r.state = malloc(zp_state_size(r.model));
+  copy_state(r.sim, r.state);
   ck_assert(zp_eval_create(r.model, &r.eval));
   size_t n = 2 * r.model->stride;
   r.push = malloc(n * sizeof *r.push);

@@ -13,15 +13,20 @@
 extern "C" {
 #endif
 
+/* A snapshot, as zp_sim_save writes it and checkpoint.zps holds it. */
 typedef struct ZpCheckpoint {
-  size_t count;
-  double *number;    /* [count] all that evolves; the first is the time, s */
-  ZpActuatorDef def; /* of the run */
+  size_t size;
+  unsigned char *byte; /* [size] */
 } ZpCheckpoint;
 
-/* A checkpoint of `count` zeros and the default Def; NULL if there is no memory. */
-ZP_API ZpCheckpoint *zp_checkpoint_create(size_t count);
+/* A checkpoint of `size` bytes that were stored anywhere => *out, the caller's. ZP_BAD_INPUT, and NULL, if they are no
+ * snapshot, cut short, damaged, or of another version of the format. Whether it fits a model, zp_checkpoint_check says.
+ */
+ZP_API ZpStatus zp_checkpoint_from(const void *bytes, size_t size, ZpCheckpoint **out, ZpError *err);
 ZP_API void zp_checkpoint_destroy(ZpCheckpoint *checkpoint);
+
+/* The time at which a run goes on from there, s. */
+ZP_API double zp_checkpoint_time(const ZpCheckpoint *checkpoint);
 
 /* Must key `index` be the same where a run goes on? True of all that makes the actuator; what is done with it (drive,
  * end time, accuracy, output, keys of other studies) may change. */

@@ -103,8 +103,28 @@ ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunI
 /* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
  * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
  * that is replaced before the simulation goes on counts for nothing (unless a field had to be solved for it); an
- * unchanged one costs nothing. ZP_BAD_INPUT if it is out of the range of drive.voltage, and as zp_def_check_voltage. */
+ * unchanged one costs nothing. The same as zp_sim_set_input with rate 0. ZP_BAD_INPUT if it is out of the range of
+ * drive.voltage, and as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
+
+/* What a program can change while a simulation runs. */
+typedef enum ZpInput {
+  ZP_INPUT_VOLTAGE, /* "voltage": potential difference, V; range of drive.voltage */
+  ZP_INPUT_LOAD,    /* "load": a force on the whole actuator, N, beside load.mass, without inertia; positive pulls the
+                       lower platform down (one ribbon: the right end); -10 kN to 10 kN, 0 until set; the modelled part
+                       carries load.share of it */
+  ZP_INPUT_COUNT
+} ZpInput;
+
+/* The word for an input; "unknown" of any other number. */
+ZP_API const char *zp_input_name(ZpInput input);
+
+/* Set an input: from now on it has this value, SI, and changes with `rate` per second (at most 1e12 in size),
+ * until it is set again or the end of its range is reached, where it stays. The voltage jumps to `value`, as with
+ * zp_sim_set_voltage, and changes without loss from there; its work is the signal electric_work, that of the load
+ * load_work. ZP_BAD_INPUT, and nothing is changed, if the value is out of range, if the rate is, or there is no such
+ * input; of a voltage that is or becomes other than 0 also as zp_def_check_voltage. */
+ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
  * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */
@@ -121,19 +141,17 @@ ZP_API ZpShape zp_sim_shape(ZpSim *sim);
  * if not yet. */
 ZP_API double zp_sim_zip_time(const ZpSim *sim);
 
-/* A copy of all that evolves. Its size is that of the model's state. */
+/* All that evolves, as a snapshot: bytes that may be stored anywhere and given to anyone, the same for equal states on
+ * every machine. They hold the version, the keys that make the model and a checksum; docs/interface.md has the format.
+ * `bytes` takes zp_sim_state_size bytes, as many for each state of one model. */
 ZP_API size_t zp_sim_state_size(const ZpSim *sim);
-ZP_API void zp_sim_save(const ZpSim *sim, void *state);
+ZP_API void zp_sim_save(const ZpSim *sim, void *bytes);
 
-/* Go back to a state saved by a simulation of the same model. Where the waveform is another, the voltage jumps to it.
- * ZP_BAD_INPUT if it is of another size. Between programs and versions: checkpoint.h. */
-ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err);
-
-/* The same as bytes that the caller may give away: sealed with a fingerprint of the model and this version, and a
- * checksum. ZP_BAD_INPUT, and nothing is changed, if they are no state of this model and version, or damaged. */
-ZP_API size_t zp_sim_sealed_size(const ZpSim *sim);
-ZP_API void zp_sim_seal(const ZpSim *sim, void *sealed);
-ZP_API ZpStatus zp_sim_unseal(ZpSim *sim, const void *sealed, size_t size, ZpError *err);
+/* Go back to such a state, of this simulation or another one of the same model (zp_checkpoint_holds says of each key
+ * whether it must be the same). Where the waveform is another, the voltage jumps to it. ZP_BAD_INPUT, and nothing is
+ * changed, if the bytes are no snapshot, cut short, damaged, of another version, or of another model; the message names
+ * the key that differs. */
+ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err);
 
 /* The columns of a time series: one per line of signals.def. */
 ZP_API const ZpColumn *zp_signal_columns(size_t *count);

@@ -116,8 +116,8 @@ mxArray *simulation_shape(int count, const mxArray *const *value) {
 mxArray *simulation_save(int count, const mxArray *const *value) {
   take_arguments("save", count, 1, 1);
   Simulation *simulation = *find(value[0]);
-  mxArray *state = mxCreateNumericMatrix(zp_sim_sealed_size(simulation->sim), 1, mxUINT8_CLASS, mxREAL);
-  zp_sim_seal(simulation->sim, mxGetData(state));
+  mxArray *state = mxCreateNumericMatrix(zp_sim_state_size(simulation->sim), 1, mxUINT8_CLASS, mxREAL);
+  zp_sim_save(simulation->sim, mxGetData(state));
   return state;
 }
 
@@ -128,7 +128,7 @@ mxArray *simulation_restore(int count, const mxArray *const *value) {
   ZpError err;
   if (!mxIsUint8(value[1]) || mxIsSparse(value[1]) || mxIsComplex(value[1]))
     fail_input("state: takes the bytes that zipact('save', ...) returned");
-  if (zp_sim_unseal(simulation->sim, mxGetData(value[1]), mxGetNumberOfElements(value[1]), &err) != ZP_OK) fail(&err);
+  if (zp_sim_restore(simulation->sim, mxGetData(value[1]), mxGetNumberOfElements(value[1]), &err) != ZP_OK) fail(&err);
   simulation->ended = false;
   return new_double(zp_sim_get(simulation->sim, "time"));
 }

@@ -154,7 +154,7 @@ for place = 1:97:numel(state)
   n = refused(n, 'state: ', 'restore', sim, damaged);
 end
 other = zipact('open', 'mesh.nodes', 21, 'load.mass', '9 g');
-n = refused(n, 'state: of another actuator', 'restore', other, state);
+n = refused(n, 'state: of another model', 'restore', other, state);
 zipact('restore', sim, state);
 
 % used up

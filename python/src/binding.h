@@ -85,11 +85,10 @@ typedef struct Unpacked {
 /* What the getters of a result do not give, as plain values. */
 PyObject *result_pack(const ZpResult *result);
 
-/* ((what result_pack gave, message, notes, scalars, columns or None), definition of the run) => a result; false with an
- * exception. */
-bool result_unpack(const State *state, PyObject *args, const ZpActuatorDef *def, Unpacked *unpacked);
+/* (what result_pack gave, message, notes, scalars, columns or None) => a result; false with an exception. */
+bool result_unpack(const State *state, PyObject *args, Unpacked *unpacked);
 
-/* (definition, ... as in result_unpack) => Result. */
+/* (as result_unpack) => Result. */
 PyObject *unpack_result(PyObject *module, PyObject *args);
 
 /* `count` doubles of `owner` as a read-only buffer of `ndim` <= 3 dimensions, without copying. */

@@ -37,10 +37,10 @@ static PyObject *pack_map(const ZpFieldMap *map) {
                        pack_doubles(map->strength, cells), pack_doubles(map->permittivity, cells));
 }
 
-/* Its numbers; its definition is that of the run */
+/* The bytes of its snapshot */
 static PyObject *pack_checkpoint(const ZpCheckpoint *checkpoint) {
   if (!checkpoint) Py_RETURN_NONE;
-  return pack_doubles(checkpoint->number, checkpoint->count);
+  return PyBytes_FromStringAndSize((const char *)checkpoint->byte, (Py_ssize_t)checkpoint->size);
 }
 
 PyObject *result_pack(const ZpResult *result) {
@@ -120,14 +120,13 @@ static bool unpack_map(PyObject *part, ZpResult *result) {
          copy_doubles(array[4], map->permittivity, cells);
 }
 
-static bool unpack_checkpoint(PyObject *part, const ZpActuatorDef *def, ZpResult *result) {
+static bool unpack_checkpoint(PyObject *part, ZpResult *result) {
   if (part == Py_None) return true;
-  Py_ssize_t size = PyBytes_Check(part) ? PyBytes_Size(part) : -1;
-  if (!in_bounds(size, 1)) return false;
-  result->checkpoint = zp_checkpoint_create((size_t)size / sizeof(double));
-  if (!result->checkpoint) return no_memory();
-  result->checkpoint->def = *def;
-  return copy_doubles(part, result->checkpoint->number, result->checkpoint->count);
+  char *bytes;
+  Py_ssize_t size;
+  if (PyBytes_AsStringAndSize(part, &bytes, &size)) return false;
+  ZpStatus status = zp_checkpoint_from(bytes, (size_t)size, &result->checkpoint, NULL);
+  return status == ZP_MACHINE ? no_memory() : status == ZP_OK;
 }
 
 /* (name, unit, value, timing) of each number; the texts are borrowed. */
@@ -159,8 +158,7 @@ static bool unpack_words(const State *state, PyObject *message, PyObject *notes,
   return true;
 }
 
-static bool unpack_parts(const State *state, PyObject *parts, PyObject *columns, const ZpActuatorDef *def,
-                         Unpacked *to) {
+static bool unpack_parts(const State *state, PyObject *parts, PyObject *columns, Unpacked *to) {
   const char *version;
   int study, outcome;
   PyObject *series, *shapes, *map, *checkpoint;
@@ -172,17 +170,17 @@ static bool unpack_parts(const State *state, PyObject *parts, PyObject *columns,
   to->result->study = (ZpStudy)study;
   to->result->outcome = (ZpOutcome)outcome;
   return unpack_table(state, series, columns, to) && unpack_shapes(shapes, to->result) && unpack_map(map, to->result) &&
-         unpack_checkpoint(checkpoint, def, to->result);
+         unpack_checkpoint(checkpoint, to->result);
 }
 
-bool result_unpack(const State *state, PyObject *args, const ZpActuatorDef *def, Unpacked *to) {
+bool result_unpack(const State *state, PyObject *args, Unpacked *to) {
   PyObject *parts, *message, *notes, *scalars, *columns;
   *to = (Unpacked){.result = zp_result_create((ZpStudy)0)};
   if (!to->result) return no_memory();
   bool done = PyArg_ParseTuple(args, "O!UO!O!O", &PyTuple_Type, &parts, &message, &PyTuple_Type, &notes, &PyTuple_Type,
                                &scalars, &columns) &&
               unpack_words(state, message, notes, to->result) && unpack_scalars(state, scalars, to->result) &&
-              unpack_parts(state, parts, columns, def, to);
+              unpack_parts(state, parts, columns, to);
   to->words = done ? PyTuple_Pack(2, scalars, columns) : NULL;
   if (to->words) return true;
   if (!PyErr_Occurred()) raise_input(state, "result: damaged");

@@ -26,10 +26,8 @@ PyObject *result_new(State *state, ZpResult *found) {
 
 PyObject *unpack_result(PyObject *module, PyObject *args) {
   State *state = PyModule_GetState(module);
-  PyObject *definition, *parts;
-  if (!PyArg_ParseTuple(args, "O!O!", state->definition, &definition, &PyTuple_Type, &parts)) return NULL;
   Unpacked unpacked;
-  if (!result_unpack(state, parts, &((Definition *)definition)->def, &unpacked)) return NULL;
+  if (!result_unpack(state, args, &unpacked)) return NULL;
   Result *self = (Result *)result_new(state, unpacked.result);
   if (!self) {
     free(unpacked.column);

@@ -140,6 +140,26 @@ static PyObject *simulation_step(PyObject *object, PyObject *const *args, Py_ssi
   return NULL;
 }
 
+static PyObject *simulation_set_input(PyObject *object, PyObject *args, PyObject *names) {
+  static char *known[] = {"", "value", "rate", NULL};
+  Simulation *self = (Simulation *)object;
+  PyObject *word;
+  double value, rate = 0;
+  if (!PyArg_ParseTupleAndKeywords(args, names, "Ud|d", known, &word, &value, &rate)) return NULL;
+  const char *name = text_of(self->state, word, "input");
+  if (!name || refuse_busy(self)) return NULL;
+  ZpInput input = 0;
+  while (input < ZP_INPUT_COUNT && strcmp(zp_input_name(input), name) != 0)
+    input++;
+  if (input == ZP_INPUT_COUNT)
+    return raise_input(self->state, "%.40s: no input; there are %s, %s", name, zp_input_name(ZP_INPUT_VOLTAGE),
+                       zp_input_name(ZP_INPUT_LOAD));
+  ZpError err;
+  if (zp_sim_set_input(self->sim, input, value, rate, &err) != ZP_OK) return raise_error(self->state, &err);
+  self->hand_voltage = NAN; /* of the next step's voltage none is a repetition */
+  Py_RETURN_NONE;
+}
+
 /* -- reading ---------------------------------------------------------------------------------------- */
 
 static PyObject *simulation_read_into(PyObject *object, PyObject *out) {
@@ -184,8 +204,8 @@ static PyObject *simulation_save(PyObject *object, PyObject *unused) {
   (void)unused;
   Simulation *self = (Simulation *)object;
   if (refuse_busy(self)) return NULL;
-  PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)zp_sim_sealed_size(self->sim));
-  if (bytes) zp_sim_seal(self->sim, PyBytes_AsString(bytes));
+  PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)zp_sim_state_size(self->sim));
+  if (bytes) zp_sim_save(self->sim, PyBytes_AsString(bytes));
   return bytes;
 }
 
@@ -197,7 +217,7 @@ static PyObject *simulation_restore(PyObject *object, PyObject *state) {
   if (!PyBytes_Check(state)) return raise_input(self->state, "state: takes the bytes that save() returned");
   if (PyBytes_AsStringAndSize(state, &bytes, &size)) return NULL;
   ZpError err;
-  if (zp_sim_unseal(self->sim, bytes, (size_t)size, &err) != ZP_OK) return raise_error(self->state, &err);
+  if (zp_sim_restore(self->sim, bytes, (size_t)size, &err) != ZP_OK) return raise_error(self->state, &err);
   self->time = zp_sim_get(self->sim, "time");
   self->hand_voltage = NAN;
   self->ended = false;
@@ -233,6 +253,10 @@ static PyMethodDef methods[] = {
      "step(dt, voltage=None)\n--\n\n"
      "Advance by dt: s, or a text with a unit. A voltage (V, or a text with a unit) holds from now on;\n"
      "until one is given, drive.waveform applies. Raises NumericsError if the solver fails."},
+    {"set_input", (PyCFunction)(void (*)(void))simulation_set_input, METH_VARARGS | METH_KEYWORDS,
+     "set_input(name, value, rate=0.0)\n--\n\n"
+     "From now on an input has this value and changes with rate per second, until it is set again or the end of\n"
+     "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N)."},
     {"get", simulation_get, METH_O, "Present value of a signal, SI; nan if there is none of that name."},
     {"read_into", simulation_read_into, METH_O, "Fill an array of float64 with the present values of all signals."},
     {"shape", simulation_shape, METH_NOARGS, "(zipped, x, y, gap, line_force); valid until the next step."},

@@ -200,3 +200,39 @@ def test_goes_on_from_a_checkpoint_of_a_study(tmp_path):
 def test_step_limit_and_divergence_are_numerics_errors():
     with pytest.raises(zipact.NumericsError, match="solver.max_steps"):
         make(solver__max_steps=3).step(1e-3)
+
+
+@both
+def test_inputs_with_a_rate(integrator):
+    """A voltage could only jump. With a rate it is the ramp that the waveform is; a load does its work."""
+    wave = make(drive__waveform="ramp", drive__voltage=8e3, drive__rise_time="4 ms", **integrator)
+    hand = make(drive__voltage=8e3, **integrator)  # replaced before anything moves
+    hand.set_input("voltage", 0.0, rate=8e3 / 4e-3)
+    for simulation in (wave, hand):
+        simulation.step(3e-3)
+    for signal in ("voltage", "electric_work", "stroke"):
+        assert hand[signal] == pytest.approx(wave[signal], rel=1e-9)
+    opening = hand["opening"]
+    hand.set_input("load", value=0.05)
+    assert hand["load_work"] == 0
+    twin = pickle.loads(pickle.dumps(hand))
+    for simulation in (hand, twin):
+        simulation.step(2e-3, voltage=1e3)  # ends the ramp
+        simulation.step(1e-3)
+        assert simulation["voltage"] == 1e3
+        assert simulation["load_work"] == pytest.approx(0.05 * (simulation["opening"] - opening), rel=1e-9)
+    np.testing.assert_array_equal(without_current(hand.read()), without_current(twin.read()))
+
+
+@pytest.mark.parametrize(
+    "arguments, words",
+    [
+        (("mass", 1.0), "mass: no input; there are voltage, load"),
+        (("load", 2e4), "load = 20000 N is out of range"),
+        (("voltage", -1.0), "drive.voltage"),
+        (("voltage", 1.0, float("nan")), "a rate of nan V/s is out of range"),
+    ],
+)
+def test_wrong_inputs(arguments, words):
+    with pytest.raises(zipact.InputError, match=words):
+        make().set_input(*arguments)

@@ -145,7 +145,7 @@ def test_results_come_back_from_processes():
 
 def test_damaged_pickle_is_refused():
     result = zipact.Actuator(mesh__nodes=11, drive__voltage=3e3).run("profile")
-    definition, (packed, *words) = result.actuator._definition, result.__reduce__()[1][1]
+    packed, *words = result.__reduce__()[1][1]
     version, study, outcome, series, shapes, field, checkpoint = packed
     rows, numbers = series
     wrong = [
@@ -156,16 +156,17 @@ def test_damaged_pickle_is_refused():
         (version, study, outcome, series, shapes[:3] + (shapes[3][:-1],), field, checkpoint),
         (version, study, outcome, series, shapes, field[:2] + (b"",) * 5, checkpoint),
         (version, study, outcome, series, shapes, field, b"123"),
+        (version, study, outcome, series, shapes, field, zipact.Simulation(result.actuator).save()[:-1]),
     ]
     for parts in wrong:
         with pytest.raises(zipact.InputError, match="result: damaged"):
-            _zipact.unpack_result(definition, (parts, *words))
+            _zipact.unpack_result(parts, *words)
     with pytest.raises(zipact.InputError, match="result: pickled by zipact 0.0.0; this is"):
-        _zipact.unpack_result(definition, (("0.0.0", *packed[1:]), *words))
+        _zipact.unpack_result(("0.0.0", *packed[1:]), *words)
     message, notes, scalars, columns = words
     for wrong_words in ((1, notes, scalars, columns), (message, notes, scalars * 100, columns), (message, notes, scalars, ())):
         with pytest.raises((zipact.InputError, TypeError)):
-            _zipact.unpack_result(definition, (packed, *wrong_words))
+            _zipact.unpack_result(packed, *wrong_words)
 
 
 def test_dataframe_has_units():

@@ -188,4 +188,4 @@ class Result(Mapping[str, float]):
 
 
 def _unpickle(actuator: "Actuator", parts: tuple[Any, ...]) -> Result:
-    return Result(_zipact.unpack_result(actuator._definition, parts), actuator)
+    return Result(_zipact.unpack_result(*parts), actuator)

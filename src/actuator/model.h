@@ -56,7 +56,8 @@ struct ZpModel {
   void *memory;         /* the block that holds the arrays */
 };
 
-/* All that evolves. One block of zp_state_size bytes: copying it is snapshot, rollback and restart. */
+/* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
+ * is a snapshot (sim/snapshot.h). */
 typedef struct ZpState {
   double t;     /* s */
   double U;     /* potential difference, V */
@@ -82,6 +83,9 @@ typedef struct ZpState {
   double held_energy;      /* per part, at the last refresh: co-energy of the field beyond plates, J/V^2, */
   double held_charge;      /* and charge, C/V */
   double held_capacitance; /* and capacitance, F */
+  ZpRamp voltage_input;    /* V; counts where by_hand */
+  ZpRamp load_input;       /* N, down on the lower platform (one ribbon: the right end) of the whole actuator */
+  double load_work;        /* per part: of that force so far, J */
   double data[];           /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
                               mean velocity and acceleration of the last implicit step [4 stride] */
 } ZpState;
@@ -94,6 +98,11 @@ static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
 
 static inline double *zp_state_v(const ZpModel *model, ZpState *state) {
   return state->data + 2 * model->stride;
+}
+
+/* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */
+static inline double zp_state_load(const ZpModel *model, const ZpState *state, double t) {
+  return model->def.load.share * zp_ramp_value(&state->load_input, t);
 }
 
 /* The same by axis, for reading. */

@@ -168,10 +168,14 @@ static double slope(const ZpWaveform *w, double t) {
   return to.t > from.t ? (to.U - from.U) / (to.t - from.t) : 0;
 }
 
-double zp_waveform_resolution(const ZpWaveform *w, double t) {
+double zp_ramp_resolution(double largest, double rate) {
   static const double fine = 1.0 / 40, coarse = 1.0 / 4, fast = 1e-3; /* s */
-  double rate = fabs(slope(w, t)), all = zp_waveform_largest(w) / rate;
-  return rate > 0 ? fmin(coarse * all, fmax(fine * all, fast)) : INFINITY;
+  double all = largest / fabs(rate);
+  return rate != 0 ? fmin(coarse * all, fmax(fine * all, fast)) : INFINITY;
+}
+
+double zp_waveform_resolution(const ZpWaveform *w, double t) {
+  return zp_ramp_resolution(zp_waveform_largest(w), slope(w, t));
 }
 
 double zp_waveform_period(const ZpWaveform *w) {

@@ -6,6 +6,7 @@
 #ifndef ZP_DRIVE_WAVEFORM_H
 #define ZP_DRIVE_WAVEFORM_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include <zipact/def.h>
@@ -42,7 +43,29 @@ double zp_waveform_largest(const ZpWaveform *w);
  * quarter will do, so that no wave is left out. INFINITY where it stays. */
 double zp_waveform_resolution(const ZpWaveform *w, double t);
 
+/* The same for what has this largest value and this rate, per second. */
+double zp_ramp_resolution(double largest, double rate);
+
 /* INFINITY if it does not repeat itself, s. */
 double zp_waveform_period(const ZpWaveform *w);
+
+/* An input by hand: from time `since` on a value that changes with `rate` per second, until time `until` at the latest.
+ */
+typedef struct ZpRamp {
+  double value, rate, since, until;
+} ZpRamp;
+
+static inline double zp_ramp_value(const ZpRamp *ramp, double t) {
+  return ramp->value + ramp->rate * (fmin(t, ramp->until) - ramp->since);
+}
+
+/* The rate at a time, and the next time > t at which it changes; INFINITY if there is none. */
+static inline double zp_ramp_rate(const ZpRamp *ramp, double t) {
+  return t < ramp->until ? ramp->rate : 0;
+}
+
+static inline double zp_ramp_corner(const ZpRamp *ramp, double t) {
+  return ramp->rate != 0 && ramp->until > t ? ramp->until : INFINITY;
+}
 
 #endif

@@ -46,6 +46,11 @@ static void scatter(const ZpDynamics *d, const double *equations, double *nodes)
 
 /* -- the system ----------------------------------------------------------------------------------- */
 
+static double end_time(const ZpDynamics *d) {
+  double t = d->state->t;
+  return d->h == d->latest - t ? d->latest : t + d->h;
+}
+
 static double internal_damping(const ZpDynamics *d) {
   return d->model->internal_damping / d->h;
 }
@@ -113,6 +118,14 @@ static void add_faces(ZpDynamics *d) {
   }
 }
 
+/* The load by hand, eq. (17.5): changing evenly, its mean over the step does its work. */
+static void add_load(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  double *Fy = d->force + model->stride;
+  Fy[model->count - 1] -=
+      0.5 * (zp_state_load(model, d->state, d->state->t) + zp_state_load(model, d->state, end_time(d)));
+}
+
 /* The paper's drag, -c |w| w on each particle at its mean velocity. */
 static void add_drag(ZpDynamics *d) {
   const ZpModel *model = d->model;
@@ -129,15 +142,10 @@ static void add_drag(ZpDynamics *d) {
   }
 }
 
-static double end_time(const ZpDynamics *d) {
-  double t = d->state->t;
-  return d->h == d->latest - t ? d->latest : t + d->h;
-}
-
 /* The voltage at the step's end: what the user holds, or the waveform's. */
 static double end_voltage(const ZpDynamics *d) {
   const ZpState *state = d->state;
-  if (state->by_hand) return state->U;
+  if (state->by_hand) return zp_ramp_value(&state->voltage_input, end_time(d));
   return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
@@ -150,6 +158,7 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   memset(d->force, 0, 2 * model->stride * sizeof *d->force);
   add_mechanics(d);
   if (model->field) add_faces(d);
+  add_load(d);
   add_drag(d);
   memset(f, 0, d->system.n * sizeof *f);
   for (size_t k = 0; k < 2 * model->count; k++)

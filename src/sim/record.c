@@ -54,6 +54,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   fill_geometry(sim, row);
   row[SIGNAL_time] = state->t;
   row[SIGNAL_voltage] = state->U;
+  row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
@@ -102,7 +103,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
   double lost = state->drag_loss + state->internal_loss + state->contact_loss;
-  row[SIGNAL_energy_imbalance] = sim->model->parts * (kept - stored - lost);
+  row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 
 /* A row that stays: the next one's mean current counts from here. Of rows at one time the charge of the first counts,

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "sim/sim_internal.h"
+#include "sim/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
@@ -130,14 +131,39 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
 static double next_corner(const ZpSim *sim) {
-  return sim->state->by_hand ? INFINITY : zp_waveform_next_corner(&sim->model->waveform, sim->state->t);
+  const ZpState *state = sim->state;
+  double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
+                                  : zp_waveform_next_corner(&sim->model->waveform, state->t);
+  return fmin(voltage, zp_ramp_corner(&state->load_input, state->t));
+}
+
+/* Longest step for an input by hand whose size matters from `least` on, s; never so short that time stands still. */
+static double hand_resolution(const ZpRamp *ramp, double least, double t) {
+  static const double shortest = 1e-9; /* s */
+  double largest = fmax(least, fabs(zp_ramp_value(ramp, t)));
+  return fmax(zp_ramp_resolution(largest, zp_ramp_rate(ramp, t)), shortest);
+}
+
+/* Longest step for all that changes from outside, s. */
+static double resolution(const ZpSim *sim) {
+  static const double least_voltage = 1e3; /* V */
+  const ZpModel *model = sim->model;
+  const ZpState *state = sim->state;
+  const ZpWaveform *waveform = &model->waveform;
+  double t = state->t, usual = fmax(least_voltage, zp_waveform_largest(waveform));
+  double voltage =
+      state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
+  return fmin(voltage, hand_resolution(&state->load_input, zp_eval_weight_scale(model), t));
 }
 
 /* The voltage at the time that a step has reached. By explicit steps it was that of the step's start all the way. */
-static void follow_waveform(ZpSim *sim) {
+static void follow_voltage(ZpSim *sim) {
   const ZpWaveform *waveform = &sim->model->waveform;
   ZpState *state = sim->state;
-  if (state->by_hand) return;
+  if (state->by_hand) {
+    zp_sim_glide(sim, zp_ramp_value(&state->voltage_input, state->t));
+    return;
+  }
   zp_sim_glide(sim, zp_waveform_voltage_before(waveform, state->t));
   zp_sim_jump(sim, zp_waveform_voltage(waveform, state->t));
 }
@@ -204,12 +230,21 @@ static void stop_faces(ZpSim *sim, double dt) {
   state->zip = touching(model, sim->eval.plates.gap);
 }
 
+/* The load by hand, on top of the accelerations a. */
+static void hang_load(const ZpSim *sim, double *a) {
+  const ZpModel *model = sim->model;
+  const double *inverse = model->masses.y.inverse;
+  size_t end = model->count - 1;
+  a[model->stride + end] -= zp_state_load(model, sim->state, sim->state->t) * inverse[end];
+}
+
 static double accelerate(void *self, const double *q, const double *v, double *a) {
   ZpSim *sim = self;
   const ZpModel *model = sim->model;
   zp_eval_accelerations(model, sim->state, q, v, &sim->eval, a);
   sim->opened = sim->state->zip;
   if (is_unilateral(model)) push_faces(sim, q, a);
+  hang_load(sim, a);
   if (is_sequential(model) && sim->state->U == 0)
     sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
   zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &sim->state->zip, a);
@@ -281,20 +316,27 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner
   return limit == ZP_EXPLICIT_END ? ZP_LIMIT_END : sim->bound;
 }
 
+/* Where the load hangs, m. */
+static double height(const ZpSim *sim) {
+  return zp_state_motion(sim->model, sim->state).y[sim->model->count - 1];
+}
+
 static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   ZpExplicitSystem system = {2 * model->stride, sim, accelerate, is_sequential(model) ? next_event : NULL};
   if (!prepare_step(sim)) return;
-  double corner = next_corner(sim), stop = fmin(end_time, corner);
+  double corner = next_corner(sim), stop = fmin(end_time, corner), before = height(sim),
+         load = zp_state_load(model, state, state->t);
   ZpExplicitStep taken =
       zp_explicit_step(&system, stop - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
   state->t = taken.limit == ZP_EXPLICIT_END ? stop : state->t + taken.dt;
   state->drag_loss += sim->eval.drag_power * taken.dt;
+  state->load_work += load * (before - height(sim));
   info->steps++;
   info->limited[limit_of(sim, taken.limit, state->t >= corner)]++;
   if (is_unilateral(model)) stop_faces(sim, taken.dt);
-  follow_waveform(sim);
+  follow_voltage(sim);
   if (!model->field) return;
   if (taken.limit == ZP_EXPLICIT_EVENT)
     meet(sim);
@@ -321,21 +363,22 @@ static ZpStepLimit implicit_limit(const ZpSim *sim, bool corner, bool end) {
 static double advance_implicit(ZpSim *sim, double latest) {
   static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
   ZpState *state = sim->state;
-  double left = latest - state->t;
+  double left = latest - state->t, before = height(sim), load = zp_state_load(sim->model, state, state->t);
   if (left < shortest) {
     state->t = latest;
     return left;
   }
   double taken = zp_dynamics_step(&sim->dynamics, state, latest);
-  if (taken > 0 && sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.plates1.gap);
+  if (!(taken > 0)) return 0;
+  state->load_work += 0.5 * (load + zp_state_load(sim->model, state, state->t)) * (before - height(sim));
+  if (sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.plates1.gap);
   return taken;
 }
 
 static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  double corner = next_corner(sim), latest = fmin(end_time, corner);
-  if (!state->by_hand) latest = fmin(latest, state->t + zp_waveform_resolution(&model->waveform, state->t));
+  double corner = next_corner(sim), latest = fmin(fmin(end_time, corner), state->t + resolution(sim));
   double before = model->s == 2 ? opening(model, state) : 0;
   if (!prepare_step(sim)) return;
   double taken = advance_implicit(sim, latest);
@@ -343,7 +386,7 @@ static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   if (sim->stuck) return;
   info->steps++;
   info->limited[implicit_limit(sim, state->t >= corner, state->t >= end_time)]++;
-  follow_waveform(sim);
+  follow_voltage(sim);
   if (model->s < 2) return;
   state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state))
@@ -526,25 +569,7 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
   return outcome;
 }
 
-/* -- inputs, state -------------------------------------------------------------------------------- */
-
-/* Says that, and why, it is out of range. */
-static ZpStatus refuse_voltage(const ZpSim *sim, double voltage, ZpError *err) {
-  ZpActuatorDef scratch = sim->model->def;
-  ZpStatus status = zp_def_set(&scratch, sim->drive, voltage, err);
-  return status == ZP_OK ? zp_def_check_voltage(&sim->model->def, voltage, err) : status;
-}
-
-ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
-  const ZpKey *key = zp_key(sim->drive);
-  bool within = voltage >= key->min && voltage <= key->max;
-  if (!within || zp_def_check_voltage(&sim->model->def, voltage, NULL) != ZP_OK)
-    return refuse_voltage(sim, voltage, err);
-  sim->state->by_hand = true;
-  zp_sim_jump(sim, voltage);
-  sim->cut = false;
-  return ZP_OK;
-}
+/* -- state ---------------------------------------------------------------------------------------- */
 
 double zp_sim_zip_time(const ZpSim *sim) {
   return sim->state->zip_time;
@@ -561,17 +586,17 @@ void zp_sim_resume(ZpSim *sim) {
 }
 
 size_t zp_sim_state_size(const ZpSim *sim) {
-  return zp_state_size(sim->model);
+  return zp_snapshot_size(sim->model);
 }
 
-void zp_sim_save(const ZpSim *sim, void *state) {
-  memcpy(state, sim->state, zp_state_size(sim->model));
+void zp_sim_save(const ZpSim *sim, void *bytes) {
+  zp_snapshot_write(sim->model, sim->state, bytes);
 }
 
-ZpStatus zp_sim_restore(ZpSim *sim, const void *state, size_t size, ZpError *err) {
-  if (size != zp_state_size(sim->model))
-    return zp_fail(err, ZP_BAD_INPUT, "state of %zu bytes: this model needs %zu", size, zp_state_size(sim->model));
-  memcpy(sim->state, state, size);
+ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err) {
+  ZpError reason;
+  ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->state, &reason);
+  if (status != ZP_OK) return zp_fail(err, status, "state: %.500s", reason.message);
   zp_sim_resume(sim);
   return ZP_OK;
 }

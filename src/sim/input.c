@@ -1,0 +1,67 @@
+/* Inputs: what a program changes while a simulation runs. Their work is booked: of the voltage by account.c, of the
+ * load step by step. docs/theory.md, section 17. */
+#include <math.h>
+
+#include "base/fail.h"
+#include "sim/sim_internal.h"
+
+typedef struct Input {
+  const char *name, *unit;
+} Input;
+
+static const Input inputs[ZP_INPUT_COUNT] = {[ZP_INPUT_VOLTAGE] = {"voltage", "V"}, [ZP_INPUT_LOAD] = {"load", "N"}};
+
+static const double most_load = 1e4;  /* N: the weight of the largest load.mass */
+static const double most_rate = 1e12; /* per second: far beyond what a step of time can tell from a jump */
+
+const char *zp_input_name(ZpInput input) {
+  return (size_t)input < ZP_INPUT_COUNT ? inputs[input].name : "unknown";
+}
+
+/* The ramp from now on, which ends where the input's range does. */
+static ZpRamp ramp_within(double value, double rate, double t, double least, double most) {
+  double left = rate == 0 ? INFINITY : ((rate > 0 ? most : least) - value) / rate;
+  return (ZpRamp){value, rate, t, t + left};
+}
+
+/* Says that, and why, it is out of range. */
+static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
+  const ZpKey *key = zp_key(sim->drive);
+  bool within = voltage >= key->min && voltage <= key->max;
+  if (within) return zp_def_check_voltage(&sim->model->def, voltage, err);
+  ZpActuatorDef scratch = sim->model->def;
+  return zp_def_set(&scratch, sim->drive, voltage, err);
+}
+
+static ZpStatus set_voltage(ZpSim *sim, double voltage, double rate, ZpError *err) {
+  const ZpKey *key = zp_key(sim->drive);
+  ZpState *state = sim->state;
+  ZpStatus status = check_voltage(sim, voltage, err);
+  if (status == ZP_OK && rate > 0) status = check_voltage(sim, key->max, err);
+  if (status != ZP_OK) return status;
+  state->by_hand = true;
+  state->voltage_input = ramp_within(voltage, rate, state->t, key->min, key->max);
+  zp_sim_jump(sim, voltage);
+  return ZP_OK;
+}
+
+static ZpStatus set_load(ZpSim *sim, double load, double rate, ZpError *err) {
+  if (!(fabs(load) <= most_load))
+    return zp_fail(err, ZP_BAD_INPUT, "load = %g N is out of range; %g N to %g N", load, -most_load, most_load);
+  sim->state->load_input = ramp_within(load, rate, sim->state->t, -most_load, most_load);
+  return ZP_OK;
+}
+
+ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err) {
+  if ((size_t)input >= ZP_INPUT_COUNT) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is none", (int)input);
+  if (!(fabs(rate) <= most_rate))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: a rate of %g %s/s is out of range; %g to %g %s/s", inputs[input].name, rate,
+                   inputs[input].unit, -most_rate, most_rate, inputs[input].unit);
+  ZpStatus status = input == ZP_INPUT_VOLTAGE ? set_voltage(sim, value, rate, err) : set_load(sim, value, rate, err);
+  if (status == ZP_OK) sim->cut = false;
+  return status;
+}
+
+ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
+  return zp_sim_set_input(sim, ZP_INPUT_VOLTAGE, voltage, 0, err);
+}

@@ -1,0 +1,442 @@
+/* State <=> bytes that mean the same on every machine. All numbers are little-endian.
+ *
+ *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
+ *   8 .. 11         version of the format, 3
+ *   12 .. 15        CRC-32 (as zlib's) of all that follows
+ *   16 .. 23        length of the whole snapshot, bytes
+ *
+ * Then blocks: a name (16 bytes, filled up with 0), the width w of an item (8 bytes), their count n (8 bytes), and w n
+ * bytes of items, texts (w = 1) or doubles (w = 8):
+ *
+ *   zipact          the version of the program that wrote it
+ *   model.names     the keys that make the model, one a line, with the word of a choice: electro.model = plates
+ *   model.values    their values, SI; auto is NAN
+ *   state.names     the numbers of the state, one a line
+ *   state.values    these numbers
+ *   position ...    its arrays, each all x, then all y
+ *
+ * A number that comes, goes or means something else raises the version. */
+#include "sim/snapshot.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <zipact/checkpoint.h>
+#include <zipact/version.h>
+
+#include "base/fail.h"
+
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 3, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+
+static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
+
+/* -- the numbers of a state ------------------------------------------------------------------------ */
+
+typedef enum Kind { REAL, FLAG, COUNT } Kind;
+
+typedef struct Number {
+  const char *name;
+  Kind kind;
+  size_t offset;
+} Number;
+
+#define NUMBER(kind, name)                                                                                             \
+  { #name, kind, offsetof(ZpState, name) }
+static const Number number[] = {NUMBER(REAL, t),
+                                NUMBER(REAL, U),
+                                NUMBER(FLAG, by_hand),
+                                NUMBER(COUNT, zip.front),
+                                NUMBER(FLAG, zip.platform),
+                                NUMBER(FLAG, was_open),
+                                NUMBER(REAL, zip_time),
+                                NUMBER(REAL, opening0),
+                                NUMBER(REAL, base_U),
+                                NUMBER(REAL, base_charge),
+                                NUMBER(REAL, base_energy),
+                                NUMBER(REAL, base_field),
+                                NUMBER(REAL, work),
+                                NUMBER(REAL, charging_loss),
+                                NUMBER(REAL, drag_loss),
+                                NUMBER(REAL, contact_loss),
+                                NUMBER(REAL, internal_loss),
+                                NUMBER(REAL, last_step),
+                                NUMBER(REAL, next_step),
+                                NUMBER(REAL, refreshed),
+                                NUMBER(REAL, held_U),
+                                NUMBER(REAL, held_energy),
+                                NUMBER(REAL, held_charge),
+                                NUMBER(REAL, held_capacitance),
+                                NUMBER(REAL, voltage_input.value),
+                                NUMBER(REAL, voltage_input.rate),
+                                NUMBER(REAL, voltage_input.since),
+                                NUMBER(REAL, voltage_input.until),
+                                NUMBER(REAL, load_input.value),
+                                NUMBER(REAL, load_input.rate),
+                                NUMBER(REAL, load_input.since),
+                                NUMBER(REAL, load_input.until),
+                                NUMBER(REAL, load_work)};
+#undef NUMBER
+
+static const char *const array[] = {"position", "velocity", "held force", "held at", "mean velocity", "mean accel."};
+
+enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0, VOLTAGE = 1 };
+
+_Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == NUMBERS * sizeof(double), "a snapshot holds all of a state");
+
+static double number_of(const ZpState *state, size_t k) {
+  const char *place = (const char *)state + number[k].offset;
+  if (number[k].kind == FLAG) return *(const bool *)place;
+  if (number[k].kind == COUNT) return (double)*(const size_t *)(const void *)place;
+  return *(const double *)(const void *)place;
+}
+
+static void set_number(ZpState *state, size_t k, double value) {
+  char *place = (char *)state + number[k].offset;
+  if (number[k].kind == FLAG)
+    *(bool *)place = value != 0;
+  else if (number[k].kind == COUNT)
+    *(size_t *)(void *)place = (size_t)value;
+  else
+    *(double *)(void *)place = value;
+}
+
+/* -- bytes ----------------------------------------------------------------------------------------- */
+
+static void put(unsigned char *byte, int width, uint64_t value) {
+  for (int k = 0; k < width; k++)
+    byte[k] = (unsigned char)(value >> (8 * k));
+}
+
+static uint64_t get(const unsigned char *byte, int width) {
+  uint64_t value = 0;
+  for (int k = 0; k < width; k++)
+    value |= (uint64_t)byte[k] << (8 * k);
+  return value;
+}
+
+static double real_at(const unsigned char *byte, size_t k) {
+  uint64_t bits = get(byte + 8 * k, 8);
+  double value;
+  memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/* CRC-32, four bits at a time. */
+static uint32_t checksum(const unsigned char *byte, size_t size) {
+  static const uint32_t of_nibble[16] = {0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
+                                         0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
+                                         0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C};
+  uint32_t sum = 0xFFFFFFFFu;
+  for (size_t i = 0; i < size; i++) {
+    sum = sum >> 4 ^ of_nibble[(sum ^ byte[i]) & 15];
+    sum = sum >> 4 ^ of_nibble[(sum ^ (uint32_t)byte[i] >> 4) & 15];
+  }
+  return ~sum;
+}
+
+/* -- writing --------------------------------------------------------------------------------------- */
+
+/* Where bytes go; without a place they are only counted. */
+typedef struct Writer {
+  unsigned char *byte;
+  size_t used;
+} Writer;
+
+static void write_bytes(Writer *writer, const void *data, size_t size) {
+  if (writer->byte) memcpy(writer->byte + writer->used, data, size);
+  writer->used += size;
+}
+
+static void write_integer(Writer *writer, uint64_t value) {
+  unsigned char byte[8];
+  put(byte, 8, value);
+  write_bytes(writer, byte, sizeof byte);
+}
+
+/* All that is not a number has the same bits. */
+static void write_real(Writer *writer, double value) {
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  write_integer(writer, isnan(value) ? UINT64_C(0x7FF8000000000000) : bits);
+}
+
+static void write_line(Writer *writer, const char *text) {
+  write_bytes(writer, text, strlen(text));
+  write_bytes(writer, "\n", 1);
+}
+
+/* => where its items begin; close_block counts them. */
+static size_t open_block(Writer *writer, const char *name, size_t width) {
+  char filled[NAME] = {0};
+  memcpy(filled, name, strlen(name));
+  write_bytes(writer, filled, NAME);
+  write_integer(writer, width);
+  write_integer(writer, 0);
+  return writer->used;
+}
+
+static void close_block(const Writer *writer, size_t begin, size_t width) {
+  if (writer->byte) put(writer->byte + begin - 8, 8, (writer->used - begin) / width);
+}
+
+static void write_text(Writer *writer, const char *name, const char *text) {
+  size_t begin = open_block(writer, name, 1);
+  write_bytes(writer, text, strlen(text));
+  close_block(writer, begin, 1);
+}
+
+static void write_array(Writer *writer, const char *name, const double *value, size_t count) {
+  size_t begin = open_block(writer, name, 8);
+  for (size_t k = 0; k < count; k++)
+    write_real(writer, value[k]);
+  close_block(writer, begin, 8);
+}
+
+/* "ribbon.length", "electro.model = plates" */
+static void print_line(const ZpActuatorDef *def, int index, char line[LINE]) {
+  const ZpKey *key = zp_key(index);
+  if (key->type == ZP_KEY_ENUM)
+    snprintf(line, LINE, "%s = %s", key->name, key->choices[(int)zp_def_get(def, index)].word);
+  else
+    snprintf(line, LINE, "%s", key->name);
+}
+
+static void write_model(Writer *writer, const ZpActuatorDef *def) {
+  char line[LINE];
+  size_t names = open_block(writer, "model.names", 1);
+  for (int i = 0; i < zp_key_count(); i++) {
+    if (!zp_checkpoint_holds(i)) continue;
+    print_line(def, i, line);
+    write_line(writer, line);
+  }
+  close_block(writer, names, 1);
+  size_t values = open_block(writer, "model.values", 8);
+  for (int i = 0; i < zp_key_count(); i++)
+    if (zp_checkpoint_holds(i)) write_real(writer, zp_def_get(def, i));
+  close_block(writer, values, 8);
+}
+
+static void write_state(Writer *writer, const ZpModel *model, const ZpState *state) {
+  size_t names = open_block(writer, "state.names", 1);
+  for (size_t k = 0; k < NUMBERS; k++)
+    write_line(writer, number[k].name);
+  close_block(writer, names, 1);
+  size_t values = open_block(writer, "state.values", 8);
+  for (size_t k = 0; k < NUMBERS; k++)
+    write_real(writer, number_of(state, k));
+  close_block(writer, values, 8);
+  for (size_t k = 0; k < ARRAYS; k++)
+    write_array(writer, array[k], state->data + 2 * k * model->stride, 2 * model->stride);
+}
+
+static size_t head_size(const ZpModel *model) {
+  Writer counter = {NULL, HEADER};
+  write_text(&counter, "zipact", ZP_VERSION);
+  write_model(&counter, &model->def);
+  return counter.used;
+}
+
+size_t zp_snapshot_size(const ZpModel *model) {
+  size_t size = head_size(model) + 2 * BLOCK;
+  for (size_t k = 0; k < NUMBERS; k++)
+    size += strlen(number[k].name) + 1 + sizeof(double);
+  return size + ARRAYS * (BLOCK + 2 * model->stride * sizeof(double));
+}
+
+void zp_snapshot_write(const ZpModel *model, const ZpState *state, void *bytes) {
+  unsigned char *byte = bytes;
+  Writer writer = {byte, HEADER};
+  write_text(&writer, "zipact", ZP_VERSION);
+  write_model(&writer, &model->def);
+  write_state(&writer, model, state);
+  memcpy(byte, magic, MAGIC);
+  put(byte + MAGIC, 4, VERSION);
+  put(byte + SUMMED, 8, writer.used);
+  put(byte + SUM, 4, checksum(byte + SUMMED, writer.used - SUMMED));
+}
+
+/* -- reading --------------------------------------------------------------------------------------- */
+
+typedef struct Block {
+  const unsigned char *item;
+  size_t count;
+} Block;
+
+/* A whole snapshot, taken apart. */
+typedef struct Parts {
+  Block program, key, value, name, number, array[ARRAYS];
+} Parts;
+
+static ZpStatus check_frame(const unsigned char *byte, size_t size, ZpError *err) {
+  size_t known = size < MAGIC ? size : MAGIC;
+  if (known == 0 || memcmp(byte, magic, known) != 0) return zp_fail(err, ZP_BAD_INPUT, "not a snapshot of zipact");
+  if (size < HEADER) return zp_fail(err, ZP_BAD_INPUT, "cut short: %zu bytes, not even a header", size);
+  uint64_t version = get(byte + MAGIC, 4), whole = get(byte + SUMMED, 8);
+  if (version != VERSION)
+    return zp_fail(err, ZP_BAD_INPUT, "of version %llu of the format; zipact %s reads version %d",
+                   (unsigned long long)version, ZP_VERSION, VERSION);
+  if (size < whole) return zp_fail(err, ZP_BAD_INPUT, "cut short: %zu of %llu bytes", size, (unsigned long long)whole);
+  if (size > whole) return zp_fail(err, ZP_BAD_INPUT, "damaged: its length is not what its header says");
+  if (get(byte + SUM, 4) != checksum(byte + SUMMED, size - SUMMED))
+    return zp_fail(err, ZP_BAD_INPUT, "damaged: its checksum is wrong");
+  return ZP_OK;
+}
+
+/* The block at *used, if it is the one of that name; *used moves behind it. */
+static bool take_block(const unsigned char *byte, size_t size, size_t *used, const char *name, size_t width,
+                       Block *block) {
+  char filled[NAME] = {0};
+  const unsigned char *head = byte + *used;
+  memcpy(filled, name, strlen(name));
+  if (size - *used < BLOCK || memcmp(head, filled, NAME) != 0 || get(head + NAME, 8) != width) return false;
+  uint64_t count = get(head + NAME + 8, 8);
+  *used += BLOCK;
+  if (count > (size - *used) / width) return false;
+  *block = (Block){byte + *used, (size_t)count};
+  *used += width * (size_t)count;
+  return true;
+}
+
+/* (bytes) => parts */
+static ZpStatus take_apart(const void *bytes, size_t size, Parts *parts, ZpError *err) {
+  const unsigned char *byte = bytes;
+  ZpStatus status = check_frame(byte, size, err);
+  if (status != ZP_OK) return status;
+  size_t used = HEADER;
+  bool whole = take_block(byte, size, &used, "zipact", 1, &parts->program) &&
+               take_block(byte, size, &used, "model.names", 1, &parts->key) &&
+               take_block(byte, size, &used, "model.values", 8, &parts->value) &&
+               take_block(byte, size, &used, "state.names", 1, &parts->name) &&
+               take_block(byte, size, &used, "state.values", 8, &parts->number);
+  for (size_t k = 0; k < ARRAYS; k++)
+    whole = whole && take_block(byte, size, &used, array[k], 8, &parts->array[k]);
+  whole = whole && used == size && parts->number.count == NUMBERS;
+  return whole ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "damaged: its blocks are not those of a snapshot");
+}
+
+/* The next line of a text => line, a long one cut; false at its end. */
+static bool take_line(Block *text, char line[LINE]) {
+  size_t length = 0;
+  while (length < text->count && text->item[length] != '\n')
+    length++;
+  if (length == text->count) return false;
+  snprintf(line, LINE, "%.*s", (int)(length < LINE ? length : LINE - 1), (const char *)text->item);
+  text->item += length + 1;
+  text->count -= length + 1;
+  return true;
+}
+
+static void print_value(int index, double value, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  bool bare = strcmp(key->unit, "1") == 0;
+  if (key->type == ZP_KEY_BOOL)
+    snprintf(text, size, "%s", value != 0 ? "true" : "false");
+  else if (isnan(value))
+    snprintf(text, size, "auto");
+  else
+    snprintf(text, size, "%.15g%s%s", value, bare ? "" : " ", bare ? "" : key->unit);
+}
+
+static ZpStatus fail_version(const Block *program, const char *what, ZpError *err) {
+  int length = program->count < 20 ? (int)program->count : 20;
+  return zp_fail(err, ZP_BAD_INPUT, "of a version of zipact with other %s: of %.*s; this is %s", what, length,
+                 (const char *)program->item, ZP_VERSION);
+}
+
+static ZpStatus fail_model(const char *key, const char *there, const char *here, ZpError *err) {
+  return zp_fail(err, ZP_BAD_INPUT, "of another model: %s is %s there, %s here", key, there, here);
+}
+
+/* Key `index`, with its line and value there, against that of `def`. */
+static ZpStatus check_key(const Parts *parts, const ZpActuatorDef *def, int index, const char *line, double value,
+                          ZpError *err) {
+  const char *name = zp_key(index)->name;
+  char here[LINE];
+  print_line(def, index, here);
+  size_t length = strlen(name);
+  if (strcmp(line, here) != 0) {
+    bool choice = strncmp(line, here, length + 3) == 0 && strchr(here, '=');
+    return choice ? fail_model(name, line + length + 3, here + length + 3, err)
+                  : fail_version(&parts->program, "keys", err);
+  }
+  double mine = zp_def_get(def, index);
+  if (value == mine || (isnan(value) && isnan(mine))) return ZP_OK;
+  char there[64], ours[64];
+  print_value(index, value, there, sizeof there);
+  print_value(index, mine, ours, sizeof ours);
+  return fail_model(name, there, ours, err);
+}
+
+static ZpStatus check_keys(const Parts *parts, const ZpActuatorDef *def, ZpError *err) {
+  Block text = parts->key;
+  char line[LINE];
+  size_t k = 0;
+  for (int i = 0; i < zp_key_count(); i++) {
+    if (!zp_checkpoint_holds(i)) continue;
+    if (k == parts->value.count || !take_line(&text, line)) return fail_version(&parts->program, "keys", err);
+    ZpStatus status = check_key(parts, def, i, line, real_at(parts->value.item, k++), err);
+    if (status != ZP_OK) return status;
+  }
+  bool all = text.count == 0 && k == parts->value.count;
+  return all ? ZP_OK : fail_version(&parts->program, "keys", err);
+}
+
+/* Numbers that would lead beyond arrays, or that no run has. */
+static bool is_sound(const Parts *parts, const ZpActuatorDef *def) {
+  const unsigned char *item = parts->number.item;
+  bool sound = real_at(item, TIME) >= 0 && isfinite(real_at(item, TIME)) && isfinite(real_at(item, VOLTAGE));
+  for (size_t k = 0; k < NUMBERS; k++) {
+    double value = real_at(item, k);
+    if (number[k].kind == FLAG) sound = sound && (value == 0 || value == 1);
+    if (number[k].kind == COUNT) sound = sound && value >= 0 && value < def->mesh.nodes && value == floor(value);
+  }
+  return sound;
+}
+
+static ZpStatus check_numbers(const Parts *parts, const ZpActuatorDef *def, ZpError *err) {
+  Block text = parts->name;
+  char line[LINE];
+  for (size_t k = 0; k < NUMBERS; k++)
+    if (!take_line(&text, line) || strcmp(line, number[k].name) != 0)
+      return fail_version(&parts->program, "numbers", err);
+  return is_sound(parts, def) ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator");
+}
+
+static ZpStatus take_fitting(const ZpActuatorDef *def, const void *bytes, size_t size, Parts *parts, ZpError *err) {
+  ZpStatus status = take_apart(bytes, size, parts, err);
+  if (status == ZP_OK) status = check_keys(parts, def, err);
+  return status == ZP_OK ? check_numbers(parts, def, err) : status;
+}
+
+ZpStatus zp_snapshot_check(const void *bytes, size_t size, ZpError *err) {
+  Parts parts;
+  return take_apart(bytes, size, &parts, err);
+}
+
+ZpStatus zp_snapshot_fits(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err) {
+  Parts parts;
+  return take_fitting(def, bytes, size, &parts, err);
+}
+
+double zp_snapshot_time(const void *bytes, size_t size) {
+  Parts parts;
+  return take_apart(bytes, size, &parts, NULL) == ZP_OK ? real_at(parts.number.item, TIME) : NAN;
+}
+
+ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err) {
+  Parts parts;
+  size_t stride = model->stride;
+  ZpStatus status = take_fitting(&model->def, bytes, size, &parts, err);
+  if (status != ZP_OK) return status;
+  for (size_t k = 0; k < ARRAYS; k++)
+    if (parts.array[k].count != 2 * stride)
+      return zp_fail(err, ZP_BAD_INPUT, "%zu numbers for %s: a state of this model has %zu", parts.array[k].count,
+                     array[k], 2 * stride);
+  for (size_t k = 0; k < NUMBERS; k++)
+    set_number(state, k, real_at(parts.number.item, k));
+  for (size_t k = 0; k < ARRAYS; k++)
+    for (size_t j = 0; j < 2 * stride; j++)
+      state->data[2 * k * stride + j] = real_at(parts.array[k].item, j);
+  return ZP_OK;
+}

@@ -1,0 +1,29 @@
+/* A snapshot: the state of a simulation as bytes that may come back from anywhere. The one format of saved states,
+ * files, pickles: what differs or is damaged is refused, for the kernels would follow it beyond their arrays. Inside
+ * one simulation a plain copy of the ZpState is the same. */
+#ifndef ZP_SIM_SNAPSHOT_H
+#define ZP_SIM_SNAPSHOT_H
+
+#include "actuator/model.h"
+
+/* Bytes that zp_snapshot_write writes: as many for each state of the model. */
+size_t zp_snapshot_size(const ZpModel *model);
+
+/* (model, state) => bytes. Equal states give equal bytes, on every machine. */
+void zp_snapshot_write(const ZpModel *model, const ZpState *state, void *bytes);
+
+/* (bytes) => state. ZP_BAD_INPUT as zp_snapshot_fits; the state is then as it was. */
+ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err);
+
+/* Are these bytes a whole snapshot? ZP_BAD_INPUT says what is wrong: none at all, cut short, damaged, of another
+ * version of the format. */
+ZpStatus zp_snapshot_check(const void *bytes, size_t size, ZpError *err);
+
+/* And one of a model with these keys? ZP_BAD_INPUT names the first key that differs, or says that its numbers are no
+ * state. */
+ZpStatus zp_snapshot_fits(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err);
+
+/* The time of a snapshot that zp_snapshot_check has passed, s. */
+double zp_snapshot_time(const void *bytes, size_t size);
+
+#endif
