@@ -84,7 +84,7 @@ void zp_value_range(int index, char *text, size_t size) {
   char least[ZP_VALUE_SIZE], most[ZP_VALUE_SIZE];
   zp_value_print(index, key->min, least, sizeof least);
   zp_value_print(index, key->max, most, sizeof most);
-  snprintf(text, size, "%s to %s%s", least, most, key->type == ZP_KEY_REAL_AUTO ? " or auto" : "");
+  snprintf(text, size, "%.64s to %.64s%s", least, most, key->type == ZP_KEY_REAL_AUTO ? " or auto" : "");
 }
 
 /* "REASON; give a value in um from 1 um to 5000 um" */
