@@ -29,6 +29,8 @@ PICTURES = {
     "modes.svg": "modes/plots/modes.svg",
     "reproduce.svg": "reproduce/plots/fig-8.svg",
     "sweep.svg": "sweep/plots/contraction.svg",
+    "release.svg": "release/plots/stroke.svg",
+    "demo.gif": "actuate/plots/animation.gif",
 }
 
 
