@@ -23,7 +23,7 @@ static inline uint64_t zp_def_layout(void) {
   (sizeof(name) + 37 * ZP_LETTER(name, 1) + 41 * ZP_LETTER(name, 2) + 43 * ZP_LETTER(name, 3) + 47 * ZP_LETTER(name, 4))
 #define ZP_KEY_TERM(field, name, type)                                                                                 \
   +((uint64_t)offsetof(ZpActuatorDef, field) + 1) *                                                                    \
-      (offsetof(ZpActuatorDef, field) + 31 * ZP_NAME_TERM(name) + 7 * (type))
+      (offsetof(ZpActuatorDef, field) + 31 * ZP_NAME_TERM(name) + UINT64_C(7) * (type))
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) ZP_KEY_TERM(path name, #path #name, 1)

@@ -166,10 +166,16 @@ static void write_line(Writer *writer, const char *text) {
   write_bytes(writer, "\n", 1);
 }
 
+/* A name in its place of a block. */
+static void fill_up(char filled[NAME], const char *name) {
+  for (size_t k = 0; k < NAME; k++)
+    filled[k] = *name ? *name++ : 0;
+}
+
 /* => where its items begin; close_block counts them. */
 static size_t open_block(Writer *writer, const char *name, size_t width) {
-  char filled[NAME] = {0};
-  memcpy(filled, name, strlen(name));
+  char filled[NAME];
+  fill_up(filled, name);
   write_bytes(writer, filled, NAME);
   write_integer(writer, width);
   write_integer(writer, 0);
@@ -238,7 +244,7 @@ static size_t head_size(const ZpModel *model) {
 }
 
 size_t zp_snapshot_size(const ZpModel *model) {
-  size_t size = head_size(model) + 2 * BLOCK;
+  size_t size = head_size(model) + 2 * (size_t)BLOCK;
   for (size_t k = 0; k < NUMBERS; k++)
     size += strlen(number[k].name) + 1 + sizeof(double);
   return size + ARRAYS * (BLOCK + 2 * model->stride * sizeof(double));
@@ -286,9 +292,9 @@ static ZpStatus check_frame(const unsigned char *byte, size_t size, ZpError *err
 /* The block at *used, if it is the one of that name; *used moves behind it. */
 static bool take_block(const unsigned char *byte, size_t size, size_t *used, const char *name, size_t width,
                        Block *block) {
-  char filled[NAME] = {0};
+  char filled[NAME];
   const unsigned char *head = byte + *used;
-  memcpy(filled, name, strlen(name));
+  fill_up(filled, name);
   if (size - *used < BLOCK || memcmp(head, filled, NAME) != 0 || get(head + NAME, 8) != width) return false;
   uint64_t count = get(head + NAME + 8, 8);
   *used += BLOCK;
