@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds the wheel of python/, installs it in a fresh virtual environment and runs its tests.
 #   scripts/test-python.sh BUILD [PYTEST OPTIONS...]
-# BUILD is the build folder that has the command; wheel and environment go to BUILD/python. If it was built with sanitizers,
-# its libraries are in the wheel, and the tests run under the same.
+# BUILD is the build folder that has the command; its libraries are in the wheel. Wheel and environment go to BUILD/python. If
+# it was built with sanitizers, the tests run under the same.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)
@@ -14,7 +14,7 @@ python=/usr/bin/python3 # Debian's, which has numpy
 
 mkdir -p "$folder"
 rm -rf "$folder/wheel" "$folder/venv"
-[ -z "$sanitize" ] || export ZIPACT_BUILD="$build" ZIPACT_SANITIZE="$sanitize"
+export ZIPACT_BUILD="$build" ZIPACT_SANITIZE="$sanitize"
 log=$folder/wheel.log
 $python -m pip wheel --no-build-isolation --no-deps --no-index -w "$folder/wheel" "$root/python" >"$log" 2>&1 || {
   cat "$log"
