@@ -100,7 +100,7 @@ START_TEST(test_goes_on_to_the_same_bits) {
 }
 END_TEST
 
-/* Closed, then let go: the voltage falls at the checkpoint's time and the run does not end as zipped once more. */
+/* Closed, then released: the voltage falls at the checkpoint's time and the run does not end as zipped once more. */
 START_TEST(test_another_voltage) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21});
   ZpResult *zip = result_of(ZP_STUDY_ACTUATE, &def);

@@ -40,13 +40,13 @@
   "contact.model=sequential"
 #define BEZIER PARTICLES " electro.surface=bezier"
 
-/* A limp strand let go from straight falls freely. */
+/* A limp strand released from straight falls freely. */
 #define STRAND                                                                                                         \
   "study=actuate actuator.kind=ribbon actuator.right_end=free initial.state=straight ribbon.length=45mm load.mass=0 "  \
   "mesh.nodes=21 ribbon.model=mass_spring mass_spring.shear_coefficient=0 mass_spring.axial=code "                     \
   "solver.integrator=explicit solver.end_time=5ms"
 
-/* A strip let go from straight swings in its first mode, mostly. */
+/* A strip released from straight swings in its first mode, mostly. */
 #define SWING                                                                                                          \
   "study=actuate actuator.kind=ribbon actuator.right_end=guided initial.state=straight ribbon.length=45mm "            \
   "load.mass=0 mesh.nodes=11 solver.end_time=40ms"

@@ -261,7 +261,7 @@ START_TEST(drag_bounds_the_steps) {
 }
 END_TEST
 
-/* A strip let go from straight is fastest half way and has come to rest at the end: what counts is half way. */
+/* A strip released from straight is fastest half way and has come to rest at the end: what counts is half way. */
 START_TEST(bounds_are_the_least_of_all_rows) {
   const double c = 1e-4, m = 7850 * 12.7e-3 * 50e-6 * 45e-3 / 21;
   ZpActuatorDef def = DEF(ALONE, {"ribbon.length", 45e-3}, {"mesh.nodes", 21}, {"ribbon.model", ZP_RIBBON_MASS_SPRING},
