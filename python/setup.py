@@ -5,7 +5,7 @@ are those of the command to the last bit; the extension is linked to it. Keys.de
 checkers and editors. Needs the repository: there is no source distribution.
 
 In the environment, ZIPACT_SANITIZE=address,undefined builds with sanitizers, and ZIPACT_BUILD names a build folder that has
-the library already.
+the library already; what is compiled for the wheel is kept there, too, since objects of two builds must not mix.
 """
 
 import ast
@@ -25,6 +25,7 @@ ROOT = os.path.dirname(HERE)
 LIBRARIES = ["libfyaml", "udunits", "jansson", "hdf5-serial", "nlopt"]
 WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wno-missing-field-initializers"]
 SANITIZE = os.environ.get("ZIPACT_SANITIZE", "")
+BUILD = os.environ.get("ZIPACT_BUILD", "")
 # as CMakeLists.txt has it
 HARDENED = ["-fstack-protector-strong", *([] if SANITIZE else ["-U_FORTIFY_SOURCE", "-D_FORTIFY_SOURCE=3"])]
 HARDENED_LINK = ["-Wl,-z,relro,-z,now"]
@@ -47,7 +48,7 @@ class BuildExtension(build_ext):
     """Builds the library first."""
 
     def build_library(self):
-        folder = os.environ.get("ZIPACT_BUILD")
+        folder = BUILD
         if not folder:
             folder = os.path.abspath(os.path.join(self.build_temp, "core-" + (SANITIZE.replace(",", "-") or "release")))
             configure = ["cmake", "-S", ROOT, "-B", folder, "-DZIPACT_TESTS=OFF", "-DZIPACT_SANITIZE=" + SANITIZE]
@@ -135,5 +136,8 @@ setup(
             py_limited_api=True,
         )
     ],
-    options={"bdist_wheel": {"py_limited_api": "cp311"}},
+    options={
+        "bdist_wheel": {"py_limited_api": "cp311"},
+        "build": {"build_base": os.path.join(BUILD, "python", "objects") if BUILD else "build"},
+    },
 )
