@@ -296,13 +296,13 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-static ZpStopParams stop_of(const ZpModel *model) {
+static ZpFacesParams stop_of(const ZpModel *model) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
   double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
-  return (ZpStopParams){model->nodes, model->l, E * def->ribbon.width / layers,
+  return (ZpFacesParams){model->nodes, model->l, E * def->ribbon.width / layers,
                         model->s == 2 ? def->platform.length / 2 : 0};
 }
 

@@ -7,17 +7,6 @@
 #include "base/kernel.h"
 #include "solve/descend.h"
 
-/* Faces closer than that count as closed: far below a micrometre, far above rounding. */
-static const double touch = 5e-7; /* m */
-
-/* Range of contact: that, or so far below the liquid thickness that stands for the insulators that faces within it
- * attract each other as closed ones do, within 1.4 %. Under the attraction of closed faces at drive.voltage the gap is
- * 0. */
-static double contact_range(const ZpModel *model) {
-  static const double shortest = 1e-8, part = 1.0 / 150; /* m; of that thickness */
-  return fmin(fmax(part * model->plates.d, shortest), touch);
-}
-
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   size_t N = model->nodes, stride = model->stride;
   ZpCarver carver = {block, 0};
@@ -73,10 +62,6 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
     zp_statics_destroy(s);
     return false;
   }
-  double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
-  double weight = model->total_weight / model->L;
-  s->contact = (ZpUnilateralParams){model->nodes,         model->l, fmax(closed, weight),
-                                    contact_range(model), touch,    model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   s->load = model->def.load.mass;
   put_on(s, 1);
@@ -248,13 +233,13 @@ double zp_statics_opening(const ZpStatics *s) {
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
-  return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap) : 0;
+  return s->model->field ? zp_faces_front(&s->model->stop, s->eval.plates.gap) : 0;
 }
 
 bool zp_statics_shorted(const ZpStatics *s) {
   const ZpModel *model = s->model;
   if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->contact.range;
+  return zp_plates_least_gap(&model->plates, s->q + model->stride) < ZP_CONTACT_RANGE;
 }
 
 static ZpPlatesTotals totals(const ZpStatics *s) {
@@ -359,7 +344,7 @@ static double residual(void *self, double *r) {
     s->force[stride + j] += (1 - s->share) * model->weight[j];
   s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
-    zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);
+    zp_faces_push(&s->model->stop, s->eval.plates.gap, s->push);
     for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
       size_t lower = model->s * i + model->s - 1;
       s->force[stride + lower] -= s->push[i];
@@ -390,7 +375,7 @@ static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpGapDerivatives *gaps = &s->gaps;
   const double *gap = s->eval.plates.gap;
   zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, gaps->own, gaps->next, gaps->along0, gaps->along1);
-  if (s->contact_acts) zp_unilateral_stiffness(&s->contact, gap, gaps->own, gaps->next);
+  if (s->contact_acts) zp_faces_stiffness(&s->model->stop, gap, gaps->own, gaps->next);
   zp_assemble_gaps(&s->assembly, gaps, K);
 }
 

@@ -4,7 +4,6 @@
 #define ZP_REST_STATICS_H
 
 #include "actuator/eval.h"
-#include "contact/unilateral.h"
 #include "rest/assemble.h"
 #include "solve/continuation.h"
 
@@ -13,7 +12,6 @@
 typedef struct ZpStatics {
   const ZpModel *model; /* the one given, with natural turns as far as they are put on, and overlapping faces closed */
   ZpEval eval;
-  ZpUnilateralParams contact;
   double *q;         /* [2 stride] the present point */
   double U;          /* V */
   double load;       /* mass hung on the actuator, kg; starts as load.mass */

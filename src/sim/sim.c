@@ -178,7 +178,9 @@ static void push_faces(ZpSim *sim, const double *q, double *a) {
   const double *inverse = model->masses.y.inverse;
   double *ay = a + model->stride;
   zp_plates_gaps(&model->plates, q, q + model->stride, &sim->eval.plates);
-  zp_stop_push(&model->stop, sim->eval.plates.gap, sim->push, sim->pressed);
+  zp_faces_push(&model->stop, sim->eval.plates.gap, sim->push);
+  for (size_t i = 0; i < model->nodes; i++)
+    sim->pressed[i] = sim->eval.plates.gap[i] < 0;
   for (size_t i = 1; i < model->nodes; i++) {
     ay[2 * i] += sim->push[i] * inverse[2 * i];
     ay[2 * i + 1] -= sim->push[i] * inverse[2 * i + 1];
