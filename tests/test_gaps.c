@@ -2,7 +2,7 @@
  * other noticing. */
 #include "check_util.h"
 
-#include "contact/unilateral.h"
+#include "contact/faces.h"
 #include "drive/waveform.h"
 #include "electro/plates.h"
 
@@ -39,8 +39,8 @@ END_TEST
 /* -- contact --------------------------------------------------------------------------------------- */
 
 static size_t front_of(const double *gap, size_t nodes) {
-  ZpUnilateralParams contact = {.nodes = nodes, .l = 1e-3, .p0 = 1, .range = 5e-7, .touch = 5e-7};
-  return zp_unilateral_front(&contact, gap);
+  ZpFacesParams faces = {.nodes = nodes, .l = 1e-3, .stiffness = 1e10};
+  return zp_faces_front(&faces, gap);
 }
 
 /* The front ends at the first station that is open, whatever touches behind it, and at the platform where none is. */

@@ -55,17 +55,14 @@ static void close_rest(Rest *r) {
   zp_model_destroy(r->model);
 }
 
-/* Energy of (9.1), at the points where it is integrated. */
-static double contact_energy(const ZpUnilateralParams *p, const double *gap) {
-  static const double at[] = {0.11270166537925831, 0.5, 0.88729833462074169}, weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+/* Energy of (9.1). */
+static double contact_energy(const ZpFacesParams *p, const double *gap) {
   double sum = 0;
-  for (size_t i = 0; i + 1 < p->nodes; i++)
-    for (int q = 0; q < 3; q++) {
-      double s = fmax(1 - (gap[i] + (gap[i + 1] - gap[i]) * at[q]) / p->range, 0);
-      sum += weight[q] * p->l * 0.25 * p->p0 * p->range * s * s * s * s;
-    }
-  double s = fmax(1 - gap[p->nodes - 1] / p->range, 0);
-  return sum + p->flat_length * 0.25 * p->p0 * p->range * s * s * s * s;
+  for (size_t i = 1; i < p->nodes; i++) {
+    double overlap = fmax(-gap[i], 0), length = i + 1 == p->nodes ? 0.5 * p->l + p->flat_length : p->l;
+    sum += 0.5 * p->stiffness * length * overlap * overlap;
+  }
+  return sum;
 }
 
 static double energy(Rest *r) {
@@ -75,7 +72,7 @@ static double energy(Rest *r) {
   for (size_t j = 0; j < model->count; j++)
     sum += model->weight[j] * s->q[model->stride + j];
   return sum + zp_plates_totals(&model->plates, &s->eval.plates, s->U).potential +
-         contact_energy(&s->contact, s->eval.plates.gap);
+         contact_energy(&model->faces, s->eval.plates.gap);
 }
 
 static void raise_to(Rest *r, double voltage) {

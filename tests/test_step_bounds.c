@@ -3,7 +3,7 @@
 #include "check_util.h"
 
 #include "actuator/eval.h"
-#include "contact/stop.h"
+#include "contact/faces.h"
 #include "solve/explicit.h"
 
 /* -- the fastest vibration ------------------------------------------------------------------------- */
@@ -54,9 +54,7 @@ static void accelerate(Rest *r, const double *q, double *a) {
   static const ZpZipState clip_only = {0, false};
   if (r->faces_press) {
     zp_plates_gaps(&model->plates, q, q + model->stride, &r->eval.plates);
-    zp_faces_push(&model->stop, r->eval.plates.gap, r->push);
-    for (size_t i = 0; i < model->nodes; i++)
-      r->pressed[i] = r->eval.plates.gap[i] < 0;
+    zp_faces_push(&model->faces, r->eval.plates.gap, r->push, r->pressed);
     for (size_t i = 1; i < model->nodes; i++) {
       a[model->stride + 2 * i] += r->push[i] * inverse[2 * i];
       a[model->stride + 2 * i + 1] -= r->push[i] * inverse[2 * i + 1];

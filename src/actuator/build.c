@@ -296,14 +296,14 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-static ZpFacesParams stop_of(const ZpModel *model) {
+static ZpFacesParams faces_of(const ZpModel *model) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
   double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
   return (ZpFacesParams){model->nodes, model->l, E * def->ribbon.width / layers,
-                        model->s == 2 ? def->platform.length / 2 : 0};
+                         model->s == 2 ? def->platform.length / 2 : 0};
 }
 
 /* damping.internal, or what auto stands for: docs/theory.md, section 18. */
@@ -319,8 +319,8 @@ static double internal_damping_of(const ZpActuatorDef *def) {
 static double contact_frequency(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double mu = model->section.mu, half = 0.5 * model->l;
-  double platform = model->stop.stiffness * (half + model->stop.flat_length);
-  return sqrt(fmax(model->stop.stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
+  double platform = model->faces.stiffness * (half + model->faces.flat_length);
+  return sqrt(fmax(model->faces.stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
 static void derive(ZpModel *model) {
@@ -341,7 +341,7 @@ static void derive(ZpModel *model) {
   model->plates = plates_of(model);
   model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
-  model->stop = stop_of(model);
+  model->faces = faces_of(model);
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part

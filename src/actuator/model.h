@@ -39,7 +39,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpRodParams rod; /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
-  ZpFacesParams stop;      /* of unilateral contact in motion */
+  ZpFacesParams faces;     /* of unilateral contact */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;

@@ -23,10 +23,8 @@ static size_t carve(ZpDynamics *d, void *block) {
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
   d->push = zp_carve(&carver, model->nodes);
-  d->foreseen = zp_carve(&carver, model->nodes);
-  d->gap = zp_carve(&carver, model->nodes);
-  d->own = zp_carve(&carver, model->nodes);
-  d->next = zp_carve(&carver, model->nodes);
+  d->pressed = zp_carve(&carver, model->nodes);
+  d->pressed0 = zp_carve(&carver, model->nodes);
   d->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   return carver.used;
 }
@@ -100,8 +98,7 @@ static void add_faces(ZpDynamics *d) {
   double *Fx = d->force, *Fy = Fx + stride, U2 = 0.5 * (d->U0 * d->U0 + d->U1 * d->U1);
   zp_plates_gaps(&model->plates, d->end, d->end + stride, &d->plates1);
   zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U0, d->U1, &d->plates);
-  zp_faces_push(&model->stop, d->plates1.gap, d->push);
-  memcpy(d->gap, d->plates1.gap, model->nodes * sizeof *d->gap);
+  zp_faces_push(&model->faces, d->plates1.gap, d->push, d->pressed);
   for (size_t j = 0; j < model->count; j++) {
     Fx[j] += d->plates.Fx[j];
     Fy[j] += d->plates.Fy[j];
@@ -188,13 +185,8 @@ static void tangent(void *self, ZpBand *A) {
   if (!model->is_rod) add_shear_tangent(d, A);
   if (model->def.damping.drag > 0) add_drag_tangent(d, A);
   if (!model->field) return;
-  memset(d->own, 0, model->nodes * sizeof *d->own);
-  memset(d->next, 0, model->nodes * sizeof *d->next);
-  zp_faces_stiffness(&model->stop, d->gap, d->own, d->next);
-  for (size_t i = 0; i < model->nodes; i++) {
-    d->plates.own[i] += d->own[i];
-    d->plates.next[i] += d->next[i];
-  }
+  for (size_t i = 0; i < model->nodes; i++)
+    d->plates.own[i] += d->pressed[i];
   ZpGapDerivatives gaps = {d->plates.own, d->plates.next, d->plates.along0, d->plates.along1};
   zp_assemble_gaps(&d->assembly, &gaps, A);
 }
@@ -244,24 +236,20 @@ static void attempt(void *self, double *q1) {
   if (d->model->field) keep_apart(d, q1);
 }
 
-/* What the last correction has changed of the push of faces, beyond what the tangent foresaw. */
+/* Faces that came into touch or out of it with the last correction: their push was not, or was, in the last force. */
 static double unforeseen(void *self, const double *q1) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
-  size_t N = model->nodes;
   double work = 0;
   scatter(d, q1, d->end);
   if (!model->field) return 0;
+  memcpy(d->pressed0, d->pressed, model->nodes * sizeof *d->pressed);
   zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
-  const double *gap = d->plates1.gap;
-  for (size_t i = 0; i < N; i++) {
-    d->foreseen[i] = d->push[i] - d->own[i] * (gap[i] - d->gap[i]);
-    if (i > 0) d->foreseen[i] -= d->next[i - 1] * (gap[i - 1] - d->gap[i - 1]);
-    if (i + 1 < N) d->foreseen[i] -= d->next[i] * (gap[i + 1] - d->gap[i + 1]);
+  zp_faces_push(&model->faces, d->plates1.gap, d->push, d->pressed);
+  for (size_t i = 1; i < model->nodes; i++) {
+    double gap = d->plates1.gap[i], stiffness = fabs(d->pressed[i] - d->pressed0[i]);
+    work += stiffness * fabs(gap * (gap - d->plates0.gap[i]));
   }
-  zp_faces_push(&model->stop, gap, d->push);
-  for (size_t i = 1; i < N; i++)
-    work += fabs((d->push[i] - d->foreseen[i]) * (gap[i] - d->plates0.gap[i]));
   return work;
 }
 
@@ -287,12 +275,12 @@ static double impact(ZpDynamics *d) {
   bool any = false;
   for (size_t i = 1; i < d->model->nodes; i++) {
     loss -= d->push[i] * (d->plates1.gap[i] - d->plates0.gap[i]);
-    any |= d->plates1.gap[i] < 0;
+    any |= d->pressed[i] > 0;
   }
   if (!any) return 0;
   zp_implicit_smooth(&d->stepper, d->h, d->v);
   for (size_t i = 1; i < d->model->nodes; i++)
-    if (d->plates1.gap[i] < 0) move_as_one(d, i);
+    if (d->pressed[i] > 0) move_as_one(d, i);
   return loss - kinetic_energy(d);
 }
 

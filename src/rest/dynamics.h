@@ -25,9 +25,8 @@ typedef struct ZpDynamics {
   double *mass, *q, *v;   /* [n] by equations */
   double *start, *end;    /* [2 stride] coordinates of nodes */
   double *force;          /* [2 stride] N */
-  double *push, *gap;     /* [N] contact: force, N, at these gaps, m */
-  double *own, *next;     /* [N] its derivatives there, N/m */
-  double *foreseen;       /* [N] what they make of the push after a correction, N */
+  double *push, *pressed; /* [N] contact: force N, stiffness N/m; 0 where open */
+  double *pressed0;       /* [N] that stiffness in the last force */
   double (*D)[4];         /* [3 edges] stiffness of the ribbons */
   const double *beyond;   /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
   const ZpState *state;   /* at the start of the step under way */

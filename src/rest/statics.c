@@ -19,7 +19,7 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
-  double **stations[] = {&s->push, &s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
+  double **stations[] = {&s->push, &s->pressed, &s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
@@ -233,13 +233,13 @@ double zp_statics_opening(const ZpStatics *s) {
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
-  return s->model->field ? zp_faces_front(&s->model->stop, s->eval.plates.gap) : 0;
+  return s->model->field ? zp_faces_front(&s->model->faces, s->eval.plates.gap) : 0;
 }
 
 bool zp_statics_shorted(const ZpStatics *s) {
   const ZpModel *model = s->model;
   if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, s->q + model->stride) < ZP_CONTACT_RANGE;
+  return zp_plates_least_gap(&model->plates, s->q + model->stride) < ZP_CLOSED_GAP;
 }
 
 static ZpPlatesTotals totals(const ZpStatics *s) {
@@ -344,7 +344,7 @@ static double residual(void *self, double *r) {
     s->force[stride + j] += (1 - s->share) * model->weight[j];
   s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
-    zp_faces_push(&s->model->stop, s->eval.plates.gap, s->push);
+    zp_faces_push(&model->faces, s->eval.plates.gap, s->push, s->pressed);
     for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
       size_t lower = model->s * i + model->s - 1;
       s->force[stride + lower] -= s->push[i];
@@ -373,9 +373,9 @@ static void add_mechanics(ZpStatics *s, ZpBand *K) {
 static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpModel *model = s->model;
   const ZpGapDerivatives *gaps = &s->gaps;
-  const double *gap = s->eval.plates.gap;
   zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, gaps->own, gaps->next, gaps->along0, gaps->along1);
-  if (s->contact_acts) zp_faces_stiffness(&s->model->stop, gap, gaps->own, gaps->next);
+  for (size_t i = 0; s->contact_acts && i < model->nodes; i++)
+    gaps->own[i] += s->pressed[i];
   zp_assemble_gaps(&s->assembly, gaps, K);
 }
 

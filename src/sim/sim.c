@@ -151,15 +151,10 @@ static void prepare_step(ZpSim *sim) {
 
 /* -- one step ------------------------------------------------------------------------------------- */
 
-static const double touch = 5e-7; /* m, as in contact at rest */
-
 /* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
 static ZpZipState touching(const ZpModel *model, const double *gap) {
-  ZpZipState zip = {0, false};
-  while (zip.front + 1 < model->nodes && gap[zip.front + 1] < touch)
-    zip.front++;
-  zip.platform = zip.front + 1 == model->nodes;
-  return zip;
+  size_t front = zp_faces_front(&model->faces, gap);
+  return (ZpZipState){front, front + 1 == model->nodes};
 }
 
 static const ZpZipState clip_only = {0, false};
@@ -178,9 +173,7 @@ static void push_faces(ZpSim *sim, const double *q, double *a) {
   const double *inverse = model->masses.y.inverse;
   double *ay = a + model->stride;
   zp_plates_gaps(&model->plates, q, q + model->stride, &sim->eval.plates);
-  zp_faces_push(&model->stop, sim->eval.plates.gap, sim->push);
-  for (size_t i = 0; i < model->nodes; i++)
-    sim->pressed[i] = sim->eval.plates.gap[i] < 0;
+  zp_faces_push(&model->faces, sim->eval.plates.gap, sim->push, sim->pressed);
   for (size_t i = 1; i < model->nodes; i++) {
     ay[2 * i] += sim->push[i] * inverse[2 * i];
     ay[2 * i + 1] -= sim->push[i] * inverse[2 * i + 1];
@@ -272,7 +265,7 @@ static bool closed(const ZpModel *model, const ZpState *state) {
 /* Do electrodes without an insulator touch under a voltage? */
 static bool shorted(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < touch;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
 }
 
 static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner) {
