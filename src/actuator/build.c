@@ -121,19 +121,25 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
       .right_slope = two || def->actuator.right_end != ZP_END_FREE};
 }
 
+/* Below this g + d the law is not followed further, m. Where faces push each other those that overlap attract as closed
+ * ones do: attraction must not outgrow the push. Elsewhere bare faces that touch would divide by nothing. */
+static double least_h(const ZpModel *model, double d) {
+  static const double least_gap = 1e-9; /* a nanometre is no liquid */
+  return fmax(model->def.contact.model == ZP_CONTACT_UNILATERAL ? d : 0, least_gap);
+}
+
 static ZpPlatesParams plates_of(const ZpModel *model) {
-  /* Bare faces that touch: below this the law would divide by nothing. A nanometre is no liquid. */
-  static const double least_gap = 1e-9;
   const ZpActuatorDef *def = &model->def;
   double share = def->electro.voltage_share, offset = def->electro.insulator_offset;
-  double eps_m = def->medium.permittivity;
+  double eps_m = def->medium.permittivity,
+         auto_offset = 2 * def->insulator.thickness * eps_m / def->insulator.permittivity;
+  double d = isnan(offset) ? auto_offset : offset;
   return (ZpPlatesParams){.nodes = model->nodes,
                           .stride = model->stride,
                           .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
-                          .d = isnan(offset) ? 2 * def->insulator.thickness * eps_m / def->insulator.permittivity
-                                             : offset,
+                          .d = d,
                           .h_per_volt = def->electro.breakdown_cap ? share / def->medium.breakdown_field : 0,
-                          .h_least = least_gap,
+                          .h_least = least_h(model, d),
                           .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
                           .switch_offset = def->electro.switch_offset,
                           .flat_length = model->s == 2 && def->platform.electrode ? def->platform.length / 2 : 0,
@@ -296,14 +302,33 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-static ZpFacesParams faces_of(const ZpModel *model) {
+/* Of both layers pressed together, per length of ribbon, N/m^2. */
+static double layer_stiffness(const ZpModel *model) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
-  return (ZpFacesParams){model->nodes, model->l, E * def->ribbon.width / layers,
-                         model->s == 2 ? def->platform.length / 2 : 0};
+  return E * def->ribbon.width / ((model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest));
+}
+
+/* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
+ * insulators. */
+static double largest_attraction(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  const ZpPlatesParams *p = &model->plates;
+  double field = def->medium.breakdown_field / def->electro.voltage_share;
+  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field, d = fmax(p->d, p->h_least);
+  bool capped = def->electro.breakdown_cap || voltage == 0;
+  return p->k * (capped ? field * field : voltage * voltage / (d * d));
+}
+
+/* Eqs. (9.2). Faces within the range attract each other as closed ones do, within 1.4 %. */
+static ZpFacesParams faces_of(const ZpModel *model) {
+  static const double shortest = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
+  double range = fmin(fmax(part * model->plates.d, shortest), ZP_CLOSED_GAP);
+  double stiffest = layer_stiffness(model) * range / 3;
+  return (ZpFacesParams){model->nodes, model->l, range, fmin(largest_attraction(model), stiffest),
+                         model->s == 2 ? model->def.platform.length / 2 : 0};
 }
 
 /* damping.internal, or what auto stands for: docs/theory.md, section 18. */
@@ -315,12 +340,16 @@ static double internal_damping_of(const ZpActuatorDef *def) {
   return damped ? of_taped_steel : 0;
 }
 
-/* Of faces that press on each other, rad/s: two free nodes, or the lower platform below the held one. */
+/* Of faces that overlap by five ranges, as fast ones do, rad/s: two free nodes, or the lower platform below the held
+ * one.
+ */
 static double contact_frequency(const ZpModel *model) {
+  enum { DEPTH = 1 + 5 };
   const ZpActuatorDef *def = &model->def;
-  double mu = model->section.mu, half = 0.5 * model->l;
-  double platform = model->faces.stiffness * (half + model->faces.flat_length);
-  return sqrt(fmax(model->faces.stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
+  const ZpFacesParams *p = &model->faces;
+  double stiffness = 3 * p->push * DEPTH * DEPTH / p->range, mu = model->section.mu, half = 0.5 * model->l;
+  double platform = stiffness * (half + p->flat_length);
+  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
 static void derive(ZpModel *model) {

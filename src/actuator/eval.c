@@ -17,6 +17,7 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
         (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
   }
   zp_plates_carve(&model->plates, &e->plates, &carver);
+  zp_faces_carve(&model->faces, &e->faces, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   e->none = zp_carve(&carver, model->stride);
   return carver.used;

@@ -15,6 +15,7 @@ typedef struct ZpEval {
   ZpRodEval rod;
   ZpEdges edges; /* of the one in use */
   ZpPlatesEval plates;
+  ZpFacesEval faces;       /* of unilateral contact */
   ZpSurplus surplus;       /* where the field is solved */
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */

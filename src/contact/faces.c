@@ -1,11 +1,45 @@
+/* Letters of docs/theory.md, section 9: g gap, m; s = 1 - g / delta where that is positive. The push per length is
+ * p_c s^3, its stiffness 3 p_c s^2 / delta. */
 #include "contact/faces.h"
 
-void zp_faces_push(const ZpFacesParams *p, const double *gap, double *push, double *stiffness) {
-  for (size_t i = 0; i < p->nodes; i++) {
-    double length = i + 1 == p->nodes ? 0.5 * p->l + p->flat_length : p->l;
-    stiffness[i] = i > 0 && gap[i] < 0 ? p->stiffness * length : 0;
-    push[i] = -stiffness[i] * gap[i];
+#include <string.h>
+
+#include "math/gauss.h"
+
+void zp_faces_carve(const ZpFacesParams *p, ZpFacesEval *e, ZpCarver *carver) {
+  e->push = zp_carve(carver, p->nodes);
+  e->own = zp_carve(carver, p->nodes);
+  e->next = zp_carve(carver, p->nodes);
+}
+
+/* How deep faces are in each other's range: 0 beyond it, 1 at gap 0, more where they overlap. */
+static inline double depth(const ZpFacesParams *p, double gap) {
+  double s = 1 - gap / p->range;
+  return s > 0 ? s : 0;
+}
+
+static void add_element(const ZpFacesParams *p, const double *gap, size_t i, const ZpFacesEval *e) {
+  for (int q = 0; q < GAUSS; q++) {
+    double r = gauss_at[q], l = 1 - r, s = depth(p, l * gap[i] + r * gap[i + 1]);
+    double f = gauss_weight[q] * p->l * p->push * s * s, c = 3 * f / p->range;
+    e->push[i] += l * f * s;
+    e->push[i + 1] += r * f * s;
+    e->own[i] += l * l * c;
+    e->own[i + 1] += r * r * c;
+    e->next[i] += l * r * c;
   }
+}
+
+void zp_faces_eval(const ZpFacesParams *p, const double *gap, const ZpFacesEval *e) {
+  size_t last = p->nodes - 1;
+  memset(e->push, 0, p->nodes * sizeof *e->push);
+  memset(e->own, 0, p->nodes * sizeof *e->own);
+  memset(e->next, 0, p->nodes * sizeof *e->next);
+  for (size_t i = 0; i < last; i++)
+    if (gap[i] < p->range || gap[i + 1] < p->range) add_element(p, gap, i, e);
+  double s = depth(p, gap[last]), f = p->flat_length * p->push * s * s;
+  e->push[last] += f * s;
+  e->own[last] += 3 * f / p->range;
 }
 
 size_t zp_faces_front(const ZpFacesParams *p, const double *gap) {

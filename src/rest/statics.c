@@ -19,7 +19,7 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
-  double **stations[] = {&s->push, &s->pressed, &s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
+  double **stations[] = {&s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
@@ -239,7 +239,7 @@ size_t zp_statics_front(const ZpStatics *s) {
 bool zp_statics_shorted(const ZpStatics *s) {
   const ZpModel *model = s->model;
   if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, s->q + model->stride) < ZP_CLOSED_GAP;
+  return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->model->faces.range;
 }
 
 static ZpPlatesTotals totals(const ZpStatics *s) {
@@ -344,11 +344,11 @@ static double residual(void *self, double *r) {
     s->force[stride + j] += (1 - s->share) * model->weight[j];
   s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
-    zp_faces_push(&model->faces, s->eval.plates.gap, s->push, s->pressed);
+    zp_faces_eval(&model->faces, s->eval.plates.gap, &s->eval.faces);
     for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
       size_t lower = model->s * i + model->s - 1;
-      s->force[stride + lower] -= s->push[i];
-      if (model->s == 2) s->force[stride + lower - 1] += s->push[i];
+      s->force[stride + lower] -= s->eval.faces.push[i];
+      if (model->s == 2) s->force[stride + lower - 1] += s->eval.faces.push[i];
     }
   }
   memset(r, 0, s->assembly.n * sizeof *r);
@@ -375,7 +375,9 @@ static void add_faces(ZpStatics *s, ZpBand *K) {
   const ZpGapDerivatives *gaps = &s->gaps;
   zp_plates_stiffness(&model->plates, &s->eval.plates, s->U, gaps->own, gaps->next, gaps->along0, gaps->along1);
   for (size_t i = 0; s->contact_acts && i < model->nodes; i++)
-    gaps->own[i] += s->pressed[i];
+    gaps->own[i] += s->eval.faces.own[i];
+  for (size_t i = 0; s->contact_acts && i + 1 < model->nodes; i++)
+    gaps->next[i] += s->eval.faces.next[i];
   zp_assemble_gaps(&s->assembly, gaps, K);
 }
 

@@ -24,8 +24,6 @@ typedef struct ZpStatics {
   ZpAssembly assembly;
   double scale;          /* force that a residual is relative to, N */
   double (*D)[4];        /* [3 edges] mechanics' stiffness */
-  double *push;          /* [N] contact, N */
-  double *pressed;       /* [N] its stiffness, N/m; 0 where open */
   ZpGapDerivatives gaps; /* contact and field */
   double *tension;       /* [edges] what the last step foresaw, N */
   double *moved;         /* [2 stride] work space of a move */

@@ -38,12 +38,10 @@ static bool allocate(ZpSim *sim) {
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
-  sim->push = zp_calloc(model->nodes, sizeof(double));
-  sim->pressed = zp_calloc(model->nodes, sizeof(double));
   bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
   return zp_eval_create(model, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work && sim->row &&
-         sim->line_force && sim->push && sim->pressed;
+         sim->line_force;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -117,8 +115,6 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->line_force);
-  zp_free(sim->push);
-  zp_free(sim->pressed);
   zp_free(sim);
 }
 
@@ -167,33 +163,45 @@ static bool is_unilateral(const ZpModel *model) {
   return model->field && model->def.contact.model == ZP_CONTACT_UNILATERAL;
 }
 
-/* Faces that overlap push each other apart, on top of the accelerations a. */
+/* Faces push each other apart, on top of the accelerations a. */
 static void push_faces(ZpSim *sim, const double *q, double *a) {
   const ZpModel *model = sim->model;
   const double *inverse = model->masses.y.inverse;
   double *ay = a + model->stride;
   zp_plates_gaps(&model->plates, q, q + model->stride, &sim->eval.plates);
-  zp_faces_push(&model->faces, sim->eval.plates.gap, sim->push, sim->pressed);
+  zp_faces_eval(&model->faces, sim->eval.plates.gap, &sim->eval.faces);
   for (size_t i = 1; i < model->nodes; i++) {
-    ay[2 * i] += sim->push[i] * inverse[2 * i];
-    ay[2 * i + 1] -= sim->push[i] * inverse[2 * i + 1];
+    ay[2 * i] += sim->eval.faces.push[i] * inverse[2 * i];
+    ay[2 * i + 1] -= sim->eval.faces.push[i] * inverse[2 * i + 1];
   }
 }
 
-/* Those that pressed on each other in the step dt that has just been taken move as one; their push's work, at the mean
- * velocity, is lost with what they lose. How far they are closed now goes into the state. */
+/* What a pressed pair loses as it becomes one, J: its kinetic energy, and half of what the attraction and the ribbons do
+ * over the step, since symplectic steps keep the energy of velocities half a step later. */
+static double press(const ZpModel *model, size_t i, double push, const double *ay, double dt, double *vy) {
+  const double *inverse = model->masses.y.inverse;
+  double both = inverse[2 * i] + inverse[2 * i + 1];
+  if (both == 0) return 0;
+  double apart = vy[2 * i] - vy[2 * i + 1], other = (ay[2 * i] - ay[2 * i + 1]) / both - push;
+  return zp_zip_merge(i, &model->masses.y, vy) + 0.5 * dt * other * apart;
+}
+
+/* Those that are pressed on each other move as one, and what they lose is lost with the work of the push, at the mean
+ * velocity of the step dt that has just been taken. How far they are closed now goes into the state. */
 static void stop_faces(ZpSim *sim, double dt) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = sim->a + model->stride;
+  const double *gap = sim->eval.plates.gap, *push = sim->eval.faces.push;
   double *vy = zp_state_v(model, state) + model->stride;
   for (size_t i = 1; i < model->nodes; i++) {
-    if (!(sim->pressed[i] > 0)) continue;
+    if (!(push[i] > 0)) continue;
     double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
-    state->contact_loss += zp_zip_merge(i, &model->masses.y, vy) - sim->push[i] * apart * dt;
+    state->contact_loss -= push[i] * apart * dt;
+    if (zp_faces_pressed(&model->faces, gap[i])) state->contact_loss += press(model, i, push[i], ay, dt, vy);
   }
   zp_plates_gaps(&model->plates, x, y, &sim->eval.plates);
-  state->zip = touching(model, sim->eval.plates.gap);
+  state->zip = touching(model, gap);
 }
 
 static double accelerate(void *self, const double *q, const double *v, double *a) {

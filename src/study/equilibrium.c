@@ -93,7 +93,7 @@ static double opening(const Follower *f) {
 }
 
 static bool is_closed(const Follower *f) {
-  return opening(f) <= fmax(closed_part * f->hanging, ZP_CLOSED_GAP);
+  return opening(f) <= fmax(closed_part * f->hanging, f->model->faces.range);
 }
 
 static void record(Follower *f, int branch) {
@@ -310,7 +310,7 @@ static Voltages find(Follower *f) {
   v.no_release = "closed it is a short circuit";
   if (f->model->def.insulator.thickness == 0) return v;
   v.no_release = "it hangs closed";
-  if (f->hanging <= ZP_CLOSED_GAP) return v;
+  if (f->hanging <= f->model->faces.range) return v;
   v.no_release = "it is not closed at drive.voltage";
   if (!find_closed(f, &v)) return v;
   f->system.save(&f->statics, f->start);
