@@ -145,7 +145,7 @@ START_TEST(coarse_front_is_noted) {
 }
 END_TEST
 
-/* Eq. (9.2), closed form without cap: w = k U^2 / d and W = k U^2 / d^2, so lambda = (EI d^3 / (k U^2))^(1/4). */
+/* Eq. (9.4), closed form without cap: w = k U^2 / d and W = k U^2 / d^2, so lambda = (EI d^3 / (k U^2))^(1/4). */
 START_TEST(front_length_is_that_of_a_peeled_ribbon) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", 0}, {"drive.voltage", 6e3}, {"solver.end_time", 1e-9});

@@ -361,9 +361,9 @@ END_TEST
  * finds closed states, which are stable, too. */
 START_TEST(test_modes_above_pull_in) {
   static const double above[] = {5625, 5700, 8e3, 10e3};
-  ZpActuatorDef def = DEF({"modes.voltage", 5624});
-  ck_below(value_of(ZP_STUDY_MODES, &def, "frequency_1_Hz"),
-           1.5); /* pull-in at 5624.5 V: the lowest frequency falls to 0 there */
+  ZpActuatorDef def = DEF({"modes.voltage", 5623.5});
+  /* pull-in at 5624.0 V: the lowest frequency falls to 0 there */
+  ck_below(value_of(ZP_STUDY_MODES, &def, "frequency_1_Hz"), 1.5);
   for (size_t i = 0; i < LENGTH_OF(above); i++) {
     def.modes.voltage = above[i];
     ZpResult *result = study_of(ZP_STUDY_MODES, &def);
@@ -569,7 +569,7 @@ START_TEST(test_faces_do_not_cross) {
         least = fmin(least, shape.gap[k]);
     }
     printf("%g g: faces overlap by %.3f um at most\n", grams[i], -1e6 * least);
-    ck_assert_double_ge(least, -1e-6);
+    ck_assert_double_ge(least, -0.01 * 260e-6); /* of both insulators */
     zp_result_destroy(result);
   }
 }

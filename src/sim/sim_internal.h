@@ -21,7 +21,6 @@ struct ZpSim {
   ZpShapes *shapes;            /* the caller's; NULL: no record */
   double *row;                 /* one value per signal */
   double *line_force;          /* [nodes] of the shape handed out */
-  double *push, *pressed;      /* [N] explicit unilateral contact: N, N/m */
   double row_time, row_charge; /* of the last row before the present time, for the mean current */
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;

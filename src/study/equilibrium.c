@@ -73,7 +73,7 @@ static double opening(const Follower *f) {
 }
 
 static bool is_closed(const Follower *f) {
-  return opening(f) <= fmax(closed_part * f->hanging, f->rest.statics.contact.range);
+  return opening(f) <= fmax(closed_part * f->hanging, f->model->faces.depth);
 }
 
 static void record(Follower *f, int branch) {
@@ -285,7 +285,7 @@ static Voltages find(Follower *f) {
   v.no_release = "closed it is a short circuit";
   if (f->model->def.insulator.thickness == 0) return v;
   v.no_release = "it hangs closed";
-  if (f->hanging <= f->rest.statics.contact.range) return v;
+  if (f->hanging <= f->model->faces.depth) return v;
   v.no_release = "it is not closed at drive.voltage";
   if (!find_closed(f, &v)) return v;
   f->rest.system.save(&f->rest.statics, f->start);
