@@ -3,7 +3,7 @@
 
     scripts/run-manual.py [--check] ZIPACT      with --check, says whether the numbers are up to date
 
-In the console blocks of PAGES, what stands after "$ " (and "> ", where it goes on) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
+In the console blocks of PAGES, what stands after "$ " (and "> ", where it continues) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
 stands for what is left out. PICTURES are copied from the results.
 """
 

@@ -766,7 +766,7 @@ START_TEST(test_rests_where_statics_does) {
 }
 END_TEST
 
-/* Saved inside a zip, faces already touching, another simulation goes on from there: to the same bits. */
+/* Saved inside a zip, faces already touching, another simulation resumes from there, to the same bits. */
 START_TEST(test_restart) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   if (_i) def.electro.model = ZP_ELECTRO_FIELD;
