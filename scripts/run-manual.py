@@ -90,8 +90,12 @@ def main():
             old += [name] if new != text else []
             if not check:
                 (DOCS / name).write_text(new, encoding="utf-8")
-        if not check:
-            copy_pictures(pathlib.Path(scratch) / "out")
+        results = pathlib.Path(scratch) / "out"
+        missing = [source for source in PICTURES.values() if not (results / source).is_file()]
+        if not check and not missing:
+            copy_pictures(results)
+    if missing:
+        sys.exit("not drawn: %s" % ", ".join(missing))
     if check and old:
         sys.exit("out of date: %s: make docs" % ", ".join("docs/" + name for name in old))
     if check:
