@@ -146,7 +146,7 @@ START_TEST(test_fit_error) {
 }
 END_TEST
 
-/* The law's own derivatives, and that it goes on straight at both ends (through the plates law, below). */
+/* The law's own derivatives, and that it continues straight at both ends (through the plates law, below). */
 START_TEST(test_value_derivatives) {
   ZpEdgeParams p = study_params();
   ZpEdgeLaw law = law_of(&p, 0.1);

@@ -2,7 +2,7 @@
  * and what any answer must obey. */
 #include "check_util.h"
 
-#include "rest/statics.h"
+#include "rest/rest.h"
 
 #define MM(x) ((x)*1e-3)
 #define KV(x) ((x)*1e3)
@@ -29,32 +29,6 @@ static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name
 
 /* -- energy ---------------------------------------------------------------------------------------- */
 
-/* A model at rest, from inside. */
-typedef struct Rest {
-  ZpModel *model;
-  ZpStatics statics;
-  ZpNewtonWork work;
-  void *memory;
-} Rest;
-
-static void open_rest(const ZpActuatorDef *def, Rest *r) {
-  ck_assert_int_eq(zp_model_create(def, &r->model, NULL), ZP_OK);
-  ck_assert(zp_statics_create(r->model, &r->statics));
-  ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&r->work, r->statics.assembly.n, r->statics.assembly.bandwidth, r->statics.assembly.symmetric,
-                  &carver);
-  r->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){r->memory, 0};
-  zp_newton_carve(&r->work, r->statics.assembly.n, r->statics.assembly.bandwidth, r->statics.assembly.symmetric,
-                  &carver);
-}
-
-static void close_rest(Rest *r) {
-  zp_free(r->memory);
-  zp_statics_destroy(&r->statics);
-  zp_model_destroy(r->model);
-}
-
 static double contact_energy_at(const ZpFacesParams *p, double gap) {
   double s = fmax(-gap / p->depth, 0);
   return 0.25 * p->depth * p->push * s * s * s * s;
@@ -70,9 +44,9 @@ static double contact_energy(const ZpFacesParams *p, const double *gap) {
   return sum + p->flat_length * contact_energy_at(p, gap[p->nodes - 1]);
 }
 
-static double energy(Rest *r) {
-  const ZpModel *model = r->model;
+static double energy(ZpRest *r) {
   ZpStatics *s = &r->statics;
+  const ZpModel *model = s->model;
   double sum = zp_rod_stretching_energy(&model->rod, &s->eval.rod) + zp_rod_bending_energy(&model->rod, &s->eval.rod);
   for (size_t j = 0; j < model->count; j++)
     sum += model->weight[j] * s->q[model->stride + j];
@@ -80,19 +54,19 @@ static double energy(Rest *r) {
          contact_energy(&model->faces, s->eval.plates.gap);
 }
 
-static void raise_to(Rest *r, double voltage) {
+static void raise_to(ZpRest *r, double voltage) {
   ZpStaticSystem system = zp_statics_system(&r->statics);
   for (int k = 1; k <= 200; k++) {
     r->statics.U = voltage * k / 200;
-    ck_assert(zp_newton_good(zp_newton(&system, zp_statics_tolerance(&r->statics), 50, &r->work).end));
+    ck_assert(zp_newton_good(zp_newton(&system, zp_statics_tolerance(&r->statics), 50, &r->branch.newton).end));
   }
 }
 
 /* At the opening `to`, from near it. */
-static double energy_at(Rest *r, double to) {
+static double energy_at(ZpRest *r, double to) {
   ZpStaticSystem system = zp_statics_system(&r->statics);
   r->statics.opening = to;
-  ck_assert(zp_newton_good(zp_newton(&system, zp_statics_tolerance(&r->statics), 50, &r->work).end));
+  ck_assert(zp_newton_good(zp_newton(&system, zp_statics_tolerance(&r->statics), 50, &r->branch.newton).end));
   return energy(r);
 }
 
@@ -103,15 +77,17 @@ START_TEST(test_force_is_slope_of_energy) {
   const double s = separations[_i / 3], U = voltages[_i % 3], h = fmin(5e-7, 1e-3 * s);
   ZpActuatorDef def = held_def(s, fmax(U, 1), true, 61);
   def.load.mass = 0;
-  Rest r;
-  open_rest(&def, &r);
-  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, s, &r.work).end));
+  ZpModel *model = model_of(&def);
+  ZpRest r;
+  ck_assert(zp_rest_open(&r, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, s, &r.branch.newton).end));
   if (U > 0) raise_to(&r, U);
   double reaction = r.statics.reaction;
   double up = energy_at(&r, s + h), down = energy_at(&r, s - h), slope = (up - down) / (2 * h);
   printf("%g mm, %g kV: %.9g N, slope of the energy %+.1e off\n", 1e3 * s, 1e-3 * U, reaction, slope / reaction - 1);
   ck_near(slope, reaction, 1e-5);
-  close_rest(&r);
+  zp_rest_close(&r);
+  zp_model_destroy(model);
 }
 END_TEST
 
@@ -132,12 +108,14 @@ END_TEST
 START_TEST(test_holds_what_hangs_powered) {
   const double U = KV(4), weight = 9.81 * 8e-3;
   ZpActuatorDef hangs = DEF({"drive.voltage", U});
-  Rest r;
-  open_rest(&hangs, &r);
-  ck_assert(zp_newton_good(zp_statics_hang(&r.statics, &r.work).end));
-  ck_assert(zp_statics_raise(&r.statics, U, &r.work));
+  ZpModel *model = model_of(&hangs);
+  ZpRest r;
+  ck_assert(zp_rest_open(&r, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_statics_hang(&r.statics, &r.branch.newton).end));
+  ck_assert(zp_statics_raise(&r.statics, U, &r.branch.newton));
   ZpActuatorDef held = held_def(zp_statics_opening(&r.statics), U, true, 61);
-  close_rest(&r);
+  zp_rest_close(&r);
+  zp_model_destroy(model);
   ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &held);
   double sum = zp_result_get(result, "force_N") + zp_result_get(result, "force_unpowered_N");
   printf("8 g at 4 kV: %+.1e off the weight\n", sum / weight - 1);
@@ -366,13 +344,15 @@ END_TEST
 /* A state that cannot be is told from one that can. */
 START_TEST(test_impossible_states_are_told) {
   ZpActuatorDef def = held_def(MM(2), KV(1), true, 21);
-  Rest r;
-  open_rest(&def, &r);
-  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, MM(2), &r.work).end));
+  ZpModel *model = model_of(&def);
+  ZpRest r;
+  ck_assert(zp_rest_open(&r, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, MM(2), &r.branch.newton).end));
   ck_assert_ptr_null(zp_statics_fault(&r.statics));
   r.statics.eval.plates.gap[5] = -5e-6;
   ck_assert_str_eq(zp_statics_fault(&r.statics), "the insulators' faces overlap");
-  close_rest(&r);
+  zp_rest_close(&r);
+  zp_model_destroy(model);
 }
 END_TEST
 

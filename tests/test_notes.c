@@ -210,7 +210,7 @@ START_TEST(no_voltage_by_hand_on_bare_electrodes) {
   ZpRunInfo info;
   ck_assert_int_eq(zp_sim_run(sim, 0.1, false, NULL, &info), ZP_SHORT_CIRCUIT);
   ck_assert_msg(strstr(info.message, "touch at 60 V"), "%s", info.message);
-  ck_assert_int_eq(zp_sim_set_voltage(sim, 0, NULL), ZP_OK); /* it lets go, and the simulation goes on */
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 0, NULL), ZP_OK); /* it lets go, and the simulation continues */
   ck_assert_int_eq(zp_sim_run(sim, 0.2, false, NULL, &info), ZP_REACHED_END);
   zp_sim_destroy(sim);
   zp_model_destroy(model);

@@ -179,7 +179,7 @@ START_TEST(test_balance_of_every_combination) {
 END_TEST
 
 /* Charge, energy and capacitance of a solved field in motion, and at a voltage that another has just replaced, are
- * those of the shape solved alone: what is held goes on with the shape to second order. Without cap the actuator is a
+ * those of the shape solved alone: what is held follows the shape to second order. Without cap the actuator is a
  * capacitor. Measured: within 2.7e-6. */
 START_TEST(test_solved_field_in_motion) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, UNILATERAL, FIELD, {"electro.breakdown_cap", false},

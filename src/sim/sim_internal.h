@@ -38,7 +38,7 @@ struct ZpSim {
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
-/* Go on from the state as it has just been given: at the waveform's voltage of its time. */
+/* Resume from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 
 /* The last state so far that a longer run passes through, too; of sound numbers. */
