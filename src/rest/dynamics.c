@@ -55,7 +55,7 @@ static double internal_damping(const ZpDynamics *d) {
   return d->model->internal_damping / d->h;
 }
 
-/* => bending energy and what the source has given: an imbalance is small or large beside them. */
+/* => energies of bending and field: an imbalance is small or large beside them. */
 static double begin(void *self, const double *q0, const double *v0) {
   ZpDynamics *d = self;
   (void)v0;
@@ -67,7 +67,8 @@ static double begin(void *self, const double *q0, const double *v0) {
   if (model->field) zp_plates_gaps(&model->plates, d->start, d->start + model->stride, &d->plates0);
   double bending =
       model->is_rod ? zp_rod_bending_energy(&model->rod, &d->rod0) : zp_massspring_shear_energy(&d->shear, &d->shear0);
-  return bending + fabs(d->state->work);
+  double field = model->field ? zp_plates_totals(&model->plates, &d->plates0, d->U0).potential : 0;
+  return bending + fabs(field);
 }
 
 /* Shear springs of mass_spring: the mean of both ends, as they have no energy whose change it could be. */
