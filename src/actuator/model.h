@@ -38,7 +38,8 @@ struct ZpModel {
   ZpSection section;
   bool is_rod; /* mechanics: rod, else spring */
   ZpMassSpringParams spring;
-  ZpRodParams rod; /* of mass_spring its axial springs only */
+  ZpMassSpringParams shear; /* the same without axial springs */
+  ZpRodParams rod;          /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
   ZpFacesParams faces;     /* of unilateral contact */
   double internal_damping; /* s */
