@@ -21,14 +21,15 @@ MAY_INCLUDE = {
     "ribbon": ["math", "def", "base"],
     "electro": ["math", "def", "base"],
     "contact": ["math", "def", "base"],
+    "paper": ["electro", "math", "def", "base"],
     "drive": ["math", "def", "base"],
     "solve": ["math", "base"],  # knows no physics
-    "actuator": ["ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "term": ["actuator", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "system": ["term", "actuator", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "rest": ["system", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "sim": ["rest", "system", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
+    "actuator": ["ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "term": ["actuator", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "system": ["term", "actuator", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "rest": ["system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "sim": ["rest", "system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "io": ["base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
     "reproduce": ["fit", "io", "base"],
@@ -514,7 +515,7 @@ def self_test():
     assert not CORE_CALLS.search("snprintf(text); vsnprintf(t); reopen(x)")
     assert not CORE_CALLS.search("hooks->clock(user)") and CORE_CALLS.search("fprintf(stderr)") and CORE_CALLS.search("  exit (1)")
     assert ROUNDED_BY_LIBM.search("x = cbrt(y)") and not ROUNDED_BY_LIBM.search("sqrt(x) + zp_cos(y) + a.exp(z)")
-    assert not include_is_right("solve", '"', "ribbon/massspring.h")
+    assert not include_is_right("solve", '"', "paper/massspring.h")
     assert not include_is_right("contact", '"', "electro/plates.h")
     assert not include_is_right("math", "<", "zipact/sim.h")
     assert include_is_right("sim", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")

@@ -11,13 +11,13 @@
 #include <zipact/model.h>
 
 #include "contact/faces.h"
-#include "contact/zip.h"
 #include "drive/waveform.h"
 #include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/plates_step.h"
-#include "electro/surface.h"
-#include "ribbon/massspring.h"
+#include "paper/massspring.h"
+#include "paper/surface.h"
+#include "paper/zip.h"
 #include "ribbon/rod_step.h"
 #include "ribbon/section.h"
 
