@@ -55,7 +55,7 @@ const numberShown = (page) => page.waitForFunction(() => document.getElementById
 // -- links
 
 test('a hostile link leaves the page responsive, with a message (it blocked the main thread for minutes)', {timeout: 180e3}, async () => {
-  const cost = await longestTask(() => open('#load.mass=0&gravity=0&drive.voltage=1000kV&electro.breakdown_cap=false', async (page) => {
+  const cost = await longestTask(() => open('#load.mass=0&gravity=0&drive.voltage=1000kV&electro.breakdown_cap=false&insulator.thickness=1um', async (page) => {
     await alertShown(page);
     assert.match(await alert(page), /^(The solver failed: .+ Change something to go on|Stopped after .+)\.$/);
     await page.click('text=The paper’s');

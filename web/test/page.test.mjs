@@ -47,7 +47,7 @@ async function until(page, name, condition, what) {
   }
 }
 
-const failing = '#electro.breakdown_cap=false&drive.voltage=1000kV';
+const failing = '#electro.breakdown_cap=false&drive.voltage=1000kV&insulator.thickness=10um';
 const closed = (page) => until(page, 'contraction', (c) => c > 99, 'it closes');
 const native = (study, values) => JSON.parse(execFileSync(
   command, [study, ...[...values].flatMap(([key, text]) => ['--set', `${key}=${text}`]), '-o', folder, '--json', '--quiet'],
