@@ -22,7 +22,8 @@ static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewt
   return false;
 }
 
-ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work) {
+ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, double tolerance, int most,
+                              bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
   static const double at_first = 1e-6, least = 1e-14; /* of the stiffest: slow; below, nothing is changed by it */
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   ZpClosing closing;
@@ -32,6 +33,7 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
   for (; info.iterations < most; info.iterations++) {
     if (system->residual(system->self, work->r, &info.residual) != ZP_END_FOUND)
       return (ZpNewtonInfo){ZP_NEWTON_DIVERGED, info.iterations, INFINITY};
+    if (enough(user)) return (ZpNewtonInfo){ZP_NEWTON_CONVERGED, info.iterations, info.residual};
     bool close = zp_closing_done(&closing, info.residual, tolerance);
     if (info.iterations == 0) {
       system->stiffness(system->self, &work->K, NULL);
@@ -58,4 +60,13 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
   }
   info.end = ZP_NEWTON_SLOW;
   return info;
+}
+
+static bool never(void *user) {
+  (void)user;
+  return false;
+}
+
+ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work) {
+  return zp_descend_until(system, longest, tolerance, most, never, NULL, work);
 }

@@ -1,0 +1,166 @@
+/* Letters: q coordinates, m parameter, K = -dr/dq; n null vector, c the last guess of it, |c| = 1.
+ *   [K c; c' 0] [n; g] = [0; 1],   so  n = x / (c' x),  g = -1 / (c' x)  with  K x = c,  and  g = 0  at a limit point
+ *   dq = a + b dm,  K a = r,  K b = dr/dm,   g + (dg/da) + (dg/db) dm = 0
+ * A derivative of g along d is  -c' K^-1 (dK/dd n) / (c' x),  and dK/dd n a difference: eq. (10.3) to (10.5). */
+#include "solve/fold.h"
+
+#include <math.h>
+#include <string.h>
+
+void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
+                   ZpCarver *carver) {
+  size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
+  f->system = system;
+  f->newton = newton;
+  zp_band_carve(&f->beside, n, symmetric ? 0 : bandwidth, bandwidth, carver);
+  double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at};
+  for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+    *vectors[k] = zp_carve(carver, n);
+  f->saved = zp_carve(carver, saved);
+}
+
+static double dot(size_t n, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/* Forces and factored stiffness at the present point; => dr/dm over the stiffness in `along`. */
+static bool linearise(ZpFold *f) {
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  ZpBand *K = &f->newton->K;
+  if (rest->residual(rest->self, f->newton->r, NULL) != ZP_END_FOUND) return false;
+  rest->stiffness(rest->self, K, NULL);
+  f->system->sensitivity(rest->self, f->along);
+  if (!zp_band_factor(K)) return false;
+  f->negative = zp_band_negative(K);
+  zp_band_solve(K, f->along);
+  return true;
+}
+
+bool zp_fold_tangent(ZpFold *f) {
+  return linearise(f);
+}
+
+/* -- the test function ----------------------------------------------------------------------------- */
+
+/* => g, x; the negative eigenvalues of what is across c. */
+static void test(ZpFold *f) {
+  size_t n = f->system->at_rest.n;
+  memcpy(f->x, f->null, n * sizeof *f->x);
+  zp_band_solve(&f->newton->K, f->x);
+  double cx = dot(n, f->null, f->x);
+  f->test = -1 / cx;
+  f->negative += cx > 0; /* of the bordered matrix, one of which is the border's */
+  f->negative--;
+}
+
+/* The stiffness at `h` (d, dm) from the present point, times x => y. The present point stays. */
+static void beside(ZpFold *f, const double *d, double dm, double h, double *y) {
+  const ZpBranchSystem *sys = f->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  sys->save(rest->self, f->saved);
+  rest->move(rest->self, d, h);
+  sys->set(rest->self, sys->get(rest->self) + h * dm);
+  rest->residual(rest->self, y, NULL);
+  rest->stiffness(rest->self, &f->beside, NULL);
+  zp_band_multiply(&f->beside, f->x, y);
+  sys->restore(rest->self, f->saved);
+  rest->residual(rest->self, f->b, NULL); /* a move turns the edges of the last residual */
+}
+
+/* Derivative of g along (d, dm), by a central difference: its even part is that of edges which turn, a million times
+ * stiffer than what bends. */
+static double change_of_test(ZpFold *f, const double *d, double dm) {
+  static const double small = 1e-4; /* of what linearisation stands */
+  const ZpBranchSystem *sys = f->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  size_t n = rest->n;
+  double size = rest->length(rest->self, d) + fabs(dm) / sys->m_scale, h = small / size, *y = f->newton->r;
+  if (!(size > 0)) return 0;
+  beside(f, d, dm, h, y);
+  beside(f, d, dm, -h, f->at);
+  for (size_t i = 0; i < n; i++)
+    y[i] = (y[i] - f->at[i]) / (2 * h);
+  bool symmetric = f->beside.lower == 0;
+  if (!symmetric) zp_band_solve(&f->newton->K, y);
+  double through = dot(n, symmetric ? f->x : f->null, y);
+  return -through * f->test * f->test;
+}
+
+/* -- solutions ------------------------------------------------------------------------------------- */
+
+enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20 };
+
+/* Move by a + along dm, or a part of it. => has it become so small that the next step is below any tolerance? */
+static bool step(ZpFold *f, double dm) {
+  static const double small = 2e-3, small_m = 1e-5; /* their squares are below what is asked for */
+  const ZpBranchSystem *sys = f->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  for (size_t i = 0; i < rest->n; i++)
+    f->b[i] = f->a[i] + f->along[i] * dm;
+  double length = rest->length(rest->self, f->b), part = length > 1 ? 1 / length : 1;
+  rest->move(rest->self, f->b, part);
+  sys->set(rest->self, sys->get(rest->self) + part * dm);
+  f->iterations++;
+  return length < small && fabs(dm) < small_m * fabs(sys->get(rest->self));
+}
+
+static double *balance(ZpFold *f) {
+  memcpy(f->a, f->newton->r, f->system->at_rest.n * sizeof *f->a);
+  zp_band_solve(&f->newton->K, f->a);
+  return f->a;
+}
+
+/* One Newton step to the limit point. */
+static bool step_to_fold(ZpFold *f, bool *small) {
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  size_t n = rest->n;
+  if (!linearise(f)) return false;
+  balance(f);
+  test(f);
+  double by_a = change_of_test(f, f->a, 0), by_m = change_of_test(f, f->along, 1);
+  double length = sqrt(dot(n, f->x, f->x));
+  for (size_t i = 0; i < n; i++)
+    f->null[i] = f->x[i] / length;
+  double dm = -(f->test + by_a) / by_m;
+  if (!isfinite(dm)) return false;
+  *small = step(f, dm);
+  return true;
+}
+
+static bool step_to_event(ZpFold *f, ZpEvent event, double wanted, bool *small) {
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  if (!linearise(f)) return false;
+  balance(f);
+  double off = event(rest->self, f->x) - wanted;
+  double dm = -(off + dot(rest->n, f->x, f->a)) / dot(rest->n, f->x, f->along);
+  if (!isfinite(dm)) return false;
+  *small = step(f, dm);
+  return true;
+}
+
+static bool solve(ZpFold *f, ZpEvent event, double wanted) {
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  int refreshes = 0;
+  f->iterations = 0;
+  for (int k = 0; k < MOST_ITERATIONS; k++) {
+    bool small;
+    if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;
+    if (!(event ? step_to_event(f, event, wanted, &small) : step_to_fold(f, &small))) return false;
+    if (!small) continue;
+    if (!rest->refresh || k == 0) return true;
+    if (refreshes++ == MOST_REFRESHES) return false;
+    k = -1;
+  }
+  return false;
+}
+
+bool zp_fold_solve(ZpFold *f) {
+  return solve(f, NULL, 0);
+}
+
+bool zp_fold_event(ZpFold *f, ZpEvent event, double value) {
+  return solve(f, event, value);
+}
