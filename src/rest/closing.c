@@ -80,10 +80,13 @@ static bool is_decided(void *user) {
 }
 
 bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, ZpNewtonWork *work) {
-  static const double longest = 0.1; /* 50 mrad */
-  enum { MOST = 5000 };
+  static const double shortest = 1e-3, longest = 0.1; /* 0.5 and 50 mrad */
+  enum { FIRST = 40, MOST = 5000 };
   ZpStaticSystem system = zp_statics_system(s);
   Fall fall = {s, limit, was_closed};
-  ZpNewtonInfo info = zp_descend_until(&system, longest, zp_statics_tolerance(s), MOST, is_decided, &fall, work);
+  double tolerance = zp_statics_tolerance(s);
+  ZpNewtonInfo info = zp_descend_until(&system, shortest, tolerance, FIRST, is_decided, &fall, work);
+  if (info.end == ZP_NEWTON_SLOW)
+    info = zp_descend_until(&system, longest, tolerance, MOST, is_decided, &fall, work);
   return zp_newton_good(info.end);
 }

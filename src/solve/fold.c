@@ -113,12 +113,15 @@ static double *balance(ZpFold *f) {
   return f->a;
 }
 
-/* One Newton step to the limit point. */
+/* One Newton step to the limit point. The last one is where the test function falls to 0, not where the stiffness along
+ * the null vector is least, close to 0. */
 static bool step_to_fold(ZpFold *f, bool *small) {
+  static const double falls = 0.1;
   const ZpStaticSystem *rest = &f->system->at_rest;
   size_t n = rest->n;
   if (!linearise(f)) return false;
   balance(f);
+  double before = f->test;
   test(f);
   double by_a = change_of_test(f, f->a, 0), by_m = change_of_test(f, f->along, 1);
   double length = sqrt(dot(n, f->x, f->x));
@@ -126,7 +129,7 @@ static bool step_to_fold(ZpFold *f, bool *small) {
     f->null[i] = f->x[i] / length;
   double dm = -(f->test + by_a) / by_m;
   if (!isfinite(dm)) return false;
-  *small = step(f, dm);
+  *small = step(f, dm) && fabs(f->test) < falls * fabs(before);
   return true;
 }
 
@@ -145,6 +148,7 @@ static bool solve(ZpFold *f, ZpEvent event, double wanted) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   int refreshes = 0;
   f->iterations = 0;
+  f->test = 0;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     bool small;
     if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;

@@ -152,20 +152,21 @@ typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
 
 /* One step along the value of the event, which changes to `value`. */
 static Step step_along_value(ZpMarch *m, double sign, double value) {
+  static const double off = 0.25; /* of what m has changed by: more, and it has turned twice on the way */
   double far = (value - m->value) / m->slope;
   if (!predict(m, far, far) || !solve_at(m, value)) return STEP_TOO_LONG;
   double gone = parameter(m) - m->m, half = 0.5 * (value - m->value);
   if (m->fold.negative > 0 || sign * gone < 0) return solve_between(m, sign, value) ? STEP_FOLD : STEP_TOO_LONG;
   if (!is_stable(m)) return STEP_TOO_LONG;
   m->event(m->fold.system->at_rest.self, m->guess);
-  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
-  if (!agrees(m, half / m->slope, half / slope)) return STEP_TOO_LONG;
+  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
+  if (fabs(gone - from - to) > off * fabs(gone) || !agrees(m, from, to)) return STEP_TOO_LONG;
   return value == m->limit ? STEP_EVENT : STEP_GOOD;
 }
 
 /* The value that a step along it goes to: `part` of a factor of 3, not past the limit. */
 static double next_value(const ZpMarch *m, double sign, double part) {
-  static const double turn = 0.1;
+  static const double turn = 0.05;
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   double towards = sign * m->slope > 0 ? 1 : -1, longest = turn / rest->length(rest->self, m->before) * fabs(m->slope);
   double change = fmin((towards > 0 ? 2 : 2.0 / 3) * scale(m) * part, longest), left = towards * (m->limit - m->value);
@@ -174,11 +175,11 @@ static double next_value(const ZpMarch *m, double sign, double part) {
 
 /* -- the way --------------------------------------------------------------------------------------- */
 
-/* A step along m as long as it may be. */
-static double longest_step(ZpMarch *m, double target) {
+/* A step along m as long as it may be; what it turns by has `grown` while steps were good. */
+static double longest_step(ZpMarch *m, double target, double grown) {
   static const double part = 0.7, turn = 0.03, most = 0.75; /* of the way; of what linearisation stands; towards 0 */
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
-  double left = fabs(target - m->m), h = fmin(left, turn / rest->length(rest->self, m->before));
+  double left = fabs(target - m->m), h = fmin(left, grown * turn / rest->length(rest->self, m->before));
   bool to_zero = fabs(target) < most * fabs(m->m) && left > 1e-4 * m->fold.system->m_scale;
   if (to_zero) h = fmin(h, most * left);
   return fmin(h, part * m->to_fold);
@@ -199,23 +200,24 @@ static bool is_past(const ZpMarch *m, double before) {
 static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
   static const double close = 0.35; /* of m at the limit point */
   double left = sign * (target - m->m);
-  if (part == 1 && m->to_fold < close * fabs(m->m) && m->to_fold < 1.5 * left) {
+  if (part >= 1 && m->to_fold < close * fabs(m->m) && m->to_fold < 1.5 * left) {
     if (try_fold(m, sign, m->to_fold) && sign * (target - parameter(m)) > 0) return STEP_FOLD;
     go_back(m);
   }
-  double h = part * longest_step(m, target);
+  double h = fmin(part, 1) * longest_step(m, target, fmax(part, 1));
   return try_step(m, sign * h, sign * way_of(m, h)) && !is_past(m, m->value) ? STEP_GOOD : STEP_TOO_LONG;
 }
 
 ZpMarchEnd zp_march(ZpMarch *m, double target) {
   enum { MOST = 60 };
+  static const double longest = 8;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
   m->steps = m->solves = 0;
   if (!is_stable(m)) return ZP_MARCH_LOST;
   keep(m, true);
   for (int k = 0; k < MOST && part > 1e-4; k++) {
     if (sign * (target - m->m) <= 0) return ZP_MARCH_ARRIVED;
-    Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, part)) : step_along_m(m, sign, target, part);
+    Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1))) : step_along_m(m, sign, target, part);
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);
@@ -225,7 +227,7 @@ ZpMarchEnd zp_march(ZpMarch *m, double target) {
     if (step == STEP_EVENT) return ZP_MARCH_EVENT;
     if (step == STEP_GOOD) keep(m, false);
     if (step == STEP_TOO_LONG) go_back(m);
-    part = step == STEP_GOOD ? fmin(1, 2 * part) : 0.4 * part;
+    part = step == STEP_GOOD ? fmin(2 * part, longest) : 0.4 * fmin(part, 1);
   }
   go_back(m);
   return ZP_MARCH_LOST;

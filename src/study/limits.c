@@ -109,7 +109,7 @@ static void lost(Finder *f, ZpLimitKind kind, const char *reason) {
 
 /* Fall from the limit point that the march ended at to what is beyond it. */
 static bool fall(Finder *f, double sign) {
-  static const double beyond = 1e-3;
+  static const double beyond = 1e-4;
   const ZpBranchSystem *sys = f->march.fold.system;
   bool was_closed = is_closed(f);
   sys->set(&f->rest.statics, changed(f, parameter(f), sign * beyond));
