@@ -209,14 +209,14 @@ static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
 }
 
 ZpMarchEnd zp_march(ZpMarch *m, double target) {
-  enum { MOST = 60 };
-  static const double longest = 8;
+  enum { MOST = 200 };
+  static const double longest = 8, rounding = 1e-14;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
   m->steps = m->solves = 0;
   if (!is_stable(m)) return ZP_MARCH_LOST;
   keep(m, true);
   for (int k = 0; k < MOST && part > 1e-4; k++) {
-    if (sign * (target - m->m) <= 0) return ZP_MARCH_ARRIVED;
+    if (sign * (target - m->m) <= rounding * fabs(target)) return ZP_MARCH_ARRIVED;
     Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1))) : step_along_m(m, sign, target, part);
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "rest/closing.h"
 #include "rest/rest.h"
 #include "study/notes.h"
 #include "study/studies.h"
@@ -26,12 +27,8 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000 };
 
-/* Two neighbouring limit points closer than this, relative, are a ripple of the mesh: the front passing a node
- * of an unstable branch. Measured at N = 61 without breakdown cap, where it is largest: 0.35 %. */
-static const double ripple = 5e-3;
-
-/* Closed: the faces that close last are within this part of where they hang without voltage, or in touch. */
-static const double closed_part = 0.01;
+/* Hanging: the faces that close last are within this part of where they hang without voltage. */
+static const double hanging_part = 0.01;
 
 /* The voltages asked for; NAN: there is none, and `no_release` says why. */
 typedef struct Voltages {
@@ -44,11 +41,13 @@ typedef struct Follower {
   const ZpHooks *hooks;
   ZpResult *result;
   ZpRest rest;
+  ZpFold fold;   /* a limit point or event that was passed, solved as such */
   double *limit; /* [MOST_POINTS] voltages at the limit points of the branch under way */
   int limits, points;
   double shorted;  /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
   void *start;     /* of the branch under way */
   void *before;    /* the point before the last step */
+  void *here;      /* the present point, while a limit point is solved for */
   double hanging;  /* distance of the faces that close last, without voltage, m */
   double end;      /* voltage at which the way under way ends, V */
   bool growing;    /* towards it */
@@ -60,20 +59,20 @@ typedef struct Follower {
 
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
+  const ZpAssembly *a = &f->rest.statics.assembly;
   f->limit = zp_carve(carver, MOST_POINTS);
+  zp_fold_carve(&f->fold, &f->rest.system, a->bandwidth, a->symmetric, &f->rest.branch.newton, carver);
+  f->here = zp_carve(carver, zp_rest_save_size(&f->rest));
   f->start = zp_carve(carver, zp_rest_save_size(&f->rest));
   f->before = zp_carve(carver, zp_rest_save_size(&f->rest));
 }
 
-/* Distance of the faces that close last: at the platform or the right end, between two clamps in the middle. */
-static double opening(const Follower *f) {
-  bool clamped = f->model->flat && f->model->def.actuator.right_end == ZP_END_CLAMPED;
-  size_t last = f->model->nodes - 1;
-  return f->rest.statics.eval.plates.gap[clamped ? last / 2 : last];
+static double opening(Follower *f) {
+  return zp_closing_gap(&f->rest.statics, NULL);
 }
 
-static bool is_closed(const Follower *f) {
-  return opening(f) <= fmax(closed_part * f->hanging, f->rest.statics.contact.range);
+static bool is_closed(Follower *f) {
+  return opening(f) <= zp_closing_limit(&f->rest.statics, f->hanging);
 }
 
 static void record(Follower *f, int branch) {
@@ -108,6 +107,23 @@ static void note_limit(Follower *f, double voltage) {
   f->limit[f->limits++] = voltage;
 }
 
+/* The voltage of the limit point, or of the event that the actuator closes or opens, which the last step passed: solved
+ * as such from the present point, or, where that leads elsewhere, `near`, which stepping towards it has found. */
+static double exactly(Follower *f, double near, bool turned) {
+  static const double same = 1e-4;
+  const ZpBranchSystem *sys = &f->rest.system;
+  ZpStatics *s = &f->rest.statics;
+  sys->save(s, f->here);
+  s->U = near;
+  memcpy(f->fold.null, f->rest.branch.direction, s->assembly.n * sizeof *f->fold.null);
+  bool found = turned ? zp_fold_solve(&f->fold)
+                      : zp_fold_event(&f->fold, zp_closing_gap, zp_closing_limit(s, f->hanging));
+  double voltage = s->U;
+  sys->restore(s, f->here);
+  sys->at_rest.residual(s, f->rest.branch.newton.r, NULL);
+  return found && f->fold.negative == 0 && fabs(voltage - near) <= same * fabs(near) ? voltage : near;
+}
+
 /* Take out ripples, the smallest first, so that what is left are the turns of the branch itself. */
 static void smooth_limits(Follower *f) {
   for (;;) {
@@ -120,7 +136,7 @@ static void smooth_limits(Follower *f) {
         least = i;
       }
     }
-    if (height > ripple) return;
+    if (height > ZP_FOLD_RIPPLE) return;
     for (int i = least; i + 2 < f->limits; i++)
       f->limit[i] = f->limit[i + 2];
     f->limits -= 2;
@@ -143,8 +159,8 @@ static bool arrive(Follower *f, bool growing, double voltage) {
 /* -- branches ------------------------------------------------------------------------------------- */
 
 /* Without voltage there is the hanging state only: has the branch come back to it? */
-static bool is_hanging(const Follower *f) {
-  return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < closed_part;
+static bool is_hanging(Follower *f) {
+  return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < hanging_part;
 }
 
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
@@ -157,7 +173,7 @@ static bool follow(Follower *f, bool growing, int mark) {
   double direction = f->rest.branch.direction_m;
   for (int k = 0; k < MOST_POINTS; k++) {
     if (!zp_branch_advance(&f->rest.branch)) return false;
-    if (f->rest.branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->rest.branch));
+    if (f->rest.branch.direction_m * direction < 0) note_limit(f, exactly(f, zp_branch_limit(&f->rest.branch), true));
     direction = f->rest.branch.direction_m;
     if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
     if (f->rest.statics.U < 0) return !f->ran_back;
@@ -190,7 +206,7 @@ static void follow_whole(Follower *f, bool growing, int mark) {
 typedef enum Slow { ARRIVED, CHANGED, LOST, STOPPED } Slow;
 
 static bool has_changed(void *user) {
-  const Follower *f = user;
+  Follower *f = user;
   return is_closed(f) != f->was_closed;
 }
 
@@ -211,7 +227,8 @@ static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
     f->rest.system.save(&f->rest.statics, f->before);
     if (!zp_branch_advance(&f->rest.branch)) return LOST;
     bool turned = growing ? f->rest.branch.direction_m < 0 : f->rest.branch.direction_m > 0;
-    *at = turned || has_changed(f) ? zp_branch_where(&f->rest.branch, has_changed, f) : f->rest.statics.U;
+    bool passed = turned || has_changed(f);
+    *at = passed ? exactly(f, zp_branch_where(&f->rest.branch, has_changed, f), turned) : f->rest.statics.U;
     if (growing ? *at >= end : *at <= end) return arrive(f, growing, end) ? ARRIVED : LOST;
     if (turned && !fall(f, growing, *at)) return LOST;
     f->jumped = turned;
@@ -285,7 +302,7 @@ static Voltages find(Follower *f) {
   v.no_release = "closed it is a short circuit";
   if (f->model->def.insulator.thickness == 0) return v;
   v.no_release = "it hangs closed";
-  if (f->hanging <= f->rest.statics.contact.range) return v;
+  if (f->hanging <= zp_closing_limit(&f->rest.statics, 0)) return v;
   v.no_release = "it is not closed at drive.voltage";
   if (!find_closed(f, &v)) return v;
   f->rest.system.save(&f->rest.statics, f->start);
@@ -313,6 +330,8 @@ static void describe(Follower *f, const Voltages *v) {
     snprintf(pull_in, sizeof pull_in, "pulls in at %.4g V", v->pull_in);
   else if (!isnan(f->shorted))
     snprintf(pull_in, sizeof pull_in, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
+  else if (!isnan(v->closing))
+    snprintf(pull_in, sizeof pull_in, "no pull-in: closes gradually at %.4g V", v->closing);
   else
     snprintf(pull_in, sizeof pull_in, "no pull-in up to %g V", f->model->def.drive.voltage);
   if (!isnan(v->release))
