@@ -73,7 +73,7 @@ static void beside(ZpFold *f, const double *d, double dm, double h, double *y) {
 /* Derivative of g along (d, dm), by a central difference: its even part is that of edges which turn, a million times
  * stiffer than what bends. */
 static double change_of_test(ZpFold *f, const double *d, double dm) {
-  static const double small = 1e-4; /* of what linearisation stands */
+  static const double small = 2e-6; /* of what linearisation stands: 1 urad, far below the range of contact */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
@@ -116,7 +116,7 @@ static double *balance(ZpFold *f) {
 /* One Newton step to the limit point. The last one is where the test function falls to 0, not where the stiffness along
  * the null vector is least, close to 0. */
 static bool step_to_fold(ZpFold *f, bool *small) {
-  static const double falls = 0.1;
+  static const double falls = 0.3;
   const ZpStaticSystem *rest = &f->system->at_rest;
   size_t n = rest->n;
   if (!linearise(f)) return false;
