@@ -68,22 +68,23 @@ ZpBranchSystem zp_closing_by_square(ZpStatics *s) {
 typedef struct Fall {
   ZpStatics *statics;
   double limit;
-  bool was_closed;
+  bool was_closed, to_rest;
 } Fall;
 
 /* Opened it is once it is clear of the limit. */
 static bool is_decided(void *user) {
   static const double clear = 10;
   const Fall *fall = user;
+  if (fall->to_rest) return false;
   double gap = zp_closing_gap(fall->statics, NULL);
   return fall->was_closed ? gap > clear * fall->limit : gap <= fall->limit;
 }
 
-bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, ZpNewtonWork *work) {
-  static const double shortest = 1e-3, longest = 0.1; /* 0.5 and 50 mrad */
+bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work) {
+  static const double shortest = 1e-3, longest = 0.1; /* 0.5 mrad, so as not to step over a state that is near; 50 mrad */
   enum { FIRST = 40, MOST = 5000 };
   ZpStaticSystem system = zp_statics_system(s);
-  Fall fall = {s, limit, was_closed};
+  Fall fall = {s, limit, was_closed, to_rest};
   double tolerance = zp_statics_tolerance(s);
   ZpNewtonInfo info = zp_descend_until(&system, shortest, tolerance, FIRST, is_decided, &fall, work);
   if (info.end == ZP_NEWTON_SLOW)

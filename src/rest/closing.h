@@ -17,8 +17,11 @@ double zp_closing_limit(const ZpStatics *statics, double hanging);
  * first. */
 ZpBranchSystem zp_closing_by_square(ZpStatics *statics);
 
-/* From near a limit point, with voltage and load beyond it, to where slow motion ends; or only so far that it is clear
- * whether it closes (opens, if it was closed). False if no end was found. */
-bool zp_closing_fall(ZpStatics *statics, double limit, bool was_closed, ZpNewtonWork *work);
+/* So far beyond a limit point, relative, it falls: a ripple of the mesh that is higher by more is still met. */
+#define ZP_CLOSING_BEYOND 1e-4
+
+/* From a limit point, with voltage or load beyond it, to the state in which slow motion against a resistance ends, or
+ * (to_rest false) only until it is clear whether it closes, or, if it was closed, opens. False if no end was found. */
+bool zp_closing_fall(ZpStatics *statics, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work);
 
 #endif

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+static const double little = 5e-3; /* of the scale of q: what is too little to matter */
+
 void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
                     ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
@@ -39,6 +41,7 @@ static void keep(ZpMarch *m, bool first) {
   const ZpStaticSystem *rest = &sys->at_rest;
   double flat = 1 / dot(rest->n, m->fold.along, m->fold.along), gone = fabs(parameter(m) - m->m);
   m->to_fold = !first && flat < m->flat ? gone * flat / (m->flat - flat) : (double)INFINITY;
+  if (2 * m->to_fold < little * sys->q_scale * sqrt(flat)) m->to_fold = INFINITY; /* what moves that little is at rest */
   m->flat = flat;
   m->m = parameter(m);
   memcpy(m->before, m->fold.along, rest->n * sizeof *m->before);
@@ -71,7 +74,7 @@ static bool predict(ZpMarch *m, double way, double dm) {
 /* Is the present point, which the branch must have come to from the last good one, where its tangents lead: `from` times
  * that of the last good point and `to` times its own? A jump to another branch is not. */
 static bool agrees(ZpMarch *m, double from, double to) {
-  static const double part = 0.25, least = 5e-3; /* of what moved; of the scale of q: what is too little to matter */
+  static const double part = 0.25; /* of what moved */
   const ZpBranchSystem *sys = m->fold.system;
   size_t n = sys->at_rest.n;
   double off = 0, all = 0;
@@ -81,7 +84,7 @@ static bool agrees(ZpMarch *m, double from, double to) {
     all += moved * moved;
     off += left * left;
   }
-  return sqrt(off) <= fmax(part * sqrt(all), least * sys->q_scale);
+  return sqrt(off) <= fmax(part * sqrt(all), little * sys->q_scale);
 }
 
 /* -- what may be ahead ------------------------------------------------------------------------------ */
@@ -205,7 +208,10 @@ static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
     go_back(m);
   }
   double h = fmin(part, 1) * longest_step(m, target, fmax(part, 1));
-  return try_step(m, sign * h, sign * way_of(m, h)) && !is_past(m, m->value) ? STEP_GOOD : STEP_TOO_LONG;
+  if (!try_step(m, sign * h, sign * way_of(m, h))) return STEP_TOO_LONG;
+  if (!is_past(m, m->value)) return STEP_GOOD;
+  go_back(m);
+  return step_along_value(m, sign, m->limit);
 }
 
 ZpMarchEnd zp_march(ZpMarch *m, double target) {

@@ -212,11 +212,11 @@ static bool has_changed(void *user) {
 
 /* Fall from near a limit point at `voltage` to what is beyond it; the branch goes on from there. */
 static bool fall(Follower *f, bool growing, double voltage) {
-  static const double beyond = 1e-3;
-  f->rest.system.restore(&f->rest.statics, f->before);
-  ZpNewtonInfo info =
-      zp_statics_fall(&f->rest.statics, voltage * (growing ? 1 + beyond : 1 - beyond), &f->rest.branch.newton);
-  return zp_newton_good(info.end) && zp_rest_follow(&f->rest, growing);
+  ZpStatics *s = &f->rest.statics;
+  f->rest.system.restore(s, f->before);
+  s->U = voltage * (growing ? 1 + ZP_CLOSING_BEYOND : 1 - ZP_CLOSING_BEYOND);
+  double limit = zp_closing_limit(s, f->hanging);
+  return zp_closing_fall(s, limit, f->was_closed, true, &f->rest.branch.newton) && zp_rest_follow(&f->rest, growing);
 }
 
 /* Go on along a stable branch: change the voltage slowly to `end`, or until the actuator closes or opens. => *at: the

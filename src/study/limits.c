@@ -109,20 +109,22 @@ static void lost(Finder *f, ZpLimitKind kind, const char *reason) {
 
 /* Fall from the limit point that the march ended at to what is beyond it. */
 static bool fall(Finder *f, double sign) {
-  static const double beyond = 1e-4;
   const ZpBranchSystem *sys = f->march.fold.system;
   bool was_closed = is_closed(f);
-  sys->set(&f->rest.statics, changed(f, parameter(f), sign * beyond));
-  return zp_closing_fall(&f->rest.statics, f->closed, was_closed, &f->rest.branch.newton);
+  sys->set(&f->rest.statics, changed(f, parameter(f), sign * ZP_CLOSING_BEYOND));
+  return zp_closing_fall(&f->rest.statics, f->closed, was_closed, false, &f->rest.branch.newton);
 }
 
-/* Does the branch that the state fell to from the limit point at m end so close below it that both are a ripple of the
- * mesh? */
-static bool is_ripple(Finder *f, double m, double sign) {
-  f->square.save(&f->rest.statics, f->held);
+/* Does the branch that the state fell to, from the limit point at m and `gap`, end so close below it that both are a
+ * ripple of the mesh? Down there it may come back to where it was before the limit point without noticing. */
+static bool is_ripple(Finder *f, double m, double gap, double sign) {
+  ZpStatics *s = &f->rest.statics;
+  double fallen = zp_closing_gap(s, NULL) - gap;
+  f->square.save(s, f->held);
   ZpEvent event = f->march.event;
   f->march.event = NULL;
-  bool ripple = zp_march(&f->march, changed(f, m, -sign * ZP_FOLD_RIPPLE)) != ZP_MARCH_ARRIVED;
+  ZpMarchEnd end = zp_march(&f->march, changed(f, m, -sign * ZP_FOLD_RIPPLE));
+  bool ripple = end != ZP_MARCH_ARRIVED || (zp_closing_gap(s, NULL) - gap) * fallen < 0;
   f->march.event = event;
   go_to(f, f->held);
   return ripple;
@@ -141,12 +143,12 @@ static Slow change_slowly(Finder *f, double target, ZpLimitKind kind, ZpLimitKin
     ZpMarchEnd end = zp_march(&f->march, target);
     if (end == ZP_MARCH_ARRIVED) return ARRIVED;
     if (end == ZP_MARCH_LOST) return LOST;
-    double m = parameter(f);
+    double m = parameter(f), gap = zp_closing_gap(&f->rest.statics, NULL);
     note(f, kind, end);
     if (end == ZP_MARCH_EVENT) return CHANGED;
     bool found = fall(f, sign), jumped = is_closed(f) != was_closed;
     bool is_first = first != kind && f->limits->limit[first].end == ZP_MARCH_ARRIVED;
-    if (is_first && (!found || jumped || !is_ripple(f, m, sign))) {
+    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) {
       ZpLimit *from = &f->limits->limit[kind], *to = &f->limits->limit[first];
       memcpy(to->state, from->state, f->square.save_size);
       memcpy(to->null, from->null, f->rest.statics.assembly.n * sizeof *to->null);
