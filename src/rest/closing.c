@@ -82,7 +82,7 @@ static bool is_decided(void *user) {
 
 bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work) {
   static const double shortest = 1e-3, longest = 0.1; /* 0.5 mrad, so as not to step over a state that is near; 50 mrad */
-  enum { FIRST = 40, MOST = 5000 };
+  enum { FIRST = 80, MOST = 5000 };
   ZpStaticSystem system = zp_statics_system(s);
   Fall fall = {s, limit, was_closed, to_rest};
   double tolerance = zp_statics_tolerance(s);

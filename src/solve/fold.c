@@ -43,6 +43,13 @@ bool zp_fold_tangent(ZpFold *f) {
   return linearise(f);
 }
 
+void zp_fold_guess(ZpFold *f) {
+  size_t n = f->system->at_rest.n;
+  double length = sqrt(dot(n, f->along, f->along));
+  for (size_t i = 0; i < n; i++)
+    f->null[i] = f->along[i] / length;
+}
+
 /* -- the test function ----------------------------------------------------------------------------- */
 
 /* => g, x; the negative eigenvalues of what is across c. */
@@ -93,9 +100,10 @@ static double change_of_test(ZpFold *f, const double *d, double dm) {
 
 enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20 };
 
-/* Move by a + along dm, or a part of it. => has it become so small that the next step is below any tolerance? */
+/* Move by a + along dm, or a part of it. => is what the next step would change, as the last two foretell, below what is
+ * asked for? */
 static bool step(ZpFold *f, double dm) {
-  static const double small = 2e-3, small_m = 1e-5; /* their squares are below what is asked for */
+  static const double small = 1e-9, short_step = 5e-3; /* of m; of what linearisation stands: m goes with its square */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   for (size_t i = 0; i < rest->n; i++)
@@ -104,7 +112,9 @@ static bool step(ZpFold *f, double dm) {
   rest->move(rest->self, f->b, part);
   sys->set(rest->self, sys->get(rest->self) + part * dm);
   f->iterations++;
-  return length < small && fabs(dm) < small_m * fabs(sys->get(rest->self));
+  double rate = isinf(f->change) ? 1 : fmin(fabs(dm) / f->change, 1);
+  f->change = fabs(dm);
+  return length < short_step && f->change * rate < small * fabs(sys->get(rest->self));
 }
 
 static double *balance(ZpFold *f) {
@@ -149,6 +159,7 @@ static bool solve(ZpFold *f, ZpEvent event, double wanted) {
   int refreshes = 0;
   f->iterations = 0;
   f->test = 0;
+  f->change = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     bool small;
     if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;

@@ -21,6 +21,7 @@ typedef struct ZpFold {
   double *a, *b, *x, *at; /* [n] */
   double test;          /* 0 at a limit point: the stiffness along the null vector */
   size_t negative;      /* eigenvalues below 0 of the stiffness; at a limit point of what is across the null vector */
+  double change;        /* of m in its last step */
   int iterations;       /* of the last solution */
   void *saved;
 } ZpFold;
@@ -34,6 +35,9 @@ void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, size_t bandwidth,
 
 /* dq/dm at the present equilibrium => along, negative. False if the stiffness is singular. */
 bool zp_fold_tangent(ZpFold *fold);
+
+/* A guess of the null vector near a limit point: the direction of `along`. */
+void zp_fold_guess(ZpFold *fold);
 
 /* From the present point, which is near, to the limit point, from `null`, near its null vector. False if there is none
  * near; the present point is then anywhere. */

@@ -87,16 +87,23 @@ static bool agrees(ZpMarch *m, double from, double to) {
   return sqrt(off) <= fmax(part * sqrt(all), little * sys->q_scale);
 }
 
+/* Does the value of the event change as its slopes at both ends say? It tells a jump which hardly moves the rest. */
+static bool value_agrees(ZpMarch *m, double dm) {
+  static const double part = 0.25, least = 1e-3; /* of its change; of its limit */
+  if (!m->event) return true;
+  double change = m->event(m->fold.system->at_rest.self, m->guess) - m->value;
+  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
+  return fabs(change - 0.5 * dm * (m->slope + slope)) <= fmax(part * fabs(change), least * fabs(m->limit));
+}
+
 /* -- what may be ahead ------------------------------------------------------------------------------ */
 
 /* Solve for the limit point, which is `far` away, from the last good one. */
 static bool try_fold(ZpMarch *m, double sign, double far) {
   static const double part = 0.3;
   if (!predict(m, 2 * sign * far, sign * far)) return false;
-  size_t n = m->fold.system->at_rest.n;
-  double length = sqrt(dot(n, m->before, m->before));
-  for (size_t i = 0; i < n; i++)
-    m->fold.null[i] = m->before[i] / length;
+  memcpy(m->fold.along, m->before, m->fold.system->at_rest.n * sizeof *m->before);
+  zp_fold_guess(&m->fold);
   m->solves++;
   if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
   double found = sign * (parameter(m) - m->m);
@@ -110,7 +117,7 @@ static bool try_step(ZpMarch *m, double dm, double way) {
   if (!predict(m, way, dm)) return false;
   m->steps++;
   if (!zp_newton_good(zp_newton(&sys->at_rest, m->fold.tolerance, MOST, m->fold.newton).end)) return false;
-  return is_stable(m) && agrees(m, 0.5 * dm, 0.5 * dm);
+  return is_stable(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
 }
 
 /* -- along the event's value ------------------------------------------------------------------------ */
@@ -130,25 +137,58 @@ static bool solve_at(ZpMarch *m, double value) {
   return zp_fold_event(&m->fold, m->event, value);
 }
 
-/* The limit point between the last good point and the present one, at `value` beyond it. */
+/* dm/d(value) at the present point. */
+static double turn_of(ZpMarch *m) {
+  m->event(m->fold.system->at_rest.self, m->guess);
+  return 1 / dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
+}
+
+/* Where the branch is as it was at the last good point: stable, m going the same way. */
+static bool is_before_fold(ZpMarch *m) {
+  return is_stable(m) && turn_of(m) * m->slope > 0;
+}
+
+/* Halve the way to a limit point that lies between the last good point and `value`: a corner, where the stiffness
+ * jumps. The last good point is then as near to it as counts. */
+static bool halve(ZpMarch *m, double value) {
+  enum { MOST = 60 };
+  static const double enough = 1e-10;
+  double step = value - m->value, before = INFINITY;
+  for (int k = 0; k < MOST; k++) {
+    step *= 0.5;
+    go_back(m);
+    if (!solve_at(m, m->value + step) || !is_before_fold(m)) continue;
+    before = m->m;
+    keep(m, false);
+    if (fabs(m->m - before) <= enough * fabs(m->m)) break;
+  }
+  go_back(m);
+  return isfinite(before);
+}
+
+/* The same if it is smooth, to be solved as such from where the branch turns by the tangents at both ends. */
 static bool solve_between(ZpMarch *m, double sign, double value) {
-  const ZpStaticSystem *rest = &m->fold.system->at_rest;
-  size_t n = rest->n;
-  m->event(rest->self, m->guess);
-  double here = 1 / m->slope, there = 1 / dot(n, m->guess, m->fold.along);
-  double at = m->value + (value - m->value) * here / (here - there);
+  double here = 1 / m->slope, there = turn_of(m), at = m->value + (value - m->value) * here / (here - there);
   if (!(here * there < 0)) return false;
   bool near = fabs(at - m->value) < fabs(at - value);
   if (near) go_back(m);
   if (near && !predict(m, (at - m->value) * here, 0)) return false;
   if (!solve_at(m, at)) return false;
-  double length = sqrt(dot(n, m->fold.along, m->fold.along));
-  for (size_t i = 0; i < n; i++)
-    m->fold.null[i] = m->fold.along[i] / length;
+  zp_fold_guess(&m->fold);
   m->solves++;
   if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
-  double found = m->event(rest->self, m->guess);
+  double found = m->event(m->fold.system->at_rest.self, m->guess);
   return (found - m->value) * (found - value) < 0 && sign * (parameter(m) - m->m) > 0;
+}
+
+/* The limit point that the step to `value` has passed. */
+static bool find_fold(ZpMarch *m, double sign, double value, double far) {
+  static const double close = 1e-3; /* of m: nearer, halving is surer */
+  if (solve_between(m, sign, value)) return true;
+  if (fabs(far) > close * fabs(m->m) || !halve(m, value)) return false;
+  is_stable(m);
+  zp_fold_guess(&m->fold);
+  return true;
 }
 
 typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
@@ -159,7 +199,7 @@ static Step step_along_value(ZpMarch *m, double sign, double value) {
   double far = (value - m->value) / m->slope;
   if (!predict(m, far, far) || !solve_at(m, value)) return STEP_TOO_LONG;
   double gone = parameter(m) - m->m, half = 0.5 * (value - m->value);
-  if (m->fold.negative > 0 || sign * gone < 0) return solve_between(m, sign, value) ? STEP_FOLD : STEP_TOO_LONG;
+  if (m->fold.negative > 0 || sign * gone < 0) return find_fold(m, sign, value, gone) ? STEP_FOLD : STEP_TOO_LONG;
   if (!is_stable(m)) return STEP_TOO_LONG;
   m->event(m->fold.system->at_rest.self, m->guess);
   double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;

@@ -97,6 +97,14 @@ static void note(Finder *f, ZpLimitKind kind, ZpMarchEnd end) {
   memcpy(limit->null, f->march.fold.null, s->assembly.n * sizeof *limit->null);
 }
 
+/* One limit is another, too. */
+static void copy(Finder *f, ZpLimitKind kind, ZpLimitKind other) {
+  ZpLimit *from = &f->limits->limit[kind], *to = &f->limits->limit[other];
+  memcpy(to->state, from->state, f->square.save_size);
+  memcpy(to->null, from->null, f->rest.statics.assembly.n * sizeof *to->null);
+  *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null};
+}
+
 static void none(Finder *f, ZpLimitKind kind, const char *reason) {
   f->limits->limit[kind] = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, f->limits->limit[kind].state,
                                      f->limits->limit[kind].null};
@@ -130,6 +138,41 @@ static bool is_ripple(Finder *f, double m, double gap, double sign) {
   return ripple;
 }
 
+/* What is a little further along the branch, on both sides of the limit point at the present point? The highest crest
+ * of a ripple is where the parameter goes furthest. */
+typedef enum Around { NOTHING_HIGHER, STABLE_HIGHER, CREST_HIGHER, OUT_OF_SIGHT } Around;
+
+static Around look_around(Finder *f, ZpLimitKind kind, double sign) {
+  static const double looks[] = {-5e-3, 5e-3, -1e-2, 1e-2, -1.5e-2, 1.5e-2, -2e-2}; /* of the gap */
+  static const double when_closed = 20, higher = 1e-8; /* times that; of the parameter */
+  ZpStatics *s = &f->rest.statics;
+  ZpFold *fold = &f->march.fold;
+  const double m = parameter(f), gap = zp_closing_gap(s, NULL), unit = gap * (is_closed(f) ? -when_closed : 1);
+  for (size_t k = 0; k < sizeof looks / sizeof looks[0]; k++) {
+    if (k > 0) go_to(f, f->limits->limit[kind].state);
+    if (!zp_fold_event(fold, zp_closing_gap, gap + looks[k] * unit)) continue;
+    if (!(sign * (parameter(f) - m) > higher * m)) continue;
+    if (zp_statics_stable(s, &f->rest.branch.newton)) return STABLE_HIGHER;
+    zp_fold_guess(fold);
+    bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(f) - m) > higher * m;
+    return found ? CREST_HIGHER : OUT_OF_SIGHT;
+  }
+  return NOTHING_HIGHER;
+}
+
+/* From a limit point to the highest crest of the ripple that it may be part of. => where a stable state is higher, that
+ * is where a march goes on */
+static Around climb(Finder *f, ZpLimitKind kind, double sign) {
+  enum { MOST = 20 };
+  Around around = CREST_HIGHER;
+  for (int k = 0; k < MOST && around == CREST_HIGHER; k++) {
+    note(f, kind, ZP_MARCH_FOLD);
+    around = look_around(f, kind, sign);
+  }
+  if (around != STABLE_HIGHER) go_to(f, f->limits->limit[kind].state);
+  return around;
+}
+
 typedef enum Slow { ARRIVED, CHANGED, LOST, STOPPED } Slow;
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is noted as `kind`. The
@@ -143,17 +186,13 @@ static Slow change_slowly(Finder *f, double target, ZpLimitKind kind, ZpLimitKin
     ZpMarchEnd end = zp_march(&f->march, target);
     if (end == ZP_MARCH_ARRIVED) return ARRIVED;
     if (end == ZP_MARCH_LOST) return LOST;
-    double m = parameter(f), gap = zp_closing_gap(&f->rest.statics, NULL);
     note(f, kind, end);
     if (end == ZP_MARCH_EVENT) return CHANGED;
+    if (climb(f, kind, sign) == STABLE_HIGHER) continue;
+    double m = parameter(f), gap = zp_closing_gap(&f->rest.statics, NULL);
     bool found = fall(f, sign), jumped = is_closed(f) != was_closed;
     bool is_first = first != kind && f->limits->limit[first].end == ZP_MARCH_ARRIVED;
-    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) {
-      ZpLimit *from = &f->limits->limit[kind], *to = &f->limits->limit[first];
-      memcpy(to->state, from->state, f->square.save_size);
-      memcpy(to->null, from->null, f->rest.statics.assembly.n * sizeof *to->null);
-      *to = (ZpLimit){ZP_MARCH_FOLD, from->value, NULL, to->state, to->null};
-    }
+    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) copy(f, kind, first);
     if (!found) return LOST;
     if (jumped) return CHANGED;
   }
@@ -194,16 +233,17 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   bool within = load ? value > 0 : value <= f->model->def.drive.voltage;
   if (f->march.fold.negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
   note(f, kind, near->end);
+  if (fold && look_around(f, kind, load || kind == ZP_LIMIT_RELEASE ? -1 : 1) != NOTHING_HIGHER) return false;
   f->limits->warm++;
   return true;
 }
 
 /* Closing is by the fold of the pull-in, in the neighbour and here. */
 static bool closes_as_neighbour(Finder *f) {
-  const ZpLimit *near = f->near ? f->near->limit : NULL, *own = f->limits->limit;
+  const ZpLimit *near = f->near ? f->near->limit : NULL;
   if (!near || near[ZP_LIMIT_CLOSING].value != near[ZP_LIMIT_PULL_IN].value) return false;
   if (!from_neighbour(f, ZP_LIMIT_PULL_IN)) return false;
-  note(f, ZP_LIMIT_CLOSING, own[ZP_LIMIT_PULL_IN].end);
+  copy(f, ZP_LIMIT_PULL_IN, ZP_LIMIT_CLOSING);
   return true;
 }
 
