@@ -64,7 +64,7 @@ static void toy_sensitivity(void *self, double *r_m) {
 }
 
 static void toy_position(void *self, double *q) {
-  memcpy(q, ((const Toy *)self)->q, sizeof ((const Toy *)self)->q);
+  memcpy(q, ((const Toy *)self)->q, sizeof((const Toy *)self)->q);
 }
 
 static void toy_save(void *self, void *to) {
@@ -80,16 +80,17 @@ static void toy_restore(void *self, const void *from) {
 }
 
 static ZpBranchSystem toy_system(Toy *t) {
-  return (ZpBranchSystem){.at_rest = {EQUATIONS, t, toy_residual, toy_stiffness, toy_length, toy_length, toy_move, NULL},
-                          .get = toy_get,
-                          .set = toy_set,
-                          .sensitivity = toy_sensitivity,
-                          .position = toy_position,
-                          .save = toy_save,
-                          .restore = toy_restore,
-                          .save_size = (EQUATIONS + 1) * sizeof(double),
-                          .q_scale = 1,
-                          .m_scale = 1};
+  return (ZpBranchSystem){
+      .at_rest = {EQUATIONS, t, toy_residual, toy_stiffness, toy_length, toy_length, toy_move, NULL},
+      .get = toy_get,
+      .set = toy_set,
+      .sensitivity = toy_sensitivity,
+      .position = toy_position,
+      .save = toy_save,
+      .restore = toy_restore,
+      .save_size = (EQUATIONS + 1) * sizeof(double),
+      .q_scale = 1,
+      .m_scale = 1};
 }
 
 typedef struct ToyMarch {
@@ -200,11 +201,10 @@ static ZpActuatorDef design(int k) {
       DEF({"ribbon.thickness", 172.5e-6}, {"ribbon.length", 92.5e-3}, {"load.mass", 1.241e-3},
           {"electro.breakdown_cap", false}, {"drive.voltage", 12e3}), /* closes gradually */
       DEF({"load.mass", 60e-3}),                                      /* hangs at drive.voltage */
-      DEF({"ribbon.length", 150e-3}, {"ribbon.thickness", 25e-6}, {"load.mass", 5e-3}, {"platform.length", 10e-3}),
+      DEF({"ribbon.length", 120e-3}, {"ribbon.thickness", 40e-6}, {"load.mass", 3e-3}, {"platform.length", 10e-3}),
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 65e-3}, {"ribbon.thickness", 100e-6},
           {"load.mass", 5e-3}, {"electro.gap_offset", 0.3e-3}, {"drive.voltage", 3e3}),
-      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 65e-3}, {"ribbon.thickness", 100e-6},
-          {"load.mass", 0}, {"electro.gap_offset", 0.1e-3}, {"insulator.thickness", 10e-6}, {"drive.voltage", 500}),
+      DEF({"load.mass", 0}),
   };
   return designs[k];
 }
@@ -226,12 +226,13 @@ END_TEST
 /* A guided ribbon over a flat electrode at a distance g far below its length: b = eps0 w U^2 L^4 / (2 EI g^3). */
 START_TEST(test_classical_pull_in) {
   const double b = 4.38094, g = 1e-3, L = 0.1, width = 12.7e-3, thick = 1e-3, eps0 = 8.8541878128e-12;
-  double EI = 200e9 * width * thick * thick * thick / 12, V = sqrt(2 * b * EI * g * g * g / (eps0 * width * L * L * L * L));
-  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_GUIDED}, {"ribbon.length", L},
-                          {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0},
-                          {"ribbon.thickness", thick}, {"insulator.thickness", 0}, {"medium.permittivity", 1},
-                          {"medium.breakdown_field", V / (0.1 * g)}, {"electro.gap_offset", g},
-                          {"drive.voltage", 1.2 * V});
+  double EI = 200e9 * width * thick * thick * thick / 12,
+         V = sqrt(2 * b * EI * g * g * g / (eps0 * width * L * L * L * L));
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_GUIDED}, {"ribbon.length", L},
+          {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0}, {"ribbon.thickness", thick},
+          {"insulator.thickness", 0}, {"medium.permittivity", 1}, {"medium.breakdown_field", V / (0.1 * g)},
+          {"electro.gap_offset", g}, {"drive.voltage", 1.2 * V});
   ZpResult *result = limits_of(&def);
   double found = zp_result_get(result, "pull_in_voltage_V");
   printf("%s; %+.1e off in b\n", result->message, found * found / (V * V) - 1);

@@ -81,13 +81,13 @@ static bool is_decided(void *user) {
 }
 
 bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work) {
-  static const double shortest = 1e-3, longest = 0.1; /* 0.5 mrad, so as not to step over a state that is near; 50 mrad */
+  static const double shortest = 1e-3,
+                      longest = 0.1; /* 0.5 mrad, so as not to step over a state that is near; 50 mrad */
   enum { FIRST = 80, MOST = 5000 };
   ZpStaticSystem system = zp_statics_system(s);
   Fall fall = {s, limit, was_closed, to_rest};
   double tolerance = zp_statics_tolerance(s);
   ZpNewtonInfo info = zp_descend_until(&system, shortest, tolerance, FIRST, is_decided, &fall, work);
-  if (info.end == ZP_NEWTON_SLOW)
-    info = zp_descend_until(&system, longest, tolerance, MOST, is_decided, &fall, work);
+  if (info.end == ZP_NEWTON_SLOW) info = zp_descend_until(&system, longest, tolerance, MOST, is_decided, &fall, work);
   return zp_newton_good(info.end);
 }

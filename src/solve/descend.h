@@ -10,7 +10,8 @@
  * is a stable one: no pivot of the stiffness is negative. */
 ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work);
 
-/* The same until `enough` (of `user`, who knows the present point) is true; the present point is then no equilibrium. */
+/* The same until `enough` (of `user`, who knows the present point) is true; the present point is then no equilibrium.
+ */
 ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, double tolerance, int most,
                               bool (*enough)(void *user), void *user, ZpNewtonWork *work);
 

@@ -1,7 +1,9 @@
 /* Letters: q coordinates, m parameter, K = -dr/dq; n null vector, c the last guess of it, |c| = 1.
  *   [K c; c' 0] [n; g] = [0; 1],   so  n = x / (c' x),  g = -1 / (c' x)  with  K x = c,  and  g = 0  at a limit point
- *   dq = a + b dm,  K a = r,  K b = dr/dm,   g + (dg/da) + (dg/db) dm = 0
- * A derivative of g along d is  -c' K^-1 (dK/dd n) / (c' x),  and dK/dd n a difference: eq. (10.3) to (10.5). */
+ *   dq = a + b dm + n xi,   K a = r - left c,  K b = dr/dm - by_m c,  c' a = c' b = 0
+ *   left + by_m dm + g xi = 0,   g + dg/da + (dg/db) dm + (dg/dn) xi = 0
+ * A derivative of g along d is  -c' K^-1 (dK/dd n) / (c' x),  and dK/dd n a difference. Theory, eqs. (10.3) to (10.5).
+ */
 #include "solve/fold.h"
 
 #include <math.h>
@@ -100,21 +102,22 @@ static double change_of_test(ZpFold *f, const double *d, double dm) {
 
 enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20 };
 
-/* Move by a + along dm, or a part of it. => is what the next step would change, as the last two foretell, below what is
- * asked for? */
-static bool step(ZpFold *f, double dm) {
-  static const double small = 1e-9, short_step = 5e-3; /* of m; of what linearisation stands: m goes with its square */
+/* Move by a + along xi and dm, or by a part of it. => is what the next step would change, as the last two foretell,
+ * below what is asked for? */
+static bool step(ZpFold *f, double xi, double dm) {
+  static const double small = 1e-9, of_length = 1e-3; /* of m; what a step of full length counts in that */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   for (size_t i = 0; i < rest->n; i++)
-    f->b[i] = f->a[i] + f->along[i] * dm;
+    f->b[i] = f->a[i] + f->along[i] * xi;
   double length = rest->length(rest->self, f->b), part = length > 1 ? 1 / length : 1;
   rest->move(rest->self, f->b, part);
   sys->set(rest->self, sys->get(rest->self) + part * dm);
   f->iterations++;
-  double rate = isinf(f->change) ? 1 : fmin(fabs(dm) / f->change, 1);
-  f->change = fabs(dm);
-  return length < short_step && f->change * rate < small * fabs(sys->get(rest->self));
+  double change = fabs(dm / sys->get(rest->self)) + of_length * length;
+  double rate = isinf(f->change) ? 1 : fmin(change / f->change, 1);
+  f->change = change;
+  return change * rate < small;
 }
 
 static double *balance(ZpFold *f) {
@@ -123,23 +126,36 @@ static double *balance(ZpFold *f) {
   return f->a;
 }
 
+/* The step that keeps the equilibrium and the part along c => a, its dm; the one along the null vector => along, its
+ * dm. Both are bounded where K is singular. */
+static void split_step(ZpFold *f, double *dm_a, double *dm_n) {
+  size_t n = f->system->at_rest.n;
+  double cx = -1 / f->test, left = dot(n, f->null, f->a) / cx, by_m = dot(n, f->null, f->along) / cx;
+  *dm_a = -left / by_m;
+  *dm_n = -f->test / by_m;
+  for (size_t i = 0; i < n; i++) {
+    double b = f->along[i] - by_m * f->x[i];
+    f->a[i] += b * *dm_a - left * f->x[i];
+    f->along[i] = f->x[i] / cx + b * *dm_n;
+  }
+}
+
 /* One Newton step to the limit point. The last one is where the test function falls to 0, not where the stiffness along
  * the null vector is least, close to 0. */
 static bool step_to_fold(ZpFold *f, bool *small) {
   static const double falls = 0.3;
-  const ZpStaticSystem *rest = &f->system->at_rest;
-  size_t n = rest->n;
+  size_t n = f->system->at_rest.n;
   if (!linearise(f)) return false;
   balance(f);
-  double before = f->test;
+  double before = f->test, dm_a, dm_n;
   test(f);
-  double by_a = change_of_test(f, f->a, 0), by_m = change_of_test(f, f->along, 1);
-  double length = sqrt(dot(n, f->x, f->x));
+  split_step(f, &dm_a, &dm_n);
+  double by_a = change_of_test(f, f->a, dm_a), by_n = change_of_test(f, f->along, dm_n);
+  double length = sqrt(dot(n, f->x, f->x)), xi = -(f->test + by_a) / by_n;
   for (size_t i = 0; i < n; i++)
     f->null[i] = f->x[i] / length;
-  double dm = -(f->test + by_a) / by_m;
-  if (!isfinite(dm)) return false;
-  *small = step(f, dm) && fabs(f->test) < falls * fabs(before);
+  if (!isfinite(xi)) return false;
+  *small = step(f, xi, dm_a + xi * dm_n) && fabs(f->test) < falls * fabs(before);
   return true;
 }
 
@@ -150,7 +166,7 @@ static bool step_to_event(ZpFold *f, ZpEvent event, double wanted, bool *small) 
   double off = event(rest->self, f->x) - wanted;
   double dm = -(off + dot(rest->n, f->x, f->a)) / dot(rest->n, f->x, f->along);
   if (!isfinite(dm)) return false;
-  *small = step(f, dm);
+  *small = step(f, dm, dm);
   return true;
 }
 

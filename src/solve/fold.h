@@ -13,16 +13,16 @@ typedef double (*ZpEvent)(void *self, double *row);
 /* Work space. */
 typedef struct ZpFold {
   const ZpBranchSystem *system;
-  ZpNewtonWork *newton; /* that of a branch serves */
-  ZpBand beside;        /* the stiffness beside the point */
-  double tolerance;     /* of the residual */
-  double *null;         /* [n] null vector, of length 1; where a solution starts, a guess of it */
-  double *along;        /* [n] dq/dm at the point of the last solution; at a limit point the null vector times much */
+  ZpNewtonWork *newton;   /* that of a branch serves */
+  ZpBand beside;          /* the stiffness beside the point */
+  double tolerance;       /* of the residual */
+  double *null;           /* [n] null vector, of length 1; where a solution starts, a guess of it */
+  double *along;          /* [n] dq/dm at the point of the last solution; at a limit point the null vector times much */
   double *a, *b, *x, *at; /* [n] */
-  double test;          /* 0 at a limit point: the stiffness along the null vector */
-  size_t negative;      /* eigenvalues below 0 of the stiffness; at a limit point of what is across the null vector */
-  double change;        /* of m in its last step */
-  int iterations;       /* of the last solution */
+  double test;            /* 0 at a limit point: the stiffness along the null vector */
+  size_t negative;        /* eigenvalues below 0 of the stiffness; at a limit point of what is across the null vector */
+  double change;          /* of its last step */
+  int iterations;         /* of the last solution */
   void *saved;
 } ZpFold;
 

@@ -5,8 +5,8 @@
 
 static const double little = 5e-3; /* of the scale of q: what is too little to matter */
 
-void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
-                    ZpCarver *carver) {
+void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
+                    ZpNewtonWork *newton, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   zp_fold_carve(&march->fold, system, bandwidth, symmetric, newton, carver);
   double **vectors[] = {&march->q, &march->before, &march->guess};
@@ -41,7 +41,8 @@ static void keep(ZpMarch *m, bool first) {
   const ZpStaticSystem *rest = &sys->at_rest;
   double flat = 1 / dot(rest->n, m->fold.along, m->fold.along), gone = fabs(parameter(m) - m->m);
   m->to_fold = !first && flat < m->flat ? gone * flat / (m->flat - flat) : (double)INFINITY;
-  if (2 * m->to_fold < little * sys->q_scale * sqrt(flat)) m->to_fold = INFINITY; /* what moves that little is at rest */
+  if (2 * m->to_fold < little * sys->q_scale * sqrt(flat))
+    m->to_fold = INFINITY; /* what moves that little is at rest */
   m->flat = flat;
   m->m = parameter(m);
   memcpy(m->before, m->fold.along, rest->n * sizeof *m->before);
@@ -71,8 +72,8 @@ static bool predict(ZpMarch *m, double way, double dm) {
   return true;
 }
 
-/* Is the present point, which the branch must have come to from the last good one, where its tangents lead: `from` times
- * that of the last good point and `to` times its own? A jump to another branch is not. */
+/* Is the present point, which the branch must have come to from the last good one, where its tangents lead: `from`
+ * times that of the last good point and `to` times its own? A jump to another branch is not. */
 static bool agrees(ZpMarch *m, double from, double to) {
   static const double part = 0.25; /* of what moved */
   const ZpBranchSystem *sys = m->fold.system;
@@ -263,7 +264,8 @@ ZpMarchEnd zp_march(ZpMarch *m, double target) {
   keep(m, true);
   for (int k = 0; k < MOST && part > 1e-4; k++) {
     if (sign * (target - m->m) <= rounding * fabs(target)) return ZP_MARCH_ARRIVED;
-    Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1))) : step_along_m(m, sign, target, part);
+    Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1)))
+                            : step_along_m(m, sign, target, part);
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);

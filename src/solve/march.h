@@ -31,8 +31,8 @@ typedef struct ZpMarch {
   int steps, solves;
 } ZpMarch;
 
-void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
-                    ZpCarver *carver);
+void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
+                    ZpNewtonWork *newton, ZpCarver *carver);
 
 /* From the present point, a stable equilibrium, towards m = target. Every point on the way is stable. */
 ZpMarchEnd zp_march(ZpMarch *march, double target);

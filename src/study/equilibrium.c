@@ -116,8 +116,8 @@ static double exactly(Follower *f, double near, bool turned) {
   sys->save(s, f->here);
   s->U = near;
   memcpy(f->fold.null, f->rest.branch.direction, s->assembly.n * sizeof *f->fold.null);
-  bool found = turned ? zp_fold_solve(&f->fold)
-                      : zp_fold_event(&f->fold, zp_closing_gap, zp_closing_limit(s, f->hanging));
+  bool found =
+      turned ? zp_fold_solve(&f->fold) : zp_fold_event(&f->fold, zp_closing_gap, zp_closing_limit(s, f->hanging));
   double voltage = s->U;
   sys->restore(s, f->here);
   sys->at_rest.residual(s, f->rest.branch.newton.r, NULL);

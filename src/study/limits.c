@@ -2,8 +2,8 @@
  * without following the curve. Theory, section 10.
  *
  * The voltage (its square) or the load is changed slowly: zp_march goes to the next limit point or to where the
- * actuator counts as closed; from a limit point the state falls to what is beyond, and it goes on until the actuator has
- * closed or opened. */
+ * actuator counts as closed; from a limit point the state falls to what is beyond, and it goes on until the actuator
+ * has closed or opened. */
 #include "study/limits.h"
 
 #include <math.h>
@@ -26,9 +26,11 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static const struct {
+typedef struct Scalar {
   const char *name, *unit;
-} scalars[ZP_LIMIT_KINDS] = {
+} Scalar;
+
+static const Scalar scalars[] = {
     {"pull_in_voltage_V", "V"}, {"closing_voltage_V", "V"}, {"release_voltage_V", "V"}, {"max_load_kg", "kg"}};
 
 typedef struct Finder {
@@ -106,8 +108,8 @@ static void copy(Finder *f, ZpLimitKind kind, ZpLimitKind other) {
 }
 
 static void none(Finder *f, ZpLimitKind kind, const char *reason) {
-  f->limits->limit[kind] = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, f->limits->limit[kind].state,
-                                     f->limits->limit[kind].null};
+  f->limits->limit[kind] =
+      (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, f->limits->limit[kind].state, f->limits->limit[kind].null};
 }
 
 static void lost(Finder *f, ZpLimitKind kind, const char *reason) {
@@ -138,26 +140,41 @@ static bool is_ripple(Finder *f, double m, double gap, double sign) {
   return ripple;
 }
 
-/* What is a little further along the branch, on both sides of the limit point at the present point? The highest crest
- * of a ripple is where the parameter goes furthest. */
+/* What is along the branch, on both sides of the limit point at the present point, as far as a ripple may go? Its
+ * highest crest is where the parameter goes furthest. */
 typedef enum Around { NOTHING_HIGHER, STABLE_HIGHER, CREST_HIGHER, OUT_OF_SIGHT } Around;
 
-static Around look_around(Finder *f, ZpLimitKind kind, double sign) {
-  static const double looks[] = {-5e-3, 5e-3, -1e-2, 1e-2, -1.5e-2, 1.5e-2, -2e-2}; /* of the gap */
-  static const double when_closed = 20, higher = 1e-8; /* times that; of the parameter */
-  ZpStatics *s = &f->rest.statics;
+/* At the present point the parameter goes further than m. */
+static Around climb_on(Finder *f, double m, double sign) {
   ZpFold *fold = &f->march.fold;
-  const double m = parameter(f), gap = zp_closing_gap(s, NULL), unit = gap * (is_closed(f) ? -when_closed : 1);
-  for (size_t k = 0; k < sizeof looks / sizeof looks[0]; k++) {
-    if (k > 0) go_to(f, f->limits->limit[kind].state);
-    if (!zp_fold_event(fold, zp_closing_gap, gap + looks[k] * unit)) continue;
-    if (!(sign * (parameter(f) - m) > higher * m)) continue;
-    if (zp_statics_stable(s, &f->rest.branch.newton)) return STABLE_HIGHER;
-    zp_fold_guess(fold);
-    bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(f) - m) > higher * m;
-    return found ? CREST_HIGHER : OUT_OF_SIGHT;
+  if (zp_statics_stable(&f->rest.statics, &f->rest.branch.newton)) return STABLE_HIGHER;
+  zp_fold_guess(fold);
+  bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(f) - m) > 0;
+  return found ? CREST_HIGHER : OUT_OF_SIGHT;
+}
+
+/* On one side, in steps of the gap. */
+static Around look(Finder *f, double sign, double step) {
+  enum { MOST = 12 };
+  static const double higher = 1e-8; /* of the parameter */
+  const double m = parameter(f), gap = zp_closing_gap(&f->rest.statics, NULL);
+  const double deep = changed(f, m, -sign * ZP_FOLD_RIPPLE);
+  for (int k = 1; k <= MOST; k++) {
+    if (!zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step)) return OUT_OF_SIGHT;
+    if (sign * (parameter(f) - m) > higher * m) return climb_on(f, m, sign);
+    if (sign * (parameter(f) - deep) < 0) return NOTHING_HIGHER;
   }
   return NOTHING_HIGHER;
+}
+
+static Around look_around(Finder *f, ZpLimitKind kind, double sign) {
+  static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
+  double step = zp_closing_gap(&f->rest.statics, NULL) * (is_closed(f) ? when_closed : when_open);
+  Around beyond = look(f, sign, -step);
+  if (beyond == STABLE_HIGHER || beyond == CREST_HIGHER) return beyond;
+  go_to(f, f->limits->limit[kind].state);
+  Around before = look(f, sign, step);
+  return before == NOTHING_HIGHER ? beyond : before;
 }
 
 /* From a limit point to the highest crest of the ripple that it may be part of. => where a stable state is higher, that
@@ -277,9 +294,9 @@ static Slow raise_voltage(Finder *f) {
   double top = f->model->def.drive.voltage;
   f->march.fold.system = &f->square;
   f->march.event = zp_closing_gap;
+  if (closes_as_neighbour(f)) return CHANGED;
   none(f, ZP_LIMIT_PULL_IN, "no limit point on the way up to drive.voltage");
   none(f, ZP_LIMIT_CLOSING, "it does not close up to drive.voltage");
-  if (closes_as_neighbour(f)) return CHANGED;
   f->march.fold.system = &f->square;
   go_to(f, f->limits->start);
   Slow end = change_slowly(f, top * top, ZP_LIMIT_CLOSING, ZP_LIMIT_PULL_IN);

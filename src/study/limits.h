@@ -7,7 +7,13 @@
 #include "rest/closing.h"
 #include "rest/rest.h"
 
-typedef enum ZpLimitKind { ZP_LIMIT_PULL_IN, ZP_LIMIT_CLOSING, ZP_LIMIT_RELEASE, ZP_LIMIT_LOAD, ZP_LIMIT_KINDS } ZpLimitKind;
+typedef enum ZpLimitKind {
+  ZP_LIMIT_PULL_IN,
+  ZP_LIMIT_CLOSING,
+  ZP_LIMIT_RELEASE,
+  ZP_LIMIT_LOAD,
+  ZP_LIMIT_KINDS
+} ZpLimitKind;
 
 /* One limit: a state of rest. */
 typedef struct ZpLimit {
