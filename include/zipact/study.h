@@ -40,6 +40,9 @@ ZP_API void zp_field_map_destroy(ZpFieldMap *map);
 /* What study limits keeps for a neighbour, see ZpStudyInput. */
 typedef struct ZpLimits ZpLimits;
 
+/* Free them; NULL is allowed. Whoever frees those of a result sets its field to NULL. */
+ZP_API void zp_limits_destroy(ZpLimits *limits);
+
 /* What a study found. */
 typedef struct ZpResult {
   ZpStudy study;

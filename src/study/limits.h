@@ -35,7 +35,4 @@ struct ZpLimits {
   void *memory;
 };
 
-/* NULL is allowed. */
-void zp_limits_destroy(ZpLimits *limits);
-
 #endif
