@@ -1,5 +1,6 @@
-/* What the limits of an actuator cost: study limits from scratch, from a neighbour, and study equilibrium, which follows
- * the curve; ms of CPU time, median of many. `limits [NODES]`; counts by callgrind: `limits NODES once|warm`. */
+/* What the limits of an actuator cost: study limits from scratch, from a neighbour, and study equilibrium, which
+ * follows the curve; ms of CPU time, median of many. `limits [NODES]`; counts by callgrind: `limits NODES once|warm`.
+ */
 #include <zipact/zipact.h>
 
 #include <stdio.h>

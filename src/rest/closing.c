@@ -71,13 +71,13 @@ typedef struct Fall {
   bool was_closed, to_rest;
 } Fall;
 
-/* Opened it is once it is clear of the limit. */
+/* It has opened or closed once it is clear of the limit. */
 static bool is_decided(void *user) {
   static const double clear = 10;
   const Fall *fall = user;
   if (fall->to_rest) return false;
   double gap = zp_closing_gap(fall->statics, NULL);
-  return fall->was_closed ? gap > clear * fall->limit : gap <= fall->limit;
+  return fall->was_closed ? gap > clear * fall->limit : gap < fall->limit / clear;
 }
 
 bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work) {

@@ -14,6 +14,7 @@ void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bo
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   f->system = system;
   f->newton = newton;
+  f->small = ZP_FOLD_EXACT;
   zp_band_carve(&f->beside, n, symmetric ? 0 : bandwidth, bandwidth, carver);
   double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
@@ -105,7 +106,7 @@ enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20 };
 /* Move by a + along xi and dm, or by a part of it. => is what the next step would change, as the last two foretell,
  * below what is asked for? */
 static bool step(ZpFold *f, double xi, double dm) {
-  static const double small = 1e-9, of_length = 1e-3; /* of m; what a step of full length counts in that */
+  static const double of_length = 1e-3; /* what a step of full length counts in m */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   for (size_t i = 0; i < rest->n; i++)
@@ -117,7 +118,7 @@ static bool step(ZpFold *f, double xi, double dm) {
   double change = fabs(dm / sys->get(rest->self)) + of_length * length;
   double rate = isinf(f->change) ? 1 : fmin(change / f->change, 1);
   f->change = change;
-  return change * rate < small;
+  return change * rate < f->small;
 }
 
 static double *balance(ZpFold *f) {
@@ -172,6 +173,7 @@ static bool step_to_event(ZpFold *f, ZpEvent event, double wanted, bool *small) 
 
 static bool solve(ZpFold *f, ZpEvent event, double wanted) {
   const ZpStaticSystem *rest = &f->system->at_rest;
+  static const double astray = 0.2; /* what a step after the first may change */
   int refreshes = 0;
   f->iterations = 0;
   f->test = 0;
@@ -180,6 +182,7 @@ static bool solve(ZpFold *f, ZpEvent event, double wanted) {
     bool small;
     if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;
     if (!(event ? step_to_event(f, event, wanted, &small) : step_to_fold(f, &small))) return false;
+    if (k > 0 && f->change > astray) return false;
     if (!small) continue;
     if (!rest->refresh || k == 0) return true;
     if (refreshes++ == MOST_REFRESHES) return false;

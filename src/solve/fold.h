@@ -16,6 +16,7 @@ typedef struct ZpFold {
   ZpNewtonWork *newton;   /* that of a branch serves */
   ZpBand beside;          /* the stiffness beside the point */
   double tolerance;       /* of the residual */
+  double small;           /* relative to m: what a solution may be off by */
   double *null;           /* [n] null vector, of length 1; where a solution starts, a guess of it */
   double *along;          /* [n] dq/dm at the point of the last solution; at a limit point the null vector times much */
   double *a, *b, *x, *at; /* [n] */
@@ -29,6 +30,9 @@ typedef struct ZpFold {
 /* Two limit points closer than this, relative, are a ripple of the mesh: the front passing a node of an unstable
  * branch. Measured at N = 61 without breakdown cap, where it is largest: 0.35 %. */
 #define ZP_FOLD_RIPPLE 5e-3
+
+/* What is asked for at first: `small`. */
+#define ZP_FOLD_EXACT 1e-9
 
 void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
                    ZpCarver *carver);

@@ -213,7 +213,7 @@ static double next_value(const ZpMarch *m, double sign, double part) {
   static const double turn = 0.05;
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   double towards = sign * m->slope > 0 ? 1 : -1, longest = turn / rest->length(rest->self, m->before) * fabs(m->slope);
-  double change = fmin((towards > 0 ? 2 : 2.0 / 3) * scale(m) * part, longest), left = towards * (m->limit - m->value);
+  double change = fmin((towards > 0 ? 1 : 0.5) * scale(m) * part, longest), left = towards * (m->limit - m->value);
   return left > 0 && change > 0.8 * left ? m->limit : m->value + towards * change;
 }
 

@@ -156,11 +156,14 @@ static Around climb_on(Finder *f, double m, double sign) {
 /* On one side, in steps of the gap. */
 static Around look(Finder *f, double sign, double step) {
   enum { MOST = 12 };
-  static const double higher = 1e-8; /* of the parameter */
+  static const double rough = 1e-7, higher = 1e-6; /* of the parameter */
   const double m = parameter(f), gap = zp_closing_gap(&f->rest.statics, NULL);
   const double deep = changed(f, m, -sign * ZP_FOLD_RIPPLE);
   for (int k = 1; k <= MOST; k++) {
-    if (!zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step)) return OUT_OF_SIGHT;
+    f->march.fold.small = rough;
+    bool found = zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step);
+    f->march.fold.small = ZP_FOLD_EXACT;
+    if (!found) return OUT_OF_SIGHT;
     if (sign * (parameter(f) - m) > higher * m) return climb_on(f, m, sign);
     if (sign * (parameter(f) - deep) < 0) return NOTHING_HIGHER;
   }
@@ -378,7 +381,10 @@ static bool find(Finder *f) {
   Slow up = raise_voltage(f);
   bool shorts = f->model->def.insulator.thickness == 0;
   if (shorts) none_closed(f, "closed it is a short circuit");
-  if (up == STOPPED || up == LOST || shorts) return true;
+  if (shorts) return true;
+  none(f, ZP_LIMIT_RELEASE, "it was not looked for");
+  none(f, ZP_LIMIT_LOAD, "it was not looked for");
+  if (up == STOPPED || up == LOST) return true;
   lower_voltage(f);
   f->rest.statics.load = f->model->def.load.mass;
   if (f->model->def.gravity > 0)
