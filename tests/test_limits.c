@@ -128,7 +128,7 @@ START_TEST(test_extended_system_converges_quadratically) {
   ck_below(fabs(t.m - 1), 1e-9);
   ck_assert_int_ge(t.visits, 4);
   for (int k = 0; k + 1 < t.visits; k++)
-    if (t.seen[k] < 0.1 && t.seen[k] > 1e-6) ck_below(t.seen[k + 1], 5 * t.seen[k] * t.seen[k]);
+    if (t.seen[k] < 0.1 && t.seen[k] > 1e-6) ck_below(t.seen[k + 1], 2 * t.seen[k] * t.seen[k]); /* measured 1.5 */
   zp_free(f.memory);
 }
 END_TEST
@@ -143,6 +143,7 @@ START_TEST(test_unstable_limit_point_is_told) {
   ck_assert_uint_eq(f.march.fold.negative, 1);
   t = (Toy){.q = {0.5, 0.075, 0}, .m = 0, .across = -1};
   t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
+  ck_assert_int_eq(zp_march(&f.march, 1.2), ZP_MARCH_LOST);
   ck_assert_int_eq(zp_march(&f.march, 0), ZP_MARCH_LOST);
   zp_free(f.memory);
 }
