@@ -372,11 +372,11 @@ static void none_closed(Finder *f, const char *reason) {
 /* False if it does not hang. */
 static bool find(Finder *f) {
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
-    none(f, k, "without a voltage there is none");
+    none(f, (ZpLimitKind)k, "without a voltage there is none");
   if (!hang(f)) return false;
   if (!f->model->field || f->model->def.drive.voltage == 0) return true;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
-    none(f, k, "it hangs closed");
+    none(f, (ZpLimitKind)k, "it hangs closed");
   if (f->limits->hanging <= zp_closing_limit(&f->rest.statics, 0)) return true;
   Slow up = raise_voltage(f);
   bool shorts = f->model->def.insulator.thickness == 0;
