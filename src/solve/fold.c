@@ -114,7 +114,6 @@ static bool step(ZpFold *f, double xi, double dm) {
   double length = rest->length(rest->self, f->b), part = length > 1 ? 1 / length : 1;
   rest->move(rest->self, f->b, part);
   sys->set(rest->self, sys->get(rest->self) + part * dm);
-  f->iterations++;
   double change = fabs(dm / sys->get(rest->self)) + of_length * length;
   double rate = isinf(f->change) ? 1 : fmin(change / f->change, 1);
   f->change = change;
@@ -175,7 +174,6 @@ static bool solve(ZpFold *f, ZpEvent event, double wanted) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   static const double astray = 0.2; /* what a step after the first may change */
   int refreshes = 0;
-  f->iterations = 0;
   f->test = 0;
   f->change = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS; k++) {

@@ -23,7 +23,6 @@ typedef struct ZpFold {
   double test;            /* 0 at a limit point: the stiffness along the null vector */
   size_t negative;        /* eigenvalues below 0 of the stiffness; at a limit point of what is across the null vector */
   double change;          /* of its last step */
-  int iterations;         /* of the last solution */
   void *saved;
 } ZpFold;
 

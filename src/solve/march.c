@@ -105,7 +105,6 @@ static bool try_fold(ZpMarch *m, double sign, double far) {
   if (!predict(m, 2 * sign * far, sign * far)) return false;
   memcpy(m->fold.along, m->before, m->fold.system->at_rest.n * sizeof *m->before);
   zp_fold_guess(&m->fold);
-  m->solves++;
   if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
   double found = sign * (parameter(m) - m->m);
   return found > 0 && fabs(found - far) < part * far && agrees(m, 2 * sign * found, 0);
@@ -116,7 +115,6 @@ static bool try_step(ZpMarch *m, double dm, double way) {
   enum { MOST = 12 };
   const ZpBranchSystem *sys = m->fold.system;
   if (!predict(m, way, dm)) return false;
-  m->steps++;
   if (!zp_newton_good(zp_newton(&sys->at_rest, m->fold.tolerance, MOST, m->fold.newton).end)) return false;
   return is_stable(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
 }
@@ -134,7 +132,6 @@ static bool is_steep(const ZpMarch *m) {
 }
 
 static bool solve_at(ZpMarch *m, double value) {
-  m->solves++;
   return zp_fold_event(&m->fold, m->event, value);
 }
 
@@ -176,7 +173,6 @@ static bool solve_between(ZpMarch *m, double sign, double value) {
   if (near && !predict(m, (at - m->value) * here, 0)) return false;
   if (!solve_at(m, at)) return false;
   zp_fold_guess(&m->fold);
-  m->solves++;
   if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
   double found = m->event(m->fold.system->at_rest.self, m->guess);
   return (found - m->value) * (found - value) < 0 && sign * (parameter(m) - m->m) > 0;
@@ -259,7 +255,6 @@ ZpMarchEnd zp_march(ZpMarch *m, double target) {
   enum { MOST = 200 };
   static const double longest = 8, rounding = 1e-14;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
-  m->steps = m->solves = 0;
   if (!is_stable(m)) return ZP_MARCH_LOST;
   keep(m, true);
   for (int k = 0; k < MOST && part > 1e-4; k++) {
