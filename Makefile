@@ -4,7 +4,8 @@
 # make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
 # make check-report  looks at the page of `zipact reproduce` in a browser
-# make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make check-docs looks at it
+# make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make html without
+#              remaking them; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
 
 BUILD ?= build
@@ -13,7 +14,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check python octave web check-web check-report deps bench bench-tables format docs check-docs validity verification install clean
+.PHONY: all demo check python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -52,6 +53,9 @@ docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
 	scripts/make-factor-page.sh $(BUILD)/zipact
 	scripts/run-manual.py $(BUILD)/zipact
+	@$(MAKE) --no-print-directory html
+
+html:
 	scripts/deps.sh --docs
 	scripts/make-html.py $(BUILD)/docs/html
 

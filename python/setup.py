@@ -62,7 +62,8 @@ class BuildExtension(build_ext):
         archives = self.build_library()
         extension.depends += archives
         extension.extra_objects = archives
-        extension.extra_link_args = ["-Wl,--exclude-libs,ALL", *HARDENED_LINK, *pkg_config("--libs"), "-lm", "-lpthread"]
+        # without link-time optimisation, as CMakeLists.txt has it: quick to link
+        extension.extra_link_args = ["-fno-lto", "-Wl,--exclude-libs,ALL", *HARDENED_LINK, *pkg_config("--libs"), "-lm", "-lpthread"]
         if SANITIZE:
             extension.extra_compile_args.append("-fsanitize=" + SANITIZE)
             extension.extra_link_args.append("-fsanitize=" + SANITIZE)

@@ -3,7 +3,7 @@
 
     scripts/run-manual.py [--check] ZIPACT      with --check, says whether the numbers are up to date
 
-In the console blocks of PAGES, what stands after "$ " (and "> ", where it goes on) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
+In the console blocks of PAGES, what stands after "$ " (and "> ", where it continues) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
 stands for what is left out. PICTURES are copied from the results.
 """
 
@@ -91,8 +91,12 @@ def main():
             old += [name] if new != text else []
             if not check:
                 (DOCS / name).write_text(new, encoding="utf-8")
-        if not check:
-            copy_pictures(pathlib.Path(scratch) / "out")
+        results = pathlib.Path(scratch) / "out"
+        missing = [source for source in PICTURES.values() if not (results / source).is_file()]
+        if not check and not missing:
+            copy_pictures(results)
+    if missing:
+        sys.exit("not drawn: %s" % ", ".join(missing))
     if check and old:
         sys.exit("out of date: %s: make docs" % ", ".join("docs/" + name for name in old))
     if check:

@@ -14,7 +14,7 @@ libraries=$(pkg-config --libs libfyaml udunits jansson hdf5-serial nlopt)
 cd "$folder"
 # shellcheck disable=SC2086
 CFLAGS="-std=c17 -D_GNU_SOURCE -O2 -fPIC -Wall -Wextra -Werror -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3" \
-  mkoctfile --mex -o zipact_mex -I"$root/include" -Wl,--exclude-libs,ALL -Wl,-z,relro,-z,now "$root"/octave/src/*.c \
+  mkoctfile --mex -o zipact_mex -I"$root/include" -fno-lto -Wl,--exclude-libs,ALL -Wl,-z,relro,-z,now "$root"/octave/src/*.c \
   "$build/libzipact-io.a" "$build/libzipact.a" $libraries -lm -lpthread
 rm -f ./*.o
 python3 "$root/tests/test_binaries.py" --fortified zipact_mex.mex

@@ -10,6 +10,7 @@ pc=$(find "$scratch/prefix" -name zipact.pc)
 export PKG_CONFIG_PATH="${pc%/*}" LD_LIBRARY_PATH="${pc%/*/*}"
 # a library built with sanitizers asks its user for the same
 flags=$(sed -n 's/^ZIPACT_SANITIZE:STRING=\(..*\)$/-fsanitize=\1/p' "$build/CMakeCache.txt")
+flags="$flags -fno-lto" # quick to link
 # shellcheck disable=SC2046,SC2086
 cc $flags -o "$scratch/by_pkg_config" "$here/examples/embedded.c" $(pkg-config --cflags --libs zipact)
 "$scratch/by_pkg_config"

@@ -439,6 +439,7 @@ STUMBLING = {
     r"\bend(s|ed)? badly": "the solver failed",
     r"takes? the very": "exactly the same",
     r"\bno predictions?\b": "not a prediction",
+    r"\b(go|goes|going|gone) on (from|where|straight|to|in)\b": "resume, continue",
 }
 READ_BY_USERS = ("README.md", "MAP.md", "docs/", "include/", "src/", "cli/", "web/", "python/", "octave/", "examples/", "bench/")
 

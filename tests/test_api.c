@@ -203,7 +203,7 @@ END_TEST
 
 /* -- state ------------------------------------------------------------------------------------------------ */
 
-/* Going back to a saved state and on again gives the same bits as going on at once. */
+/* Going back to a saved state and continuing gives the same bits as continuing at once. */
 START_TEST(saved_state_continues_to_the_same_bits) {
   ZpActuatorDef def = coarse_def();
   ZpModel *model = NULL;
@@ -400,7 +400,7 @@ START_TEST(no_real_time_factor_without_wall_time) {
 }
 END_TEST
 
-/* A simulation that should go on from a checkpoint and gets none ran from the straight shape. */
+/* A simulation that should resume from a checkpoint and gets none ran from the straight shape. */
 START_TEST(no_motion_without_the_checkpoint) {
   ZpActuatorDef def = coarse_def();
   ZpModel *model, *other;

@@ -1,8 +1,8 @@
-/* The matrix of an actuator: entry by entry minus the differences of its residual, and the symmetric one, whose rows
- * are written directly, the upper triangle of the other, whose entries ask for their equations. */
+/* The matrix of an actuator: the symmetric one, whose rows are written directly, is the upper triangle of the other,
+ * whose entries ask for their equations. Against differences of the forces: test_stiffness. */
 #include "check_util.h"
 
-#include "rest/statics.h"
+#include "rest/assemble.h"
 
 enum { NODES = 9 };
 
@@ -18,76 +18,6 @@ static ZpModel *model_of_kind(size_t kind) {
                           kinds[kind][2].key ? kinds[kind][2] : kinds[kind][0]);
   return model_of(&def);
 }
-
-/* Away from straight, some faces in contact's range, at a voltage. */
-static void shake(ZpStatics *s) {
-  uint64_t seed = 3;
-  const ZpModel *model = s->model;
-  size_t stride = model->stride;
-  for (size_t j = 0; j < model->count; j++) {
-    size_t station = j / model->s;
-    double drop = model->s == 2 && j % 2 == 0 ? 0 : 1e-5 * (double)(station * station);
-    s->q[j] += 0.01 * model->l * noise(&seed) * (station > 0);
-    s->q[stride + j] -= drop + 1e-7 * noise(&seed) * (station > 0);
-  }
-  s->U = model->field ? 5e3 : 0;
-  s->contact_acts = true;
-}
-
-/* The coordinates with equation `k` moved by h. */
-static void nudge(ZpStatics *s, size_t k, double h) {
-  for (size_t c = 0; c < 2 * s->model->count; c++)
-    if (s->assembly.equation[c] == (int)k) s->q[c / 2 + (c % 2) * s->model->stride] += h;
-}
-
-/* -d residual / d equation k => column [n]. */
-static void difference(ZpStatics *s, size_t k, double *column) {
-  static const double h = 1e-10; /* m: contact's range is 5e-7 */
-  ZpStaticSystem system = zp_statics_system(s);
-  double up[4 * NODES];
-  nudge(s, k, h);
-  system.residual(s, up, NULL);
-  nudge(s, k, -2 * h);
-  system.residual(s, column, NULL);
-  nudge(s, k, h);
-  for (size_t i = 0; i < system.n; i++)
-    column[i] = (column[i] - up[i]) / (2 * h);
-}
-
-START_TEST(test_stiffness_is_the_residuals_difference) {
-  ZpModel *model = model_of_kind((size_t)_i);
-  ZpStatics s;
-  ck_assert(zp_statics_create(model, &s));
-  shake(&s);
-  ZpStaticSystem system = zp_statics_system(&s);
-  ZpNewtonWork work;
-  ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, s.assembly.n, s.assembly.bandwidth, s.assembly.symmetric, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_newton_carve(&work, s.assembly.n, s.assembly.bandwidth, s.assembly.symmetric, &carver);
-  system.residual(&s, work.r, NULL);
-  memcpy(s.tension, s.eval.edges.T, (model->count - model->s) * sizeof *s.tension);
-  system.stiffness(&s, &work.K, NULL);
-  double worst = 0, largest = 0;
-  for (size_t k = 0; k < system.n; k++) {
-    double column[4 * NODES];
-    difference(&s, k, column);
-    for (size_t i = 0; i < system.n; i++) {
-      bool within = i <= k ? k - i <= work.K.upper : i - k <= work.K.lower;
-      bool kept = i <= k || !s.assembly.symmetric;
-      double entry = within ? *zp_band_at(&work.K, i, k) : 0;
-      largest = fmax(largest, fabs(column[i]));
-      if (kept) worst = fmax(worst, fabs(entry - column[i]));
-    }
-  }
-  printf("kind %d: stiffness off by %.1e of its largest entry\n", _i, worst / largest);
-  ck_below(worst / largest, 2e-7); /* rounding of positions over h */
-  zp_free(memory);
-  zp_statics_destroy(&s);
-  zp_model_destroy(model);
-}
-END_TEST
 
 /* A band of zeros. */
 static void *zero_band(ZpBand *K, const ZpAssembly *a) {
@@ -150,7 +80,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("assemble");
   TCase *matrix = tcase_create("matrix");
-  tcase_add_loop_test(matrix, test_stiffness_is_the_residuals_difference, 0, LENGTH_OF(kinds));
   tcase_add_loop_test(matrix, test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds));
   suite_add_tcase(suite, matrix);
   return run_suite(suite);

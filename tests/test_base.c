@@ -3,7 +3,7 @@
  *
  * Against: the documented rule of thinning (the stride is the least power of two with which all offered
  * rows would fit), keys.def read a second time, the defaults and presets as the user's manual lists them
- * (typed in here by hand), and a run that goes on against the same run restored, bit for bit. */
+ * (typed in here by hand), and a run that continues against the same run restored, bit for bit. */
 #include "check_util.h"
 
 #include "actuator/model.h"
@@ -626,7 +626,7 @@ START_TEST(test_restore_goes_on_bit_for_bit) {
 }
 END_TEST
 
-/* A state goes on from its saved bytes; not from damaged ones, nor those of another actuator. */
+/* A simulation resumes from its saved bytes; damaged ones and those of another actuator are refused. */
 START_TEST(test_saved_state) {
   ZpActuatorDef def = saved_def(0);
   ZpModel *model = model_of(&def);

@@ -96,7 +96,7 @@ static void check_shapes(const ZpResult *result, const char *what) {
                     "%s (%s): number %zu of frame %zu is not finite", what, zp_outcome_name(result->outcome), k, f);
 }
 
-/* What a run that goes on begins with: the hanging equilibrium; NULL of others. */
+/* What a run that resumes begins with: the hanging equilibrium; NULL of others. */
 static ZpCheckpoint *start_of(const ZpActuatorDef *def) {
   if (def->initial.state != ZP_INITIAL_CHECKPOINT) return NULL;
   ZpActuatorDef hanging = *def;

@@ -1,5 +1,5 @@
-/* Checkpoints: a run that was cut and goes on from its file ends in the same bits as one that was not; what must not
- * go on is refused with the reason. */
+/* Checkpoints: a run that was cut and resumes from its file ends in the same bits as one that was not; what must
+ * not resume is refused with the reason. */
 #include "state_util.h"
 
 #include <zipact/calibrate.h>
@@ -130,7 +130,7 @@ static bool stop_at_once(void *user, const char *stage, double fraction) {
   return strcmp(stage, "simulating") == 0;
 }
 
-/* An interrupted run and one out of steps leave a state that is sound and goes on. */
+/* An interrupted run and one out of steps leave a state that is sound and can be resumed. */
 START_TEST(test_bad_ends) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 21}, {"solver.end_time", 20e-3});
   ZpResult *whole = result_of(ZP_STUDY_ACTUATE, &def), *cut = NULL, *rest = NULL;
@@ -178,7 +178,7 @@ START_TEST(test_diverged) {
 }
 END_TEST
 
-/* -- what must not go on --------------------------------------------------------------------------- */
+/* -- what must not resume -------------------------------------------------------------------------- */
 
 /* A run of 1 ms in a file, and its bytes. */
 static unsigned char *short_run(size_t *size) {

@@ -400,7 +400,7 @@ zp actuate $short -o cut
 ok "a run leaves a checkpoint" is_file cut/checkpoint.zps
 from="--set initial.state=checkpoint --set initial.file=cut/checkpoint.zps"
 zp actuate $short $from --set solver.end_time=4ms -o rest
-ok "goes on from it" status_is 0
+ok "resumes from it" status_is 0
 ok "to the same state" cmp whole/checkpoint.zps rest/checkpoint.zps
 ok "and the same last row" [ "$(tail -1 whole/table.csv | cut -d, -f1-8)" = "$(tail -1 rest/table.csv | cut -d, -f1-8)" ]
 ok "scenario.yaml has the file's whole path" grep -q "file: .*/cut/checkpoint.zps" rest/scenario.yaml

@@ -545,7 +545,7 @@ START_TEST(setting_and_reading_change_nothing) {
 }
 END_TEST
 
-/* Saved inside a ramp, and gone on from there in another simulation: the same bits. */
+/* Saved inside a ramp, and resumed in another simulation: the same bits. */
 START_TEST(restart_inside_a_ramp) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_SQUARE, 20e-3);
   def.drive.frequency = 100;
@@ -756,7 +756,7 @@ START_TEST(load_by_hand_hangs_as_a_mass) {
 }
 END_TEST
 
-/* Inside ramps of both inputs a saved state goes on to the same bits, and another model takes the inputs over. */
+/* Inside ramps of both inputs a saved state continues to the same bits, and another model takes the inputs over. */
 START_TEST(inputs_are_part_of_the_state) {
   ZpActuatorDef def = hanging(_i);
   ZpModel *model = model_of(&def);

@@ -2,13 +2,12 @@
  * solver.integrator implicit and contact.model unilateral.
  *
  * Against: the energies of rod and plates at both ends of random steps, central differences, the frequencies of study
- * modes, the decrement pi omega tau of Kelvin and Voigt, the equilibria of rest/statics.h, the balance of energy, and
+ * modes, the decrement pi omega tau of Kelvin and Voigt, the equilibria of rest/, the balance of energy, and
  * themselves with finer steps and meshes. */
 #include "state_util.h"
 
 #include "actuator/eval.h"
 #include "electro/plates_step.h"
-#include "rest/statics.h"
 #include "ribbon/rod_step.h"
 
 /* -- the rod over a step --------------------------------------------------------------------------- */
@@ -562,8 +561,8 @@ static Zip zip(ZpActuatorDef def) {
 static void check_zip(const char *name, const Zip *zip) {
   printf("%s: %.3f ms, energy off by %.1e, faces overlap by %.2g um, %.3f of the work lost where they meet\n", name,
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
-  ck_below(zip->energy_error, 1e-5); /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
-  ck_below(zip->overlap, 1e-6);
+  ck_below(zip->energy_error, 1e-5);     /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
+  ck_below(zip->overlap, 0.02 * 260e-6); /* of both insulators, where the platform lands */
   ck_assert_double_gt(zip->contact_loss, 0.1);
   ck_assert_double_gt(zip->contraction, 0.99);
 }
@@ -694,7 +693,7 @@ START_TEST(test_zip_by_field) {
   ck_near(field.time, plates, 5e-3);
   ck_assert_double_ne(field.time, plates);
   ck_below(field.energy_error, 1e-3);
-  ck_below(field.overlap, 1e-6);
+  ck_below(field.overlap, 0.02 * 260e-6);
 }
 END_TEST
 
@@ -732,19 +731,11 @@ END_TEST
 
 /* Opening of the state of rest at `voltage` on the branch that hangs. */
 static double opening_at_rest(const ZpModel *model, double voltage) {
-  ZpStatics statics;
-  ZpNewtonWork work;
-  ck_assert(zp_statics_create(model, &statics));
-  ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-  ck_assert(zp_newton_good(zp_statics_hang(&statics, &work).end));
-  ck_assert(zp_statics_raise(&statics, voltage, &work));
-  double opening = zp_statics_opening(&statics);
-  zp_free(memory);
-  zp_statics_destroy(&statics);
+  ZpRest *rest = NULL;
+  ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
+  ck_assert(zp_rest_hang(rest, voltage));
+  double opening = zp_rest_opening(rest);
+  zp_rest_destroy(rest);
   return opening;
 }
 
@@ -766,7 +757,7 @@ START_TEST(test_rests_where_statics_does) {
 }
 END_TEST
 
-/* Saved inside a zip, faces already touching, another simulation goes on from there: to the same bits. */
+/* Saved inside a zip, faces already touching, another simulation resumes from there, to the same bits. */
 START_TEST(test_restart) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   if (_i) def.electro.model = ZP_ELECTRO_FIELD;

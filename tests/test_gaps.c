@@ -2,7 +2,7 @@
  * other noticing. */
 #include "check_util.h"
 
-#include "contact/unilateral.h"
+#include "contact/faces.h"
 #include "drive/waveform.h"
 #include "electro/plates.h"
 
@@ -39,8 +39,8 @@ END_TEST
 /* -- contact --------------------------------------------------------------------------------------- */
 
 static size_t front_of(const double *gap, size_t nodes) {
-  ZpUnilateralParams contact = {.nodes = nodes, .l = 1e-3, .p0 = 1, .range = 5e-7, .touch = 5e-7};
-  return zp_unilateral_front(&contact, gap);
+  ZpFacesParams faces = {.nodes = nodes, .l = 1e-3, .depth = 1e-7, .push = 60};
+  return zp_faces_front(&faces, gap);
 }
 
 /* The front ends at the first station that is open, whatever touches behind it, and at the platform where none is. */
@@ -63,15 +63,22 @@ static size_t closed_row(const ZpTable *branch, double voltage) {
   return closed;
 }
 
-/* Faces that drive.voltage has closed lie on each other, at the platform or the end, too: their push and the attraction
- * are equal all along, and they are a plane capacitor of two insulators. A flange has no platform that could push. */
+/* Where attraction and push per length are equal: k U^2 / d^2 = p_c (-g / delta)^3 by (9.1) and (9.2), without cap. */
+static double closed_gap(double U) {
+  const double largest = 2 * 130e-6 * 40e6, delta = 5e-7;
+  return -delta * cbrt(U / largest * U / largest);
+}
+
+/* Faces that drive.voltage has closed lie where their push and the attraction are equal, at the platform or the end,
+ * too, and they are a plane capacitor of two insulators so much thinner. A flange has no platform that could push. */
 static void check_closed(const ZpActuatorDef *def, const char *distance, double length) {
-  const double C = ZP_EPS0 * 4.62 * 12.7e-3 * length / (2 * 130e-6), U = def->drive.voltage;
+  const double d = 2 * 130e-6 * 2.75 / 4.62, U = def->drive.voltage,
+               C = ZP_EPS0 * 2.75 * 12.7e-3 * length / (d + closed_gap(U));
   ZpResult *result;
   ZpError err;
   ck_assert_msg(zp_study_run(ZP_STUDY_EQUILIBRIUM, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   size_t row = closed_row(result->series, U);
-  ck_below(zp_table_get(result->series, row, distance), 3e-8); /* range of contact: 5e-7 */
+  ck_assert_double_eq_tol(zp_table_get(result->series, row, distance), closed_gap(U), 1e-8);
   ck_near(zp_table_get(result->series, row, "capacitance_F"), C, 1e-4);
   ck_near(zp_table_get(result->series, row, "charge_C"), C * U, 1e-4);
   zp_result_destroy(result);
@@ -83,6 +90,36 @@ START_TEST(closed_faces_lie_on_each_other) {
   ZpActuatorDef pair = DEF({"mesh.nodes", 21}, {"electro.breakdown_cap", 0});
   check_closed(&flange, "stroke_m", 20e-3);
   check_closed(&pair, "opening_m", 2 * (45e-3 + 5e-3));
+}
+END_TEST
+
+/* Eq. (9.3): of the velocity of two nodes of mass m/2 on layers of stiffness k the damper takes the share eta sqrt(k/m)
+ * a second; none where faces do not overlap. */
+START_TEST(damper_takes_what_the_loss_factor_says) {
+  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
+  double push[3], own[3], next[3], stiffness[3], k = 3 * 60 * 1e-3 / 1e-7, m = 1e-5, dt = 1e-12;
+  ZpFacesEval eval = {push, own, next, stiffness};
+  zp_faces_eval(&faces, (double[]){-1e-7, -1e-7, -1e-7}, &eval);
+  ck_near((1 - zp_faces_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-4);
+  zp_faces_eval(&faces, (double[]){0, 1e-9, 0}, &eval);
+  ck_assert_double_eq(zp_faces_kept(&eval, 1, m, 1), 1);
+}
+END_TEST
+
+/* The contact law does not look at the voltage that is to come: a pull-in is the same however far the curve goes. */
+START_TEST(pull_in_does_not_depend_on_the_largest_voltage) {
+  double pull_in[3];
+  static const double largest[] = {5.2e3, 10e3, 50e3};
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef def = DEF({"mesh.nodes", 61}, {"electro.breakdown_cap", 0}, {"drive.voltage", largest[k]});
+    ZpResult *result;
+    ck_assert_int_eq(zp_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, NULL, &result, NULL), ZP_OK);
+    pull_in[k] = zp_result_get(result, "pull_in_voltage_V");
+    zp_result_destroy(result);
+  }
+  printf("pull-in without cap: %.9g, %.9g, %.9g V up to 5.2, 10, 50 kV\n", pull_in[0], pull_in[1], pull_in[2]);
+  ck_near(pull_in[1], pull_in[0], 1e-6);
+  ck_near(pull_in[2], pull_in[0], 1e-6);
 }
 END_TEST
 
@@ -161,6 +198,8 @@ int main(void) {
   tcase_add_loop_test(c, square_wave_rises_within_its_shorter_part, 0, 3);
   tcase_add_test(c, front_ends_at_the_first_open_station);
   tcase_add_test(c, closed_faces_lie_on_each_other);
+  tcase_add_test(c, damper_takes_what_the_loss_factor_says);
+  tcase_add_test(c, pull_in_does_not_depend_on_the_largest_voltage);
   tcase_add_test(c, floppy_ribbon_hangs_straight_down);
   tcase_add_test(c, other_states_are_counted);
   tcase_add_loop_test(c, steps_converge_in_three_iterations, 0, 2);

@@ -145,7 +145,7 @@ START_TEST(coarse_front_is_noted) {
 }
 END_TEST
 
-/* Eq. (9.2), closed form without cap: w = k U^2 / d and W = k U^2 / d^2, so lambda = (EI d^3 / (k U^2))^(1/4). */
+/* Eq. (9.4), closed form without cap: w = k U^2 / d and W = k U^2 / d^2, so lambda = (EI d^3 / (k U^2))^(1/4). */
 START_TEST(front_length_is_that_of_a_peeled_ribbon) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", 0}, {"drive.voltage", 6e3}, {"solver.end_time", 1e-9});
@@ -210,7 +210,7 @@ START_TEST(no_voltage_by_hand_on_bare_electrodes) {
   ZpRunInfo info;
   ck_assert_int_eq(zp_sim_run(sim, 0.1, false, NULL, &info), ZP_SHORT_CIRCUIT);
   ck_assert_msg(strstr(info.message, "touch at 60 V"), "%s", info.message);
-  ck_assert_int_eq(zp_sim_set_voltage(sim, 0, NULL), ZP_OK); /* it lets go, and the simulation goes on */
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 0, NULL), ZP_OK); /* it lets go, and the simulation continues */
   ck_assert_int_eq(zp_sim_run(sim, 0.2, false, NULL, &info), ZP_REACHED_END);
   zp_sim_destroy(sim);
   zp_model_destroy(model);

@@ -158,7 +158,7 @@ static const struct {
     {"rod, field, implicit", {UNILATERAL, FIELD}, 2e-3},           /* 7e-4 */
     {"rod, explicit", {UNILATERAL, EXPLICIT}, 3e-4},               /* 7e-5 */
     {"rod, edges, explicit", {UNILATERAL, EDGES, EXPLICIT}, 3e-4}, /* 1.3e-4 */
-    {"rod, field, explicit", {UNILATERAL, FIELD, EXPLICIT}, 2e-3}, /* 4e-4 */
+    {"rod, field, explicit", {FIELD, EXPLICIT, {"electro.refresh_change", 0.03}}, 2e-3}, /* 4e-4; it bounces */
     {"rod, sequential", {SEQUENTIAL, EXPLICIT}, 1e-3},             /* 6e-4 */
     {"rod, Bezier", {SEQUENTIAL, EXPLICIT, BEZIER}, 0.8},          /* 0.5 */
     {"springs, implicit", {UNILATERAL, SPRINGS}, 1e-5},            /* 3e-6 */
@@ -179,7 +179,7 @@ START_TEST(test_balance_of_every_combination) {
 END_TEST
 
 /* Charge, energy and capacitance of a solved field in motion, and at a voltage that another has just replaced, are
- * those of the shape solved alone: what is held goes on with the shape to second order. Without cap the actuator is a
+ * those of the shape solved alone: what is held follows the shape to second order. Without cap the actuator is a
  * capacitor. Measured: within 2.7e-6. */
 START_TEST(test_solved_field_in_motion) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, UNILATERAL, FIELD, {"electro.breakdown_cap", false},

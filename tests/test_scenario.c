@@ -701,7 +701,7 @@ START_TEST(test_files) {
 }
 END_TEST
 
-/* Runs in a process of its own (Check forks), so the database was not read yet. */
+/* The first of all, so that the database was not read yet. */
 START_TEST(test_no_database) {
   double value;
   ZpError err = {0};
@@ -755,13 +755,13 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("scenario");
   TCase *values = tcase_create("values");
+  tcase_add_test(values, test_no_database);
   tcase_add_loop_test(values, test_good_value, 0, LENGTH_OF(good_values));
   tcase_add_loop_test(values, test_bad_value, 0, LENGTH_OF(bad_values));
   tcase_add_test(values, test_no_break_space);
   tcase_add_test(values, test_long_value);
   tcase_add_loop_test(values, test_value_round_trip, 0, zp_key_count());
   tcase_add_test(values, test_print);
-  tcase_add_test(values, test_no_database);
   tcase_add_test(values, test_threads);
   tcase_add_test(values, test_locale);
   suite_add_tcase(suite, values);

@@ -1,4 +1,4 @@
-/* A simulation that goes on where one of another model was: the page changes its actuator so while it runs. */
+/* A simulation that continues where one of another model was: the page changes its actuator so while it runs. */
 #include "check_util.h"
 
 typedef struct Run {

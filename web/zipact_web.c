@@ -194,7 +194,7 @@ EXPORT double zp_web_key_effective(const ZpWeb *web, int index) {
 
 /* -- simulation ----------------------------------------------------------------------------------- */
 
-/* A simulation of the scenario: from its hanging equilibrium, or going on from where the last one is. */
+/* A simulation of the scenario: from its hanging equilibrium, or from where the last one is. */
 EXPORT int zp_web_start(ZpWeb *web, int go_on) {
   ZpError err;
   ZpModel *model;

@@ -25,14 +25,14 @@ typedef struct ZpCheckpoint {
 ZP_API ZpStatus zp_checkpoint_from(const void *bytes, size_t size, ZpCheckpoint **out, ZpError *err);
 ZP_API void zp_checkpoint_destroy(ZpCheckpoint *checkpoint);
 
-/* The time at which a run goes on from there, s. */
+/* The time at which a run resumes from it, s. */
 ZP_API double zp_checkpoint_time(const ZpCheckpoint *checkpoint);
 
-/* Must key `index` be the same where a run goes on? True of all that makes the actuator; what is done with it (drive,
+/* Must key `index` be the same where a run resumes? True of all that makes the actuator; what is done with it (drive,
  * end time, accuracy, output, keys of other studies) may change. */
 ZP_API bool zp_checkpoint_holds(int index);
 
-/* Can a run of `def` go on from there? ZP_BAD_INPUT names the first key that differs, with both values, or says what
+/* Can a run of `def` resume from it? ZP_BAD_INPUT names the first key that differs, with both values, or says what
  * else is wrong: numbers that are no state, an end time before it. */
 ZP_API ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err);
 
@@ -40,7 +40,7 @@ ZP_API ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActu
  * still sound. *out is NULL where it found no state to start from. */
 ZP_API ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err);
 
-/* Go on from there. A waveform that asks for another voltage at that time makes it jump. ZP_BAD_INPUT as
+/* Resume from it. A waveform that asks for another voltage at that time makes it jump. ZP_BAD_INPUT as
  * zp_checkpoint_check; the simulation is then as it was. */
 ZP_API ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *err);
 

@@ -102,7 +102,7 @@ ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunI
 
 /* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
  * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
- * that is replaced before the simulation goes on counts for nothing (unless a field had to be solved for it); an
+ * that is replaced before the simulation continues counts for nothing (unless a field had to be solved for it); an
  * unchanged one costs nothing. The same as zp_sim_set_input with rate 0. ZP_BAD_INPUT if it is out of the range of
  * drive.voltage, and as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
@@ -134,7 +134,7 @@ ZP_API double zp_sim_get(ZpSim *sim, const char *name);
  * row at an earlier time, so that current times time adds up to the charge, jumps of the voltage included. */
 ZP_API void zp_sim_read(ZpSim *sim, double *row);
 
-/* Present shape; its pointers are valid until the simulation goes on. */
+/* Present shape; its pointers are valid until the simulation continues. */
 ZP_API ZpShape zp_sim_shape(ZpSim *sim);
 
 /* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN
@@ -156,10 +156,10 @@ ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpErr
 /* The columns of a time series: one per line of signals.def. */
 ZP_API const ZpColumn *zp_signal_columns(size_t *count);
 
-/* Go on from where `from` is, a simulation of another model with as many ribbons and nodes: its time, voltage, contact,
- * velocities and shape, stretched to this model's length. Energy and losses count from here on; contraction refers to
- * this model's own hanging equilibrium. drive.waveform does not count any more. ZP_BAD_INPUT if the models differ in
- * number. */
+/* Continue from where `from` is, a simulation of another model with as many ribbons and nodes: its time, voltage,
+ * contact, velocities and shape, stretched to this model's length. Energy and losses count from here on; contraction
+ * refers to this model's own hanging equilibrium. drive.waveform does not count any more. ZP_BAD_INPUT if the models
+ * differ in number. */
 ZP_API ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
 
 #ifdef __cplusplus

@@ -55,7 +55,7 @@ typedef struct ZpResult {
   ZpTable *series;          /* the study's table; NULL if it has none */
   ZpShapes *shapes;         /* NULL if it has none */
   ZpFieldMap *map;          /* NULL if it has none */
-  ZpCheckpoint *checkpoint; /* of a run in time, to go on from; NULL if there is none */
+  ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
   ZpLimits *limits;         /* the states of study limits; NULL of another */
 } ZpResult;
 

@@ -183,7 +183,7 @@ static PyObject *simulation_get(PyObject *object, PyObject *name) {
   return PyFloat_FromDouble(zp_sim_get(self->sim, words));
 }
 
-/* (zipped, x, y, gap, line_force), the arrays valid until the simulation goes on. */
+/* (zipped, x, y, gap, line_force), the arrays valid until the simulation continues. */
 static PyObject *simulation_shape(PyObject *object, PyObject *unused) {
   (void)unused;
   Simulation *self = (Simulation *)object;

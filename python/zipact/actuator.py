@@ -111,7 +111,7 @@ class Actuator(Mapping[str, Any]):
         return [self.replace(**dict(zip(lists, row, strict=True))) for row in rows]
 
     def run(self, study: str | None = None, *, progress: Progress | None = None) -> Result:
-        """Run a study, by default that of key `study`. Other threads go on meanwhile; Ctrl-C stops it."""
+        """Run a study, by default that of key `study`. Other threads run meanwhile; Ctrl-C stops it."""
         if study is not None and study != self["study"]:
             return self.replace(study=study).run(progress=progress)
         return Result(self._definition.run(progress), self)

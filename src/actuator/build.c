@@ -296,14 +296,35 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-static ZpStopParams stop_of(const ZpModel *model) {
+/* Of both layers pressed together, per length of ribbon, N/m^2. */
+static double layer_stiffness(const ZpModel *model) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  double layers = (model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest);
-  return (ZpStopParams){model->nodes, model->l, E * def->ribbon.width / layers,
-                        model->s == 2 ? def->platform.length / 2 : 0};
+  return E * def->ribbon.width / ((model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest));
+}
+
+/* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
+ * insulators. */
+static double largest_attraction(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  const ZpPlatesParams *p = &model->plates;
+  double field = def->medium.breakdown_field / def->electro.voltage_share;
+  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field, d = fmax(p->d, p->h_least);
+  bool capped = def->electro.breakdown_cap || voltage == 0;
+  return p->k * (capped ? field * field : voltage * voltage / (d * d));
+}
+
+/* Eq. (9.2). */
+static ZpFacesParams faces_of(const ZpModel *model) {
+  static const double least = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
+  double depth = fmin(fmax(part * model->plates.d, least), ZP_CLOSED_GAP);
+  const ZpActuatorDef *def = &model->def;
+  double stiffest = layer_stiffness(model) * depth / 3;
+  double weight = (model->section.mu + def->load.share * def->load.mass / model->L) * def->gravity;
+  double push = fmin(fmax(largest_attraction(model), weight), stiffest);
+  return (ZpFacesParams){model->nodes, model->l, depth, push, model->s == 2 ? def->platform.length / 2 : 0};
 }
 
 /* damping.internal, or what auto stands for: docs/theory.md, section 18. */
@@ -315,12 +336,15 @@ static double internal_damping_of(const ZpActuatorDef *def) {
   return damped ? of_taped_steel : 0;
 }
 
-/* Of faces that press on each other, rad/s: two free nodes, or the lower platform below the held one. */
+/* Of faces that overlap by five depths, as fast ones do, rad/s: two free nodes, or the lower platform below the held
+ * one. */
 static double contact_frequency(const ZpModel *model) {
+  enum { DEPTH = 5 };
   const ZpActuatorDef *def = &model->def;
-  double mu = model->section.mu, half = 0.5 * model->l;
-  double platform = model->stop.stiffness * (half + model->stop.flat_length);
-  return sqrt(fmax(model->stop.stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
+  const ZpFacesParams *p = &model->faces;
+  double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, mu = model->section.mu, half = 0.5 * model->l;
+  double platform = stiffness * (half + p->flat_length);
+  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
 static void derive(ZpModel *model) {
@@ -341,7 +365,7 @@ static void derive(ZpModel *model) {
   model->plates = plates_of(model);
   model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
-  model->stop = stop_of(model);
+  model->faces = faces_of(model);
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part

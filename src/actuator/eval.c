@@ -19,6 +19,7 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   }
   zp_plates_carve(&model->plates, &e->plates, &carver);
   zp_plates_step_carve(&model->plates, &e->attraction, &carver);
+  zp_faces_carve(&model->faces, &e->faces, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   e->none = zp_carve(&carver, model->stride);
   return carver.used;

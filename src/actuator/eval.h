@@ -18,6 +18,7 @@ typedef struct ZpEval {
   ZpEdges edges;        /* of the one in use */
   ZpPlatesEval plates;
   ZpPlatesStep attraction; /* at rest there */
+  ZpFacesEval faces;       /* of unilateral contact */
   ZpSurplus surplus;       /* where the field is solved */
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */

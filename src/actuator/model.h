@@ -10,7 +10,7 @@
 
 #include <zipact/model.h>
 
-#include "contact/stop.h"
+#include "contact/faces.h"
 #include "contact/zip.h"
 #include "drive/waveform.h"
 #include "electro/edges.h"
@@ -40,7 +40,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpRodParams rod; /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
-  ZpStopParams stop;       /* of unilateral contact in motion */
+  ZpFacesParams faces;     /* of unilateral contact */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;

@@ -26,7 +26,7 @@ bool zp_edges_capacitance(const ZpEdgeParams *params, const ZpFieldMesh *mesh, s
 enum { ZP_EDGE_TERMS = 18 };
 
 /* e(g) / w with e = C' / (eps0 eps_m) - w / (g + d), a polynomial in z(g), eqs. (16.1), (16.2). Beyond its ends it
- * goes on straight. */
+ * continues straight. */
 typedef struct ZpEdgeLaw {
   double largest;          /* it holds for gaps 0 .. largest, m */
   double d;                /* liquid thickness that stands for both insulators, m */

@@ -21,7 +21,7 @@ double zp_plates_least_h(const ZpPlatesParams *p, double U) {
   return h_c > p->h_least ? h_c : p->h_least;
 }
 
-/* The gap from which the edges' law goes on straight to where there is a cap below h_c, or beyond its ends. */
+/* The gap from which the edges' law continues straight to where there is a cap below h_c, or beyond its ends. */
 static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
   double least = h_c - p->d > 0 ? h_c - p->d : 0, bounded = gap > least ? gap : least;
   return bounded < p->edges->largest ? bounded : p->edges->largest;

@@ -20,7 +20,7 @@ typedef struct ZpPlatesParams {
   double k;                 /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
   double d;                 /* liquid thickness that stands for both insulators, m */
   double h_per_volt;        /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
-  double h_least;           /* g + d below which the law is not followed further, m: touching bare faces */
+  double h_least;           /* g + d below which the law is not followed further, m */
   double h_switch_per_volt; /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
   double switch_offset;     /* what it takes for g + d - g, m */
   bool flat;                /* one ribbon below a flat electrode instead of two that face each other */

@@ -36,16 +36,20 @@ void zp_surplus_destroy(ZpSurplus *s) {
   s->memory = NULL;
 }
 
-/* The gap below which the cap holds the force, m; at least that of closed faces, so that both laws are taken at the
- * same. */
-static double least_gap(const ZpSurplus *s) {
-  return fmax(s->U * s->h_per_volt - s->plates.d, ZP_FIELD_LEAST_GAP);
+/* Pairs closer than that, m, are taken to be so far apart: the forces of a field in a narrower gap drown in rounding.
+ */
+static const double narrowest = 1e-7;
+
+/* The gap below which the cap holds the force, m; negative where closed faces are not capped. */
+static double capped_gap(const ZpSurplus *s) {
+  return s->U * s->h_per_volt - s->plates.d;
 }
 
-/* Capped pairs are parted about their middle. The clip is none: it stays closed. */
+/* Capped pairs, and those that are closed, are parted about their middle, so that both laws are taken at the same gap.
+ * The clip is none: it stays closed. */
 static void part_capped(ZpSurplus *s) {
   size_t stride = s->plates.stride;
-  double *y = s->floored + stride, least = least_gap(s);
+  double *y = s->floored + stride, least = fmax(capped_gap(s), narrowest);
   memcpy(s->floored, s->q, 2 * stride * sizeof *s->q);
   for (size_t i = 1; i < s->plates.nodes; i++) {
     double apart = 0.5 * fmax(least - (y[2 * i] - y[2 * i + 1]), 0);
@@ -54,16 +58,17 @@ static void part_capped(ZpSurplus *s) {
   }
 }
 
-/* ... so what would part them further does no work at them, but changes the charge with the voltage's cap. */
+/* ... so what would part capped pairs further does no work at them, but changes the charge with the voltage's cap.
+ * Those that are only closed keep the force that they have there: contact has no jump. */
 static void hold_capped(ZpSurplus *s) {
-  double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, least = least_gap(s), opening = 0;
+  double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, least = capped_gap(s), opening = 0;
   for (size_t i = 1; i < s->plates.nodes; i++) {
     if (y[2 * i] - y[2 * i + 1] >= least) continue;
     double mean = 0.5 * (Fy[2 * i] + Fy[2 * i + 1]);
     opening += Fy[2 * i] - mean;
     Fy[2 * i] = Fy[2 * i + 1] = mean;
   }
-  s->charge = 2 * s->energy + (least > ZP_FIELD_LEAST_GAP ? s->U * s->h_per_volt * opening : 0);
+  s->charge = 2 * s->energy + s->U * s->h_per_volt * opening;
 }
 
 static void subtract_plates(ZpSurplus *s) {

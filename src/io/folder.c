@@ -3,7 +3,7 @@
  * The lock is flock() on a file in the folder: the kernel drops it when its process dies, however that happens, so a
  * lock is never stale; the file that a killed run leaves is removed by the next one. NFS passes the lock on to its
  * server. The file says who holds it, and goes when the folder is closed: only the holder of its lock removes it, and
- * whoever gets a lock checks that the file still has its name. Where a file system knows no locks, runs go on
+ * whoever gets a lock checks that the file still has its name. Where a file system knows no locks, runs do
  * without. */
 #include <errno.h>
 #include <fcntl.h>

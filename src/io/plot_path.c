@@ -67,7 +67,7 @@ static void put_row(const ZpPlot *plot, FILE *file, size_t row) {
   zp_plot_put(file, get(plot, row, "capacitance_F"), '\n');
 }
 
-/* An index per kind of curve. Where the kind changes, the curve goes on to the first row of the other. */
+/* An index per kind of curve. Where the kind changes, the curve continues to the first row of the other. */
 static void data_path(const ZpPlot *plot, FILE *file) {
   fprintf(file, "# voltage_V %s zipped_length_m charge_C capacitance_F; NaN ends a piece, an index is\n", travel(plot));
   fputs("# stable, unstable, stable on the closed branch, unstable there: those that there are\n", file);

@@ -25,7 +25,7 @@ double zp_closing_gap(void *self, double *row) {
 
 double zp_closing_limit(const ZpStatics *s, double hanging) {
   static const double closed_part = 0.01;
-  return fmax(closed_part * hanging, s->contact.range);
+  return fmax(closed_part * hanging, s->model->faces.depth);
 }
 
 /* -- along the square of the voltage ---------------------------------------------------------------- */

@@ -22,9 +22,9 @@ static size_t carve(ZpDynamics *d, void *block) {
   double **of_nodes[] = {&d->start, &d->end, &d->force};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
-  d->push = zp_carve(&carver, model->nodes);
-  d->pressed = zp_carve(&carver, model->nodes);
-  d->pressed0 = zp_carve(&carver, model->nodes);
+  zp_faces_carve(&model->faces, &d->faces, &carver);
+  d->gap = zp_carve(&carver, model->nodes);
+  d->foreseen = zp_carve(&carver, model->nodes);
   d->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   return carver.used;
 }
@@ -55,7 +55,7 @@ static double internal_damping(const ZpDynamics *d) {
   return d->model->internal_damping / d->h;
 }
 
-/* => bending energy and what the source has given: an imbalance is small or large beside them. */
+/* => energies of bending and field: an imbalance is small or large beside them. */
 static double begin(void *self, const double *q0, const double *v0) {
   ZpDynamics *d = self;
   (void)v0;
@@ -67,7 +67,8 @@ static double begin(void *self, const double *q0, const double *v0) {
   if (model->field) zp_plates_gaps(&model->plates, d->start, d->start + model->stride, &d->plates0);
   double bending =
       model->is_rod ? zp_rod_bending_energy(&model->rod, &d->rod0) : zp_massspring_shear_energy(&d->shear, &d->shear0);
-  return bending + fabs(d->state->work);
+  double field = model->field ? zp_plates_totals(&model->plates, &d->plates0, d->U0).potential : 0;
+  return bending + fabs(field);
 }
 
 /* Shear springs of mass_spring: the mean of both ends, as they have no energy whose change it could be. */
@@ -104,7 +105,8 @@ static void add_faces(ZpDynamics *d) {
   double *Fx = d->force, *Fy = Fx + stride, U2 = 0.5 * (d->U0 * d->U0 + d->U1 * d->U1);
   zp_plates_gaps(&model->plates, d->end, d->end + stride, &d->plates1);
   zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U0, d->U1, &d->plates);
-  zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
+  zp_faces_eval(&model->faces, d->plates1.gap, &d->faces);
+  memcpy(d->gap, d->plates1.gap, model->nodes * sizeof *d->gap);
   for (size_t j = 0; j < model->count; j++) {
     Fx[j] += d->plates.Fx[j];
     Fy[j] += d->plates.Fy[j];
@@ -113,8 +115,8 @@ static void add_faces(ZpDynamics *d) {
     d->force[k] += U2 * d->beyond[k];
   for (size_t i = 0; i < model->nodes; i++) {
     size_t lower = s * i + s - 1;
-    Fy[lower] -= d->push[i];
-    if (s == 2) Fy[lower - 1] += d->push[i];
+    Fy[lower] -= d->faces.push[i];
+    if (s == 2) Fy[lower - 1] += d->faces.push[i];
   }
 }
 
@@ -198,7 +200,9 @@ static void tangent(void *self, ZpBordered *J) {
   if (model->def.damping.drag > 0) add_drag_tangent(d, A);
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)
-    d->plates.own[i] += d->pressed[i];
+    d->plates.own[i] += d->faces.own[i];
+  for (size_t i = 0; i + 1 < model->nodes; i++)
+    d->plates.next[i] += d->faces.next[i];
   ZpGapDerivatives gaps = {d->plates.own, d->plates.next, d->plates.along0, d->plates.along1};
   zp_assemble_gaps(&d->assembly, &gaps, A);
 }
@@ -224,19 +228,19 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   return pair;
 }
 
-/* Faces that would pass through each other, and those that press on each other already, meet where their common
- * centre of mass is, just so far inside each other that the first iteration counts them as in touch. */
+/* A first guess: faces that overlap stay as they are, and those that would pass through each other overlap a little,
+ * their common centre of mass where it would be. */
 static void keep_apart(const ZpDynamics *d, double *q1) {
-  static const double inside = 1e-13; /* m */
   const ZpModel *model = d->model;
-  const double *y = d->start + model->stride;
+  const double *y = d->start + model->stride, little = 0.5 * model->faces.depth;
   for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(d, i);
     if (pair.lower < 0) continue;
     double held = model->s == 2 ? y[2 * i] : model->plates.flat_height;
     double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
-    if (!(overlap > 0) && !(d->plates0.gap[i] < 0)) continue;
-    overlap -= inside;
+    bool overlapped = d->plates0.gap[i] < 0;
+    if (!(overlap > 0) && !overlapped) continue;
+    overlap += overlapped ? d->plates0.gap[i] : -fmin(little, overlap);
     q1[pair.lower] -= overlap * (pair.upper >= 0 ? pair.upper_share : 1);
     if (pair.upper >= 0) q1[pair.upper] += overlap * (1 - pair.upper_share);
   }
@@ -248,20 +252,25 @@ static void attempt(void *self, double *q1) {
   if (d->model->field) keep_apart(d, q1);
 }
 
-/* Faces that came into touch or out of it with the last correction: their push was not, or was, in the last force. */
+/* What the last correction has changed of the push of faces beyond what the tangent foresaw. */
 static double unforeseen(void *self, const double *q1) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
-  double work = 0;
+  const ZpFacesEval *faces = &d->faces;
+  double work = 0, *foreseen = d->foreseen, *before = d->gap;
+  const double *gap = d->plates1.gap;
   scatter(d, q1, d->end);
   if (!model->field) return 0;
-  memcpy(d->pressed0, d->pressed, model->nodes * sizeof *d->pressed);
   zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
-  zp_stop_push(&model->stop, d->plates1.gap, d->push, d->pressed);
-  for (size_t i = 1; i < model->nodes; i++) {
-    double gap = d->plates1.gap[i], stiffness = fabs(d->pressed[i] - d->pressed0[i]);
-    work += stiffness * fabs(gap * (gap - d->plates0.gap[i]));
+  for (size_t i = 0; i < model->nodes; i++)
+    foreseen[i] = faces->push[i] - faces->own[i] * (gap[i] - before[i]);
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    foreseen[i] -= faces->next[i] * (gap[i + 1] - before[i + 1]);
+    foreseen[i + 1] -= faces->next[i] * (gap[i] - before[i]);
   }
+  zp_faces_eval(&model->faces, gap, faces);
+  for (size_t i = 1; i < model->nodes; i++)
+    work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - d->plates0.gap[i]));
   return work;
 }
 
@@ -272,27 +281,32 @@ static double kinetic_energy(const ZpDynamics *d) {
   return sum / 2;
 }
 
-static void move_as_one(ZpDynamics *d, size_t i) {
+/* The damper takes relative velocity from station i. */
+static void damp(ZpDynamics *d, size_t i) {
   Pair pair = pair_of(d, i);
   if (pair.lower < 0) return;
   double apart = (pair.upper >= 0 ? d->v[pair.upper] : 0) - d->v[pair.lower];
-  d->v[pair.lower] += apart * (pair.upper >= 0 ? pair.upper_share : 1);
-  if (pair.upper >= 0) d->v[pair.upper] = d->v[pair.lower];
+  double lost = (1 - zp_faces_kept(&d->faces, i, pair.reduced, d->h)) * apart;
+  d->v[pair.lower] += lost * (pair.upper >= 0 ? pair.upper_share : 1);
+  if (pair.upper >= 0) d->v[pair.upper] -= lost * (1 - pair.upper_share);
 }
 
-/* Faces that press on each other move as one at the step's end, and what is too fast for the step, which such impacts
- * make, goes with their loss: => it, J. What they pressed on their way is lost with it. */
+/* The damper between faces that overlap at the step's end, and what is too fast for the step, which impacts make => the
+ * loss, with what the faces' push took on its way, J. */
 static double impact(ZpDynamics *d) {
-  double loss = kinetic_energy(d);
+  const ZpModel *model = d->model;
+  const double *gap = d->plates1.gap, *before = d->plates0.gap;
+  double loss = 0;
   bool any = false;
-  for (size_t i = 1; i < d->model->nodes; i++) {
-    loss -= d->push[i] * (d->plates1.gap[i] - d->plates0.gap[i]);
-    any |= d->pressed[i] > 0;
+  for (size_t i = 1; i < model->nodes; i++) {
+    loss -= d->faces.push[i] * (gap[i] - before[i]);
+    any |= d->faces.stiffness[i] > 0;
   }
-  if (!any) return 0;
+  if (!any) return loss;
+  loss += kinetic_energy(d);
   zp_implicit_smooth(&d->stepper, d->h, d->v);
-  for (size_t i = 1; i < d->model->nodes; i++)
-    if (d->pressed[i] > 0) move_as_one(d, i);
+  for (size_t i = 1; i < model->nodes; i++)
+    if (d->faces.stiffness[i] > 0) damp(d, i);
   return loss - kinetic_energy(d);
 }
 

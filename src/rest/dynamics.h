@@ -4,7 +4,7 @@
 #define ZP_REST_DYNAMICS_H
 
 #include "actuator/eval.h"
-#include "contact/stop.h"
+#include "contact/faces.h"
 #include "electro/plates_step.h"
 #include "rest/assemble.h"
 #include "ribbon/rod_step.h"
@@ -22,17 +22,18 @@ typedef struct ZpDynamics {
   ZpPlatesStep plates;
   ZpImplicitHistory history;
   ZpAssembly assembly;
-  double *mass, *q, *v;   /* [n] by equations */
-  double *start, *end;    /* [2 stride] coordinates of nodes */
-  double *force;          /* [2 stride] N */
-  double *push, *pressed; /* [N] contact: force N, stiffness N/m; 0 where open */
-  double *pressed0;       /* [N] that stiffness in the last force */
-  double (*D)[4];         /* [3 edges] stiffness of the ribbons */
-  const double *beyond;   /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
-  const ZpState *state;   /* at the start of the step under way */
-  double latest;          /* when that step ends at the latest, s */
-  double h, U0, U1;       /* its length, s; voltage at its start and its end, V */
-  double drag_loss;       /* over it, J */
+  double *mass, *q, *v; /* [n] by equations */
+  double *start, *end;  /* [2 stride] coordinates of nodes */
+  double *force;        /* [2 stride] N */
+  ZpFacesEval faces;    /* contact */
+  double *gap;          /* [N] gaps of the last force, m */
+  double *foreseen;     /* [N] what the last tangent makes of the push after a correction, N */
+  double (*D)[4];       /* [3 edges] stiffness of the ribbons */
+  const double *beyond; /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
+  const ZpState *state; /* at the start of the step under way */
+  double latest;        /* when that step ends at the latest, s */
+  double h, U0, U1;     /* its length, s; voltage at its start and its end, V */
+  double drag_loss;     /* over it, J */
   void *memory;
 } ZpDynamics;
 

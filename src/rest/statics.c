@@ -7,17 +7,6 @@
 #include "base/kernel.h"
 #include "solve/descend.h"
 
-/* Faces closer than that count as closed: far below a micrometre, far above rounding. */
-static const double touch = 5e-7; /* m */
-
-/* Range of contact: that, or so far below the liquid thickness that stands for the insulators that faces within it
- * attract each other as closed ones do, within 1.4 %. Under the attraction of closed faces at drive.voltage the gap is
- * 0. */
-static double contact_range(const ZpModel *model) {
-  static const double shortest = 1e-8, part = 1.0 / 150; /* m; of that thickness */
-  return fmin(fmax(part * model->plates.d, shortest), touch);
-}
-
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   size_t N = model->nodes, stride = model->stride;
   ZpCarver carver = {block, 0};
@@ -30,19 +19,19 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
   s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
-  double **stations[] = {&s->push, &s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
+  double **stations[] = {&s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(&carver, N);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
   return carver.used;
 }
 
-/* Faces that overlap attract each other as closed ones: their attraction must not outgrow the push, which is what keeps
- * them apart. */
+/* On the way to an equilibrium faces may overlap by more than all their insulators: attraction must not outgrow the
+ * push, which is what keeps them apart. In an equilibrium they overlap by a hundredth of that. */
 static void fill_model(const ZpModel *model, ZpStatics *s) {
   ZpModel *own = (ZpModel *)s->model;
   *own = *model;
-  own->plates.h_least = fmax(model->plates.h_least, model->plates.d);
+  own->plates.h_least = fmax(model->plates.h_least, 0.5 * model->plates.d);
   own->rod.k0 = s->k0_now;
   s->k0 = model->rod.k0;
 }
@@ -73,10 +62,6 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
     zp_statics_destroy(s);
     return false;
   }
-  double closed = zp_plates_law(&model->plates, model->def.drive.voltage, 0).W;
-  double weight = model->total_weight / model->L;
-  s->contact = (ZpUnilateralParams){model->nodes,         model->l, fmax(closed, weight),
-                                    contact_range(model), touch,    model->s == 2 ? model->def.platform.length / 2 : 0};
   s->scale = fmax(model->total_weight, 1e-3);
   s->load = model->def.load.mass;
   put_on(s, 1);
@@ -248,13 +233,13 @@ double zp_statics_opening(const ZpStatics *s) {
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
-  return s->model->field ? zp_unilateral_front(&s->contact, s->eval.plates.gap) : 0;
+  return s->model->field ? zp_faces_front(&s->model->faces, s->eval.plates.gap) : 0;
 }
 
 bool zp_statics_shorted(const ZpStatics *s) {
   const ZpModel *model = s->model;
   if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->contact.range;
+  return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->model->faces.depth;
 }
 
 static ZpPlatesTotals totals(const ZpStatics *s) {
@@ -359,11 +344,11 @@ static ZpEnd residual(void *self, double *r, double *size) {
     s->force[stride + j] += (1 - s->share) * model->weight[j];
   s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
   if (model->field && s->contact_acts) {
-    zp_unilateral_push(&s->contact, s->eval.plates.gap, s->push);
+    zp_faces_eval(&model->faces, s->eval.plates.gap, &s->eval.faces);
     for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
       size_t lower = model->s * i + model->s - 1;
-      s->force[stride + lower] -= s->push[i];
-      if (model->s == 2) s->force[stride + lower - 1] += s->push[i];
+      s->force[stride + lower] -= s->eval.faces.push[i];
+      if (model->s == 2) s->force[stride + lower - 1] += s->eval.faces.push[i];
     }
   }
   memset(r, 0, s->assembly.n * sizeof *r);
@@ -396,7 +381,10 @@ static void add_faces(ZpStatics *s, ZpBand *K) {
     gaps->along0[i] = 2 * half->along0[i];
     gaps->along1[i] = 2 * half->along1[i];
   }
-  if (s->contact_acts) zp_unilateral_stiffness(&s->contact, s->eval.plates.gap, gaps->own, gaps->next);
+  for (size_t i = 0; s->contact_acts && i < model->nodes; i++) {
+    gaps->own[i] += s->eval.faces.own[i];
+    gaps->next[i] += s->eval.faces.next[i];
+  }
   zp_assemble_gaps(&s->assembly, gaps, K);
 }
 

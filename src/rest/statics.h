@@ -4,7 +4,6 @@
 #define ZP_REST_STATICS_H
 
 #include "actuator/eval.h"
-#include "contact/unilateral.h"
 #include "rest/assemble.h"
 #include "solve/continuation.h"
 
@@ -13,7 +12,6 @@
 typedef struct ZpStatics {
   const ZpModel *model; /* the one given, with natural turns as far as they are put on, and overlapping faces closed */
   ZpEval eval;
-  ZpUnilateralParams contact;
   double *q;         /* [2 stride] the present point */
   double U;          /* V */
   double load;       /* mass hung on the actuator, kg; starts as load.mass */
@@ -26,7 +24,6 @@ typedef struct ZpStatics {
   ZpAssembly assembly;
   double scale;          /* force that a residual is relative to, N */
   double (*D)[4];        /* [3 edges] mechanics' stiffness */
-  double *push;          /* [N] contact, N */
   ZpGapDerivatives gaps; /* contact and field */
   double *tension;       /* [edges] what the last step foresaw, N */
   double *moved;         /* [2 stride] work space of a move */

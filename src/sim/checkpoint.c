@@ -1,4 +1,4 @@
-/* Snapshots with an owner, from which runs go on, and which runs may. */
+/* Snapshots with an owner, from which runs resume, and which runs may. */
 #include <zipact/checkpoint.h>
 
 #include <string.h>

@@ -39,12 +39,10 @@ static bool allocate(ZpSim *sim) {
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
-  sim->push = zp_calloc(model->nodes, sizeof(double));
-  sim->pressed = zp_calloc(model->nodes, sizeof(double));
   bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
   return zp_eval_create(model, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work && sim->row &&
-         sim->line_force && sim->push && sim->pressed;
+         sim->line_force;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -118,8 +116,6 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->line_force);
-  zp_free(sim->push);
-  zp_free(sim->pressed);
   zp_free(sim);
 }
 
@@ -180,15 +176,10 @@ static bool prepare_step(ZpSim *sim) {
 
 /* -- one step ------------------------------------------------------------------------------------- */
 
-static const double touch = 5e-7; /* m, as in contact at rest */
-
 /* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
 static ZpZipState touching(const ZpModel *model, const double *gap) {
-  ZpZipState zip = {0, false};
-  while (zip.front + 1 < model->nodes && gap[zip.front + 1] < touch)
-    zip.front++;
-  zip.platform = zip.front + 1 == model->nodes;
-  return zip;
+  size_t front = zp_faces_front(&model->faces, gap);
+  return (ZpZipState){front, front + 1 == model->nodes};
 }
 
 static const ZpZipState clip_only = {0, false};
@@ -201,33 +192,50 @@ static bool is_unilateral(const ZpModel *model) {
   return model->field && model->def.contact.model == ZP_CONTACT_UNILATERAL;
 }
 
-/* Faces that overlap push each other apart, on top of the accelerations a. */
+/* Faces push each other apart, on top of the accelerations a. */
 static void push_faces(ZpSim *sim, const double *q, double *a) {
   const ZpModel *model = sim->model;
   const double *inverse = model->masses.y.inverse;
   double *ay = a + model->stride;
   zp_plates_gaps(&model->plates, q, q + model->stride, &sim->eval.plates);
-  zp_stop_push(&model->stop, sim->eval.plates.gap, sim->push, sim->pressed);
+  zp_faces_eval(&model->faces, sim->eval.plates.gap, &sim->eval.faces);
   for (size_t i = 1; i < model->nodes; i++) {
-    ay[2 * i] += sim->push[i] * inverse[2 * i];
-    ay[2 * i + 1] -= sim->push[i] * inverse[2 * i + 1];
+    ay[2 * i] += sim->eval.faces.push[i] * inverse[2 * i];
+    ay[2 * i + 1] -= sim->eval.faces.push[i] * inverse[2 * i + 1];
   }
 }
 
-/* Those that pressed on each other in the step dt that has just been taken move as one; their push's work, at the mean
- * velocity, is lost with what they lose. How far they are closed now goes into the state. */
-static void stop_faces(ZpSim *sim, double dt) {
+/* The damper takes relative velocity from station i => the loss, J: its kinetic energy, and half of
+ * what attraction and ribbons do over the step with the velocity taken, since symplectic steps keep the energy of
+ * velocities half a step later. */
+static double damp(const ZpSim *sim, size_t i, const double *ay, double dt, double *vy) {
+  const double *inverse = sim->model->masses.y.inverse;
+  double upper = inverse[2 * i], lower = inverse[2 * i + 1], both = upper + lower;
+  if (both == 0) return 0;
+  double apart = vy[2 * i] - vy[2 * i + 1];
+  double lost = (1 - zp_faces_kept(&sim->eval.faces, i, 1 / both, dt)) * apart;
+  double other = (ay[2 * i] - ay[2 * i + 1]) / both - sim->eval.faces.push[i];
+  vy[2 * i] -= lost * upper / both;
+  vy[2 * i + 1] += lost * lower / both;
+  return 0.5 * ((apart - lost) + apart) * lost / both + 0.5 * dt * other * lost;
+}
+
+/* After a step dt: what the push of overlapping faces does at the mean velocity is lost, and what the damper takes. How
+ * far faces are closed goes into the state. */
+static void damp_faces(ZpSim *sim, double dt) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = sim->a + model->stride;
+  const double *gap = sim->eval.plates.gap, *push = sim->eval.faces.push;
   double *vy = zp_state_v(model, state) + model->stride;
   for (size_t i = 1; i < model->nodes; i++) {
-    if (!(sim->pressed[i] > 0)) continue;
+    if (!(push[i] > 0)) continue;
     double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
-    state->contact_loss += zp_zip_merge(i, &model->masses.y, vy) - sim->push[i] * apart * dt;
+    state->contact_loss -= push[i] * apart * dt;
+    state->contact_loss += damp(sim, i, ay, dt, vy);
   }
   zp_plates_gaps(&model->plates, x, y, &sim->eval.plates);
-  state->zip = touching(model, sim->eval.plates.gap);
+  state->zip = touching(model, gap);
 }
 
 /* The load by hand, on top of the accelerations a. */
@@ -308,7 +316,7 @@ static bool closed(const ZpModel *model, const ZpState *state) {
 /* Do electrodes without an insulator touch under a voltage? */
 static bool shorted(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < touch;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
 }
 
 static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner) {
@@ -335,7 +343,7 @@ static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   state->load_work += load * (before - height(sim));
   info->steps++;
   info->limited[limit_of(sim, taken.limit, state->t >= corner)]++;
-  if (is_unilateral(model)) stop_faces(sim, taken.dt);
+  if (is_unilateral(model)) damp_faces(sim, taken.dt);
   follow_voltage(sim);
   if (!model->field) return;
   if (taken.limit == ZP_EXPLICIT_EVENT)

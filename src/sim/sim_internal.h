@@ -21,7 +21,6 @@ struct ZpSim {
   ZpShapes *shapes;            /* the caller's; NULL: no record */
   double *row;                 /* one value per signal */
   double *line_force;          /* [nodes] of the shape handed out */
-  double *push, *pressed;      /* [N] explicit unilateral contact: N, N/m */
   double row_time, row_charge; /* of the last row before the present time, for the mean current */
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
@@ -39,7 +38,7 @@ struct ZpSim {
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
-/* Go on from the state as it has just been given: at the waveform's voltage of its time. */
+/* Resume from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 
 /* The last state so far that a longer run passes through, too; of sound numbers. */

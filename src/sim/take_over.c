@@ -1,4 +1,4 @@
-/* One simulation goes on where another was: a model whose values change while it runs. */
+/* One simulation continues where another was: a model whose values change while it runs. */
 #include <math.h>
 #include <string.h>
 

@@ -67,6 +67,7 @@ bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, do
   b->tolerance = tolerance;
   memset(b->direction, 0, b->system->at_rest.n * sizeof *b->direction);
   b->direction_m = growing ? 1 : -1;
+  b->along = true; /* as good as false: the direction found says which */
   if (!(find_direction(b) > 0)) return false;
   b->along = b->along != b->reversed;
   return true;

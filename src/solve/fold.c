@@ -83,7 +83,7 @@ static void beside(ZpFold *f, const double *d, double dm, double h, double *y) {
 /* Derivative of g along (d, dm), by a central difference: its even part is that of edges which turn, a million times
  * stiffer than what bends. */
 static double change_of_test(ZpFold *f, const double *d, double dm) {
-  static const double small = 2e-6; /* of what linearisation stands: 1 urad, far below the range of contact */
+  static const double small = 2e-6; /* of what linearisation stands: 1 urad, far below the contact depth */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;

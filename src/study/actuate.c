@@ -114,7 +114,7 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
   return ZP_OK;
 }
 
-/* Under a constant voltage until zipped; a run that goes on after that has no such end. */
+/* Under a constant voltage until zipped; a run that continues after that has no such end. */
 static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
                          ZpResult *result, ZpError *err) {
   zp_sim_record(sim, result->series, result->shapes);

@@ -210,7 +210,7 @@ static bool has_changed(void *user) {
   return is_closed(f) != f->was_closed;
 }
 
-/* Fall from near a limit point at `voltage` to what is beyond it; the branch goes on from there. */
+/* From near a limit point at `voltage`, descend to the state beyond it; the branch is followed from that state. */
 static bool fall(Follower *f, bool growing, double voltage) {
   ZpStatics *s = &f->rest.statics;
   f->rest.system.restore(s, f->before);
@@ -219,8 +219,8 @@ static bool fall(Follower *f, bool growing, double voltage) {
   return zp_closing_fall(s, limit, f->was_closed, true, &f->rest.branch.newton) && zp_rest_follow(&f->rest, growing);
 }
 
-/* Go on along a stable branch: change the voltage slowly to `end`, or until the actuator closes or opens. => *at: the
- * voltage that was reached */
+/* Continue along a stable branch: change the voltage slowly to `end`, or until the actuator closes or opens. => *at:
+ * the voltage that was reached */
 static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
   f->was_closed = is_closed(f);
   for (int k = 0; k < MOST_POINTS; k++) {

@@ -42,7 +42,7 @@ void zp_note_breakdown(ZpResult *result, const ZpModel *model, ZpSeen seen) {
 
 /* -- the mesh -------------------------------------------------------------------------------------- */
 
-/* Length over which closed faces part by the range of their attraction, m, eq. (9.2). INFINITY where none zip. */
+/* Length over which closed faces part by the range of their attraction, m, eq. (9.4). INFINITY where none zip. */
 static double front_length(const ZpModel *model, double voltage) {
   const ZpActuatorDef *def = &model->def;
   bool zips = model->s == 2 || (model->flat && def->electro.gap_offset == 0);

@@ -6,7 +6,7 @@ const mostOwed = 0.25; // s of simulated time; what a slow engine cannot run is 
 
 export class Live {
   frame = null; // the newest
-  end = null; // {failure}, {stopped}, {broken} or {refused}: why it does not go on, until something changes
+  end = null; // {failure}, {stopped}, {broken} or {refused}: why it does not continue, until something changes
   trace = {time: [], stroke: []}; // since a button changed the voltage
   pace = 1; // share of the time asked for that was run, lately
   #remote;
@@ -27,7 +27,7 @@ export class Live {
     this.#want({values, voltage, restart: true});
   }
 
-  /** The scenario has changed: go on in it. */
+  /** The scenario has changed: continue in it. */
   change(values, voltage) {
     this.#want({values, voltage});
   }

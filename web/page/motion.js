@@ -29,7 +29,7 @@ export class Motion {
     this.#mark();
   }
 
-  /** The scenario has changed: go on in it; after a failure, or with another number of nodes, from its start. */
+  /** The scenario has changed: continue in it; after a failure, or with another number of nodes, from its start. */
   change(voltage, limit) {
     const {core} = this;
     if (this.ended || core.nodes !== core.value('mesh.nodes')) return this.restart(voltage, limit);

@@ -7,7 +7,7 @@ const clip = 3.5e-3; // m, length of a clip
 const magnification = 25; // of the lens
 const thinnest = 1.6; // px of a metal strip that would be thinner, not in the lens
 
-/** Faces of one half on the screen; side 1: the left one. Ribbons go on straight in clip and platform. */
+/** Faces of one half on the screen; side 1: the left one. Ribbons continue straight in clip and platform. */
 class Half {
   constructor({shape, nodes, centre, platform}, side, to) {
     const last = nodes - 1;

@@ -166,7 +166,7 @@ test('what auto stands for', () => {
   assert.equal(effective('load.mass'), 8e-3);
 });
 
-test('a call is stopped when its time is over, and the next goes on from there', () => {
+test('a call is stopped when its time is over, and the next continues from there', () => {
   const core = new Core(module);
   core.resolve(new Map());
   core.start();
@@ -203,7 +203,7 @@ test('numbers that leave all bounds are said to, and the next scenario runs', ()
   assert.equal(core.run(0.01), null);
 });
 
-test('a change while it runs goes on from where it was', () => {
+test('a change while it runs continues from where it was', () => {
   const core = new Core(module);
   core.resolve(scenario.beginning);
   core.start();

@@ -1,0 +1,48 @@
+/* Contact, at rest and in motion: insulator faces that overlap push each other apart, eq. (9.1), and nothing holds them
+ * together. The push begins smoothly, so that a branch of equilibria has no corner where contact begins, and it is
+ * integrated inside each element at the same points as the field, so that the two balance point by point. In motion a
+ * damper acts between faces that overlap, eq. (9.3).
+ *
+ * Stations are pairs of facing nodes, or nodes below a flat face. */
+#ifndef ZP_CONTACT_FACES_H
+#define ZP_CONTACT_FACES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/memory.h"
+
+typedef struct ZpFacesParams {
+  size_t nodes;       /* N stations; the first is the clip, which is closed by itself */
+  double l;           /* element length, m */
+  double depth;       /* delta: overlap at which the push is p_c, m */
+  double push;        /* p_c, N/m */
+  double flat_length; /* of the platform's faces, at the gap of the last station, m */
+} ZpFacesParams;
+
+/* Faces closer than that count as closed, m: far below a micrometre, far above rounding. */
+#define ZP_CLOSED_GAP 5e-7
+
+/* Loss factor of the layers, as of a soft tape: their damper takes it at the frequency of the layers' own stiffness. */
+#define ZP_FACES_LOSS_FACTOR 0.5
+
+/* What faces do at some gaps. */
+typedef struct ZpFacesEval {
+  double *push;       /* [N] on each station, N, positive opens */
+  double *own, *next; /* [N], [N-1] its derivatives, sign turned: by the station's gap, by the next one's, N/m */
+  double *stiffness;  /* [N] by all gaps at once, N/m: 0 where faces do not overlap */
+} ZpFacesEval;
+
+void zp_faces_carve(const ZpFacesParams *params, ZpFacesEval *eval, ZpCarver *carver);
+
+/* (gaps [N]) => all of eval. */
+void zp_faces_eval(const ZpFacesParams *params, const double *gap, const ZpFacesEval *eval);
+
+/* (eval, mass of the relative motion of station i, kg) => the share of its velocity that the damper leaves after a time
+ * dt. */
+double zp_faces_kept(const ZpFacesEval *eval, size_t i, double reduced_mass, double dt);
+
+/* How many stations from the clip on are closed, the clip not counted. */
+size_t zp_faces_front(const ZpFacesParams *params, const double *gap);
+
+#endif
