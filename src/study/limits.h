@@ -4,8 +4,7 @@
 
 #include <zipact/study.h>
 
-#include "rest/closing.h"
-#include "rest/rest.h"
+#include "rest/slow.h"
 
 typedef enum ZpLimitKind {
   ZP_LIMIT_PULL_IN,
@@ -14,15 +13,6 @@ typedef enum ZpLimitKind {
   ZP_LIMIT_LOAD,
   ZP_LIMIT_KINDS
 } ZpLimitKind;
-
-/* One limit: a state of rest. */
-typedef struct ZpLimit {
-  ZpMarchEnd end;     /* a limit point or an event; ZP_MARCH_ARRIVED: there is none, ZP_MARCH_LOST: it was not found */
-  double value;       /* V or kg; NAN where it does not exist */
-  const char *reason; /* why it does not */
-  double *state;      /* as ZpBranchSystem saves it */
-  double *null;       /* [equations] of a limit point */
-} ZpLimit;
 
 struct ZpLimits {
   size_t ribbons, nodes; /* of the model */
