@@ -35,6 +35,7 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
       return (ZpNewtonInfo){ZP_NEWTON_DIVERGED, info.iterations, INFINITY};
     if (enough(user)) return (ZpNewtonInfo){ZP_NEWTON_CONVERGED, info.iterations, info.residual};
     bool close = zp_closing_done(&closing, info.residual, tolerance);
+    bool floor = !close && zp_closing_stalled(&closing, info.residual, tolerance);
     if (info.iterations == 0) {
       system->stiffness(system->self, &work->K, NULL);
       stiffest = largest_diagonal(&work->K);
@@ -43,8 +44,8 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
     info.end = ZP_NEWTON_SINGULAR;
     if (c < least * stiffest) c = 0;
     if (!resist(system, least * stiffest, &c, work)) return info;
-    info.end = ZP_NEWTON_CONVERGED;
-    if (c == 0 && close) {
+    info.end = floor ? ZP_NEWTON_FLOOR : ZP_NEWTON_CONVERGED;
+    if (c == 0 && (close || floor)) {
       if (fresh) return info;
       fresh = system->refresh(system->self) == ZP_END_FOUND;
       info.end = ZP_NEWTON_DIVERGED;

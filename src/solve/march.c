@@ -43,6 +43,7 @@ static void keep(ZpMarch *m, bool first) {
   m->to_fold = !first && flat < m->flat ? gone * flat / (m->flat - flat) : (double)INFINITY;
   if (2 * m->to_fold < little * sys->q_scale * sqrt(flat))
     m->to_fold = INFINITY; /* what moves that little is at rest */
+  m->tried = false;
   m->flat = flat;
   m->m = parameter(m);
   memcpy(m->before, m->fold.along, rest->n * sizeof *m->before);
@@ -192,7 +193,8 @@ typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
 
 /* One step along the value of the event, which changes to `value`. */
 static Step step_along_value(ZpMarch *m, double sign, double value) {
-  static const double off = 0.25; /* of what m has changed by: more, and it has turned twice on the way */
+  static const double off = 0.25;  /* of what m has changed by: more, and it has turned twice on the way */
+  static const double tiny = 1e-6; /* of m: less does not matter, and where the stiffness jumps no step agrees */
   double far = (value - m->value) / m->slope;
   if (!predict(m, far, far) || !solve_at(m, value)) return STEP_TOO_LONG;
   double gone = parameter(m) - m->m, half = 0.5 * (value - m->value);
@@ -200,7 +202,8 @@ static Step step_along_value(ZpMarch *m, double sign, double value) {
   if (!is_stable(m)) return STEP_TOO_LONG;
   m->event(m->fold.system->at_rest.self, m->guess);
   double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
-  if (fabs(gone - from - to) > off * fabs(gone) || !agrees(m, from, to)) return STEP_TOO_LONG;
+  bool straight = fabs(gone - from - to) <= off * fabs(gone) && agrees(m, from, to);
+  if (!straight && fabs(gone) > tiny * fabs(m->m)) return STEP_TOO_LONG;
   return value == m->limit ? STEP_EVENT : STEP_GOOD;
 }
 
@@ -240,7 +243,8 @@ static bool is_past(const ZpMarch *m, double before) {
 static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
   static const double close = 0.35; /* of m at the limit point */
   double left = sign * (target - m->m);
-  if (part >= 1 && m->to_fold < close * fabs(m->m) && m->to_fold < 1.5 * left) {
+  if (!m->tried && m->to_fold < close * fabs(m->m) && m->to_fold < 1.5 * left) {
+    m->tried = true;
     if (try_fold(m, sign, m->to_fold) && sign * (target - parameter(m)) > 0) return STEP_FOLD;
     go_back(m);
   }
@@ -252,12 +256,12 @@ static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
 }
 
 ZpMarchEnd zp_march(ZpMarch *m, double target) {
-  enum { MOST = 200 };
-  static const double longest = 8, rounding = 1e-14;
+  enum { MOST = 400 };
+  static const double longest = 8, shortest = 1e-9, rounding = 1e-14;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
   if (!is_stable(m)) return ZP_MARCH_LOST;
   keep(m, true);
-  for (int k = 0; k < MOST && part > 1e-4; k++) {
+  for (int k = 0; k < MOST && part > shortest; k++) {
     if (sign * (target - m->m) <= rounding * fabs(target)) return ZP_MARCH_ARRIVED;
     Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1)))
                             : step_along_m(m, sign, target, part);

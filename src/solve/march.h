@@ -28,6 +28,7 @@ typedef struct ZpMarch {
   double slope;   /* of the event along m */
   double flat;    /* 1 / |dq/dm|^2 there */
   double to_fold; /* how far the limit point is, along m; INFINITY: none is in sight */
+  bool tried;     /* to solve for it from there */
 } ZpMarch;
 
 void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
