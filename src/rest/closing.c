@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/descend.h"
-
 static size_t last_to_close(const ZpModel *model) {
   bool clamped = model->flat && model->def.actuator.right_end == ZP_END_CLAMPED;
   return clamped ? (model->nodes - 1) / 2 : model->nodes - 1;
@@ -61,33 +59,4 @@ ZpBranchSystem zp_closing_by_square(ZpStatics *s) {
   system.sensitivity = by_square;
   system.m_scale *= system.m_scale;
   return system;
-}
-
-/* -- falling ---------------------------------------------------------------------------------------- */
-
-typedef struct Fall {
-  ZpStatics *statics;
-  double limit;
-  bool was_closed, to_rest;
-} Fall;
-
-/* It has opened or closed once it is clear of the limit. */
-static bool is_decided(void *user) {
-  static const double clear = 10;
-  const Fall *fall = user;
-  if (fall->to_rest) return false;
-  double gap = zp_closing_gap(fall->statics, NULL);
-  return fall->was_closed ? gap > clear * fall->limit : gap < fall->limit / clear;
-}
-
-bool zp_closing_fall(ZpStatics *s, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work) {
-  static const double shortest = 1e-3,
-                      longest = 0.1; /* 0.5 mrad, so as not to step over a state that is near; 50 mrad */
-  enum { FIRST = 80, MOST = 5000 };
-  ZpStaticSystem system = zp_statics_system(s);
-  Fall fall = {s, limit, was_closed, to_rest};
-  double tolerance = zp_statics_tolerance(s);
-  ZpNewtonInfo info = zp_descend_until(&system, shortest, tolerance, FIRST, is_decided, &fall, work);
-  if (info.end == ZP_NEWTON_SLOW) info = zp_descend_until(&system, longest, tolerance, MOST, is_decided, &fall, work);
-  return zp_newton_good(info.end);
 }

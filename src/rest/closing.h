@@ -20,8 +20,4 @@ ZpBranchSystem zp_closing_by_square(ZpStatics *statics);
 /* So far beyond a limit point, relative, it falls: a ripple of the mesh that is higher by more is still met. */
 #define ZP_CLOSING_BEYOND 1e-4
 
-/* From a limit point, with voltage or load beyond it, to the state in which slow motion against a resistance ends, or
- * (to_rest false) only until it is clear whether it closes, or, if it was closed, opens. False if no end was found. */
-bool zp_closing_fall(ZpStatics *statics, double limit, bool was_closed, bool to_rest, ZpNewtonWork *work);
-
 #endif

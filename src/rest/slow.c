@@ -77,12 +77,19 @@ static double parameter(ZpSlow *f) {
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
 
+/* An actuator that was closed has opened once it is clear of the limit: motion with resistance does not come back. (Of
+ * one that closes this cannot be said, faces overlap for a moment on the way.) */
+static bool has_opened(void *user) {
+  static const double clear = 10;
+  const ZpSlow *f = user;
+  return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
+}
+
 /* Fall from the limit point that the march ended at to what is beyond it. */
 static bool fall(ZpSlow *f, double sign) {
-  const ZpBranchSystem *sys = f->march.fold.system;
-  bool was_closed = zp_slow_is_closed(f);
-  sys->set(f->statics, changed(f, parameter(f), sign * ZP_CLOSING_BEYOND));
-  return zp_closing_fall(f->statics, f->closed, was_closed, false, f->newton);
+  f->was_closed = zp_slow_is_closed(f);
+  f->march.fold.system->set(f->statics, changed(f, parameter(f), sign * ZP_CLOSING_BEYOND));
+  return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
 }
 
 /* Does the branch that the state fell to, from the limit point at m and `gap`, end so close below it that both are a

@@ -32,6 +32,7 @@ typedef struct ZpSlow {
   ZpMarch march;
   double closed;              /* gap at which it counts as closed, m */
   void *held;                 /* a state to come back to */
+  bool was_closed;            /* at the limit point that it falls from */
   bool (*stop)(void *caller); /* asked between limit points: stop there? */
   void *caller;
 } ZpSlow;
