@@ -255,6 +255,27 @@ static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
   return step_along_value(m, sign, m->limit);
 }
 
+/* No step was short enough: is the last good point as near as counts to a corner, where the stiffness jumps and beyond
+ * which there is no stable state? The limit point there is none of those that can be solved as such. */
+static bool is_at_corner(ZpMarch *m, double sign) {
+  enum { MOST = 200 };
+  static const double first = 1e-4, enough = 1e-10; /* of m */
+  double step = first;
+  go_back(m);
+  for (int k = 0; k < MOST && step > enough; k++) {
+    double dm = sign * step * fabs(m->m);
+    if (try_step(m, dm, dm)) {
+      keep(m, false);
+    } else {
+      go_back(m);
+      step *= 0.5;
+    }
+  }
+  if (step > enough || !is_stable(m)) return false;
+  zp_fold_guess(&m->fold);
+  return true;
+}
+
 ZpMarchEnd zp_march(ZpMarch *m, double target) {
   enum { MOST = 400 };
   static const double longest = 8, shortest = 1e-9, rounding = 1e-14;
@@ -276,6 +297,7 @@ ZpMarchEnd zp_march(ZpMarch *m, double target) {
     if (step == STEP_TOO_LONG) go_back(m);
     part = step == STEP_GOOD ? fmin(2 * part, longest) : 0.4 * fmin(part, 1);
   }
+  if (is_at_corner(m, sign)) return ZP_MARCH_FOLD;
   go_back(m);
   return ZP_MARCH_LOST;
 }
