@@ -1,5 +1,5 @@
-/* When an actuator at rest counts as closed, as an event for solve/march.h; and the state that a slow motion leads to
- * once there is no equilibrium left. */
+/* When an actuator at rest counts as closed, as an event for solve/march.h; and the
+ * actuator along the square of the voltage. */
 #ifndef ZP_REST_CLOSING_H
 #define ZP_REST_CLOSING_H
 
@@ -16,8 +16,5 @@ double zp_closing_limit(const ZpStatics *statics, double hanging);
 /* The static system along the square of the voltage (V^2), as forces go: along the voltage itself nothing moves at
  * first. */
 ZpBranchSystem zp_closing_by_square(ZpStatics *statics);
-
-/* So far beyond a limit point, relative, it falls: a ripple of the mesh that is higher by more is still met. */
-#define ZP_CLOSING_BEYOND 1e-4
 
 #endif

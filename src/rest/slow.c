@@ -87,8 +87,9 @@ static bool has_opened(void *user) {
 
 /* Fall from the limit point that the march ended at to what is beyond it. */
 static bool fall(ZpSlow *f, double sign) {
+  static const double beyond = 1e-4; /* of the voltage or the load: a crest that is higher by more is still met */
   f->was_closed = zp_slow_is_closed(f);
-  f->march.fold.system->set(f->statics, changed(f, parameter(f), sign * ZP_CLOSING_BEYOND));
+  f->march.fold.system->set(f->statics, changed(f, parameter(f), sign * beyond));
   return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
 }
 

@@ -197,27 +197,23 @@ void zp_branch_approach(ZpBranch *b, bool (*passed)(void *user), void *user) {
   }
 }
 
-double zp_branch_where(ZpBranch *b, bool (*passed)(void *user), void *user) {
-  const ZpBranchSystem *sys = b->system;
-  void *self = sys->at_rest.self;
-  size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double after_m = b->direction_m;
-  sys->save(self, b->saved);
-  memcpy(b->direction_after, b->direction, bytes);
-  zp_branch_approach(b, passed, user);
-  double where = sys->get(self);
-  sys->restore(self, b->saved);
-  sys->at_rest.residual(self, b->newton.r, NULL);
-  memcpy(b->direction, b->direction_after, bytes);
-  b->direction_m = after_m;
-  return where;
-}
-
 static bool never(void *user) {
   (void)user;
   return false;
 }
 
 double zp_branch_limit(ZpBranch *b) {
-  return zp_branch_where(b, never, NULL);
+  const ZpBranchSystem *sys = b->system;
+  void *self = sys->at_rest.self;
+  size_t bytes = sys->at_rest.n * sizeof *b->direction;
+  double after_m = b->direction_m;
+  sys->save(self, b->saved);
+  memcpy(b->direction_after, b->direction, bytes);
+  zp_branch_approach(b, never, NULL);
+  double where = sys->get(self);
+  sys->restore(self, b->saved);
+  sys->at_rest.residual(self, b->newton.r, NULL);
+  memcpy(b->direction, b->direction_after, bytes);
+  b->direction_m = after_m;
+  return where;
 }

@@ -62,12 +62,3 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
   info.end = ZP_NEWTON_SLOW;
   return info;
 }
-
-static bool never(void *user) {
-  (void)user;
-  return false;
-}
-
-ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work) {
-  return zp_descend_until(system, longest, tolerance, most, never, NULL, work);
-}
