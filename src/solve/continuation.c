@@ -10,6 +10,7 @@
 static const double shortest_step = 1e-9;
 static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
 static const double surest_step = 1e-5;  /* too short to cross a sharp fold onto the way back */
+static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
 enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
 void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpCarver *carver) {
@@ -159,7 +160,7 @@ bool zp_branch_advance(ZpBranch *b) {
   while (b->step > shortest_step) {
     double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
     int corrections = try_step(b, s);
-    bool stayed = corrections >= 0 && find_direction(b) > sharpest_turn;
+    bool stayed = corrections >= 0 && find_direction(b) > (s < corner_step ? 0 : sharpest_turn);
     if (stayed && (s < surest_step || !(b->reversed || turned_twice(b, s, m_start, m)))) {
       b->along = b->along != b->reversed;
       b->step = b->taken = s;
