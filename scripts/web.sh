@@ -9,7 +9,7 @@ mkdir -p web/build
 
 # The core without the two-dimensional field and what reads or writes files; web/without_field.c and web/units.c
 # stand in for what it misses.
-sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/drive src/solve src/actuator src/rest \
+sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/paper src/drive src/solve src/actuator src/term src/system src/rest \
   src/sim src/study -name '*.c' | sort | grep -v -E \
   -e 'electro/(field|grid|surplus)\.c|math/skyline\.c|study/(profile|faces|bookkeeping)\.c')
 # shellcheck disable=SC2086

@@ -10,9 +10,9 @@
 
 #include <zipact/zipact.h>
 
-#include "actuator/eval.h"
 #include "math/elementary.h"
 #include "math/skyline.h"
+#include "system/system.h"
 
 /* A NAN has many bit patterns, all of which mean the same. */
 static void put(double value) {
@@ -144,13 +144,14 @@ static void print_accelerations(const char *name, const ZpActuatorDef *def, int 
   double *a = calloc(2 * model->stride, sizeof *a);
   ZpEval eval;
   uint64_t seed = 1;
-  if (!state || !a || !zp_eval_create(model, &eval)) exit(1);
+  if (!state || !a || !zp_system_create(model, true, &eval)) exit(1);
   for (int k = 0; k < states; k++) {
     shake(model, state, &seed);
     state->U = 1e3 * (k % 12);
     state->zip.front = (size_t)(k % 3);
     state->refreshed = NAN;
-    zp_eval_accelerations(model, state, zp_state_q(model, state), zp_state_v(model, state), &eval, a);
+    ZpSpan now = zp_span_of(model, state, zp_state_q(model, state), zp_state_v(model, state));
+    zp_system_accelerations(model, &now, &model->masses, &eval, a);
     put_array(name, a, model->count);
     put_array(name, a + model->stride, model->count);
     ZpEnergies e = zp_eval_energies(model, state, &eval);

@@ -21,12 +21,15 @@ MAY_INCLUDE = {
     "ribbon": ["math", "def", "base"],
     "electro": ["math", "def", "base"],
     "contact": ["math", "def", "base"],
+    "paper": ["electro", "math", "def", "base"],
     "drive": ["math", "def", "base"],
     "solve": ["math", "base"],  # knows no physics
-    "actuator": ["ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "rest": ["actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "sim": ["rest", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
-    "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "drive", "math", "def", "base"],
+    "actuator": ["ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "term": ["actuator", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "system": ["term", "actuator", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "rest": ["system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "sim": ["rest", "system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "io": ["base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
     "reproduce": ["fit", "io", "base"],
@@ -428,6 +431,27 @@ def rule_a_study_is_known_to_its_own_file(repo, files):
         yield any(name == "src/study/%s.c" % word for name in files), "include/zipact/studies.def:1", "study %s has no file" % word
 
 
+# What gives a force of a law, or adds to one: only terms may, and system/system.c, which asks them.
+FORCE_OF_A_LAW = re.compile(
+    r"\b(zp_rod_step|zp_rod_stiffness|zp_massspring_stiffness|zp_plates_step|zp_plates_rest|zp_surface_bezier)\s*\("
+    r"|\b(F|Fx|Fy|force|a|ax|ay)\s*\[[^\]]*\]\s*[-+]=|->\s*(force|stiffness)\(model"
+)
+ABOVE_TERMS = ("actuator", "system", "rest", "sim", "study")
+
+
+def rule_one_sum(repo, files):
+    """Forces of laws are added up in system/system.c, nowhere else."""
+    terms = re.findall(r"^ZP_TERM\((\w+)\)$", read(repo, "src/term/terms.def"), re.M)
+    for term in terms:
+        yield "src/term/%s.c" % term in files, "src/term/terms.def:1", "term %s has no file" % term
+    for name in files:
+        if folder_of(name) not in ABOVE_TERMS or not name.endswith((".c", ".h")) or name == "src/system/system.c":
+            continue
+        code = code_of(read(repo, name))
+        found = FORCE_OF_A_LAW.search(code)
+        yield not found, "%s:%d" % (name, line_at(code, found.start()) if found else 1), "adds to a force: that is a term's"
+
+
 # Phrases over which native speakers stumble, and what to say instead.
 STUMBLING = {
     r"(solved|found) anew": "re-solve, recompute",
@@ -472,6 +496,7 @@ RULES = [
     rule_short_functions,
     rule_head_comment,
     rule_a_study_is_known_to_its_own_file,
+    rule_one_sum,
     rule_readme_is_short,
     rule_plain_words,
 ]
@@ -490,7 +515,7 @@ def self_test():
     assert not CORE_CALLS.search("snprintf(text); vsnprintf(t); reopen(x)")
     assert not CORE_CALLS.search("hooks->clock(user)") and CORE_CALLS.search("fprintf(stderr)") and CORE_CALLS.search("  exit (1)")
     assert ROUNDED_BY_LIBM.search("x = cbrt(y)") and not ROUNDED_BY_LIBM.search("sqrt(x) + zp_cos(y) + a.exp(z)")
-    assert not include_is_right("solve", '"', "ribbon/massspring.h")
+    assert not include_is_right("solve", '"', "paper/massspring.h")
     assert not include_is_right("contact", '"', "electro/plates.h")
     assert not include_is_right("math", "<", "zipact/sim.h")
     assert include_is_right("sim", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")

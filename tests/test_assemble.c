@@ -2,7 +2,7 @@
  * whose entries ask for their equations. Against differences of the forces: test_stiffness. */
 #include "check_util.h"
 
-#include "rest/assemble.h"
+#include "actuator/assemble.h"
 
 enum { NODES = 9 };
 

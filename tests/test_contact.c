@@ -2,11 +2,11 @@
  * during runs of the actuator.
  *
  * Against: closed-form roots of the relative motion g + w s + c s^2 of one step, conservation of momentum and
- * the loss of an inelastic impact, m1 m2 / (m1 + m2) dv^2 / 2, and the invariants of contact/zip.h. */
+ * the loss of an inelastic impact, m1 m2 / (m1 + m2) dv^2 / 2, and the invariants of paper/zip.h. */
 #include "state_util.h"
 
 #include "actuator/model.h"
-#include "contact/zip.h"
+#include "paper/zip.h"
 
 /* -- meetings -------------------------------------------------------------------------------------- */
 

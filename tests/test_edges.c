@@ -6,8 +6,8 @@
  * the plates law with its own cap; a solved field to which the edges are added. */
 #include "check_util.h"
 
-#include "actuator/eval.h"
 #include "base/kernel.h"
+#include "system/system.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -249,7 +249,7 @@ typedef struct Pair {
 
 static Pair make_pair(ZpModel *model) {
   Pair pair = {.model = model};
-  ck_assert(zp_eval_create(model, &pair.eval));
+  ck_assert(zp_system_create(model, true, &pair.eval));
   pair.q = zp_calloc(2 * model->stride, sizeof(double));
   for (size_t j = 0; j < model->stride; j++)
     pair.q[j] = (double)(j / 2) * model->l;
@@ -417,7 +417,11 @@ START_TEST(test_with_solved_field) {
     size_t stride = pair[k].model->stride;
     F[k] = calloc(2 * stride, sizeof(double));
     ck_assert(zp_eval_solve_field(pair[k].model, pair[k].q, 6e3, &pair[k].eval));
-    zp_eval_static_forces(pair[k].model, pair[k].q, 6e3, &pair[k].eval, F[k]);
+    ZpSpan span = zp_span_at(pair[k].q);
+    span.U0 = span.U1 = 6e3;
+    span.faces_pass = true;
+    span.beyond = pair[k].model->field_solved ? pair[k].eval.surplus.F : NULL;
+    zp_system_force(pair[k].model, &span, &pair[k].eval, F[k]);
     ZpPlatesTotals t = totals_of(&pair[k], 6e3);
     energy[k] = t.potential - 36e6 * pair[k].eval.surplus.energy;
     charge[k] = t.charge + 2 * 6e3 * pair[k].eval.surplus.energy;

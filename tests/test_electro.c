@@ -6,8 +6,8 @@
  * recovery of a cubic by the Bezier fit. How much the Bezier surface differs from the polyline is measured. */
 #include "check_util.h"
 
-#include "actuator/eval.h"
 #include "base/kernel.h"
+#include "system/system.h"
 
 static const double L = 45e-3, w = 12.7e-3, eps_m = 2.75;
 
@@ -142,7 +142,7 @@ typedef struct Pair {
 
 static Pair make_pair(ZpModel *model) {
   Pair pair = {.model = model};
-  ck_assert(zp_eval_create(model, &pair.eval));
+  ck_assert(zp_system_create(model, true, &pair.eval));
   pair.x = zp_calloc(model->stride, sizeof(double));
   pair.y = zp_calloc(model->stride, sizeof(double));
   for (size_t j = 0; j < model->stride; j++)

@@ -2,7 +2,7 @@
  * the constants of the paper's text against its numbers. The expected values are theirs, not ours. */
 #include "check_util.h"
 
-#include "ribbon/massspring.h"
+#include "paper/massspring.h"
 #include "ribbon/section.h"
 
 /* -- settled strokes ------------------------------------------------------------------------------- */

@@ -5,10 +5,10 @@
  * same solution with other meshes. */
 #include "check_util.h"
 
-#include "actuator/eval.h"
 #include "base/kernel.h"
 #include "electro/field.h"
 #include "electro/surplus.h"
+#include "system/system.h"
 
 /* -- the grid ------------------------------------------------------------------------------------- */
 
@@ -386,7 +386,7 @@ START_TEST(test_surplus_makes_plates_the_field) {
                           {"electro.breakdown_cap", 0});
   ZpModel *model = model_of(&def);
   ZpEval eval;
-  ck_assert(zp_eval_create(model, &eval));
+  ck_assert(zp_system_create(model, true, &eval));
   double *q = calloc(2 * model->stride, sizeof *q);
   for (size_t i = 0; i < model->nodes; i++) {
     double xi = (double)i / (double)(model->nodes - 1);

@@ -8,7 +8,7 @@
 
 #include "base/kernel.h"
 #include "base/memory.h"
-#include "ribbon/massspring.h"
+#include "paper/massspring.h"
 #include "ribbon/section.h"
 #include "solve/explicit.h"
 

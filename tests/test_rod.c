@@ -6,7 +6,7 @@
 #include "base/kernel.h"
 #include "math/band.h"
 #include "math/eigen.h"
-#include "ribbon/massspring.h"
+#include "paper/massspring.h"
 #include "ribbon/rod_step.h"
 
 /* -- a rod of no particular shape ------------------------------------------------------------------ */

@@ -2,9 +2,9 @@
  * the bounds of eq. (9) of the paper node by node; drag's bound in a run. */
 #include "state_util.h"
 
-#include "actuator/eval.h"
 #include "contact/faces.h"
 #include "solve/explicit.h"
+#include "system/system.h"
 
 /* -- the fastest vibration ------------------------------------------------------------------------- */
 
@@ -23,7 +23,7 @@ static Rest rest_of(const ZpActuatorDef *def, bool faces_press) {
   r.sim = sim_of(r.model);
   r.state = malloc(zp_state_size(r.model));
   copy_state(r.sim, r.state);
-  ck_assert(zp_eval_create(r.model, &r.eval));
+  ck_assert(zp_system_create(r.model, true, &r.eval));
   size_t n = 2 * r.model->stride;
   r.q = malloc(n * sizeof *r.q);
   r.a0 = malloc(n * sizeof *r.a0);
@@ -44,17 +44,9 @@ static void free_rest(Rest *r) {
 /* Accelerations at q: of ribbons and weight, of faces that press on each other where they do. */
 static void accelerate(Rest *r, const double *q, double *a) {
   const ZpModel *model = r->model;
-  const double *inverse = model->masses.y.inverse;
-  zp_eval_accelerations(model, r->state, q, zp_state_v(model, r->state), &r->eval, a);
+  ZpSpan now = zp_span_of(model, r->state, q, zp_state_v(model, r->state));
+  zp_system_accelerations(model, &now, &model->masses, &r->eval, a);
   static const ZpZipState clip_only = {0, false};
-  if (r->faces_press) {
-    zp_plates_gaps(&model->plates, q, q + model->stride, &r->eval.plates);
-    zp_faces_eval(&model->faces, r->eval.plates.gap, &r->eval.faces);
-    for (size_t i = 1; i < model->nodes; i++) {
-      a[model->stride + 2 * i] += r->eval.faces.push[i] * inverse[2 * i];
-      a[model->stride + 2 * i + 1] -= r->eval.faces.push[i] * inverse[2 * i + 1];
-    }
-  }
   zp_eval_share(model, &model->masses, &clip_only, a);
 }
 
@@ -188,7 +180,8 @@ static void check_bounds(const ZpActuatorDef *def) {
     least.shear = fmin(least.shear, at.shear);
     power += def->damping.drag * pow(2 * model->mass[j] / (def->damping.drag * at.drag), 3);
   }
-  zp_eval_accelerations(model, r.state, zp_state_q(model, r.state), zp_state_v(model, r.state), &r.eval, r.a);
+  ZpSpan now = zp_span_of(model, r.state, zp_state_q(model, r.state), zp_state_v(model, r.state));
+  zp_system_accelerations(model, &now, &model->masses, &r.eval, r.a);
   ZpStepBounds bounds = zp_eval_step_bounds(model, r.state, &r.eval);
   ck_near(bounds.drag, least.drag, 1e-12);
   ck_near(bounds.axial, least.axial, 1e-12);

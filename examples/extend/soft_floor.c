@@ -1,73 +1,60 @@
-/* A contact law of one's own beside the library's rod: a steel strip on a soft floor, pressed down at its free end.
+/* A law of one's own as a term: a steel strip on a soft floor, pressed down at its free end by its load.
  *
- * A model is a kernel: parameters and positions go in, forces come out. It does not know what else acts; forces of
- * different kinds are added in one place, here `accelerate`, in the program src/actuator/eval.c. Built against the
+ * A term says what its force is over a span, and its derivative; it does not know what else acts. In the library it
+ * would be a file of src/term/ and a line of terms.def; a program appends it to the terms of a model. Built against the
  * rooms of src/, not against an installed zipact. Checked: a long beam on such a floor sinks at its end by
  * 2 P lambda / k + q / k, lambda^4 = k / (4 EI) (Winkler and Hetenyi), as long as its weight keeps it on the floor. */
 #include <math.h>
 #include <stdio.h>
 
-#include "base/kernel.h"
-#include "ribbon/rod_step.h"
-#include "solve/relax.h"
+#include "rest/rest.h"
 
-enum { N = 101, PLACES = 128, EDGES = N - 1 };
-static const double l = 1e-3, EA = 1.27e5, EI = 2.88e-5; /* edge, m; strip of 12.7 mm x 50 um steel, N, N m^2 */
-static const double q_line = 0.049, P = 1e-3;            /* its weight per length, N/m; what presses its end, N */
-static const double k = 1.2e4;                           /* of the floor, per length and depth, N/m^2 */
+static const double k = 1.2e4; /* of the floor, per length and depth, N/m^2 */
 
-/* The law: the floor pushes where a node is below it, and does not hold what rises. (y [N]) => push [N], N. */
-static void floor_push(const double *y, double *push) {
-  for (size_t i = 0; i < N; i++)
-    push[i] = y[i] < 0 ? -k * l * (i == 0 || i == EDGES ? 0.5 : 1) * y[i] : 0;
+/* Of the floor under node i, N/m. */
+static double floor_stiffness(const ZpModel *model, size_t i) {
+  return k * model->l * (i == 0 || i + 1 == model->nodes ? 0.5 : 1);
 }
 
-typedef struct Strip {
-  ZpRodParams rod;
-  ZpRodEval eval;
-  ZpRodStep forces; /* at rest: both ends of the step are one point */
-  double worst; /* largest force left, N */
-} Strip;
+/* The floor is at y = 0. It pushes where a node is below it at the end of the span, and does not hold what rises. */
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F) {
+  (void)eval;
+  const double *y = span->end + model->stride;
+  double *Fy = F + model->stride;
+  for (size_t i = 0; i < model->nodes; i++)
+    if (y[i] < 0) Fy[i] -= floor_stiffness(model, i) * y[i];
+}
 
-/* (x, then y) => forces over a pseudo-mass that slows the stiffest motion to the pace that zp_relax asks for. */
-static void accelerate(void *self, const double *q, double *a) {
-  Strip *s = self;
-  double push[N], mass = 0.5 * (4 * EA / l + 16 * EI / (l * l * l) + k * l);
-  zp_rod_eval(&s->rod, q, q + PLACES, &s->eval);
-  zp_rod_step(&s->rod, &s->eval, &s->eval, 0, &s->forces);
-  floor_push(q + PLACES, push);
-  s->worst = 0;
-  for (size_t i = 1; i < N; i++) { /* node 0 is clamped */
-    double left = i < EDGES ? 1 : 0, weight = q_line * l * (i < EDGES ? 1 : 0.5);
-    double Fx = s->forces.Rx[i - 1] - left * s->forces.Rx[i];
-    double Fy = s->forces.Ry[i - 1] - left * s->forces.Ry[i] + push[i] - weight - (i == EDGES ? P : 0);
-    s->worst = fmax(s->worst, fmax(fabs(Fx), fabs(Fy)));
-    a[i] = Fx / mass;
-    a[PLACES + i] = Fy / mass;
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K) {
+  (void)eval;
+  const double *y = span->end + model->stride;
+  for (size_t i = 0; i < model->nodes; i++) {
+    int row = assembly->equation[2 * i + 1];
+    if (row >= 0 && y[i] < 0) *zp_band_at(K, (size_t)row, (size_t)row) += floor_stiffness(model, i);
   }
 }
 
-static double residual(void *self) {
-  return ((Strip *)self)->worst / P;
-}
+static const ZpTerm soft_floor = {"soft_floor", NULL, NULL, force, stiffness};
 
 int main(void) {
-  static _Alignas(ZP_ALIGNMENT) double block[40 * PLACES];
-  static double rest[PLACES], S[PLACES], B[PLACES], k0[PLACES], q[2 * PLACES], work[10 * PLACES];
-  for (size_t i = 0; i < PLACES; i++) {
-    rest[i] = l;
-    S[i] = i < EDGES ? EA / l : 0;
-    B[i] = i == 0 ? 2 * EI / l : i < EDGES ? EI / l : 0; /* a clamp bends over half an edge; the end is free */
-    q[i] = l * (double)i;
-    q[PLACES + i] = -q_line / k;
-  }
-  Strip strip = {.rod = {1, N, PLACES, rest, S, B, k0}};
-  ZpCarver carver = {(char *)block, 0};
-  zp_rod_carve(&strip.rod, &strip.eval, &carver);
-  zp_rod_step_carve(&strip.rod, &strip.forces, &carver);
-  ZpRelaxSystem system = {2 * PLACES, &strip, accelerate, residual, NULL};
-  ZpRelaxInfo info = zp_relax(&system, 1e-5, 2000000, q, work);
-  double lambda = pow(k / (4 * EI), 0.25), expected = 2 * P * lambda / k + q_line / k, found = -q[PLACES + EDGES];
-  printf("the end sinks by %.3f um, expected %.3f um; %ld steps\n", 1e6 * found, 1e6 * expected, (long)info.steps);
-  return info.end == ZP_RELAX_AT_REST && fabs(found - expected) < 0.005 * expected ? 0 : 1;
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.actuator.kind = ZP_KIND_RIBBON;
+  def.actuator.right_end = ZP_END_FREE;
+  def.insulator.thickness = 0;
+  def.mesh.nodes = 201;
+  def.load.mass = 0.1e-3;
+  ZpModel *model;
+  ZpRest rest;
+  ZpError err;
+  if (zp_model_create(&def, &model, &err) != ZP_OK) return fprintf(stderr, "%s\n", err.message), 1;
+  if (!zp_rest_open(&rest, model, NULL, NULL)) return 1;
+  ZpEval *eval = &rest.statics.eval;
+  eval->term[eval->terms++] = &soft_floor;
+  ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
+  double lambda = pow(k / (4 * model->section.EI), 0.25), P = def.load.share * def.load.mass * def.gravity;
+  double expected = 2 * P * lambda / k + model->section.mu * def.gravity / k, found = zp_statics_stroke(&rest.statics);
+  printf("the end sinks by %.3f um, expected %.3f um; %d iterations\n", 1e6 * found, 1e6 * expected, info.iterations);
+  zp_rest_close(&rest);
+  zp_model_destroy(model);
+  return zp_newton_good(info.end) && fabs(found - expected) < 0.005 * expected ? 0 : 1;
 }

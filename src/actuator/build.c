@@ -361,7 +361,8 @@ static void derive(ZpModel *model) {
   model->l = model->L / (double)(model->nodes - 1);
   model->section = section_of(def, def->ribbon.thickness);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
-  model->spring = spring_of(model);
+  model->spring = model->shear = spring_of(model);
+  model->shear.K_D = 0;
   model->plates = plates_of(model);
   model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);

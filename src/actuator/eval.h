@@ -1,7 +1,8 @@
-/* What follows from a state and is thrown away: forces by source, accelerations, energies, step bounds. */
+/* What follows from a state and is thrown away: work space of the terms, energies, step bounds. */
 #ifndef ZP_ACTUATOR_EVAL_H
 #define ZP_ACTUATOR_EVAL_H
 
+#include "actuator/assemble.h"
 #include "actuator/model.h"
 #include "base/end.h"
 #include "electro/surplus.h"
@@ -11,58 +12,40 @@ typedef struct ZpEdges {
   const double *dpx, *dpy, *ux, *uy, *T, *Rx, *Ry;
 } ZpEdges;
 
+enum { ZP_MOST_TERMS = 16 };
+
+/* Work space of the terms, of the start and the end of a span; at rest and at an instant only of its end. */
 typedef struct ZpEval {
-  ZpMassSpringEval spring; /* one of the two is in use */
-  ZpRodEval rod;
-  ZpRodStep rod_forces; /* at rest in rod */
-  ZpEdges edges;        /* of the one in use */
-  ZpPlatesEval plates;
-  ZpPlatesStep attraction; /* at rest there */
+  const struct ZpTerm *term[ZP_MOST_TERMS]; /* those that the model has; a program may append its own */
+  size_t terms;
+  ZpMassSpringEval spring_start, spring; /* mass_spring */
+  ZpRodEval rod_start, rod;
+  ZpRodStep rod_step;
+  ZpEdges edges; /* at the end, of the mechanics in use */
+  ZpPlatesEval plates_start, plates;
+  ZpPlatesStep attraction;
   ZpFacesEval faces;       /* of unilateral contact */
   ZpSurplus surplus;       /* where the field is solved */
+  ZpBezierSurface surface; /* for the free stations; remade when the front moves */
+  ZpGapDerivatives gaps;   /* sum of the terms that depend on gaps */
+  double (*D)[4];          /* [3 edges] stiffness of edges */
+  double *mean_v;          /* [2 stride] of a span, m/s */
+  const double *none;      /* [stride] zeros */
   double drag_power;       /* lost now, W */
   double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
-  ZpBezierSurface surface; /* for the free stations; remade when the front moves */
-  const double *none;      /* [stride] zeros: the attraction that there is without voltage */
   void *memory;
 } ZpEval;
 
-/* Allocate the arrays of `eval`; false if there is no memory. */
-bool zp_eval_create(const ZpModel *model, ZpEval *eval);
+/* Allocate the arrays of `eval`, without terms, and, if it is to solve the field, what that takes; false if there is no
+ * memory. */
+bool zp_eval_create(const ZpModel *model, bool solves_field, ZpEval *eval);
 void zp_eval_destroy(ZpEval *eval);
-
-/* (q, v, and the voltage, held forces and front of the state) => free accelerations a [2 stride]: those of
- * nodes that no other is joined to. Nothing in the state changes. */
-void zp_eval_accelerations(const ZpModel *model, const ZpState *state, const double *q, const double *v, ZpEval *eval,
-                           double *a);
-
-/* The same of ribbons and load alone, no voltage, no drag, with pseudo-masses: for settling. */
-void zp_eval_unpowered(const ZpModel *model, const double *q, ZpEval *eval, double *a);
 
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
-/* (positions, voltage) => forces at rest [2 stride], N: mechanics, weight, attraction on the polyline, and what
- * the solved field has beyond it where it was solved last. */
-void zp_eval_static_forces(const ZpModel *model, const double *q, double voltage, ZpEval *eval, double *force);
-
 /* Solve the field at these positions and voltage, where the model does; false if it cannot be. */
 bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, ZpEval *eval);
-
-/* Stiffness of the mechanics at the last positions: minus the derivative of the forces of edges by edges, in the form
- * of zp_rod_stiffness. */
-void zp_eval_stiffness(const ZpModel *model, const ZpEval *eval, const double *tension, double (*D)[4]);
-
-/* Should a held electric force be recomputed at this state? What a solved field has beyond plates is due when a gap
- * with its insulators, or the one where breakdown sets in, has changed by more than electro.refresh_change. */
-bool zp_eval_refresh_due(const ZpModel *model, const ZpState *state);
-
-/* Is it due for the sake of a voltage that has just become another? */
-bool zp_eval_voltage_outdates(const ZpModel *model, const ZpState *state);
-
-/* Recompute it, into the state. ZP_END_STOP where the field cannot be solved: the state is then as it was, the refresh
- * still due. */
-ZpEnd zp_eval_refresh(const ZpModel *model, ZpState *state, ZpEval *eval);
 
 /* The three bounds of eq. (9) of the paper at the last accelerations, s; INFINITY where nothing moves. */
 typedef struct ZpStepBounds {

@@ -11,13 +11,13 @@
 #include <zipact/model.h>
 
 #include "contact/faces.h"
-#include "contact/zip.h"
 #include "drive/waveform.h"
 #include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/plates_step.h"
-#include "electro/surface.h"
-#include "ribbon/massspring.h"
+#include "paper/massspring.h"
+#include "paper/surface.h"
+#include "paper/zip.h"
 #include "ribbon/rod_step.h"
 #include "ribbon/section.h"
 
@@ -38,7 +38,8 @@ struct ZpModel {
   ZpSection section;
   bool is_rod; /* mechanics: rod, else spring */
   ZpMassSpringParams spring;
-  ZpRodParams rod; /* of mass_spring its axial springs only */
+  ZpMassSpringParams shear; /* the same without axial springs */
+  ZpRodParams rod;          /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
   ZpFacesParams faces;     /* of unilateral contact */
   double internal_damping; /* s */

@@ -7,14 +7,6 @@ static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
   size_t stride = model->stride, all = 2 * model->count;
   ZpCarver carver = {block, 0};
-  for (size_t end = 0; end < 2; end++) {
-    zp_rod_carve(&model->rod, end ? &d->rod1 : &d->rod0, &carver);
-    zp_massspring_carve(&d->shear, end ? &d->shear1 : &d->shear0, &carver);
-  }
-  zp_rod_step_carve(&model->rod, &d->rod, &carver);
-  zp_plates_carve(&model->plates, &d->plates0, &carver);
-  zp_plates_carve(&model->plates, &d->plates1, &carver);
-  zp_plates_step_carve(&model->plates, &d->plates, &carver);
   zp_implicit_carve(&d->stepper, &d->system, &carver);
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
   for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
@@ -22,10 +14,8 @@ static size_t carve(ZpDynamics *d, void *block) {
   double **of_nodes[] = {&d->start, &d->end, &d->force};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
-  zp_faces_carve(&model->faces, &d->faces, &carver);
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
-  d->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
   return carver.used;
 }
 
@@ -51,97 +41,9 @@ static double end_time(const ZpDynamics *d) {
   return d->h == d->latest - t ? d->latest : t + d->h;
 }
 
+/* Internal damping time over the step's length. */
 static double internal_damping(const ZpDynamics *d) {
   return d->model->internal_damping / d->h;
-}
-
-/* => energies of bending and field: an imbalance is small or large beside them. */
-static double begin(void *self, const double *q0, const double *v0) {
-  ZpDynamics *d = self;
-  (void)v0;
-  const ZpModel *model = d->model;
-  scatter(d, q0, d->start);
-  memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
-  zp_rod_eval(&model->rod, d->start, d->start + model->stride, &d->rod0);
-  if (!model->is_rod) zp_massspring_eval(&d->shear, d->start, d->start + model->stride, &d->shear0);
-  if (model->field) zp_plates_gaps(&model->plates, d->start, d->start + model->stride, &d->plates0);
-  double bending =
-      model->is_rod ? zp_rod_bending_energy(&model->rod, &d->rod0) : zp_massspring_shear_energy(&d->shear, &d->shear0);
-  double field = model->field ? zp_plates_totals(&model->plates, &d->plates0, d->U0).potential : 0;
-  return bending + fabs(field);
-}
-
-/* Shear springs of mass_spring: the mean of both ends, as they have no energy whose change it could be. */
-static void add_shear(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  zp_massspring_eval(&d->shear, d->end, d->end + model->stride, &d->shear1);
-  for (size_t j = 0; j + model->s < model->count; j++) {
-    d->rod.Rx[j] += 0.5 * (d->shear0.Rx[j] + d->shear1.Rx[j]);
-    d->rod.Ry[j] += 0.5 * (d->shear0.Ry[j] + d->shear1.Ry[j]);
-  }
-}
-
-static void add_mechanics(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  size_t s = model->s, stride = model->stride;
-  double *Fx = d->force, *Fy = Fx + stride;
-  zp_rod_eval(&model->rod, d->end, d->end + stride, &d->rod1);
-  zp_rod_step(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod);
-  if (!model->is_rod) add_shear(d);
-  for (size_t j = 0; j < model->count; j++)
-    Fy[j] -= model->weight[j];
-  for (size_t j = 0; j + s < model->count; j++) {
-    Fx[j] -= d->rod.Rx[j];
-    Fy[j] -= d->rod.Ry[j];
-    Fx[j + s] += d->rod.Rx[j];
-    Fy[j + s] += d->rod.Ry[j];
-  }
-}
-
-/* Attraction, and faces that push each other apart: up on the upper ribbon, down on the lower or only one. */
-static void add_faces(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  size_t s = model->s, stride = model->stride;
-  double *Fx = d->force, *Fy = Fx + stride, U2 = 0.5 * (d->U0 * d->U0 + d->U1 * d->U1);
-  zp_plates_gaps(&model->plates, d->end, d->end + stride, &d->plates1);
-  zp_plates_step(&model->plates, &d->plates0, &d->plates1, d->U0, d->U1, &d->plates);
-  zp_faces_eval(&model->faces, d->plates1.gap, &d->faces);
-  memcpy(d->gap, d->plates1.gap, model->nodes * sizeof *d->gap);
-  for (size_t j = 0; j < model->count; j++) {
-    Fx[j] += d->plates.Fx[j];
-    Fy[j] += d->plates.Fy[j];
-  }
-  for (size_t k = 0; d->beyond && k < 2 * stride; k++)
-    d->force[k] += U2 * d->beyond[k];
-  for (size_t i = 0; i < model->nodes; i++) {
-    size_t lower = s * i + s - 1;
-    Fy[lower] -= d->faces.push[i];
-    if (s == 2) Fy[lower - 1] += d->faces.push[i];
-  }
-}
-
-/* The load by hand, eq. (17.5): changing evenly, its mean over the step does its work. */
-static void add_load(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  double *Fy = d->force + model->stride;
-  Fy[model->count - 1] -=
-      0.5 * (zp_state_load(model, d->state, d->state->t) + zp_state_load(model, d->state, end_time(d)));
-}
-
-/* The paper's drag, -c |w| w on each particle at its mean velocity. */
-static void add_drag(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  size_t stride = model->stride;
-  double c = model->def.damping.drag;
-  d->drag_loss = 0;
-  if (!(c > 0)) return;
-  for (size_t j = 0; j < model->count; j++) {
-    double x = (d->end[j] - d->start[j]) / d->h, y = (d->end[stride + j] - d->start[stride + j]) / d->h;
-    double speed = sqrt(x * x + y * y);
-    d->force[j] -= c * speed * x;
-    d->force[stride + j] -= c * speed * y;
-    d->drag_loss += c * speed * speed * speed * d->h;
-  }
 }
 
 /* The voltage at the step's end: what the user holds, or the waveform's. */
@@ -151,60 +53,55 @@ static double end_voltage(const ZpDynamics *d) {
   return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
+/* The step under way. */
+static ZpSpan span_of(const ZpDynamics *d) {
+  const ZpState *state = d->state;
+  double load = 0.5 * (zp_state_load(d->model, state, state->t) + zp_state_load(d->model, state, end_time(d)));
+  return (ZpSpan){.start = d->start,
+                  .end = d->end,
+                  .h = d->h,
+                  .U0 = d->U0,
+                  .U1 = d->U1,
+                  .load = load, /* changing evenly, its mean over the step does its work, eq. (17.5) */
+                  .share = 1,
+                  .beyond = d->beyond};
+}
+
+/* => energies of bending and field: an imbalance is small or large beside them. */
+static double begin(void *self, const double *q0, const double *v0) {
+  ZpDynamics *d = self;
+  (void)v0;
+  const ZpModel *model = d->model;
+  const ZpEval *e = &d->eval;
+  scatter(d, q0, d->start);
+  memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
+  ZpSpan span = span_of(d);
+  zp_system_begin(model, &span, &d->eval);
+  double bending = model->is_rod ? zp_rod_bending_energy(&model->rod, &e->rod_start)
+                                 : zp_massspring_shear_energy(&model->shear, &e->spring_start);
+  double field = model->field ? zp_plates_totals(&model->plates, &e->plates_start, d->U0).potential : 0;
+  return bending + fabs(field);
+}
+
 static ZpEnd force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   d->h = h;
   d->U1 = end_voltage(d);
   scatter(d, q1, d->end);
-  memset(d->force, 0, 2 * model->stride * sizeof *d->force);
-  add_mechanics(d);
-  if (model->field) add_faces(d);
-  add_load(d);
-  add_drag(d);
+  ZpSpan span = span_of(d);
+  zp_system_force(model, &span, &d->eval, d->force);
+  if (model->field) memcpy(d->gap, d->eval.plates.gap, model->nodes * sizeof *d->gap);
   memset(f, 0, d->system.n * sizeof *f);
   for (size_t k = 0; k < 2 * model->count; k++)
     if (d->assembly.equation[k] >= 0) f[d->assembly.equation[k]] += d->force[place(d, k)];
   return ZP_END_FOUND;
 }
 
-/* Drag at its present speed: its change with direction is left out. */
-static void add_drag_tangent(const ZpDynamics *d, ZpBand *A) {
-  const ZpModel *model = d->model;
-  size_t stride = model->stride;
-  for (size_t k = 0; k < 2 * model->count; k++) {
-    if (d->assembly.equation[k] < 0) continue;
-    size_t j = k / 2, i = (size_t)d->assembly.equation[k];
-    double x = d->end[j] - d->start[j], y = d->end[stride + j] - d->start[stride + j];
-    *zp_band_at(A, i, i) += 2 * model->def.damping.drag * sqrt(x * x + y * y) / (d->h * d->h);
-  }
-}
-
-/* Half of the stiffness at the step's end, of which the matrix keeps the upper triangle. */
-static void add_shear_tangent(ZpDynamics *d, ZpBand *A) {
-  zp_massspring_stiffness(&d->shear, &d->shear1, d->shear1.T, d->D);
-  for (size_t k = 0; k < 3 * (d->model->count - d->model->s); k++)
-    for (size_t c = 0; c < 4; c++)
-      d->D[k][c] *= 0.5;
-  zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
-}
-
 static void tangent(void *self, ZpBordered *J) {
   ZpDynamics *d = self;
-  const ZpModel *model = d->model;
-  ZpBand *A = &J->A;
-  zp_band_clear(A);
-  zp_rod_stiffness(&model->rod, &d->rod0, &d->rod1, internal_damping(d), &d->rod, d->rod.tension, d->D);
-  zp_assemble_edges(&d->assembly, (const double(*)[4])d->D, A);
-  if (!model->is_rod) add_shear_tangent(d, A);
-  if (model->def.damping.drag > 0) add_drag_tangent(d, A);
-  if (!model->field) return;
-  for (size_t i = 0; i < model->nodes; i++)
-    d->plates.own[i] += d->faces.own[i];
-  for (size_t i = 0; i + 1 < model->nodes; i++)
-    d->plates.next[i] += d->faces.next[i];
-  ZpGapDerivatives gaps = {d->plates.own, d->plates.next, d->plates.along0, d->plates.along1};
-  zp_assemble_gaps(&d->assembly, &gaps, A);
+  ZpSpan span = span_of(d);
+  zp_system_stiffness(d->model, &span, &d->assembly, &d->eval, &J->A);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */
@@ -238,9 +135,9 @@ static void keep_apart(const ZpDynamics *d, double *q1) {
     if (pair.lower < 0) continue;
     double held = model->s == 2 ? y[2 * i] : model->plates.flat_height;
     double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
-    bool overlapped = d->plates0.gap[i] < 0;
+    bool overlapped = d->eval.plates_start.gap[i] < 0;
     if (!(overlap > 0) && !overlapped) continue;
-    overlap += overlapped ? d->plates0.gap[i] : -fmin(little, overlap);
+    overlap += overlapped ? d->eval.plates_start.gap[i] : -fmin(little, overlap);
     q1[pair.lower] -= overlap * (pair.upper >= 0 ? pair.upper_share : 1);
     if (pair.upper >= 0) q1[pair.upper] += overlap * (1 - pair.upper_share);
   }
@@ -248,7 +145,7 @@ static void keep_apart(const ZpDynamics *d, double *q1) {
 
 static void attempt(void *self, double *q1) {
   ZpDynamics *d = self;
-  zp_rod_step_begin(&d->model->rod, &d->rod0, &d->rod);
+  zp_rod_step_begin(&d->model->rod, &d->eval.rod_start, &d->eval.rod_step);
   if (d->model->field) keep_apart(d, q1);
 }
 
@@ -256,12 +153,12 @@ static void attempt(void *self, double *q1) {
 static double unforeseen(void *self, const double *q1) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
-  const ZpFacesEval *faces = &d->faces;
+  const ZpFacesEval *faces = &d->eval.faces;
   double work = 0, *foreseen = d->foreseen, *before = d->gap;
-  const double *gap = d->plates1.gap;
+  const double *gap = d->eval.plates.gap;
   scatter(d, q1, d->end);
   if (!model->field) return 0;
-  zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->plates1);
+  zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->eval.plates);
   for (size_t i = 0; i < model->nodes; i++)
     foreseen[i] = faces->push[i] - faces->own[i] * (gap[i] - before[i]);
   for (size_t i = 0; i + 1 < model->nodes; i++) {
@@ -270,7 +167,7 @@ static double unforeseen(void *self, const double *q1) {
   }
   zp_faces_eval(&model->faces, gap, faces);
   for (size_t i = 1; i < model->nodes; i++)
-    work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - d->plates0.gap[i]));
+    work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - d->eval.plates_start.gap[i]));
   return work;
 }
 
@@ -286,7 +183,7 @@ static void damp(ZpDynamics *d, size_t i) {
   Pair pair = pair_of(d, i);
   if (pair.lower < 0) return;
   double apart = (pair.upper >= 0 ? d->v[pair.upper] : 0) - d->v[pair.lower];
-  double lost = (1 - zp_faces_kept(&d->faces, i, pair.reduced, d->h)) * apart;
+  double lost = (1 - zp_faces_kept(&d->eval.faces, i, pair.reduced, d->h)) * apart;
   d->v[pair.lower] += lost * (pair.upper >= 0 ? pair.upper_share : 1);
   if (pair.upper >= 0) d->v[pair.upper] -= lost * (1 - pair.upper_share);
 }
@@ -295,18 +192,18 @@ static void damp(ZpDynamics *d, size_t i) {
  * loss, with what the faces' push took on its way, J. */
 static double impact(ZpDynamics *d) {
   const ZpModel *model = d->model;
-  const double *gap = d->plates1.gap, *before = d->plates0.gap;
+  const double *gap = d->eval.plates.gap, *before = d->eval.plates_start.gap;
   double loss = 0;
   bool any = false;
   for (size_t i = 1; i < model->nodes; i++) {
-    loss -= d->faces.push[i] * (gap[i] - before[i]);
-    any |= d->faces.stiffness[i] > 0;
+    loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
+    any |= d->eval.faces.stiffness[i] > 0;
   }
   if (!any) return loss;
   loss += kinetic_energy(d);
   zp_implicit_smooth(&d->stepper, d->h, d->v);
   for (size_t i = 1; i < model->nodes; i++)
-    if (d->faces.stiffness[i] > 0) damp(d, i);
+    if (d->eval.faces.stiffness[i] > 0) damp(d, i);
   return loss - kinetic_energy(d);
 }
 
@@ -315,8 +212,7 @@ static double impact(ZpDynamics *d) {
 bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   memset(d, 0, sizeof *d);
   d->model = model;
-  d->shear = model->spring;
-  d->shear.K_D = 0;
+  if (!zp_system_create(model, false, &d->eval)) return false;
   if (!zp_assembly_create(model, true, &d->assembly)) return false;
   d->system = (ZpImplicitSystem){.n = d->assembly.n,
                                  .bandwidth = d->assembly.bandwidth,
@@ -341,6 +237,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
 
 void zp_dynamics_destroy(ZpDynamics *d) {
   zp_assembly_destroy(&d->assembly);
+  zp_eval_destroy(&d->eval);
   zp_free(d->memory);
   d->memory = NULL;
 }
@@ -350,10 +247,10 @@ void zp_dynamics_destroy(ZpDynamics *d) {
 static void book_work(const ZpDynamics *d, ZpState *state) {
   double U0 = d->U0, U1 = d->U1;
   if (U0 == U1) return;
-  ZpElectric moved = zp_eval_electric(d->model, state, d->end, &d->plates1, U1);
-  double at_start = zp_eval_electric(d->model, state, d->start, &d->plates0, U1).potential -
-                    zp_eval_electric(d->model, state, d->start, &d->plates0, U0).potential;
-  double at_end = moved.potential - zp_eval_electric(d->model, state, d->end, &d->plates1, U0).potential;
+  ZpElectric moved = zp_eval_electric(d->model, state, d->end, &d->eval.plates, U1);
+  double at_start = zp_eval_electric(d->model, state, d->start, &d->eval.plates_start, U1).potential -
+                    zp_eval_electric(d->model, state, d->start, &d->eval.plates_start, U0).potential;
+  double at_end = moved.potential - zp_eval_electric(d->model, state, d->end, &d->eval.plates, U0).potential;
   state->work += U1 * moved.charge - U0 * state->base_charge + 0.5 * (at_start + at_end);
   state->base_charge = moved.charge;
   state->base_U = state->U = U1;
@@ -377,7 +274,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
   /* how far it is strained where the step has ended, a last correction beyond the last force */
-  zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->rod1);
+  zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->eval.rod);
   if (model->field) {
     book_work(d, state);
     state->contact_loss += impact(d);
@@ -389,7 +286,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   state->t = end_time(d);
   state->last_step = d->history.last;
   state->next_step = d->history.next;
-  state->drag_loss += d->drag_loss;
-  state->internal_loss += zp_rod_step_loss(&model->rod, &d->rod0, &d->rod1, internal_damping(d));
+  state->drag_loss += d->eval.drag_power * taken;
+  state->internal_loss += zp_rod_step_loss(&model->rod, &d->eval.rod_start, &d->eval.rod, internal_damping(d));
   return taken;
 }

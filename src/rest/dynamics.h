@@ -3,37 +3,26 @@
 #ifndef ZP_REST_DYNAMICS_H
 #define ZP_REST_DYNAMICS_H
 
-#include "actuator/eval.h"
-#include "contact/faces.h"
-#include "electro/plates_step.h"
-#include "rest/assemble.h"
-#include "ribbon/rod_step.h"
+#include "actuator/assemble.h"
 #include "solve/implicit.h"
+#include "system/system.h"
 
 typedef struct ZpDynamics {
   const ZpModel *model;
   ZpImplicitSystem system;
   ZpImplicit stepper;
-  ZpMassSpringParams shear; /* of mass_spring, without its axial springs */
-  ZpMassSpringEval shear0, shear1;
-  ZpRodEval rod0, rod1; /* at the step's start and at its end */
-  ZpRodStep rod;
-  ZpPlatesEval plates0, plates1;
-  ZpPlatesStep plates;
+  ZpEval eval;
   ZpImplicitHistory history;
   ZpAssembly assembly;
   double *mass, *q, *v; /* [n] by equations */
   double *start, *end;  /* [2 stride] coordinates of nodes */
   double *force;        /* [2 stride] N */
-  ZpFacesEval faces;    /* contact */
   double *gap;          /* [N] gaps of the last force, m */
   double *foreseen;     /* [N] what the last tangent makes of the push after a correction, N */
-  double (*D)[4];       /* [3 edges] stiffness of the ribbons */
   const double *beyond; /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
   const ZpState *state; /* at the start of the step under way */
   double latest;        /* when that step ends at the latest, s */
   double h, U0, U1;     /* its length, s; voltage at its start and its end, V */
-  double drag_loss;     /* over it, J */
   void *memory;
 } ZpDynamics;
 

@@ -8,7 +8,7 @@
 #include "solve/descend.h"
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
-  size_t N = model->nodes, stride = model->stride;
+  size_t stride = model->stride;
   ZpCarver carver = {block, 0};
   s->q = zp_carve(&carver, 2 * stride);
   s->moved = zp_carve(&carver, 2 * stride);
@@ -18,10 +18,6 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->k0_now = zp_carve(&carver, stride);
   s->r_up = zp_carve(&carver, 2 * model->count);
   s->r_down = zp_carve(&carver, 2 * model->count);
-  s->D = (double(*)[4])(void *)zp_carve(&carver, 12 * stride);
-  double **stations[] = {&s->gaps.own, &s->gaps.next, &s->gaps.along0, &s->gaps.along1};
-  for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
-    *stations[k] = zp_carve(&carver, N);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
   return carver.used;
 }
@@ -58,7 +54,8 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->memory = zp_calloc(1, carve(model, s, NULL));
   if (s->memory) carve(model, s, s->memory);
   if (s->memory) fill_model(model, s);
-  if (!s->memory || !zp_eval_create(s->model, &s->eval) || !zp_assembly_create(s->model, model->is_rod, &s->assembly)) {
+  if (!s->memory || !zp_system_create(s->model, true, &s->eval) ||
+      !zp_assembly_create(s->model, model->is_rod, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }
@@ -326,23 +323,25 @@ static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
 
 /* -- residual ------------------------------------------------------------------------------------- */
 
+/* The present point. */
+static ZpSpan span_of(const ZpStatics *s) {
+  const ZpActuatorDef *def = &s->model->def;
+  ZpSpan span = zp_span_at(s->q);
+  span.U0 = span.U1 = s->U;
+  span.load = def->load.share * (s->load - def->load.mass) * def->gravity;
+  span.share = s->share;
+  span.faces_pass = !s->contact_acts;
+  span.beyond = s->model->field_solved ? s->eval.surplus.F : NULL;
+  span.tension = s->tension;
+  return span;
+}
+
 static ZpEnd residual(void *self, double *r, double *size) {
   ZpStatics *s = self;
   const ZpModel *model = s->model;
   size_t stride = model->stride;
-  zp_eval_static_forces(model, s->q, s->U, &s->eval, s->force);
-  const ZpActuatorDef *def = &model->def;
-  for (size_t j = 0; j < model->count && s->share < 1; j++)
-    s->force[stride + j] += (1 - s->share) * model->weight[j];
-  s->force[stride + model->count - 1] -= def->load.share * (s->load - def->load.mass) * def->gravity;
-  if (model->field && s->contact_acts) {
-    zp_faces_eval(&model->faces, s->eval.plates.gap, &s->eval.faces);
-    for (size_t i = 0; i < model->nodes; i++) { /* up on the upper ribbon, down on the lower or only one */
-      size_t lower = model->s * i + model->s - 1;
-      s->force[stride + lower] -= s->eval.faces.push[i];
-      if (model->s == 2) s->force[stride + lower - 1] += s->eval.faces.push[i];
-    }
-  }
+  ZpSpan here = span_of(s);
+  zp_system_force(model, &here, &s->eval, s->force);
   memset(r, 0, s->assembly.n * sizeof *r);
   for (size_t k = 0; k < 2 * model->count; k++) {
     int row = s->assembly.equation[k];
@@ -358,33 +357,10 @@ static ZpEnd residual(void *self, double *r, double *size) {
 
 /* -- stiffness ------------------------------------------------------------------------------------ */
 
-static void add_mechanics(ZpStatics *s, ZpBand *K) {
-  zp_eval_stiffness(s->model, &s->eval, s->tension, s->D);
-  zp_assemble_edges(&s->assembly, (const double(*)[4])s->D, K);
-}
-
-static void add_faces(ZpStatics *s, ZpBand *K) {
-  const ZpModel *model = s->model;
-  const ZpPlatesStep *half = &s->eval.attraction;
-  const ZpGapDerivatives *gaps = &s->gaps;
-  for (size_t i = 0; i < model->nodes; i++) {
-    gaps->own[i] = 2 * half->own[i]; /* both ends move */
-    gaps->next[i] = 2 * half->next[i];
-    gaps->along0[i] = 2 * half->along0[i];
-    gaps->along1[i] = 2 * half->along1[i];
-  }
-  for (size_t i = 0; s->contact_acts && i < model->nodes; i++) {
-    gaps->own[i] += s->eval.faces.own[i];
-    gaps->next[i] += s->eval.faces.next[i];
-  }
-  zp_assemble_gaps(&s->assembly, gaps, K);
-}
-
 static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
-  zp_band_clear(K);
-  add_mechanics(s, K);
-  if (s->model->field) add_faces(s, K);
+  ZpSpan here = span_of(s);
+  zp_system_stiffness(s->model, &here, &s->assembly, &s->eval, K);
   if (is_held(s)) hold_equation(s, K, r);
 }
 

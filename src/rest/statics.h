@@ -3,9 +3,9 @@
 #ifndef ZP_REST_STATICS_H
 #define ZP_REST_STATICS_H
 
-#include "actuator/eval.h"
-#include "rest/assemble.h"
+#include "actuator/assemble.h"
 #include "solve/continuation.h"
+#include "system/system.h"
 
 #include <zipact/table.h>
 
@@ -23,8 +23,6 @@ typedef struct ZpStatics {
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
   double scale;          /* force that a residual is relative to, N */
-  double (*D)[4];        /* [3 edges] mechanics' stiffness */
-  ZpGapDerivatives gaps; /* contact and field */
   double *tension;       /* [edges] what the last step foresaw, N */
   double *moved;         /* [2 stride] work space of a move */
   double *force;         /* [2 stride] */

@@ -39,7 +39,7 @@ void zp_sim_start_account(ZpSim *sim) {
 void zp_sim_close_account(ZpSim *sim) {
   ZpState *state = sim->state;
   ZpElectric before = zp_eval_electric_now(sim->model, state, state->base_U, &sim->eval);
-  if (zp_eval_refresh_due(sim->model, state)) zp_eval_refresh(sim->model, state, &sim->eval);
+  if (zp_held_due(sim->model, state)) zp_held_refresh(sim->model, state, &sim->eval);
   ZpElectric after = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
   ZpAccount account = charged(state, before, after);
   state->work = account.work;
@@ -52,7 +52,7 @@ void zp_sim_jump(ZpSim *sim, double voltage) {
   ZpState *state = sim->state;
   if (voltage == state->U) return;
   state->U = voltage;
-  if (!zp_eval_voltage_outdates(sim->model, state)) return;
+  if (!zp_held_outdated(sim->model, state)) return;
   state->refreshed = NAN;
   zp_sim_close_account(sim);
 }

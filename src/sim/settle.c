@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "sim/sim_internal.h"
 #include "solve/relax.h"
 
@@ -19,7 +19,9 @@ static void accelerate(void *self, const double *q, double *a) {
   Settling *settling = self;
   ZpSim *sim = settling->sim;
   static const ZpZipState hanging = {0, false};
-  zp_eval_unpowered(sim->model, q, &sim->eval, a);
+  ZpSpan hanging_still = zp_span_at(q);
+  hanging_still.faces_pass = true;
+  zp_system_accelerations(sim->model, &hanging_still, &sim->model->pseudo, &sim->eval, a);
   zp_eval_share(sim->model, &sim->model->pseudo, &hanging, a);
   settling->a = a;
 }
@@ -63,24 +65,17 @@ static double rounding_floor(const ZpModel *model) {
  * straight). => false if there is no memory. */
 static bool solve(ZpSim *sim, double *q, bool *found) {
   const ZpModel *model = sim->model;
-  ZpStatics statics;
-  if (!zp_statics_create(model, &statics)) return false;
-  ZpNewtonWork work;
-  ZpCarver carver = {NULL, 0};
-  zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  if (memory) {
-    carver = (ZpCarver){memory, 0};
-    zp_newton_carve(&work, statics.assembly.n, statics.assembly.bandwidth, statics.assembly.symmetric, &carver);
-    ZpNewtonInfo info = zp_statics_hang(&statics, &work);
+  ZpRest rest;
+  bool opened = zp_rest_open(&rest, model, NULL, NULL);
+  if (opened) {
+    ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
     *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
-    memcpy(q, statics.q, 2 * model->stride * sizeof *q);
-    zp_free(memory);
+    memcpy(q, rest.statics.q, 2 * model->stride * sizeof *q);
   }
-  zp_statics_destroy(&statics);
-  return memory != NULL;
+  zp_rest_close(&rest);
+  return opened;
 }
 
 /* By damped stepping. */

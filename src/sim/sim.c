@@ -41,8 +41,8 @@ static bool allocate(ZpSim *sim) {
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
   bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
-  return zp_eval_create(model, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work && sim->row &&
-         sim->line_force;
+  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work &&
+         sim->row && sim->line_force;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -169,8 +169,8 @@ static void follow_voltage(ZpSim *sim) {
 static bool prepare_step(ZpSim *sim) {
   ZpState *state = sim->state;
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  bool due = zp_eval_refresh_due(sim->model, state);
-  sim->stuck = due && zp_eval_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND;
+  bool due = zp_held_due(sim->model, state);
+  sim->stuck = due && zp_held_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND;
   return !sim->stuck;
 }
 
@@ -190,19 +190,6 @@ static bool is_sequential(const ZpModel *model) {
 
 static bool is_unilateral(const ZpModel *model) {
   return model->field && model->def.contact.model == ZP_CONTACT_UNILATERAL;
-}
-
-/* Faces push each other apart, on top of the accelerations a. */
-static void push_faces(ZpSim *sim, const double *q, double *a) {
-  const ZpModel *model = sim->model;
-  const double *inverse = model->masses.y.inverse;
-  double *ay = a + model->stride;
-  zp_plates_gaps(&model->plates, q, q + model->stride, &sim->eval.plates);
-  zp_faces_eval(&model->faces, sim->eval.plates.gap, &sim->eval.faces);
-  for (size_t i = 1; i < model->nodes; i++) {
-    ay[2 * i] += sim->eval.faces.push[i] * inverse[2 * i];
-    ay[2 * i + 1] -= sim->eval.faces.push[i] * inverse[2 * i + 1];
-  }
 }
 
 /* The damper takes relative velocity from station i => the loss, J: its kinetic energy, and half of
@@ -238,21 +225,12 @@ static void damp_faces(ZpSim *sim, double dt) {
   state->zip = touching(model, gap);
 }
 
-/* The load by hand, on top of the accelerations a. */
-static void hang_load(const ZpSim *sim, double *a) {
-  const ZpModel *model = sim->model;
-  const double *inverse = model->masses.y.inverse;
-  size_t end = model->count - 1;
-  a[model->stride + end] -= zp_state_load(model, sim->state, sim->state->t) * inverse[end];
-}
-
 static double accelerate(void *self, const double *q, const double *v, double *a) {
   ZpSim *sim = self;
   const ZpModel *model = sim->model;
-  zp_eval_accelerations(model, sim->state, q, v, &sim->eval, a);
+  ZpSpan now = zp_span_of(model, sim->state, q, v);
+  zp_system_accelerations(model, &now, &model->masses, &sim->eval, a);
   sim->opened = sim->state->zip;
-  if (is_unilateral(model)) push_faces(sim, q, a);
-  hang_load(sim, a);
   if (is_sequential(model) && sim->state->U == 0)
     sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
   zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &sim->state->zip, a);
@@ -379,7 +357,7 @@ static double advance_implicit(ZpSim *sim, double latest) {
   double taken = zp_dynamics_step(&sim->dynamics, state, latest);
   if (!(taken > 0)) return 0;
   state->load_work += 0.5 * (load + zp_state_load(sim->model, state, state->t)) * (before - height(sim));
-  if (sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.plates1.gap);
+  if (sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.eval.plates.gap);
   return taken;
 }
 

@@ -4,9 +4,9 @@
 
 #include <zipact/sim.h>
 
-#include "actuator/eval.h"
 #include "rest/dynamics.h"
 #include "solve/explicit.h"
+#include "system/held.h"
 
 struct ZpSim {
   const ZpModel *model;

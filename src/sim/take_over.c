@@ -23,7 +23,7 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   if (!state->by_hand) state->voltage_input = (ZpRamp){state->U, 0, state->t, INFINITY};
   state->by_hand = true;
   state->refreshed = NAN;
-  if (zp_eval_refresh_due(model, state)) zp_eval_refresh(model, state, &sim->eval);
+  if (zp_held_due(model, state)) zp_held_refresh(model, state, &sim->eval);
   zp_sim_start_account(sim);
   zp_sim_resume(sim);
   return ZP_OK;

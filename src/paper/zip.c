@@ -1,4 +1,4 @@
-#include "contact/zip.h"
+#include "paper/zip.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
  *   h_on, h_switched  h where the authors' breakdown switch acts, and whose force it then takes, m
  *   t  curve parameter of a station, (i - front) / (N - 1 - front)     g, h, W, K as in plates.c
  */
-#include "electro/surface.h"
+#include "paper/surface.h"
 
 #include <math.h>
 #include <string.h>

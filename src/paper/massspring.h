@@ -2,8 +2,8 @@
  *
  * All ribbons at once: node i of ribbon r is at [i * ribbons + r], edge i (node i to i+1) likewise.
  */
-#ifndef ZP_RIBBON_MASSSPRING_H
-#define ZP_RIBBON_MASSSPRING_H
+#ifndef ZP_PAPER_MASSSPRING_H
+#define ZP_PAPER_MASSSPRING_H
 
 #include <stdbool.h>
 #include <stddef.h>

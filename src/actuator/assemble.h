@@ -1,7 +1,7 @@
 /* Equations of an actuator: which coordinate has which, and how the derivatives of its laws go into a banded matrix
  * over them. Coordinate x of node j is at [2 j], y at [2 j + 1]; -1: held. */
-#ifndef ZP_REST_ASSEMBLE_H
-#define ZP_REST_ASSEMBLE_H
+#ifndef ZP_ACTUATOR_ASSEMBLE_H
+#define ZP_ACTUATOR_ASSEMBLE_H
 
 #include "actuator/model.h"
 #include "math/band.h"

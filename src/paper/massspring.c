@@ -5,7 +5,7 @@
  *   dy_a   the same of node i, sign turned, in the frame of the edge after, m [4]
  *   R      force of the edge on its right node, N; its left node gets -R
  */
-#include "ribbon/massspring.h"
+#include "paper/massspring.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Cubic Bezier curves in the plane: fit and coefficients. */
-#ifndef ZP_MATH_BEZIER_H
-#define ZP_MATH_BEZIER_H
+#ifndef ZP_PAPER_BEZIER_H
+#define ZP_PAPER_BEZIER_H
 
 #include <stddef.h>
 

@@ -4,11 +4,11 @@
  * The authors' breakdown switch, if params->h_switch_per_volt > 0: where the field with a wrong insulator
  * thickness, share U / (g + switch_offset), exceeds breakdown, the force drops at once to that at
  * breakdown (theory, eq. (4.9)). */
-#ifndef ZP_ELECTRO_SURFACE_H
-#define ZP_ELECTRO_SURFACE_H
+#ifndef ZP_PAPER_SURFACE_H
+#define ZP_PAPER_SURFACE_H
 
 #include "electro/plates.h"
-#include "math/bezier.h"
+#include "paper/bezier.h"
 
 typedef struct ZpBezierSurface {
   size_t stations; /* free ones that the rest is for; 0: none yet */

@@ -1,6 +1,6 @@
 /* Least-squares fit of a cubic Bezier with fixed ends and end directions: control points p0,
  * p0 + a d0, p3 - b d3, p3; a and b solve a 2 x 2 linear problem. */
-#include "math/bezier.h"
+#include "paper/bezier.h"
 
 #include <math.h>
 

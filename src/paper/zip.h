@@ -22,8 +22,8 @@
  *
  * Arrays hold upper and lower node of pair i at [2 i] and [2 i + 1].
  */
-#ifndef ZP_CONTACT_ZIP_H
-#define ZP_CONTACT_ZIP_H
+#ifndef ZP_PAPER_ZIP_H
+#define ZP_PAPER_ZIP_H
 
 #include <stdbool.h>
 #include <stddef.h>

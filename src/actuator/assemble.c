@@ -1,6 +1,6 @@
 /* Where all coordinates near a station are free, their equations follow each other and entries have fixed places: there
  * rows are written directly. Near held and joined nodes each entry asks for its equations. */
-#include "rest/assemble.h"
+#include "actuator/assemble.h"
 
 #include "base/kernel.h"
 

@@ -1,0 +1,61 @@
+#include "system/held.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "term/term.h"
+
+/* Has any gap, with what stands for its insulators, changed by more than this share since the last refresh? */
+static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
+  const double *y = state->data + model->stride, *then = state->data + 7 * model->stride;
+  for (size_t i = 0; i < model->nodes; i++) {
+    double gap = y[2 * i] - y[2 * i + 1], before = then[2 * i] - then[2 * i + 1];
+    if (fabs(gap - before) > share * (before + model->plates.d)) return true;
+  }
+  return false;
+}
+
+/* A gap with its insulators stands for no less than where breakdown sets in: has that changed as much? */
+static bool cap_changed(const ZpModel *model, const ZpState *state, double share) {
+  double d = model->plates.d, before = fmax(d, zp_plates_least_h(&model->plates, state->held_U));
+  return fabs(fmax(d, zp_plates_least_h(&model->plates, state->U)) - before) > share * before;
+}
+
+bool zp_held_outdated(const ZpModel *model, const ZpState *state) {
+  if (!model->field_solved) return model->def.electro.refresh_period > 0;
+  return isnan(state->refreshed) || cap_changed(model, state, model->def.electro.refresh_change);
+}
+
+bool zp_held_due(const ZpModel *model, const ZpState *state) {
+  const ZpActuatorDef *def = &model->def;
+  if (!model->field) return false;
+  if (model->field_solved)
+    return zp_held_outdated(model, state) || gaps_changed(model, state, def->electro.refresh_change);
+  return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
+}
+
+static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
+  size_t bytes = 2 * model->stride * sizeof(double);
+  if (!zp_eval_solve_field(model, q, state->U, e)) return ZP_END_STOP;
+  state->refreshed = state->t;
+  memcpy(zp_state_held(model, state), e->surplus.F, bytes);
+  memcpy(zp_state_held_at(model, state), q, bytes);
+  state->held_U = state->U;
+  state->held_energy = e->surplus.energy;
+  state->held_charge = e->surplus.charge;
+  state->held_capacitance = e->surplus.capacitance;
+  return ZP_END_FOUND;
+}
+
+ZpEnd zp_held_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
+  double *q = zp_state_q(model, state);
+  if (model->field_solved) return refresh_beyond_plates(model, state, q, e);
+  state->refreshed = state->t;
+  if (model->is_rod) /* the curve begins where the closed part points to */
+    zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+  else
+    zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+  zp_bezier_attract(model, state, q, e);
+  memcpy(zp_state_held(model, state) + model->stride, e->attraction.Fy, model->stride * sizeof(double));
+  return ZP_END_FOUND;
+}

@@ -1,0 +1,75 @@
+#include "system/system.h"
+
+#include <string.h>
+
+#include "base/kernel.h"
+
+static const ZpTerm *const table[] = {
+#define ZP_TERM(name) &zp_term_##name,
+#include "term/terms.def"
+#undef ZP_TERM
+};
+_Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "an eval has room for all terms, and one of a program");
+
+bool zp_system_create(const ZpModel *model, bool solves_field, ZpEval *e) {
+  if (!zp_eval_create(model, solves_field, e)) return false;
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
+    if (!table[k]->acts || table[k]->acts(model)) e->term[e->terms++] = table[k];
+  return true;
+}
+
+ZpSpan zp_span_at(const double *q) {
+  return (ZpSpan){.start = q, .end = q, .share = 1};
+}
+
+ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, const double *v) {
+  const ZpActuatorDef *def = &model->def;
+  ZpSpan span = zp_span_at(q);
+  span.v = v;
+  span.U0 = span.U1 = state->U;
+  span.load = zp_state_load(model, state, state->t);
+  span.faces_pass = def->contact.model != ZP_CONTACT_UNILATERAL;
+  span.beyond = model->field_solved ? state->data + 4 * model->stride : NULL;
+  span.paper = def->electro.surface == ZP_SURFACE_POLYLINE ? NULL : state;
+  return span;
+}
+
+void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->begin) e->term[k]->begin(model, span, e);
+}
+
+void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  memset(F, 0, 2 * model->stride * sizeof *F);
+  for (size_t k = 0; k < e->terms; k++)
+    e->term[k]->force(model, span, e, F);
+}
+
+static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
+  double *const all[] = {gaps->own, gaps->next, gaps->along0, gaps->along1};
+  for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+    memset(all[k], 0, model->nodes * sizeof *all[k]);
+}
+
+void zp_system_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  zp_band_clear(K);
+  clear_gaps(model, &e->gaps);
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->stiffness) e->term[k]->stiffness(model, span, assembly, e, K);
+  if (model->field) zp_assemble_gaps(assembly, &e->gaps, K);
+}
+
+ZP_KERNEL static void divide(size_t stride, const double *mx, const double *my, double *restrict ax,
+                             double *restrict ay) {
+  ZP_SIMD
+  for (size_t j = 0; j < stride; j++) {
+    ax[j] *= mx[j];
+    ay[j] *= my[j];
+  }
+}
+
+void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *e, double *a) {
+  e->drag_power = e->drag_rate = 0;
+  zp_system_force(model, span, e, a);
+  divide(model->stride, masses->x.inverse, masses->y.inverse, a, a + model->stride);
+}

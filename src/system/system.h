@@ -1,0 +1,31 @@
+/* The one sum: all laws of an actuator over a span of time, at an instant, or at rest. Solvers ask nothing else. */
+#ifndef ZP_SYSTEM_SYSTEM_H
+#define ZP_SYSTEM_SYSTEM_H
+
+#include "term/term.h"
+
+/* Allocate the arrays of `eval` (and what solving the field takes, if it is to) and find the terms that the model has;
+ * false if there is no memory. zp_eval_destroy takes it back. */
+bool zp_system_create(const ZpModel *model, bool solves_field, ZpEval *eval);
+
+/* Still, without voltage and load, with all weight, at coordinates q: for callers to change. */
+ZpSpan zp_span_at(const double *q);
+
+/* A span that is not still begins: what the terms need of its start => eval. */
+void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
+
+/* (span) => F [2 stride], N: the sum of all terms. */
+void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F);
+
+/* At the last force: K = -dF/d(end's coordinates). At rest it is exact; over a span it is near that and symmetric. */
+void zp_system_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
+
+/* The instant of a state, at coordinates q and velocities v (its own, or those on trial): its voltage, load, held
+ * forces and front. */
+ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, const double *v);
+
+/* (span of an instant, masses) => accelerations a [2 stride] of nodes that no other is joined to; drag_power and
+ * drag_rate of eval. */
+void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
+
+#endif

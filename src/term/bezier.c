@@ -1,0 +1,41 @@
+/* The paper's attraction on a Bezier curve through the free stations, section 4.4; of an instant only. */
+#include <math.h>
+
+#include "term/term.h"
+
+static bool acts(const ZpModel *model) {
+  return model->field && model->def.electro.surface == ZP_SURFACE_BEZIER;
+}
+
+/* Direction of the closed part where it ends: that of the last closed link, horizontal at the clip. */
+static void closed_direction(const ZpModel *model, size_t front, const ZpEdges *edges, double direction[2]) {
+  direction[0] = 1;
+  direction[1] = 0;
+  if (front == 0) return;
+  size_t j = model->s * (front - 1);
+  double x = edges->ux[j] + edges->ux[j + 1], y = edges->uy[j] + edges->uy[j + 1];
+  double length = sqrt(x * x + y * y);
+  if (length == 0) return;
+  direction[0] = x / length;
+  direction[1] = y / length;
+}
+
+void zp_bezier_attract(const ZpModel *model, const ZpState *state, const double *q, ZpEval *e) {
+  size_t front = state->zip.front;
+  if (front + 1 < model->nodes) zp_surface_prepare(&e->surface, model->nodes - front);
+  double direction[2];
+  closed_direction(model, front, &e->edges, direction);
+  zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, e->attraction.Fy);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  if (!span->paper) return;
+  const double *Fy = span->paper->data + 5 * model->stride;
+  if (!(model->def.electro.refresh_period > 0)) {
+    zp_bezier_attract(model, span->paper, span->end, e);
+    Fy = e->attraction.Fy;
+  }
+  zp_term_add(model->stride, e->none, Fy, F);
+}
+
+const ZpTerm zp_term_bezier = {"bezier", acts, NULL, force, NULL};

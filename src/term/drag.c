@@ -1,0 +1,51 @@
+/* The paper's drag, -c |v| v on each particle: at its velocity, or over a span at its mean velocity. Eq. (3.9). */
+#include "base/kernel.h"
+#include "term/term.h"
+
+#include <math.h>
+
+static bool acts(const ZpModel *model) {
+  return model->def.damping.drag > 0;
+}
+
+ZP_KERNEL static void drag(size_t stride, double c, const double *v, const double *inverse, double *restrict Fx,
+                           double *restrict Fy, double *power, double *rate) {
+  const double *vx = v, *vy = v + stride;
+  double lost[ZP_LANES] = {0}, fastest[ZP_LANES] = {0};
+  for (size_t block = 0; block < stride; block += ZP_LANES) {
+    ZP_SIMD
+    for (size_t k = 0; k < ZP_LANES; k++) {
+      size_t j = block + k;
+      double v2 = vx[j] * vx[j] + vy[j] * vy[j], speed = sqrt(v2), per_mass = speed * inverse[j];
+      Fx[j] -= c * speed * vx[j];
+      Fy[j] -= c * speed * vy[j];
+      lost[k] += c * speed * v2;
+      fastest[k] = per_mass > fastest[k] ? per_mass : fastest[k];
+    }
+  }
+  *power = zp_sum_lanes(lost);
+  *rate = zp_max_lanes(fastest);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  size_t stride = model->stride;
+  const double *v = span->v;
+  if (!v && !(span->h > 0)) return;
+  for (size_t k = 0; !v && k < 2 * stride; k++)
+    e->mean_v[k] = (span->end[k] - span->start[k]) / span->h;
+  drag(stride, model->def.damping.drag, v ? v : e->mean_v, model->masses.y.inverse, F, F + stride, &e->drag_power,
+       &e->drag_rate);
+}
+
+/* At its present speed: its change with direction is left out. */
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  size_t stride = model->stride;
+  for (size_t k = 0; span->h > 0 && k < 2 * model->count; k++) {
+    if (assembly->equation[k] < 0) continue;
+    size_t j = k / 2, i = (size_t)assembly->equation[k];
+    double x = e->mean_v[j], y = e->mean_v[stride + j];
+    *zp_band_at(K, i, i) += 2 * model->def.damping.drag * sqrt(x * x + y * y) / span->h;
+  }
+}
+
+const ZpTerm zp_term_drag = {"drag", acts, NULL, force, stiffness};

@@ -1,0 +1,35 @@
+/* Attraction by the plates law on the polyline of the stations, lateral edges included. Eqs. (4.7) and (18.3). */
+#include "term/term.h"
+
+static bool acts(const ZpModel *model) {
+  return model->field;
+}
+
+static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
+  return zp_span_is_still(span) ? &e->plates : &e->plates_start;
+}
+
+static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  zp_plates_gaps(&model->plates, span->start, span->start + model->stride, &e->plates_start);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  if (!span->paper || !span->faces_pass)
+    zp_plates_gaps(&model->plates, span->end, span->end + model->stride, &e->plates);
+  if (span->paper) return; /* its Bezier surface attracts instead */
+  zp_plates_step(&model->plates, start_of(span, e), &e->plates, span->U0, span->U1, &e->attraction);
+  zp_term_add(model->stride, e->attraction.Fx, e->attraction.Fy, F);
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  (void)assembly, (void)K;
+  double both = zp_span_is_still(span) ? 2 : 1; /* at rest both ends of the span move */
+  for (size_t i = 0; i < model->nodes; i++) {
+    e->gaps.own[i] += both * e->attraction.own[i];
+    e->gaps.next[i] += both * e->attraction.next[i];
+    e->gaps.along0[i] += both * e->attraction.along0[i];
+    e->gaps.along1[i] += both * e->attraction.along1[i];
+  }
+}
+
+const ZpTerm zp_term_plates = {"plates", acts, begin, force, stiffness};

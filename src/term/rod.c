@@ -1,0 +1,31 @@
+/* The rod: stretching, bending, internal damping. Eqs. (8.4) and (18.2). */
+#include "term/term.h"
+
+static bool acts(const ZpModel *model) {
+  return model->is_rod;
+}
+
+static const ZpRodEval *start_of(const ZpSpan *span, const ZpEval *e) {
+  return zp_span_is_still(span) ? &e->rod : &e->rod_start;
+}
+
+static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  zp_rod_eval(&model->rod, span->start, span->start + model->stride, &e->rod_start);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  zp_rod_eval(&model->rod, span->end, span->end + model->stride, &e->rod);
+  zp_rod_step(&model->rod, start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
+  zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  const double *tension = span->tension ? span->tension : e->rod_step.tension;
+  zp_rod_stiffness(&model->rod, start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step, tension, e->D);
+  for (size_t k = 0; zp_span_is_still(span) && k < 3 * (model->count - model->s); k++)
+    for (size_t c = 0; c < 4; c++)
+      e->D[k][c] *= 2; /* both ends of the span move */
+  zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
+}
+
+const ZpTerm zp_term_rod = {"rod", acts, begin, force, stiffness};

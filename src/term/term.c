@@ -1,0 +1,29 @@
+#include "term/term.h"
+
+#include "base/kernel.h"
+
+ZP_KERNEL static void add(size_t stride, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
+  ZP_SIMD
+  for (size_t j = 0; j < stride; j++) {
+    Fx[j] += Gx[j];
+    Fy[j] += Gy[j];
+  }
+}
+
+void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F) {
+  add(stride, Gx, Gy, F, F + stride);
+}
+
+ZP_KERNEL static void add_edges(size_t stride, size_t s, const double *Rx, const double *Ry, double *restrict Fx,
+                                double *restrict Fy) {
+  const double *Lx = Rx - s, *Ly = Ry - s;
+  ZP_SIMD
+  for (size_t j = 0; j < stride; j++) {
+    Fx[j] += Lx[j] - Rx[j];
+    Fy[j] += Ly[j] - Ry[j];
+  }
+}
+
+void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F) {
+  add_edges(model->stride, model->s, Rx, Ry, F, F + model->stride);
+}

@@ -1,0 +1,17 @@
+/* Weight, of all that hangs, and the load input. */
+#include "base/kernel.h"
+#include "term/term.h"
+
+ZP_KERNEL static void subtract(size_t stride, double share, const double *weight, double *restrict Fy) {
+  ZP_SIMD
+  for (size_t j = 0; j < stride; j++)
+    Fy[j] -= share * weight[j];
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  (void)e;
+  subtract(model->stride, span->share, model->weight, F + model->stride);
+  F[model->stride + model->count - 1] -= span->load;
+}
+
+const ZpTerm zp_term_weight = {"weight", NULL, NULL, force, NULL};
