@@ -1,6 +1,6 @@
 %ZIPACT  Simulation of electrostatic zipping actuators: studies, and stepping by hand.
 %
-%   RESULT = ZIPACT(STUDY, KEY, VALUE, ...) runs a study: stationary, equilibrium,
+%   RESULT = ZIPACT(STUDY, KEY, VALUE, ...) runs a study: stationary, equilibrium, limits,
 %   isometric, profile, modes, actuate or calibrate.
 %
 %      rest = zipact('equilibrium', 'load.mass', '20 g', 'drive.voltage', 6e3)

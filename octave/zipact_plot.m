@@ -28,6 +28,8 @@ function [x, y, labels, style] = axes_of(study)
       x = @(s) 1e3 * s.time_s;     y = @(s) 1e3 * s.stroke_m;     labels = {'time / ms', 'stroke / mm'};
     case 'equilibrium'
       x = @(s) 1e-3 * s.voltage_V; y = @(s) 1e3 * s.opening_m;    labels = {'voltage / kV', 'opening / mm'};
+    case 'limits'
+      x = @(s) 1e-3 * s.voltage_V; y = @(s) 1e3 * s.load_kg;      labels = {'voltage / kV', 'load / g'}; style = 'o';
     case 'isometric'
       x = @(s) 1e-3 * s.voltage_V; y = @(s) s.force_N;            labels = {'voltage / kV', 'force / N'};
     case 'profile'

@@ -20,6 +20,7 @@ PAGES = ["getting-started.md", "studies.md"]
 PICTURES = {
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
+    "limits.svg": "chart/plots/loads.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
     "profile.svg": "profile/plots/profile.svg",
     "field.svg": "profile/plots/field_tip.svg",

@@ -37,6 +37,12 @@ typedef struct ZpFieldMap {
 ZP_API ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
 ZP_API void zp_field_map_destroy(ZpFieldMap *map);
 
+/* What study limits keeps for a neighbour, see ZpStudyInput. */
+typedef struct ZpLimits ZpLimits;
+
+/* Free them; NULL is allowed. Whoever frees those of a result sets its field to NULL. */
+ZP_API void zp_limits_destroy(ZpLimits *limits);
+
 /* What a study found. */
 typedef struct ZpResult {
   ZpStudy study;
@@ -50,6 +56,7 @@ typedef struct ZpResult {
   ZpShapes *shapes;         /* NULL if it has none */
   ZpFieldMap *map;          /* NULL if it has none */
   ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
+  ZpLimits *limits;         /* the states of study limits; NULL of another */
 } ZpResult;
 
 /* The word of a study: "actuate"; "unknown" of any other number. */
@@ -58,10 +65,12 @@ ZP_API const char *zp_study_name(ZpStudy study);
 /* Check `def` and what `study` asks of it besides. ZP_BAD_INPUT names the key. */
 ZP_API ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
-/* What study actuate takes beside a Def; NULL where it does not. */
+/* What a study takes beside a Def; NULL where it does not. */
 typedef struct ZpStudyInput {
-  const ZpDriveTable *table; /* with drive.waveform table, as zp_model_create_driven */
-  const ZpCheckpoint *start; /* with initial.state checkpoint, as zp_sim_continue */
+  const ZpDriveTable *table; /* actuate: with drive.waveform table, as zp_model_create_driven */
+  const ZpCheckpoint *start; /* actuate: with initial.state checkpoint, as zp_sim_continue */
+  const ZpResult *neighbour; /* limits: the result of a Def that differs little: it starts from its states, some
+                                       times faster; what it finds differs by less than 1e-6 */
 } ZpStudyInput;
 
 /* Run `study`. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and `err` says why:

@@ -45,6 +45,7 @@ end
 same_as_the_command('stationary', '');
 same_as_the_command('equilibrium', ' --set "load.mass=20 g" --set drive.voltage=6000', ...
                     'load.mass', '20 g', 'drive.voltage', 6e3);
+same_as_the_command('limits', ' --set mesh.nodes=31', 'mesh.nodes', int32(31));
 same_as_the_command('isometric', ' --set "isometric.separation=3 mm"', 'isometric.separation', '3 mm');
 same_as_the_command('modes', ' --set mesh.nodes=21', 'mesh.nodes', int32(21));
 modes = zipact('modes', 'mesh.nodes', 21);

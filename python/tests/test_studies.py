@@ -24,6 +24,7 @@ MOTION = dict(solver__integrator="implicit", contact__model="unilateral")
 CASES = {
     "stationary": {},
     "equilibrium": {},
+    "limits": {},
     "isometric": dict(isometric__separation="3 mm"),
     "modes": {},
     "profile": dict(electro__model="field", isometric__separation="2 mm"),

@@ -47,6 +47,15 @@ def actuate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     return ax
 
 
+def limits(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    ax = new_axes(ax, "voltage / kV", "load / g")
+    words = ("pull-in", "closing", "release", "largest load")
+    for limit, voltage, load in zip(table["limit"], table["voltage_V"], table["load_kg"]):
+        ax.plot(KILO * voltage, MILLI * load, "o", label=words[int(limit)])
+    ax.legend()
+    return ax
+
+
 def equilibrium(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     ax = new_axes(ax, "voltage / kV", "opening / mm")
     opening = "opening_m" if np.isfinite(table["opening_m"]).any() else "stroke_m"
@@ -123,6 +132,7 @@ STUDIES = {
     "calibrate": calibrate,
     "equilibrium": equilibrium,
     "isometric": isometric,
+    "limits": limits,
     "modes": modes,
     "profile": profile,
     "stationary": stationary,

@@ -322,7 +322,7 @@ static ZpFacesParams faces_of(const ZpModel *model) {
   double depth = fmin(fmax(part * model->plates.d, least), ZP_CLOSED_GAP);
   const ZpActuatorDef *def = &model->def;
   double stiffest = layer_stiffness(model) * depth / 3;
-  double weight = (model->section.mu + def->load.share * def->load.mass / model->L) * def->gravity;
+  double weight = model->section.mu * def->gravity; /* the load hangs: it presses no faces */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
   return (ZpFacesParams){model->nodes, model->l, depth, push, model->s == 2 ? def->platform.length / 2 : 0};
 }

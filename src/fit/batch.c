@@ -57,12 +57,25 @@ static ZpStatus need_room(const ZpBatch *batch, ZpError *err) {
                  batch->count);
 }
 
+/* Run one Def; study limits from where the run before it, a neighbour in a sweep, has found its limits. */
+static ZpStatus run_next(const ZpBatch *batch, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                         ZpError *err) {
+  ZpStudy study = zp_scenario_study(batch->scenario);
+  ZpResult *before = batch->done > 0 ? batch->result[batch->done - 1] : NULL;
+  if (!before || !before->limits) return zp_data_study_run(study, def, hooks, result, err);
+  const ZpStudyInput input = {.neighbour = before};
+  ZpStatus status = zp_study_run(study, def, &input, hooks, result, err);
+  zp_limits_destroy(before->limits);
+  before->limits = NULL;
+  return status;
+}
+
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
   ZpActuatorDef def;
   ZpResult *result;
   ZpStatus status = need_room(batch, err);
   if (status == ZP_OK) status = zp_scenario_def(batch->scenario, batch->done, &def, err);
-  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(batch->scenario), &def, hooks, &result, err);
+  if (status == ZP_OK) status = run_next(batch, &def, hooks, &result, err);
   if (status != ZP_OK) return status;
   if (batch->count > 1) keep_the_series(result);
   batch->result[batch->done++] = result;

@@ -12,7 +12,8 @@ typedef enum ZpShows {
   ZP_SHOWS_shape,       /* one shape at rest */
   ZP_SHOWS_modes,       /* the shape at rest, then one with each mode on it */
   ZP_SHOWS_field,       /* forces along one shape, and the field around it */
-  ZP_SHOWS_fit          /* measured and fitted values */
+  ZP_SHOWS_fit,         /* measured and fitted values */
+  ZP_SHOWS_limits       /* single states, each a limit of another kind */
 } ZpShows;
 
 ZpShows zp_study_shows(ZpStudy study);

@@ -211,14 +211,6 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
   return zp_statics_fall(s, voltage, work);
 }
 
-ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  static const double longest = 4e-3; /* 2 mrad: faces do not pass through each other within a step */
-  enum { MOST = 20000 };
-  ZpStaticSystem system = zp_statics_system(s);
-  s->U = voltage;
-  return zp_descend(&system, longest, zp_statics_tolerance(s), MOST, work);
-}
-
 double zp_statics_stroke(const ZpStatics *s) {
   const double *y = s->q + s->model->stride;
   return y[s->model->s - 1] - y[s->model->count - 1];
@@ -399,22 +391,30 @@ static double length(void *self, const double *step) {
   return most / longest;
 }
 
+/* The largest share by which a step changes a gap with its insulators. */
+static double gap_share(const ZpStatics *s, const double *step) {
+  const ZpModel *model = s->model;
+  const ZpPlatesParams *p = &model->plates;
+  double most = 0, least_h = zp_plates_least_h(p, s->U);
+  for (size_t i = 0; i < model->nodes; i++) {
+    size_t lower = model->s * i + model->s - 1;
+    double dy = part(s, step, 2 * lower + 1) - (model->s == 2 ? part(s, step, 2 * lower - 1) : 0);
+    most = fmax(most, fabs(dy) / fmax(s->eval.plates.gap[i] + p->d, least_h));
+  }
+  return most;
+}
+
 /* The largest rotation of an edge, rad, and under a voltage the largest share by which a gap with its insulators
  * changes. */
 static double change(void *self, const double *step) {
   const ZpStatics *s = self;
   const ZpModel *model = s->model;
-  const ZpPlatesParams *p = &model->plates;
-  double most = 0, rotation, stretch, least_h = zp_plates_least_h(p, s->U);
+  double most = 0, rotation, stretch;
   for (size_t j = 0; j < model->count - model->s; j++) {
     turn(s, step, j, &rotation, &stretch);
     most = fmax(most, fabs(rotation));
   }
-  for (size_t i = 0; model->field && s->U != 0 && i < model->nodes; i++) {
-    size_t lower = model->s * i + model->s - 1;
-    double dy = part(s, step, 2 * lower + 1) - (model->s == 2 ? part(s, step, 2 * lower - 1) : 0);
-    most = fmax(most, fabs(dy) / fmax(s->eval.plates.gap[i] + p->d, least_h));
-  }
+  if (model->field && s->U != 0) most = fmax(most, gap_share(s, step));
   return most / (1e-3 * model->def.solver.tolerance);
 }
 
@@ -494,6 +494,34 @@ static ZpEnd refresh(void *self) {
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
   return (ZpStaticSystem){s->assembly.n, s,      residual, stiffness,
                           length,        change, move,     s->model->field_solved ? refresh : NULL};
+}
+
+/* -- falling -------------------------------------------------------------------------------------- */
+
+/* What motion with resistance may do in a step: neither pass over a state that is near, nor faces through each other.
+ */
+static double fall_length(void *self, const double *step) {
+  static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
+  const ZpStatics *s = self;
+  bool pulls = s->model->field && s->U != 0;
+  return fmax(length(self, step) / longest, pulls ? gap_share(s, step) / share : 0);
+}
+
+ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
+  enum { MOST = 20000 };
+  ZpStaticSystem system = zp_statics_system(s);
+  system.length = fall_length;
+  return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, work);
+}
+
+static bool at_rest_only(void *user) {
+  (void)user;
+  return false;
+}
+
+ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  s->U = voltage;
+  return zp_statics_fall_until(s, at_rest_only, NULL, work);
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */

@@ -69,6 +69,9 @@ ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *
  * ends at `voltage`. A good end is stable. */
 ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
+/* The same at the present voltage, at most until `enough` (of `user`) is true of the present point. */
+ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user, ZpNewtonWork *work);
+
 /* The present point: how far the right end of the lower or only ribbon is below the clip or clamp, signed, m; distance
  * of the platforms' faces (NAN for one ribbon); how many stations from the clip on are closed, the clip not counted. */
 double zp_statics_stroke(const ZpStatics *statics);

@@ -10,6 +10,7 @@
 static const double shortest_step = 1e-9;
 static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
 static const double surest_step = 1e-5;  /* too short to cross a sharp fold onto the way back */
+static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
 enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
 void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpCarver *carver) {
@@ -141,17 +142,26 @@ static int try_step(ZpBranch *b, double s) {
   return correct(b, s, m_start);
 }
 
+/* Has m turned twice on a step by s from m_start, along which `before` was its direction? Both ends go the same way
+ * then, and a cubic through them goes the other way in the middle. */
+static bool turned_twice(const ZpBranch *b, double s, double m_start, double before) {
+  double after = b->direction_m, gone = (b->system->get(b->system->at_rest.self) - m_start) / b->system->m_scale;
+  double middle = 1.5 * gone / s - 0.25 * (before + after);
+  return before * after > 0 && before * middle < 0;
+}
+
 bool zp_branch_advance(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
   size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double m = b->direction_m;
+  double m = b->direction_m, m_start = sys->get(self);
   sys->save(self, b->saved_before);
   memcpy(b->direction_saved, b->direction, bytes);
   while (b->step > shortest_step) {
     double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
     int corrections = try_step(b, s);
-    if (corrections >= 0 && find_direction(b) > sharpest_turn && (!b->reversed || s < surest_step)) {
+    bool stayed = corrections >= 0 && find_direction(b) > (s < corner_step ? 0 : sharpest_turn);
+    if (stayed && (s < surest_step || !(b->reversed || turned_twice(b, s, m_start, m)))) {
       b->along = b->along != b->reversed;
       b->step = b->taken = s;
       if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
@@ -188,27 +198,23 @@ void zp_branch_approach(ZpBranch *b, bool (*passed)(void *user), void *user) {
   }
 }
 
-double zp_branch_where(ZpBranch *b, bool (*passed)(void *user), void *user) {
-  const ZpBranchSystem *sys = b->system;
-  void *self = sys->at_rest.self;
-  size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double after_m = b->direction_m;
-  sys->save(self, b->saved);
-  memcpy(b->direction_after, b->direction, bytes);
-  zp_branch_approach(b, passed, user);
-  double where = sys->get(self);
-  sys->restore(self, b->saved);
-  sys->at_rest.residual(self, b->newton.r, NULL);
-  memcpy(b->direction, b->direction_after, bytes);
-  b->direction_m = after_m;
-  return where;
-}
-
 static bool never(void *user) {
   (void)user;
   return false;
 }
 
 double zp_branch_limit(ZpBranch *b) {
-  return zp_branch_where(b, never, NULL);
+  const ZpBranchSystem *sys = b->system;
+  void *self = sys->at_rest.self;
+  size_t bytes = sys->at_rest.n * sizeof *b->direction;
+  double after_m = b->direction_m;
+  sys->save(self, b->saved);
+  memcpy(b->direction_after, b->direction, bytes);
+  zp_branch_approach(b, never, NULL);
+  double where = sys->get(self);
+  sys->restore(self, b->saved);
+  sys->at_rest.residual(self, b->newton.r, NULL);
+  memcpy(b->direction, b->direction_after, bytes);
+  b->direction_m = after_m;
+  return where;
 }

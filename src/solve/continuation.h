@@ -52,7 +52,4 @@ double zp_branch_limit(ZpBranch *branch);
  * did, or before the limit point if that came first. */
 void zp_branch_approach(ZpBranch *branch, bool (*passed)(void *user), void *user);
 
-/* The parameter there. The present point stays. */
-double zp_branch_where(ZpBranch *branch, bool (*passed)(void *user), void *user);
-
 #endif

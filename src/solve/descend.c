@@ -22,7 +22,8 @@ static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewt
   return false;
 }
 
-ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tolerance, int most, ZpNewtonWork *work) {
+ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, double tolerance, int most,
+                              bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
   static const double at_first = 1e-6, least = 1e-14; /* of the stiffest: slow; below, nothing is changed by it */
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   ZpClosing closing;
@@ -32,7 +33,9 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
   for (; info.iterations < most; info.iterations++) {
     if (system->residual(system->self, work->r, &info.residual) != ZP_END_FOUND)
       return (ZpNewtonInfo){ZP_NEWTON_DIVERGED, info.iterations, INFINITY};
+    if (enough(user)) return (ZpNewtonInfo){ZP_NEWTON_CONVERGED, info.iterations, info.residual};
     bool close = zp_closing_done(&closing, info.residual, tolerance);
+    bool floor = !close && zp_closing_stalled(&closing, info.residual, tolerance);
     if (info.iterations == 0) {
       system->stiffness(system->self, &work->K, NULL);
       stiffest = largest_diagonal(&work->K);
@@ -41,8 +44,8 @@ ZpNewtonInfo zp_descend(const ZpStaticSystem *system, double longest, double tol
     info.end = ZP_NEWTON_SINGULAR;
     if (c < least * stiffest) c = 0;
     if (!resist(system, least * stiffest, &c, work)) return info;
-    info.end = ZP_NEWTON_CONVERGED;
-    if (c == 0 && close) {
+    info.end = floor ? ZP_NEWTON_FLOOR : ZP_NEWTON_CONVERGED;
+    if (c == 0 && (close || floor)) {
       if (fresh) return info;
       fresh = system->refresh(system->self) == ZP_END_FOUND;
       info.end = ZP_NEWTON_DIVERGED;

@@ -1,16 +1,14 @@
 /* Study `equilibrium`: all states of rest between no voltage and drive.voltage: the branch that hangs, the one
  * that is closed, what connects them, and the voltages at which one jumps to the other.
  *
- * Both branches are followed for the table; pull-in is the first limit point of the one that hangs. Where a slowly
- * rising voltage closes the actuator, and where a slowly falling one opens it, is found by changing the voltage slowly:
- * along a branch while that is stable, and from each limit point to the state in which slow motion ends. Theory,
- * section 10. */
+ * Both branches are followed for the table. The voltages are those of study limits: of a slowly rising and a slowly
+ * falling voltage, rest/slow.h. Theory, section 10. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "rest/rest.h"
+#include "rest/slow.h"
 #include "study/notes.h"
 #include "study/studies.h"
 
@@ -26,54 +24,36 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000 };
 
-/* Two neighbouring limit points closer than this, relative, are a ripple of the mesh: the front passing a node
- * of an unstable branch. Measured at N = 61 without breakdown cap, where it is largest: 0.35 %. */
-static const double ripple = 5e-3;
-
-/* Closed: the faces that close last are within this part of where they hang without voltage, or in touch. */
-static const double closed_part = 0.01;
-
-/* The voltages asked for; NAN: there is none, and `no_release` says why. */
-typedef struct Voltages {
-  double pull_in, closing, release;
-  const char *no_release;
-} Voltages;
+/* Hanging: the faces that close last are within this part of where they hang without voltage. */
+static const double hanging_part = 0.01;
 
 typedef struct Follower {
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpResult *result;
   ZpRest rest;
-  double *limit; /* [MOST_POINTS] voltages at the limit points of the branch under way */
-  int limits, points;
-  double shorted;  /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
-  void *start;     /* of the branch under way */
-  void *before;    /* the point before the last step */
-  double hanging;  /* distance of the faces that close last, without voltage, m */
-  double end;      /* voltage at which the way under way ends, V */
-  bool growing;    /* towards it */
-  bool was_closed; /* before the last step */
-  bool jumped;     /* the last change of state was a fall from a limit point */
-  bool ran_back;   /* the branch that hangs turned back into itself */
+  ZpSlow slow;
+  ZpLimit pull_in, closing, release;
+  int points;
+  double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
+  void *start;    /* of the branch under way */
+  double hanging; /* distance of the faces that close last, without voltage, m */
+  bool ran_back;  /* the branch that hangs turned back into itself */
   ZpOutcome outcome;
 } Follower;
 
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
-  f->limit = zp_carve(carver, MOST_POINTS);
-  f->start = zp_carve(carver, zp_rest_save_size(&f->rest));
-  f->before = zp_carve(carver, zp_rest_save_size(&f->rest));
+  size_t save = zp_rest_save_size(&f->rest), equations = f->rest.statics.assembly.n;
+  zp_slow_carve(&f->slow, &f->rest, carver);
+  zp_limit_carve(&f->pull_in, save, equations, carver);
+  zp_limit_carve(&f->closing, save, equations, carver);
+  zp_limit_carve(&f->release, save, equations, carver);
+  f->start = zp_carve(carver, save);
 }
 
-/* Distance of the faces that close last: at the platform or the right end, between two clamps in the middle. */
-static double opening(const Follower *f) {
-  bool clamped = f->model->flat && f->model->def.actuator.right_end == ZP_END_CLAMPED;
-  size_t last = f->model->nodes - 1;
-  return f->rest.statics.eval.plates.gap[clamped ? last / 2 : last];
-}
-
-static bool is_closed(const Follower *f) {
-  return opening(f) <= fmax(closed_part * f->hanging, f->model->faces.depth);
+static double opening(Follower *f) {
+  return zp_closing_gap(&f->rest.statics, NULL);
 }
 
 static void record(Follower *f, int branch) {
@@ -103,62 +83,39 @@ static bool asked_to_stop(const Follower *f) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "following", fmin(fraction, 1));
 }
 
-/* At most one a step, so there is room. */
-static void note_limit(Follower *f, double voltage) {
-  f->limit[f->limits++] = voltage;
+/* The same, between limit points. */
+static bool must_stop(void *follower) {
+  Follower *f = follower;
+  if (asked_to_stop(f)) f->outcome = ZP_INTERRUPTED;
+  return f->outcome == ZP_INTERRUPTED;
 }
 
-/* Take out ripples, the smallest first, so that what is left are the turns of the branch itself. */
-static void smooth_limits(Follower *f) {
-  for (;;) {
-    int least = -1;
-    double height = INFINITY;
-    for (int i = 0; i + 1 < f->limits; i++) {
-      double rise = fabs(f->limit[i + 1] - f->limit[i]) / fabs(f->limit[i]);
-      if (rise < height) {
-        height = rise;
-        least = i;
-      }
-    }
-    if (height > ripple) return;
-    for (int i = least; i + 2 < f->limits; i++)
-      f->limit[i] = f->limit[i + 2];
-    f->limits -= 2;
-  }
-}
-
-static bool is_beyond(void *user) {
+static bool is_beyond_top(void *user) {
   const Follower *f = user;
-  return f->growing ? f->rest.statics.U > f->end : f->rest.statics.U < f->end;
+  return f->rest.statics.U > f->model->def.drive.voltage;
 }
 
-/* The equilibrium at `voltage`, which the last step passed. */
-static bool arrive(Follower *f, bool growing, double voltage) {
-  f->growing = growing;
-  f->end = voltage;
-  zp_branch_approach(&f->rest.branch, is_beyond, f);
-  return zp_newton_good(zp_rest_settle(&f->rest, voltage).end);
+/* The equilibrium at drive.voltage, which the last step passed. */
+static bool arrive(Follower *f) {
+  zp_branch_approach(&f->rest.branch, is_beyond_top, f);
+  return zp_newton_good(zp_rest_settle(&f->rest, f->model->def.drive.voltage).end);
 }
 
 /* -- branches ------------------------------------------------------------------------------------- */
 
 /* Without voltage there is the hanging state only: has the branch come back to it? */
-static bool is_hanging(const Follower *f) {
-  return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < closed_part;
+static bool is_hanging(Follower *f) {
+  return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < hanging_part;
 }
 
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
  * => false if it was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
   double top = f->model->def.drive.voltage;
-  f->limits = 0;
   record(f, mark);
   if (!zp_rest_follow(&f->rest, growing)) return false;
-  double direction = f->rest.branch.direction_m;
   for (int k = 0; k < MOST_POINTS; k++) {
     if (!zp_branch_advance(&f->rest.branch)) return false;
-    if (f->rest.branch.direction_m * direction < 0) note_limit(f, zp_branch_limit(&f->rest.branch));
-    direction = f->rest.branch.direction_m;
     if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
     if (f->rest.statics.U < 0) return !f->ran_back;
     if (zp_statics_shorted(&f->rest.statics)) {
@@ -166,7 +123,7 @@ static bool follow(Follower *f, bool growing, int mark) {
       return true;
     }
     if (f->rest.statics.U > top) {
-      if (!arrive(f, true, top)) return false;
+      if (!arrive(f)) return false;
       record(f, mark);
       return true;
     }
@@ -181,83 +138,6 @@ static bool follow(Follower *f, bool growing, int mark) {
 
 static void follow_whole(Follower *f, bool growing, int mark) {
   if (!follow(f, growing, mark)) f->outcome = ZP_BRANCH_LOST;
-  smooth_limits(f);
-}
-
-/* -- a voltage that changes slowly ---------------------------------------------------------------- */
-
-/* How a slow change ends. */
-typedef enum Slow { ARRIVED, CHANGED, LOST, STOPPED } Slow;
-
-static bool has_changed(void *user) {
-  const Follower *f = user;
-  return is_closed(f) != f->was_closed;
-}
-
-/* From near a limit point at `voltage`, descend to the state beyond it; the branch is followed from that state. */
-static bool fall(Follower *f, bool growing, double voltage) {
-  static const double beyond = 1e-3;
-  f->rest.system.restore(&f->rest.statics, f->before);
-  ZpNewtonInfo info =
-      zp_statics_fall(&f->rest.statics, voltage * (growing ? 1 + beyond : 1 - beyond), &f->rest.branch.newton);
-  return zp_newton_good(info.end) && zp_rest_follow(&f->rest, growing);
-}
-
-/* Continue along a stable branch: change the voltage slowly to `end`, or until the actuator closes or opens. => *at:
- * the voltage that was reached */
-static Slow change_slowly(Follower *f, bool growing, double end, double *at) {
-  f->was_closed = is_closed(f);
-  for (int k = 0; k < MOST_POINTS; k++) {
-    f->rest.system.save(&f->rest.statics, f->before);
-    if (!zp_branch_advance(&f->rest.branch)) return LOST;
-    bool turned = growing ? f->rest.branch.direction_m < 0 : f->rest.branch.direction_m > 0;
-    *at = turned || has_changed(f) ? zp_branch_where(&f->rest.branch, has_changed, f) : f->rest.statics.U;
-    if (growing ? *at >= end : *at <= end) return arrive(f, growing, end) ? ARRIVED : LOST;
-    if (turned && !fall(f, growing, *at)) return LOST;
-    f->jumped = turned;
-    if (has_changed(f)) return CHANGED;
-    if (asked_to_stop(f)) {
-      f->outcome = ZP_INTERRUPTED;
-      return STOPPED;
-    }
-  }
-  return LOST;
-}
-
-/* From hanging without voltage to drive.voltage. A ripple from which the state falls to closed is no ripple, but the
- * pull-in. => closed there? */
-static bool raise_voltage(Follower *f, Voltages *v) {
-  double at;
-  Slow end = CHANGED;
-  f->rest.system.restore(&f->rest.statics, f->start);
-  if (!zp_rest_follow(&f->rest, true)) return false;
-  while (end == CHANGED) {
-    end = change_slowly(f, true, f->model->def.drive.voltage, &at);
-    if (end == CHANGED) v->closing = is_closed(f) ? at : (double)NAN;
-    if (end == CHANGED && is_closed(f) && f->jumped) v->pull_in = fmin(v->pull_in, at);
-  }
-  return end == ARRIVED && is_closed(f);
-}
-
-/* From closed at drive.voltage down to 0. */
-static void lower_voltage(Follower *f, Voltages *v) {
-  double at;
-  Slow end = zp_rest_follow(&f->rest, false) ? change_slowly(f, false, 0, &at) : LOST;
-  if (end == CHANGED) v->release = isnan(v->closing) ? at : fmin(at, v->closing);
-  v->no_release = end == ARRIVED ? "it stays closed down to 0 V" : end == LOST ? "the closed state was lost" : NULL;
-}
-
-/* The closed state at drive.voltage: that to which a rising voltage leads, or else the one next to straight ribbons. =>
- * is there one? */
-static bool find_closed(Follower *f, Voltages *v) {
-  const ZpStatics *s = &f->rest.statics;
-  bool closed = raise_voltage(f, v);
-  if (f->outcome == ZP_INTERRUPTED) return false;
-  if (!closed)
-    closed =
-        zp_newton_good(zp_statics_close(&f->rest.statics, f->model->def.drive.voltage, &f->rest.branch.newton).end) &&
-        is_closed(f);
-  return closed && !zp_statics_fault(s);
 }
 
 /* -- the study ------------------------------------------------------------------------------------ */
@@ -268,32 +148,49 @@ static bool hang(Follower *f) {
   zp_result_add(f->result, "residual", "1", info.residual);
   f->rest.system.save(&f->rest.statics, f->start);
   f->hanging = f->model->field ? opening(f) : 0;
+  zp_slow_start(&f->slow, f->hanging);
   return zp_newton_good(info.end);
 }
 
+static void none(Follower *f, const char *reason) {
+  zp_limit_none(&f->pull_in, reason);
+  zp_limit_none(&f->closing, reason);
+  zp_limit_none(&f->release, reason);
+}
+
+/* The voltages, from the hanging state. => does the actuator hang closed state at drive.voltage, now the present one?
+ */
+static bool find_voltages(Follower *f) {
+  double top = f->model->def.drive.voltage;
+  none(f, "without a voltage there is none");
+  if (!f->model->field || top == 0) return false;
+  none(f, "it hangs closed");
+  if (f->hanging <= zp_closing_limit(&f->rest.statics, 0)) return false;
+  ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
+  zp_limit_none(&f->release, "closed it is a short circuit");
+  if (f->model->def.insulator.thickness == 0) zp_limit_none(&f->closing, "closed it is a short circuit");
+  if (f->model->def.insulator.thickness == 0 || up == ZP_SLOW_STOPPED) return false;
+  zp_limit_none(&f->release, "it is not closed at drive.voltage");
+  if (!zp_slow_close(&f->slow, top)) return false;
+  f->rest.system.save(&f->rest.statics, f->start);
+  zp_slow_lower(&f->slow, &f->closing, &f->release);
+  return f->outcome != ZP_INTERRUPTED;
+}
+
 /* Both branches; where hanging and closed are connected, the first holds all. */
-static Voltages find(Follower *f) {
-  Voltages v = {NAN, NAN, NAN, NULL};
+static void find(Follower *f) {
+  none(f, "it does not hang");
   if (!hang(f)) {
     f->outcome = ZP_NOT_SETTLED;
-    return v;
+    return;
   }
   follow_whole(f, true, 0);
-  if (f->limits > 0) v.pull_in = f->limit[0];
-  bool whole = f->outcome == ZP_FOLLOWED && f->model->field && is_closed(f);
-  if (f->outcome == ZP_INTERRUPTED || !f->model->field) return v;
-  v.no_release = "closed it is a short circuit";
-  if (f->model->def.insulator.thickness == 0) return v;
-  v.no_release = "it hangs closed";
-  if (f->hanging <= f->model->faces.depth) return v;
-  v.no_release = "it is not closed at drive.voltage";
-  if (!find_closed(f, &v)) return v;
-  f->rest.system.save(&f->rest.statics, f->start);
-  if (!whole) follow_whole(f, false, 1);
-  if (f->outcome == ZP_INTERRUPTED) return v;
-  f->rest.system.restore(&f->rest.statics, f->start);
-  lower_voltage(f, &v);
-  return v;
+  bool whole = f->outcome == ZP_FOLLOWED && f->model->field && zp_slow_is_closed(&f->slow);
+  if (f->outcome == ZP_INTERRUPTED) return;
+  zp_slow_go_to(&f->slow, f->start);
+  if (!find_voltages(f) || whole) return;
+  zp_slow_go_to(&f->slow, f->start);
+  follow_whole(f, false, 1);
 }
 
 static void note(Follower *f) {
@@ -305,26 +202,36 @@ static void note(Follower *f) {
                    f->shorted);
 }
 
-static void describe(Follower *f, const Voltages *v) {
+static void describe(Follower *f) {
   ZpResult *r = f->result;
-  char pull_in[96], release[128] = "";
+  double pull_in = f->pull_in.value, closing = f->closing.value, release = f->release.value;
+  char up[96], closes[64] = "", down[128] = "";
   const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->rest.statics);
-  if (!isnan(v->pull_in))
-    snprintf(pull_in, sizeof pull_in, "pulls in at %.4g V", v->pull_in);
+  if (!isnan(pull_in))
+    snprintf(up, sizeof up, "pulls in at %.4g V", pull_in);
   else if (!isnan(f->shorted))
-    snprintf(pull_in, sizeof pull_in, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
+    snprintf(up, sizeof up, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
+  else if (!isnan(closing))
+    snprintf(up, sizeof up, "no pull-in: closes gradually at %.4g V", closing);
   else
-    snprintf(pull_in, sizeof pull_in, "no pull-in up to %g V", f->model->def.drive.voltage);
-  if (!isnan(v->release))
-    snprintf(release, sizeof release, ", releases at %.4g V", v->release);
-  else if (v->no_release && isnan(f->shorted))
-    snprintf(release, sizeof release, "; no release: %s", v->no_release);
+    snprintf(up, sizeof up, "no pull-in up to %g V", f->model->def.drive.voltage);
+  if (!isnan(pull_in) && closing > pull_in) snprintf(closes, sizeof closes, ", closes at %.4g V", closing);
+  if (f->closing.end == ZP_MARCH_LOST) snprintf(closes, sizeof closes, "; %s", f->closing.reason);
+  if (!isnan(release))
+    snprintf(down, sizeof down, ", releases at %.4g V", release);
+  else if (isnan(f->shorted))
+    snprintf(down, sizeof down, "; no release: %s", f->release.reason);
   if (f->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
   else
-    snprintf(r->message, sizeof r->message, "%s%s%s%s%s", pull_in, release,
+    snprintf(r->message, sizeof r->message, "%s%s%s%s%s%s", up, closes, down,
              f->outcome == ZP_BRANCH_LOST ? "; a branch could not be followed to its end" : "", trouble ? ": " : "",
              trouble ? trouble : "");
+}
+
+static ZpOutcome outcome_of(const Follower *f) {
+  bool lost = f->pull_in.end == ZP_MARCH_LOST || f->closing.end == ZP_MARCH_LOST || f->release.end == ZP_MARCH_LOST;
+  return lost && f->outcome == ZP_FOLLOWED ? ZP_BRANCH_LOST : f->outcome;
 }
 
 static ZpStatus run(Follower *f, ZpError *err) {
@@ -337,13 +244,13 @@ static ZpStatus run(Follower *f, ZpError *err) {
   zp_result_add(f->result, "pull_in_voltage_V", "V", NAN);
   zp_result_add(f->result, "release_voltage_V", "V", NAN);
   zp_result_add(f->result, "closing_voltage_V", "V", NAN);
-  Voltages v = find(f);
-  f->result->scalar[first].value = v.pull_in;
-  f->result->scalar[first + 1].value = v.release;
-  f->result->scalar[first + 2].value = v.closing;
+  find(f);
+  f->result->scalar[first].value = f->pull_in.value;
+  f->result->scalar[first + 1].value = f->release.value;
+  f->result->scalar[first + 2].value = f->closing.value;
   zp_result_add(f->result, "points", "count", f->points);
-  f->result->outcome = f->outcome;
-  describe(f, &v);
+  f->result->outcome = outcome_of(f);
+  describe(f);
   note(f);
   return ZP_OK;
 }
@@ -357,6 +264,8 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Follower f = {.model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
+  f.slow.stop = must_stop;
+  f.slow.caller = &f;
   status = run(&f, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "study/limits.h"
 
 ZpResult *zp_result_create(ZpStudy study) {
   ZpResult *result = zp_calloc(1, sizeof *result);
@@ -20,6 +21,7 @@ void zp_result_destroy(ZpResult *result) {
   zp_shapes_destroy(result->shapes);
   zp_field_map_destroy(result->map);
   zp_checkpoint_destroy(result->checkpoint);
+  zp_limits_destroy(result->limits);
   zp_free(result);
 }
 

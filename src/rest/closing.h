@@ -1,0 +1,20 @@
+/* When an actuator at rest counts as closed, as an event for solve/march.h; and the
+ * actuator along the square of the voltage. */
+#ifndef ZP_REST_CLOSING_H
+#define ZP_REST_CLOSING_H
+
+#include "rest/statics.h"
+#include "solve/march.h"
+
+/* Distance of the faces that close last, m: at the platform or the right end, between two clamps in the middle. Of the
+ * last residual. `self` is a ZpStatics; its derivative by the coordinates => row [n] (NULL: not asked for). */
+double zp_closing_gap(void *self, double *row);
+
+/* The gap at which it counts as closed, m: 1 % of the hanging one, or where faces touch. */
+double zp_closing_limit(const ZpStatics *statics, double hanging);
+
+/* The static system along the square of the voltage (V^2), as forces go: along the voltage itself nothing moves at
+ * first. */
+ZpBranchSystem zp_closing_by_square(ZpStatics *statics);
+
+#endif

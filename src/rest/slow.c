@@ -1,0 +1,234 @@
+#include "rest/slow.h"
+
+#include <math.h>
+#include <string.h>
+
+/* -- limits --------------------------------------------------------------------------------------- */
+
+void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver) {
+  limit->state = zp_carve(carver, save_size);
+  limit->null = zp_carve(carver, equations);
+}
+
+void zp_limit_none(ZpLimit *limit, const char *reason) {
+  *limit = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, limit->state, limit->null};
+}
+
+void zp_limit_lost(ZpLimit *limit, const char *reason) {
+  zp_limit_none(limit, reason);
+  limit->end = ZP_MARCH_LOST;
+}
+
+/* -- states --------------------------------------------------------------------------------------- */
+
+void zp_slow_carve(ZpSlow *f, ZpRest *rest, ZpCarver *carver) {
+  ZpStatics *s = &rest->statics;
+  f->statics = s;
+  f->newton = &rest->branch.newton;
+  f->square = zp_closing_by_square(s);
+  f->load = zp_statics_branch(s, ZP_ALONG_LOAD);
+  zp_march_carve(&f->march, &f->square, s->assembly.bandwidth, s->assembly.symmetric, f->newton, carver);
+  f->held = zp_carve(carver, zp_rest_save_size(rest));
+}
+
+void zp_slow_start(ZpSlow *f, double hanging) {
+  f->closed = zp_closing_limit(f->statics, hanging);
+  f->march.limit = f->closed;
+  f->march.fold.tolerance = zp_statics_tolerance(f->statics);
+}
+
+bool zp_slow_is_closed(const ZpSlow *f) {
+  return zp_closing_gap(f->statics, NULL) <= f->closed;
+}
+
+void zp_slow_go_to(ZpSlow *f, const double *state) {
+  f->square.restore(f->statics, state);
+  zp_statics_stable(f->statics, f->newton);
+}
+
+static bool along_load(const ZpSlow *f) {
+  return f->march.fold.system == &f->load;
+}
+
+void zp_slow_note(ZpSlow *f, ZpLimit *limit, ZpMarchEnd end) {
+  const ZpStatics *s = f->statics;
+  limit->end = end;
+  limit->value = along_load(f) ? s->load : s->U;
+  limit->reason = NULL;
+  f->square.save(f->statics, limit->state);
+  memcpy(limit->null, f->march.fold.null, s->assembly.n * sizeof *limit->null);
+}
+
+void zp_slow_copy(const ZpSlow *f, const ZpLimit *from, ZpLimit *to) {
+  memcpy(to->state, from->state, f->square.save_size);
+  memcpy(to->null, from->null, f->statics->assembly.n * sizeof *to->null);
+  *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null};
+}
+
+/* The parameter, changed by this share of the voltage or of the load. */
+static double changed(const ZpSlow *f, double m, double share) {
+  double factor = 1 + share;
+  return along_load(f) ? m * factor : m * factor * factor;
+}
+
+static double parameter(ZpSlow *f) {
+  return f->march.fold.system->get(f->statics);
+}
+
+/* -- ripples of the mesh ------------------------------------------------------------------------------ */
+
+/* An actuator that was closed has opened once it is clear of the limit: motion with resistance does not come back. (Of
+ * one that closes this cannot be said, faces overlap for a moment on the way.) */
+static bool has_opened(void *user) {
+  static const double clear = 10;
+  const ZpSlow *f = user;
+  return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
+}
+
+/* Fall from the limit point that the march ended at to what is beyond it. */
+static bool fall(ZpSlow *f, double sign) {
+  static const double beyond = 1e-4; /* of the voltage or the load: a crest that is higher by more is still met */
+  f->was_closed = zp_slow_is_closed(f);
+  f->march.fold.system->set(f->statics, changed(f, parameter(f), sign * beyond));
+  return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
+}
+
+/* Does the branch that the state fell to, from the limit point at m and `gap`, end so close below it that both are a
+ * ripple of the mesh? Down there it may come back to where it was before the limit point without noticing. */
+static bool is_ripple(ZpSlow *f, double m, double gap, double sign) {
+  ZpStatics *s = f->statics;
+  double fallen = zp_closing_gap(s, NULL) - gap;
+  f->square.save(s, f->held);
+  ZpEvent event = f->march.event;
+  f->march.event = NULL;
+  ZpMarchEnd end = zp_march(&f->march, changed(f, m, -sign * ZP_FOLD_RIPPLE));
+  bool ripple = end != ZP_MARCH_ARRIVED || (zp_closing_gap(s, NULL) - gap) * fallen < 0;
+  f->march.event = event;
+  zp_slow_go_to(f, f->held);
+  return ripple;
+}
+
+/* At the present point the parameter goes further than m. */
+static ZpAround climb_on(ZpSlow *f, double m, double sign) {
+  ZpFold *fold = &f->march.fold;
+  if (zp_statics_stable(f->statics, f->newton)) return ZP_STABLE_HIGHER;
+  zp_fold_guess(fold);
+  bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(f) - m) > 0;
+  return found ? ZP_CREST_HIGHER : ZP_OUT_OF_SIGHT;
+}
+
+/* On one side, in steps of the gap. */
+static ZpAround look(ZpSlow *f, double sign, double step) {
+  enum { MOST = 12 };
+  static const double rough = 1e-7, higher = 1e-6; /* of the parameter */
+  const double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
+  const double deep = changed(f, m, -sign * ZP_FOLD_RIPPLE);
+  for (int k = 1; k <= MOST; k++) {
+    f->march.fold.small = rough;
+    bool found = zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step);
+    f->march.fold.small = ZP_FOLD_EXACT;
+    if (!found) return ZP_OUT_OF_SIGHT;
+    if (sign * (parameter(f) - m) > higher * m) return climb_on(f, m, sign);
+    if (sign * (parameter(f) - deep) < 0) return ZP_NOTHING_HIGHER;
+  }
+  return ZP_NOTHING_HIGHER;
+}
+
+ZpAround zp_slow_look_around(ZpSlow *f, const ZpLimit *limit, double sign) {
+  static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
+  double step = zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
+  ZpAround beyond = look(f, sign, -step);
+  if (beyond == ZP_STABLE_HIGHER || beyond == ZP_CREST_HIGHER) return beyond;
+  zp_slow_go_to(f, limit->state);
+  ZpAround before = look(f, sign, step);
+  return before == ZP_NOTHING_HIGHER ? beyond : before;
+}
+
+/* From a limit point to the highest crest of the ripple that it may be part of. => where a stable state is higher, that
+ * is where a march goes on */
+static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
+  enum { MOST = 20 };
+  ZpAround around = ZP_CREST_HIGHER;
+  for (int k = 0; k < MOST && around == ZP_CREST_HIGHER; k++) {
+    zp_slow_note(f, limit, ZP_MARCH_FOLD);
+    around = zp_slow_look_around(f, limit, sign);
+  }
+  if (around != ZP_STABLE_HIGHER) zp_slow_go_to(f, limit->state);
+  return around;
+}
+
+/* -- a slow change -------------------------------------------------------------------------------- */
+
+/* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
+ * point on the way that is no ripple is `first` (NULL: not asked for). */
+static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
+  enum { MOST = 40 };
+  double sign = target > parameter(f) ? 1 : -1;
+  bool was_closed = zp_slow_is_closed(f);
+  for (int k = 0; k < MOST; k++) {
+    if (f->stop(f->caller)) return ZP_SLOW_STOPPED;
+    ZpMarchEnd end = zp_march(&f->march, target);
+    if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
+    if (end == ZP_MARCH_LOST) return ZP_SLOW_LOST;
+    zp_slow_note(f, at, end);
+    if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
+    if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
+    double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
+    bool found = fall(f, sign), jumped = zp_slow_is_closed(f) != was_closed;
+    bool is_first = first && first->end == ZP_MARCH_ARRIVED;
+    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
+    if (!found) return ZP_SLOW_LOST;
+    if (jumped) return ZP_SLOW_CHANGED;
+  }
+  return ZP_SLOW_LOST;
+}
+
+static void choose(ZpSlow *f, const ZpBranchSystem *along) {
+  f->march.fold.system = along;
+  f->march.event = zp_closing_gap;
+}
+
+ZpSlowEnd zp_slow_change_load(ZpSlow *f, double target, ZpLimit *at) {
+  choose(f, &f->load);
+  return change(f, target, at, NULL);
+}
+
+ZpSlowEnd zp_slow_close_at(ZpSlow *f, double target, ZpLimit *at) {
+  choose(f, &f->square);
+  return change(f, target * target, at, NULL);
+}
+
+/* It has closed gradually: is there a limit point further up? */
+static void seek_pull_in(ZpSlow *f, double top, ZpLimit *pull_in) {
+  f->march.event = NULL;
+  if (zp_march(&f->march, top * top) == ZP_MARCH_FOLD) zp_slow_note(f, pull_in, ZP_MARCH_FOLD);
+}
+
+ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closing) {
+  static const char *const lost = "the hanging state was lost on the way up";
+  zp_limit_none(pull_in, "no limit point on the way up to drive.voltage");
+  zp_limit_none(closing, "it does not close up to drive.voltage");
+  choose(f, &f->square);
+  ZpSlowEnd end = change(f, top * top, closing, pull_in);
+  if (end == ZP_SLOW_LOST) zp_limit_lost(closing, lost);
+  if (end == ZP_SLOW_LOST && isnan(pull_in->value)) zp_limit_lost(pull_in, lost);
+  if (end == ZP_SLOW_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
+  bool gradually = end == ZP_SLOW_CHANGED && closing->end == ZP_MARCH_EVENT;
+  if (gradually && isnan(pull_in->value)) seek_pull_in(f, top, pull_in);
+  return end;
+}
+
+bool zp_slow_close(ZpSlow *f, double top) {
+  ZpNewtonInfo info = zp_statics_close(f->statics, top, f->newton);
+  return zp_newton_good(info.end) && zp_slow_is_closed(f) && !zp_statics_fault(f->statics);
+}
+
+ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
+  zp_limit_none(release, "it stays closed down to 0 V");
+  choose(f, &f->square);
+  ZpSlowEnd end = change(f, 0, release, NULL);
+  if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
+  if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost on the way down");
+  if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;
+  return end;
+}

@@ -1,0 +1,83 @@
+/* What a slow change of the voltage or of the load leads to: the limits of an actuator at rest, each solved as the
+ * limit point or event that it is. Theory, section 10.
+ *
+ * zp_march goes to the next limit point or to where the actuator counts as closed; from a limit point the state falls
+ * to what is beyond, and it goes on until the actuator has closed or opened. */
+#ifndef ZP_REST_SLOW_H
+#define ZP_REST_SLOW_H
+
+#include "rest/closing.h"
+#include "rest/rest.h"
+
+/* One limit: a state of rest. */
+typedef struct ZpLimit {
+  ZpMarchEnd end;     /* a limit point or an event; ZP_MARCH_ARRIVED: there is none, ZP_MARCH_LOST: it was not found */
+  double value;       /* V or kg; NAN where it does not exist */
+  const char *reason; /* why it does not */
+  double *state;      /* as ZpBranchSystem saves it */
+  double *null;       /* [equations] of a limit point */
+} ZpLimit;
+
+/* State, of zp_rest_save_size, and null vector come from the caller's block. */
+void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver);
+
+/* It does not exist; it was not found. */
+void zp_limit_none(ZpLimit *limit, const char *reason);
+void zp_limit_lost(ZpLimit *limit, const char *reason);
+
+typedef struct ZpSlow {
+  ZpStatics *statics;
+  ZpNewtonWork *newton;
+  ZpBranchSystem square, load; /* along the voltage's square, along the load */
+  ZpMarch march;
+  double closed;              /* gap at which it counts as closed, m */
+  void *held;                 /* a state to come back to */
+  bool was_closed;            /* at the limit point that it falls from */
+  bool (*stop)(void *caller); /* asked between limit points: stop there? */
+  void *caller;
+} ZpSlow;
+
+typedef enum ZpSlowEnd {
+  ZP_SLOW_ARRIVED, /* where the change was to end */
+  ZP_SLOW_CHANGED, /* it has closed or opened */
+  ZP_SLOW_LOST,
+  ZP_SLOW_STOPPED
+} ZpSlowEnd;
+
+/* `stop` with `caller` must be set by hand. */
+void zp_slow_carve(ZpSlow *slow, ZpRest *rest, ZpCarver *carver);
+
+/* The actuator hangs with this gap that closes last, m: that says when it is closed. */
+void zp_slow_start(ZpSlow *slow, double hanging);
+
+bool zp_slow_is_closed(const ZpSlow *slow);
+
+/* To a state that was saved. */
+void zp_slow_go_to(ZpSlow *slow, const double *state);
+
+/* The present point, which a march ended at, is this limit. */
+void zp_slow_note(ZpSlow *slow, ZpLimit *limit, ZpMarchEnd end);
+void zp_slow_copy(const ZpSlow *slow, const ZpLimit *from, ZpLimit *to);
+
+/* What is along the branch, on both sides of the limit point at the present point, as far as a ripple may go? Its
+ * highest crest is where the parameter, growing (sign 1) or falling (-1), goes furthest. */
+typedef enum ZpAround { ZP_NOTHING_HIGHER, ZP_STABLE_HIGHER, ZP_CREST_HIGHER, ZP_OUT_OF_SIGHT } ZpAround;
+ZpAround zp_slow_look_around(ZpSlow *slow, const ZpLimit *limit, double sign);
+
+/* From the present equilibrium, change the load to `target`, kg, until the actuator closes: that limit is `at`. */
+ZpSlowEnd zp_slow_change_load(ZpSlow *slow, double target, ZpLimit *at);
+
+/* The same with the voltage, rising to `target`, V. */
+ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double target, ZpLimit *at);
+
+/* From the hanging state without voltage, raise the voltage to `top`, V, or until the actuator closes => pull_in, the
+ * first limit point that is no ripple of the mesh, and closing. */
+ZpSlowEnd zp_slow_raise(ZpSlow *slow, double top, ZpLimit *pull_in, ZpLimit *closing);
+
+/* The closed state at voltage `top`. False if it is not closed there. */
+bool zp_slow_close(ZpSlow *slow, double top);
+
+/* From that state, lower the voltage to 0 or until the actuator opens => release, which is not above closing. */
+ZpSlowEnd zp_slow_lower(ZpSlow *slow, const ZpLimit *closing, ZpLimit *release);
+
+#endif

@@ -1,0 +1,303 @@
+#include "solve/march.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double little = 5e-3; /* of the scale of q: what is too little to matter */
+
+void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
+                    ZpNewtonWork *newton, ZpCarver *carver) {
+  size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
+  zp_fold_carve(&march->fold, system, bandwidth, symmetric, newton, carver);
+  double **vectors[] = {&march->q, &march->before, &march->guess};
+  for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+    *vectors[k] = zp_carve(carver, n);
+  march->good = zp_carve(carver, saved);
+}
+
+static double dot(size_t n, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/* -- points ---------------------------------------------------------------------------------------- */
+
+static double parameter(const ZpMarch *m) {
+  const ZpBranchSystem *sys = m->fold.system;
+  return sys->get(sys->at_rest.self);
+}
+
+/* Is the present equilibrium stable? Then dq/dm is in fold.along. */
+static bool is_stable(ZpMarch *m) {
+  return zp_fold_tangent(&m->fold) && m->fold.negative == 0;
+}
+
+/* The present point is good: remember it, and how far it is from there to a limit point. `first`: there is none before
+ * it. */
+static void keep(ZpMarch *m, bool first) {
+  const ZpBranchSystem *sys = m->fold.system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  double flat = 1 / dot(rest->n, m->fold.along, m->fold.along), gone = fabs(parameter(m) - m->m);
+  m->to_fold = !first && flat < m->flat ? gone * flat / (m->flat - flat) : (double)INFINITY;
+  if (2 * m->to_fold < little * sys->q_scale * sqrt(flat))
+    m->to_fold = INFINITY; /* what moves that little is at rest */
+  m->tried = false;
+  m->flat = flat;
+  m->m = parameter(m);
+  memcpy(m->before, m->fold.along, rest->n * sizeof *m->before);
+  sys->position(rest->self, m->q);
+  sys->save(rest->self, m->good);
+  if (!m->event) return;
+  m->value = m->event(rest->self, m->guess);
+  m->slope = dot(rest->n, m->guess, m->before);
+}
+
+static void go_back(ZpMarch *m) {
+  const ZpStaticSystem *rest = &m->fold.system->at_rest;
+  m->fold.system->restore(rest->self, m->good);
+  rest->residual(rest->self, m->fold.newton->r, NULL);
+}
+
+/* From the last good point by `way` along its tangent, to parameter m.m + dm. False if that is too far. */
+static bool predict(ZpMarch *m, double way, double dm) {
+  static const double farthest = 0.6; /* of what linearisation stands */
+  const ZpBranchSystem *sys = m->fold.system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  for (size_t i = 0; i < rest->n; i++)
+    m->guess[i] = m->before[i] * way;
+  if (!(rest->length(rest->self, m->guess) < farthest)) return false;
+  rest->move(rest->self, m->guess, 1);
+  sys->set(rest->self, m->m + dm);
+  return true;
+}
+
+/* Is the present point, which the branch must have come to from the last good one, where its tangents lead: `from`
+ * times that of the last good point and `to` times its own? A jump to another branch is not. */
+static bool agrees(ZpMarch *m, double from, double to) {
+  static const double part = 0.25; /* of what moved */
+  const ZpBranchSystem *sys = m->fold.system;
+  size_t n = sys->at_rest.n;
+  double off = 0, all = 0;
+  sys->position(sys->at_rest.self, m->guess);
+  for (size_t i = 0; i < n; i++) {
+    double moved = m->guess[i] - m->q[i], left = moved - from * m->before[i] - to * m->fold.along[i];
+    all += moved * moved;
+    off += left * left;
+  }
+  return sqrt(off) <= fmax(part * sqrt(all), little * sys->q_scale);
+}
+
+/* Does the value of the event change as its slopes at both ends say? It tells a jump which hardly moves the rest. */
+static bool value_agrees(ZpMarch *m, double dm) {
+  static const double part = 0.25, least = 1e-3; /* of its change; of its limit */
+  if (!m->event) return true;
+  double change = m->event(m->fold.system->at_rest.self, m->guess) - m->value;
+  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
+  return fabs(change - 0.5 * dm * (m->slope + slope)) <= fmax(part * fabs(change), least * fabs(m->limit));
+}
+
+/* -- what may be ahead ------------------------------------------------------------------------------ */
+
+/* Solve for the limit point, which is `far` away, from the last good one. */
+static bool try_fold(ZpMarch *m, double sign, double far) {
+  static const double part = 0.3;
+  if (!predict(m, 2 * sign * far, sign * far)) return false;
+  memcpy(m->fold.along, m->before, m->fold.system->at_rest.n * sizeof *m->before);
+  zp_fold_guess(&m->fold);
+  if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
+  double found = sign * (parameter(m) - m->m);
+  return found > 0 && fabs(found - far) < part * far && agrees(m, 2 * sign * found, 0);
+}
+
+/* One step along m. */
+static bool try_step(ZpMarch *m, double dm, double way) {
+  enum { MOST = 12 };
+  const ZpBranchSystem *sys = m->fold.system;
+  if (!predict(m, way, dm)) return false;
+  if (!zp_newton_good(zp_newton(&sys->at_rest, m->fold.tolerance, MOST, m->fold.newton).end)) return false;
+  return is_stable(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
+}
+
+/* -- along the event's value ------------------------------------------------------------------------ */
+
+/* The scale of the event's value: below a thousandth of its limit it does not count. */
+static double scale(const ZpMarch *m) {
+  return fmax(fabs(m->value), 1e-3 * fabs(m->limit));
+}
+
+/* Does the value change faster than the parameter, relative? */
+static bool is_steep(const ZpMarch *m) {
+  return m->event && fabs(m->slope * m->m) > scale(m);
+}
+
+static bool solve_at(ZpMarch *m, double value) {
+  return zp_fold_event(&m->fold, m->event, value);
+}
+
+/* dm/d(value) at the present point. */
+static double turn_of(ZpMarch *m) {
+  m->event(m->fold.system->at_rest.self, m->guess);
+  return 1 / dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
+}
+
+/* Where the branch is as it was at the last good point: stable, m going the same way. */
+static bool is_before_fold(ZpMarch *m) {
+  return is_stable(m) && turn_of(m) * m->slope > 0;
+}
+
+/* Halve the way to a limit point that lies between the last good point and `value`: a corner, where the stiffness
+ * jumps. The last good point is then as near to it as counts. */
+static bool halve(ZpMarch *m, double value) {
+  enum { MOST = 60 };
+  static const double enough = 1e-10;
+  double step = value - m->value, before = INFINITY;
+  for (int k = 0; k < MOST; k++) {
+    step *= 0.5;
+    go_back(m);
+    if (!solve_at(m, m->value + step) || !is_before_fold(m)) continue;
+    before = m->m;
+    keep(m, false);
+    if (fabs(m->m - before) <= enough * fabs(m->m)) break;
+  }
+  go_back(m);
+  return isfinite(before);
+}
+
+/* The same if it is smooth, to be solved as such from where the branch turns by the tangents at both ends. */
+static bool solve_between(ZpMarch *m, double sign, double value) {
+  double here = 1 / m->slope, there = turn_of(m), at = m->value + (value - m->value) * here / (here - there);
+  if (!(here * there < 0)) return false;
+  bool near = fabs(at - m->value) < fabs(at - value);
+  if (near) go_back(m);
+  if (near && !predict(m, (at - m->value) * here, 0)) return false;
+  if (!solve_at(m, at)) return false;
+  zp_fold_guess(&m->fold);
+  if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
+  double found = m->event(m->fold.system->at_rest.self, m->guess);
+  return (found - m->value) * (found - value) < 0 && sign * (parameter(m) - m->m) > 0;
+}
+
+/* The limit point that the step to `value` has passed. */
+static bool find_fold(ZpMarch *m, double sign, double value, double far) {
+  static const double close = 1e-3; /* of m: nearer, halving is surer */
+  if (solve_between(m, sign, value)) return true;
+  if (fabs(far) > close * fabs(m->m) || !halve(m, value)) return false;
+  is_stable(m);
+  zp_fold_guess(&m->fold);
+  return true;
+}
+
+typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
+
+/* One step along the value of the event, which changes to `value`. */
+static Step step_along_value(ZpMarch *m, double sign, double value) {
+  static const double off = 0.25;  /* of what m has changed by: more, and it has turned twice on the way */
+  static const double tiny = 1e-6; /* of m: less does not matter, and where the stiffness jumps no step agrees */
+  double far = (value - m->value) / m->slope;
+  if (!predict(m, far, far) || !solve_at(m, value)) return STEP_TOO_LONG;
+  double gone = parameter(m) - m->m, half = 0.5 * (value - m->value);
+  if (m->fold.negative > 0 || sign * gone < 0) return find_fold(m, sign, value, gone) ? STEP_FOLD : STEP_TOO_LONG;
+  if (!is_stable(m)) return STEP_TOO_LONG;
+  m->event(m->fold.system->at_rest.self, m->guess);
+  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
+  bool straight = fabs(gone - from - to) <= off * fabs(gone) && agrees(m, from, to);
+  if (!straight && fabs(gone) > tiny * fabs(m->m)) return STEP_TOO_LONG;
+  return value == m->limit ? STEP_EVENT : STEP_GOOD;
+}
+
+/* The value that a step along it goes to: `part` of a factor of 3, not past the limit. */
+static double next_value(const ZpMarch *m, double sign, double part) {
+  static const double turn = 0.05;
+  const ZpStaticSystem *rest = &m->fold.system->at_rest;
+  double towards = sign * m->slope > 0 ? 1 : -1, longest = turn / rest->length(rest->self, m->before) * fabs(m->slope);
+  double change = fmin((towards > 0 ? 1 : 0.5) * scale(m) * part, longest), left = towards * (m->limit - m->value);
+  return left > 0 && change > 0.8 * left ? m->limit : m->value + towards * change;
+}
+
+/* -- the way --------------------------------------------------------------------------------------- */
+
+/* A step along m as long as it may be; what it turns by has `grown` while steps were good. */
+static double longest_step(ZpMarch *m, double target, double grown) {
+  static const double part = 0.7, turn = 0.03, most = 0.75; /* of the way; of what linearisation stands; towards 0 */
+  const ZpStaticSystem *rest = &m->fold.system->at_rest;
+  double left = fabs(target - m->m), h = fmin(left, grown * turn / rest->length(rest->self, m->before));
+  bool to_zero = fabs(target) < most * fabs(m->m) && left > 1e-4 * m->fold.system->m_scale;
+  if (to_zero) h = fmin(h, most * left);
+  return fmin(h, part * m->to_fold);
+}
+
+/* Along the parabola of the limit point ahead, or along the tangent. */
+static double way_of(const ZpMarch *m, double h) {
+  double x = h / m->to_fold;
+  return x < 0.9 ? h * 2 / (1 + sqrt(1 - x)) : h;
+}
+
+/* Has the event been passed? */
+static bool is_past(const ZpMarch *m, double before) {
+  return m->event && (before - m->limit) * (m->event(m->fold.system->at_rest.self, m->guess) - m->limit) < 0;
+}
+
+/* One step along m, of at most `part` of what is thought best. */
+static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
+  static const double close = 0.35; /* of m at the limit point */
+  double left = sign * (target - m->m);
+  if (!m->tried && m->to_fold < close * fabs(m->m) && m->to_fold < 1.5 * left) {
+    m->tried = true;
+    if (try_fold(m, sign, m->to_fold) && sign * (target - parameter(m)) > 0) return STEP_FOLD;
+    go_back(m);
+  }
+  double h = fmin(part, 1) * longest_step(m, target, fmax(part, 1));
+  if (!try_step(m, sign * h, sign * way_of(m, h))) return STEP_TOO_LONG;
+  if (!is_past(m, m->value)) return STEP_GOOD;
+  go_back(m);
+  return step_along_value(m, sign, m->limit);
+}
+
+/* No step was short enough: is the last good point as near as counts to a corner, where the stiffness jumps and beyond
+ * which there is no stable state? The limit point there is none of those that can be solved as such. */
+static bool is_at_corner(ZpMarch *m, double sign) {
+  enum { MOST = 200 };
+  static const double first = 1e-4, enough = 1e-10; /* of m */
+  double step = first;
+  go_back(m);
+  for (int k = 0; k < MOST && step > enough; k++) {
+    double dm = sign * step * fabs(m->m);
+    if (try_step(m, dm, dm)) {
+      keep(m, false);
+    } else {
+      go_back(m);
+      step *= 0.5;
+    }
+  }
+  if (step > enough || !is_stable(m)) return false;
+  zp_fold_guess(&m->fold);
+  return true;
+}
+
+ZpMarchEnd zp_march(ZpMarch *m, double target) {
+  enum { MOST = 400 };
+  static const double longest = 8, shortest = 1e-9, rounding = 1e-14;
+  double sign = target > parameter(m) ? 1 : -1, part = 1;
+  if (!is_stable(m)) return ZP_MARCH_LOST;
+  keep(m, true);
+  for (int k = 0; k < MOST && part > shortest; k++) {
+    if (sign * (target - m->m) <= rounding * fabs(target)) return ZP_MARCH_ARRIVED;
+    Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1)))
+                            : step_along_m(m, sign, target, part);
+    bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
+    if (beyond) {
+      go_back(m);
+      return try_step(m, target - m->m, target - m->m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+    }
+    if (step == STEP_FOLD) return ZP_MARCH_FOLD;
+    if (step == STEP_EVENT) return ZP_MARCH_EVENT;
+    if (step == STEP_GOOD) keep(m, false);
+    if (step == STEP_TOO_LONG) go_back(m);
+    part = step == STEP_GOOD ? fmin(2 * part, longest) : 0.4 * fmin(part, 1);
+  }
+  if (is_at_corner(m, sign)) return ZP_MARCH_FOLD;
+  go_back(m);
+  return ZP_MARCH_LOST;
+}

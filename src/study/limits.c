@@ -1,0 +1,333 @@
+/* Study `limits`: pull-in, closing, release and the largest load, each solved as the limit point or event that it is,
+ * without following the curve, by rest/slow.h. Theory, section 10. */
+#include "study/limits.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "study/notes.h"
+#include "study/studies.h"
+
+static const ZpColumn columns[] = {
+    {"limit", "1", "0: pull-in, 1: closing, 2: release, 3: largest load"},
+    {"voltage_V", "V", "potential difference of the electrodes"},
+    {"load_kg", "kg", "mass hung on the actuator"},
+    {"stroke_m", "m", "height of the clip over the lower platform, signed"},
+    {"opening_m", "m", "distance of the platforms' faces"},
+    {"zipped_length_m", "m", "closed length from the clip, one half"},
+    {"charge_C", "C", "charge on the electrodes"},
+    {"capacitance_F", "F", "capacitance of the electrodes"},
+};
+enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+typedef struct Scalar {
+  const char *name, *unit;
+} Scalar;
+
+static const Scalar scalars[] = {
+    {"pull_in_voltage_V", "V"}, {"closing_voltage_V", "V"}, {"release_voltage_V", "V"}, {"max_load_kg", "kg"}};
+
+typedef struct Finder {
+  const ZpModel *model;
+  const ZpHooks *hooks;
+  ZpRest rest;
+  ZpSlow slow;
+  ZpLimits *limits;
+  const ZpLimits *near; /* of a neighbour; NULL: none */
+  void *top;            /* the state at drive.voltage under the own load, where it hangs there */
+  bool interrupted;
+} Finder;
+
+static void carve(void *user, ZpCarver *carver) {
+  Finder *f = user;
+  zp_slow_carve(&f->slow, &f->rest, carver);
+  f->top = zp_carve(carver, zp_rest_save_size(&f->rest));
+}
+
+static bool asked_to_stop(void *finder) {
+  Finder *f = finder;
+  const ZpHooks *hooks = f->hooks;
+  if (hooks && hooks->progress && hooks->progress(hooks->user, "limits", 0)) f->interrupted = true;
+  return f->interrupted;
+}
+
+/* -- from a neighbour ------------------------------------------------------------------------------- */
+
+/* A state of the neighbour, of the size of this actuator, under its own load. */
+static void take(Finder *f, const double *state) {
+  ZpStatics *s = &f->rest.statics;
+  double own = s->load, ratio = f->model->L / f->near->L;
+  f->slow.square.restore(s, state);
+  for (size_t k = 0; k < 2 * f->model->stride; k++)
+    s->q[k] *= ratio;
+  s->load = own;
+  zp_statics_stable(s, &f->rest.branch.newton);
+}
+
+/* Solve for a limit from where the neighbour has it. True if that is the limit: what is across its null vector is
+ * stable, it is closed if the neighbour's is, and it is not far away. */
+static bool from_neighbour(Finder *f, ZpLimitKind kind) {
+  static const double farthest = 0.3;
+  if (!f->near) return false;
+  const ZpLimit *near = &f->near->limit[kind];
+  ZpStatics *s = &f->rest.statics;
+  if (near->end != ZP_MARCH_FOLD && near->end != ZP_MARCH_EVENT) return false;
+  bool load = kind == ZP_LIMIT_LOAD, fold = near->end == ZP_MARCH_FOLD;
+  f->slow.march.fold.system = load ? &f->slow.load : &f->slow.square;
+  take(f, near->state);
+  double near_gap = zp_closing_gap(s, NULL);
+  if (load) s->load = near->value;
+  if (load) s->U = f->model->def.drive.voltage;
+  memcpy(f->slow.march.fold.null, near->null, s->assembly.n * sizeof *near->null);
+  if (!(fold ? zp_fold_solve(&f->slow.march.fold) : zp_fold_event(&f->slow.march.fold, zp_closing_gap, f->slow.closed)))
+    return false;
+  double value = load ? s->load : s->U;
+  bool sided = !fold || (near_gap <= 2 * f->slow.closed) == (zp_closing_gap(s, NULL) <= 2 * f->slow.closed);
+  bool within = load ? value > 0 : value <= f->model->def.drive.voltage;
+  if (f->slow.march.fold.negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
+  zp_slow_note(&f->slow, &f->limits->limit[kind], near->end);
+  if (fold && zp_slow_look_around(&f->slow, &f->limits->limit[kind], load || kind == ZP_LIMIT_RELEASE ? -1 : 1) !=
+                  ZP_NOTHING_HIGHER)
+    return false;
+  f->limits->warm++;
+  return true;
+}
+
+/* Closing is by the fold of the pull-in, in the neighbour and here. */
+static bool closes_as_neighbour(Finder *f) {
+  const ZpLimit *near = f->near ? f->near->limit : NULL;
+  if (!near || near[ZP_LIMIT_CLOSING].value != near[ZP_LIMIT_PULL_IN].value) return false;
+  if (!from_neighbour(f, ZP_LIMIT_PULL_IN)) return false;
+  zp_slow_copy(&f->slow, &f->limits->limit[ZP_LIMIT_PULL_IN], &f->limits->limit[ZP_LIMIT_CLOSING]);
+  return true;
+}
+
+/* -- the limits ------------------------------------------------------------------------------------- */
+
+static bool hang(Finder *f) {
+  ZpStatics *s = &f->rest.statics;
+  ZpNewtonWork *work = &f->rest.branch.newton;
+  if (f->near && f->near->hangs) take(f, f->near->start);
+  if (!zp_newton_good(zp_statics_hang(s, work).end)) return false;
+  if (!zp_statics_stable(s, work)) return false;
+  f->limits->hanging = f->model->field ? zp_closing_gap(s, NULL) : 0;
+  f->limits->hangs = true;
+  zp_slow_start(&f->slow, f->limits->hanging);
+  f->slow.square.save(s, f->limits->start);
+  return true;
+}
+
+/* A voltage that rises to drive.voltage. */
+static ZpSlowEnd raise_voltage(Finder *f) {
+  ZpLimit *limit = f->limits->limit;
+  if (closes_as_neighbour(f)) return ZP_SLOW_CHANGED;
+  zp_slow_go_to(&f->slow, f->limits->start);
+  ZpSlowEnd end =
+      zp_slow_raise(&f->slow, f->model->def.drive.voltage, &limit[ZP_LIMIT_PULL_IN], &limit[ZP_LIMIT_CLOSING]);
+  if (end == ZP_SLOW_ARRIVED) f->slow.square.save(&f->rest.statics, f->top);
+  return end;
+}
+
+/* From closed at drive.voltage down to 0. */
+static void lower_voltage(Finder *f) {
+  ZpLimit *limit = f->limits->limit;
+  if (from_neighbour(f, ZP_LIMIT_RELEASE)) return;
+  zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
+  if (zp_slow_close(&f->slow, f->model->def.drive.voltage))
+    zp_slow_lower(&f->slow, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
+}
+
+/* Hang at drive.voltage under a load so large that it does not close. False if none was found. */
+static bool hang_heavy(Finder *f) {
+  enum { MOST = 12 };
+  static const double lightest = 1e-3; /* kg */
+  ZpStatics *s = &f->rest.statics;
+  double top = f->model->def.drive.voltage, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
+  double load = fmax(f->model->def.load.mass, lightest) * 3 * (top / closing) * (top / closing);
+  for (int k = 0; k < MOST; k++, load *= 4) {
+    f->slow.square.restore(s, f->limits->start);
+    s->load = load;
+    if (!zp_newton_good(zp_statics_hang(s, &f->rest.branch.newton).end)) return false;
+    if (!zp_statics_stable(s, &f->rest.branch.newton)) return false;
+    ZpSlowEnd end = zp_slow_close_at(&f->slow, top, &f->limits->limit[ZP_LIMIT_LOAD]);
+    if (end == ZP_SLOW_ARRIVED) return !zp_slow_is_closed(&f->slow);
+    if (end != ZP_SLOW_CHANGED) return false;
+  }
+  return false;
+}
+
+/* A load that falls at drive.voltage until it is lifted. */
+static void lower_load(Finder *f, bool closes) {
+  if (from_neighbour(f, ZP_LIMIT_LOAD)) return;
+  bool hangs = closes ? hang_heavy(f) : true;
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "no load was found that it cannot lift");
+  if (!hangs) return;
+  if (!closes) zp_slow_go_to(&f->slow, f->top);
+  ZpSlowEnd end = zp_slow_change_load(&f->slow, 0, &f->limits->limit[ZP_LIMIT_LOAD]);
+  if (end == ZP_SLOW_ARRIVED)
+    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it does not close at drive.voltage even without load");
+  if (end == ZP_SLOW_LOST)
+    zp_limit_lost(&f->limits->limit[ZP_LIMIT_LOAD], "the hanging state was lost as the load fell");
+}
+
+static void none_closed(Finder *f, const char *reason) {
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_CLOSING], reason);
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_RELEASE], reason);
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], reason);
+}
+
+/* False if it does not hang. */
+static bool find(Finder *f) {
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    zp_limit_none(&f->limits->limit[k], "without a voltage there is none");
+  if (!hang(f)) return false;
+  if (!f->model->field || f->model->def.drive.voltage == 0) return true;
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    zp_limit_none(&f->limits->limit[k], "it hangs closed");
+  if (f->limits->hanging <= zp_closing_limit(&f->rest.statics, 0)) return true;
+  ZpSlowEnd up = raise_voltage(f);
+  bool shorts = f->model->def.insulator.thickness == 0;
+  if (shorts) none_closed(f, "closed it is a short circuit");
+  if (shorts) return true;
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_RELEASE], "it was not looked for");
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it was not looked for");
+  if (up == ZP_SLOW_STOPPED || up == ZP_SLOW_LOST) return true;
+  lower_voltage(f);
+  f->rest.statics.load = f->model->def.load.mass;
+  if (f->model->def.gravity > 0)
+    lower_load(f, up == ZP_SLOW_CHANGED);
+  else
+    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "without gravity a mass is no load");
+  return true;
+}
+
+/* -- limits that outlive their model ------------------------------------------------------------------ */
+
+void zp_limits_destroy(ZpLimits *limits) {
+  if (!limits) return;
+  zp_free(limits->memory);
+  zp_free(limits);
+}
+
+static size_t carve_limits(ZpLimits *limits, size_t save, size_t equations, void *block) {
+  ZpCarver carver = {block, 0};
+  limits->start = zp_carve(&carver, save);
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    zp_limit_carve(&limits->limit[k], save, equations, &carver);
+  return carver.used;
+}
+
+static ZpLimits *create(const Finder *f) {
+  const ZpStatics *s = &f->rest.statics;
+  ZpLimits *limits = zp_calloc(1, sizeof *limits);
+  if (!limits) return NULL;
+  *limits = (ZpLimits){.ribbons = f->model->s, .nodes = f->model->nodes, .L = f->model->L};
+  size_t save = zp_rest_save_size(&f->rest);
+  limits->memory = zp_calloc(1, carve_limits(limits, save, s->assembly.n, NULL));
+  if (limits->memory) {
+    carve_limits(limits, save, s->assembly.n, limits->memory);
+    return limits;
+  }
+  zp_free(limits);
+  return NULL;
+}
+
+/* -- the study ------------------------------------------------------------------------------------- */
+
+static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
+  ZpStatics *s = &f->rest.statics;
+  if (isnan(f->limits->limit[kind].value)) return;
+  zp_slow_go_to(&f->slow, f->limits->limit[kind].state);
+  double row[COLUMNS] = {kind,
+                         s->U,
+                         s->load,
+                         zp_statics_stroke(s),
+                         zp_statics_opening(s),
+                         (double)zp_statics_front(s) * f->model->l,
+                         zp_statics_charge(s),
+                         zp_statics_capacitance(s)};
+  ZpShape shape = zp_statics_shape(s, kind, f->rest.line_force);
+  zp_table_offer(table, row);
+  zp_shapes_offer(shapes, &shape);
+}
+
+/* ", releases at 855 V" or "; no release: why". */
+static void say(char *text, size_t size, const ZpLimit *limit, const char *found, const char *unit,
+                const char *missing) {
+  size_t used = strlen(text);
+  if (isnan(limit->value))
+    snprintf(text + used, size - used, "; no %s: %s", missing, limit->reason);
+  else
+    snprintf(text + used, size - used, ", %s %.4g %s", found, limit->value, unit);
+}
+
+static void describe(Finder *f, ZpResult *r) {
+  const ZpLimit *limit = f->limits->limit, *pull_in = &limit[ZP_LIMIT_PULL_IN], *closing = &limit[ZP_LIMIT_CLOSING];
+  size_t size = sizeof r->message;
+  const char *trouble = zp_statics_trouble(&f->rest.statics);
+  if (isnan(pull_in->value))
+    snprintf(r->message, size, "no pull-in up to %g V", f->model->def.drive.voltage);
+  else
+    snprintf(r->message, size, "pulls in at %.4g V", pull_in->value);
+  if (closing->value != pull_in->value && !isnan(closing->value))
+    say(r->message, size, closing, "closes at", "V", "closing");
+  say(r->message, size, &limit[ZP_LIMIT_RELEASE], "releases at", "V", "release");
+  say(r->message, size, &limit[ZP_LIMIT_LOAD], "lifts at most", "kg", "largest load");
+  size_t used = strlen(r->message);
+  if (trouble) snprintf(r->message + used, size - used, ": %s", trouble);
+}
+
+static ZpOutcome outcome_of(const Finder *f) {
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    if (f->limits->limit[k].end == ZP_MARCH_LOST) return ZP_BRANCH_LOST;
+  return f->interrupted ? ZP_INTERRUPTED : ZP_CONVERGED;
+}
+
+static void run(Finder *f, ZpResult *r) {
+  bool hangs = find(f);
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    zp_result_add(r, scalars[k].name, scalars[k].unit, f->limits->limit[k].value);
+  zp_result_add(r, "warm_starts", "count", f->limits->warm);
+  r->outcome = hangs ? outcome_of(f) : ZP_NOT_SETTLED;
+  describe(f, r);
+  if (!hangs) snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
+  for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
+    record(f, r->series, r->shapes, k);
+  zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  if (hangs) zp_note_start(r, f->model, f->limits->hanging);
+}
+
+/* A neighbour of another mesh or kind is none. */
+static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
+  const ZpLimits *near = task->input.neighbour ? task->input.neighbour->limits : NULL;
+  return near && near->ribbons == model->s && near->nodes == model->nodes ? near : NULL;
+}
+
+ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.kind = ribbon: study limits requires electrodes: kind electro_ribbon or flange");
+  return zp_def_check_voltage(def, def->drive.voltage, err);
+}
+
+ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpModel *model;
+  ZpStatus status = zp_model_create(task->def, &model, err);
+  if (status != ZP_OK) return status;
+  Finder f = {.model = model, .hooks = task->hooks, .near = neighbour_of(task, model)};
+  f.slow.stop = asked_to_stop;
+  f.slow.caller = &f;
+  result->series = zp_table_create(columns, COLUMNS, ZP_LIMIT_KINDS);
+  result->shapes = zp_shapes_create(model->s, model->nodes, ZP_LIMIT_KINDS);
+  bool open = result->series && result->shapes && zp_rest_open(&f.rest, model, carve, &f);
+  if (open) result->limits = f.limits = create(&f);
+  if (f.limits)
+    run(&f, result);
+  else
+    status = zp_fail_memory(err);
+  zp_rest_close(&f.rest);
+  zp_model_destroy(model);
+  return status;
+}

@@ -1,0 +1,506 @@
+/* The limits of an actuator at rest: the extended system of a limit point, and study limits against study equilibrium,
+ * which follows the curve, against closed forms, and against itself. */
+#include "check_util.h"
+
+#include "rest/closing.h"
+#include "rest/rest.h"
+#include "solve/march.h"
+
+/* -- a limit point known in closed form --------------------------------------------------------------- */
+
+/* E = q0^3 / 3 + q0^4 / 4 - 0.3 q0^2 q1 + q1^2 / 2 + s q2^2 / 2 - (m - 1) q0: a limit point at q = 0, m = 1. */
+enum { EQUATIONS = 3, MOST = 32 };
+
+typedef struct Toy {
+  double q[EQUATIONS], m;
+  double across; /* s: what is across the null vector is stable where it is positive */
+  double seen[MOST];
+  int visits;
+} Toy;
+
+static ZpEnd toy_residual(void *self, double *r, double *size) {
+  const Toy *t = self;
+  const double *q = t->q;
+  r[0] = t->m - 1 - q[0] * q[0] - q[0] * q[0] * q[0] + 0.6 * q[0] * q[1];
+  r[1] = -q[1] + 0.3 * q[0] * q[0];
+  r[2] = -t->across * q[2];
+  if (size) *size = fmax(fabs(r[0]), fmax(fabs(r[1]), fabs(r[2])));
+  return ZP_END_FOUND;
+}
+
+static void toy_stiffness(void *self, ZpBand *K, double *r) {
+  (void)r;
+  const double *q = ((const Toy *)self)->q;
+  zp_band_clear(K);
+  *zp_band_at(K, 0, 0) = 2 * q[0] + 3 * q[0] * q[0] - 0.6 * q[1];
+  *zp_band_at(K, 0, 1) = -0.6 * q[0];
+  if (K->lower > 0) *zp_band_at(K, 1, 0) = -0.6 * q[0];
+  *zp_band_at(K, 1, 1) = 1;
+  *zp_band_at(K, 2, 2) = ((const Toy *)self)->across;
+}
+
+static double toy_length(void *self, const double *step) {
+  (void)self;
+  return fmax(fabs(step[0]), fmax(fabs(step[1]), fabs(step[2])));
+}
+
+static void toy_move(void *self, const double *step, double fraction) {
+  for (int i = 0; i < EQUATIONS; i++)
+    ((Toy *)self)->q[i] += fraction * step[i];
+}
+
+static double toy_get(void *self) {
+  return ((const Toy *)self)->m;
+}
+
+static void toy_set(void *self, double m) {
+  ((Toy *)self)->m = m;
+}
+
+/* Asked once at each iterate, so it writes down how far that is from the limit point. */
+static void toy_sensitivity(void *self, double *r_m) {
+  Toy *t = self;
+  if (t->visits < MOST) t->seen[t->visits++] = fmax(fabs(t->m - 1), fmax(fabs(t->q[0]), fabs(t->q[1])));
+  r_m[0] = 1;
+  r_m[1] = r_m[2] = 0;
+}
+
+static void toy_position(void *self, double *q) {
+  memcpy(q, ((const Toy *)self)->q, sizeof((const Toy *)self)->q);
+}
+
+static void toy_save(void *self, void *to) {
+  const Toy *t = self;
+  memcpy(to, t->q, sizeof t->q);
+  ((double *)to)[EQUATIONS] = t->m;
+}
+
+static void toy_restore(void *self, const void *from) {
+  Toy *t = self;
+  memcpy(t->q, from, sizeof t->q);
+  t->m = ((const double *)from)[EQUATIONS];
+}
+
+static ZpBranchSystem toy_system(Toy *t) {
+  return (ZpBranchSystem){
+      .at_rest = {EQUATIONS, t, toy_residual, toy_stiffness, toy_length, toy_length, toy_move, NULL},
+      .get = toy_get,
+      .set = toy_set,
+      .sensitivity = toy_sensitivity,
+      .position = toy_position,
+      .save = toy_save,
+      .restore = toy_restore,
+      .save_size = (EQUATIONS + 1) * sizeof(double),
+      .q_scale = 1,
+      .m_scale = 1};
+}
+
+typedef struct ToyMarch {
+  ZpBranchSystem system;
+  ZpNewtonWork newton;
+  ZpMarch march;
+  void *memory;
+} ToyMarch;
+
+static void open_toy(ToyMarch *f, Toy *t, bool symmetric) {
+  ZpCarver carver = {NULL, 0};
+  *f = (ToyMarch){.system = toy_system(t)};
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass) f->memory = zp_calloc(1, carver.used);
+    carver = (ZpCarver){f->memory, 0};
+    zp_newton_carve(&f->newton, EQUATIONS, 1, symmetric, &carver);
+    zp_march_carve(&f->march, &f->system, 1, symmetric, &f->newton, &carver);
+  }
+  f->march.fold.tolerance = 1e-12;
+}
+
+/* Errors are squared from one iteration to the next, whether the stiffness is kept as symmetric or not. */
+START_TEST(test_extended_system_converges_quadratically) {
+  Toy t = {.q = {-0.2, 0.05, 0.1}, .m = 0.9, .across = 1};
+  ToyMarch f;
+  open_toy(&f, &t, _i == 0);
+  f.march.fold.null[0] = 0.8;
+  f.march.fold.null[1] = 0.6;
+  ck_assert(zp_fold_solve(&f.march.fold));
+  ck_assert_uint_eq(f.march.fold.negative, 0);
+  printf("distance from the limit point:");
+  for (int k = 0; k < t.visits; k++)
+    printf(" %.1e", t.seen[k]);
+  printf("\n");
+  ck_below(fabs(t.m - 1), 1e-9);
+  ck_assert_int_ge(t.visits, 4);
+  for (int k = 0; k + 1 < t.visits; k++)
+    if (t.seen[k] < 0.1 && t.seen[k] > 1e-6) ck_below(t.seen[k + 1], 2 * t.seen[k] * t.seen[k]); /* measured 1.5 */
+  zp_free(f.memory);
+}
+END_TEST
+
+/* The limit point of a branch that is unstable across it is found, and told to be that. */
+START_TEST(test_unstable_limit_point_is_told) {
+  Toy t = {.q = {-0.2, 0.05, 0.1}, .m = 0.9, .across = -1};
+  ToyMarch f;
+  open_toy(&f, &t, true);
+  f.march.fold.null[0] = 1;
+  ck_assert(zp_fold_solve(&f.march.fold));
+  ck_assert_uint_eq(f.march.fold.negative, 1);
+  t = (Toy){.q = {0.5, 0.075, 0}, .m = 0, .across = -1};
+  t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
+  ck_assert_int_eq(zp_march(&f.march, 1.2), ZP_MARCH_LOST);
+  ck_assert_int_eq(zp_march(&f.march, 0), ZP_MARCH_LOST);
+  zp_free(f.memory);
+}
+END_TEST
+
+/* From a stable state far away to the limit point, and past none to where it is asked for. */
+START_TEST(test_march) {
+  Toy t = {.q = {0.5, 0.075, 0}, .across = 1};
+  ToyMarch f;
+  t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
+  open_toy(&f, &t, true);
+  Toy start = t;
+  ck_assert_int_eq(zp_march(&f.march, 1.2), ZP_MARCH_ARRIVED);
+  ck_assert_double_eq(t.m, 1.2);
+  t = start;
+  ck_assert_int_eq(zp_march(&f.march, 0.5), ZP_MARCH_FOLD);
+  ck_assert_double_eq_tol(t.m, 1, 1e-9);
+  ck_assert_double_eq_tol(fabs(f.march.fold.null[0]), 1, 1e-6);
+  zp_free(f.memory);
+}
+END_TEST
+
+/* -- running a study ------------------------------------------------------------------------------- */
+
+static const char *const names[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg"};
+
+static ZpResult *run(ZpStudy study, const ZpActuatorDef *def, const ZpResult *neighbour) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ZpStudyInput input = {.neighbour = neighbour};
+  ck_assert_msg(zp_study_run(study, def, &input, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s: %s", zp_outcome_name(result->outcome), result->message);
+  return result;
+}
+
+static ZpResult *limits_of(const ZpActuatorDef *def) {
+  return run(ZP_STUDY_LIMITS, def, NULL);
+}
+
+/* The same number, or none in both. */
+static void same(const ZpResult *a, const ZpResult *b, const char *name, double tolerance) {
+  double x = zp_result_get(a, name), y = zp_result_get(b, name);
+  printf("  %s: %.10g, %.10g\n", name, x, y);
+  if (isnan(x) && isnan(y)) return;
+  ck_near(x, y, tolerance);
+}
+
+/* -- against the curve ------------------------------------------------------------------------------- */
+
+static ZpActuatorDef design(int k) {
+  const ZpActuatorDef designs[] = {
+      zp_actuator_def_default(),
+      DEF({"electro.breakdown_cap", false}),
+      DEF({"mesh.nodes", 41}, {"load.mass", 1e-3}),
+      DEF({"ribbon.thickness", 200e-6}), /* closes gradually, after a limit point */
+      DEF({"ribbon.thickness", 172.5e-6}, {"ribbon.length", 92.5e-3}, {"load.mass", 1.241e-3},
+          {"electro.breakdown_cap", false}, {"drive.voltage", 12e3}), /* closes gradually */
+      DEF({"load.mass", 60e-3}),                                      /* hangs at drive.voltage */
+      DEF({"ribbon.length", 120e-3}, {"ribbon.thickness", 40e-6}, {"load.mass", 3e-3}, {"platform.length", 10e-3}),
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 65e-3}, {"ribbon.thickness", 100e-6},
+          {"load.mass", 5e-3}, {"electro.gap_offset", 0.3e-3}, {"drive.voltage", 3e3}),
+      DEF({"load.mass", 0}),
+  };
+  return designs[k];
+}
+enum { DESIGNS = 9 };
+
+/* The first voltage at which the followed curve turns; NAN: it does not. */
+static double first_turn(const ZpResult *followed) {
+  double before = 0;
+  for (size_t i = 0; i < followed->series->rows; i++) {
+    double voltage = zp_table_get(followed->series, i, "voltage_V");
+    if (zp_table_get(followed->series, i, "branch") == 0 && voltage < before) return before;
+    before = voltage;
+  }
+  return NAN;
+}
+
+/* Pull-in is where the curve, which is followed by other means, turns first. Its points are so close there. */
+static void turns_at(const ZpResult *followed, double pull_in) {
+  static const double spacing = 0.02;
+  double turn = first_turn(followed);
+  printf("  the curve turns first at %.6g V\n", turn);
+  ck_assert_int_eq(isnan(turn), isnan(pull_in));
+  if (isnan(turn)) return;
+  ck_below(turn, pull_in * (1 + 1e-6));
+  ck_below(pull_in, turn * (1 + spacing));
+}
+
+/* => pull-in */
+static double agrees_with_the_curve(const ZpActuatorDef *def) {
+  ZpResult *direct = limits_of(def), *followed = run(ZP_STUDY_EQUILIBRIUM, def, NULL);
+  double pull_in = zp_result_get(direct, names[0]);
+  printf("%s\n  %s\n", direct->message, followed->message);
+  for (int k = 0; k < 3; k++)
+    same(direct, followed, names[k], 1e-6);
+  turns_at(followed, pull_in);
+  zp_result_destroy(direct);
+  zp_result_destroy(followed);
+  return pull_in;
+}
+
+START_TEST(test_limits_are_those_of_the_curve) {
+  ZpActuatorDef def = design(_i);
+  agrees_with_the_curve(&def);
+}
+END_TEST
+
+/* A few nodes snap long before it closes. A long step along the voltage once passed this limit point. */
+START_TEST(snap_of_a_few_nodes_is_the_pull_in) {
+  ZpActuatorDef def =
+      DEF({"ribbon.thickness", 25e-6}, {"ribbon.length", 150e-3}, {"load.mass", 5e-3}, {"drive.voltage", 12e3});
+  ck_near(agrees_with_the_curve(&def), 9547, 1e-3);
+}
+END_TEST
+
+/* Two limit points 1 % apart, far below drive.voltage: the curve once passed both in one step, and its pull-in was the
+ * next one at 445 V. */
+START_TEST(curve_meets_both_limit_points_of_a_small_snap) {
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"electro.gap_offset", 0.3e-3});
+  ck_near(agrees_with_the_curve(&def), 257.6, 1e-3);
+}
+END_TEST
+
+/* -- against a staircase of the voltage -------------------------------------------------------------- */
+
+/* The voltage changes by this part from one stair to the next, on each of which motion ends. */
+static const double stair = 0.005;
+
+/* From the present state at `voltage`, up or down to where it is closed, or is not. => the voltage there */
+static double climb_stairs(ZpRest *rest, double voltage, bool up, double closed) {
+  enum { MOST = 2000 };
+  for (int k = 0; k < MOST; k++, voltage *= up ? 1 + stair : 1 - stair) {
+    ck_assert(zp_newton_good(zp_statics_fall(&rest->statics, voltage, &rest->branch.newton).end));
+    if ((zp_closing_gap(&rest->statics, NULL) <= closed) == up) return voltage;
+  }
+  return NAN;
+}
+
+/* => closing (up) or release */
+static double by_stairs(const ZpActuatorDef *def, double start, bool up) {
+  ZpModel *model = model_of(def);
+  ZpRest rest;
+  ck_assert(zp_rest_open(&rest, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_statics_hang(&rest.statics, &rest.branch.newton).end));
+  double closed = zp_closing_limit(&rest.statics, zp_closing_gap(&rest.statics, NULL));
+  if (!up) ck_assert(zp_newton_good(zp_statics_close(&rest.statics, start, &rest.branch.newton).end));
+  double found = climb_stairs(&rest, start, up, closed);
+  zp_rest_close(&rest);
+  zp_model_destroy(model);
+  return found;
+}
+
+/* After a snap of some nodes it rests, and closes at a higher voltage: 2 % with 27 nodes, where a fall in long steps
+ * once passed the state between; 12 % of a stiff one, where faces that overlapped for a moment on the way once were
+ * taken for closed. */
+START_TEST(closing_is_that_of_a_staircase) {
+  const ZpActuatorDef designs[] = {
+      DEF({"ribbon.length", 35.635e-3}, {"ribbon.width", 30.046e-3}, {"ribbon.thickness", 14.209e-6},
+          {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38}, {"ribbon.density", 1390},
+          {"platform.length", 3.5635e-3}, {"insulator.thickness", 28.069e-6}, {"medium.permittivity", 1},
+          {"load.mass", 0.30432e-3}, {"mesh.nodes", 27}, {"electro.breakdown_cap", false}, {"drive.voltage", 5834}),
+      DEF({"ribbon.length", 85.544e-3}, {"ribbon.width", 14.714e-3}, {"ribbon.thickness", 340.19e-6},
+          {"ribbon.young_modulus", 70e9}, {"ribbon.poisson_ratio", 0.33}, {"ribbon.density", 2700},
+          {"platform.length", 8.5544e-3}, {"insulator.thickness", 16.534e-6}, {"medium.permittivity", 1},
+          {"load.mass", 0}, {"mesh.nodes", 107}, {"electro.breakdown_cap", false}, {"drive.voltage", 10312}),
+  };
+  ZpActuatorDef def = designs[_i];
+  ZpResult *result = limits_of(&def);
+  double closing = zp_result_get(result, "closing_voltage_V"), found = by_stairs(&def, 0.5 * closing, true);
+  printf("closes at %.6g V, on the stair of %.6g V\n", closing, found);
+  ck_near(found, closing, 2 * stair);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A load that the closed actuator just holds (the limit point is a corner of the breakdown cap, where the state once
+ * was lost); flanges without load. */
+START_TEST(release_is_that_of_a_staircase) {
+  const ZpActuatorDef designs[] = {
+      DEF({"load.mass", 120e-3}, {"drive.voltage", 12e3}),
+      DEF({"load.mass", 100e-3}, {"drive.voltage", 12e3}),
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 1e-4}, {"load.mass", 0},
+          {"ribbon.thickness", 100e-6}, {"drive.voltage", 3e3}),
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_FREE}, {"electro.gap_offset", 1e-4},
+          {"load.mass", 0}, {"ribbon.thickness", 100e-6}, {"drive.voltage", 3e3}),
+  };
+  ZpActuatorDef def = designs[_i];
+  ZpResult *result = limits_of(&def);
+  double release = zp_result_get(result, "release_voltage_V"), found = by_stairs(&def, def.drive.voltage, false);
+  printf("releases at %.6g V, on the stair of %.6g V\n", release, found);
+  ck_near(found, release, 2 * stair);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- closed forms ------------------------------------------------------------------------------------ */
+
+/* A guided ribbon over a flat electrode at a distance g far below its length: b = eps0 w U^2 L^4 / (2 EI g^3). */
+START_TEST(test_classical_pull_in) {
+  const double b = 4.38094, g = 1e-3, L = 0.1, width = 12.7e-3, thick = 1e-3, eps0 = 8.8541878128e-12;
+  double EI = 200e9 * width * thick * thick * thick / 12,
+         V = sqrt(2 * b * EI * g * g * g / (eps0 * width * L * L * L * L));
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_GUIDED}, {"ribbon.length", L},
+          {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0}, {"ribbon.thickness", thick},
+          {"insulator.thickness", 0}, {"medium.permittivity", 1}, {"medium.breakdown_field", V / (0.1 * g)},
+          {"electro.gap_offset", g}, {"drive.voltage", 1.2 * V});
+  ZpResult *result = limits_of(&def);
+  double found = zp_result_get(result, "pull_in_voltage_V");
+  printf("%s; %+.1e off in b\n", result->message, found * found / (V * V) - 1);
+  ck_near(found * found / (V * V), 1, 2e-3);
+  ck_assert_double_nan(zp_result_get(result, "closing_voltage_V")); /* closed, bare electrodes touch */
+  ck_assert_ptr_nonnull(strstr(result->message, "short circuit"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* All lengths times c, weight per volume over c: the same shapes under c times the voltage and c^2 times the load's
+ * weight. */
+START_TEST(test_scaling) {
+  const double c = 1.25;
+  ZpActuatorDef def = DEF({"insulator.thickness", 25e-6}), large = def;
+  large.ribbon.length *= c;
+  large.ribbon.width *= c;
+  large.ribbon.thickness *= c;
+  large.insulator.thickness *= c;
+  large.platform.length *= c;
+  large.gravity /= c;
+  large.load.mass *= c * c * c;
+  large.drive.voltage *= c;
+  ZpResult *one = limits_of(&def), *other = limits_of(&large);
+  for (int k = 0; k < 3; k++)
+    ck_near(zp_result_get(other, names[k]), c * zp_result_get(one, names[k]), 2e-3);
+  ck_near(zp_result_get(other, "max_load_kg"), c * c * c * zp_result_get(one, "max_load_kg"), 2e-3);
+  zp_result_destroy(one);
+  zp_result_destroy(other);
+}
+END_TEST
+
+/* -- the largest load -------------------------------------------------------------------------------- */
+
+/* Under the largest load it closes at drive.voltage, whatever load it was asked for with. */
+START_TEST(test_largest_load) {
+  static const double masses[] = {1e-3, 8e-3, 20e-3, 60e-3};
+  double largest[LENGTH_OF(masses)];
+  for (size_t k = 0; k < LENGTH_OF(masses); k++) {
+    ZpActuatorDef def = DEF({"load.mass", masses[k]});
+    ZpResult *result = limits_of(&def);
+    largest[k] = zp_result_get(result, "max_load_kg");
+    ck_near(largest[k], largest[0], 1e-6);
+    zp_result_destroy(result);
+  }
+  ZpActuatorDef def = DEF({"load.mass", largest[0]});
+  double voltage = def.drive.voltage;
+  def.drive.voltage *= 1.01;
+  ZpResult *result = limits_of(&def);
+  printf("%g kg: closes at %.9g V\n", largest[0], zp_result_get(result, "closing_voltage_V"));
+  ck_near(zp_result_get(result, "closing_voltage_V"), voltage, 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Contact once got stiffer with the load: 0.6 % off without cap. */
+START_TEST(largest_load_does_not_depend_on_the_load) {
+  ZpActuatorDef light = DEF({"electro.breakdown_cap", false}), heavy = light;
+  heavy.load.mass = 1000;
+  ZpResult *of_light = limits_of(&light), *of_heavy = limits_of(&heavy);
+  same(of_heavy, of_light, "max_load_kg", 1e-6);
+  zp_result_destroy(of_light);
+  zp_result_destroy(of_heavy);
+}
+END_TEST
+
+/* -- from a neighbour -------------------------------------------------------------------------------- */
+
+/* Where a search begins does not change what it finds. */
+START_TEST(test_limits_from_a_neighbour) {
+  static const char *const keys[] = {"load.mass", "ribbon.thickness", "ribbon.length", "drive.voltage"};
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpResult *near = limits_of(&def);
+  double warm = 0;
+  for (int k = 0; k < 6; k++) {
+    int key = zp_key_find(keys[_i]);
+    ck_assert_int_eq(zp_def_set(&def, key, zp_def_get(&def, key) * 1.01, NULL), ZP_OK);
+    ZpResult *from = run(ZP_STUDY_LIMITS, &def, near), *anew = limits_of(&def);
+    warm += zp_result_get(from, "warm_starts");
+    for (size_t i = 0; i < LENGTH_OF(names); i++)
+      same(from, anew, names[i], 1e-6);
+    zp_result_destroy(near);
+    zp_result_destroy(anew);
+    near = from;
+  }
+  printf("%s: %g of 18 limits from the neighbour\n", keys[_i], warm);
+  ck_assert_double_ge(warm, 9);
+  zp_result_destroy(near);
+}
+END_TEST
+
+/* One of another mesh, or another kind, is no neighbour. */
+START_TEST(test_no_neighbour) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 41}), other = DEF({"mesh.nodes", 31});
+  ZpResult *near = limits_of(&other), *from = run(ZP_STUDY_LIMITS, &def, near), *anew = limits_of(&def);
+  ck_assert_double_eq(zp_result_get(from, "warm_starts"), 0);
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    ck_assert_double_eq(zp_result_get(from, names[i]), zp_result_get(anew, names[i]));
+  zp_result_destroy(near);
+  zp_result_destroy(from);
+  zp_result_destroy(anew);
+}
+END_TEST
+
+/* -- where there is none ----------------------------------------------------------------------------- */
+
+/* What does not exist is null, and the message says why. */
+START_TEST(test_no_limit) {
+  ZpActuatorDef low = DEF({"drive.voltage", 300}), none = DEF({"drive.voltage", 0}), light = DEF({"gravity", 0});
+  ZpResult *result = limits_of(&low);
+  ck_assert_double_nan(zp_result_get(result, "pull_in_voltage_V"));
+  ck_assert_double_nan(zp_result_get(result, "closing_voltage_V"));
+  ck_assert_ptr_nonnull(strstr(result->message, "no pull-in up to 300 V"));
+  zp_result_destroy(result);
+  result = limits_of(&none);
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    ck_assert_double_nan(zp_result_get(result, names[i]));
+  zp_result_destroy(result);
+  (void)light;
+  ZpError err;
+  ZpActuatorDef ribbon = DEF({"actuator.kind", ZP_KIND_RIBBON});
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_LIMITS, &ribbon, NULL, NULL, &result, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "actuator.kind"));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("limits");
+  TCase *fold = tcase_create("fold");
+  tcase_add_loop_test(fold, test_extended_system_converges_quadratically, 0, 2);
+  tcase_add_test(fold, test_unstable_limit_point_is_told);
+  tcase_add_test(fold, test_march);
+  suite_add_tcase(suite, fold);
+  TCase *study = tcase_create("study");
+  tcase_add_loop_test(study, test_limits_are_those_of_the_curve, 0, DESIGNS);
+  tcase_add_test(study, snap_of_a_few_nodes_is_the_pull_in);
+  tcase_add_test(study, curve_meets_both_limit_points_of_a_small_snap);
+  tcase_add_loop_test(study, closing_is_that_of_a_staircase, 0, 2);
+  tcase_add_loop_test(study, release_is_that_of_a_staircase, 0, 4);
+  tcase_add_test(study, test_classical_pull_in);
+  tcase_add_test(study, test_scaling);
+  tcase_add_test(study, test_largest_load);
+  tcase_add_test(study, largest_load_does_not_depend_on_the_load);
+  tcase_add_loop_test(study, test_limits_from_a_neighbour, 0, 4);
+  tcase_add_test(study, test_no_neighbour);
+  tcase_add_test(study, test_no_limit);
+  suite_add_tcase(suite, study);
+  return run_suite(suite);
+}
