@@ -59,6 +59,11 @@ void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipStat
   zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
 }
 
+ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
+  size_t front = zp_faces_front(&model->faces, gap);
+  return (ZpZipState){front, front + 1 == model->nodes};
+}
+
 static double ratio_bound(double length, double speed) {
   return speed > 0 ? 2 * length / speed : INFINITY;
 }

@@ -44,6 +44,9 @@ void zp_eval_destroy(ZpEval *eval);
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
+/* Which stations are closed at these gaps, from the clip on, the clip not counted; the platform is if all are. */
+ZpZipState zp_eval_touching(const ZpModel *model, const double *gap);
+
 /* Solve the field at these positions and voltage, where the model does; false if it cannot be. */
 bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, ZpEval *eval);
 

@@ -53,16 +53,20 @@ static double end_voltage(const ZpDynamics *d) {
   return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
+/* Of the load input, N: it changes evenly, so its mean over the step does its work, eq. (17.5). */
+static double mean_load(const ZpDynamics *d) {
+  const ZpState *state = d->state;
+  return 0.5 * (zp_state_load(d->model, state, state->t) + zp_state_load(d->model, state, end_time(d)));
+}
+
 /* The step under way. */
 static ZpSpan span_of(const ZpDynamics *d) {
-  const ZpState *state = d->state;
-  double load = 0.5 * (zp_state_load(d->model, state, state->t) + zp_state_load(d->model, state, end_time(d)));
   return (ZpSpan){.start = d->start,
                   .end = d->end,
                   .h = d->h,
                   .U0 = d->U0,
                   .U1 = d->U1,
-                  .load = load, /* changing evenly, its mean over the step does its work, eq. (17.5) */
+                  .load = mean_load(d),
                   .share = 1,
                   .beyond = d->beyond};
 }
@@ -279,6 +283,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
     book_work(d, state);
     state->contact_loss += impact(d);
   }
+  double *hangs = q + model->stride + model->count - 1, before = *hangs, load = mean_load(d);
   scatter(d, d->q, q);
   scatter(d, d->v, v);
   scatter(d, d->history.w, w);
@@ -286,6 +291,8 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   state->t = end_time(d);
   state->last_step = d->history.last;
   state->next_step = d->history.next;
+  state->load_work += load * (before - *hangs);
+  if (model->s == 2) state->zip = zp_eval_touching(model, d->eval.plates.gap);
   state->drag_loss += d->eval.drag_power * taken;
   state->internal_loss += zp_rod_step_loss(&model->rod, &d->eval.rod_start, &d->eval.rod, internal_damping(d));
   return taken;
