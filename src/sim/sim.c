@@ -98,7 +98,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   }
   zp_sim_start_account(sim);
   zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
-  sim->row_charge = zp_eval_electric_now(model, state, state->U, &sim->eval).charge;
+  sim->row_charge = zp_system_electric_now(model, state, state->U, &sim->eval).charge;
   *out = sim;
   return ZP_OK;
 }
@@ -107,7 +107,7 @@ void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
   zp_dynamics_destroy(&sim->dynamics);
   zp_paper_motion_destroy(&sim->paper);
-  zp_eval_destroy(&sim->eval);
+  zp_system_destroy(&sim->eval);
   zp_free(sim->state);
   zp_free(sim->kept);
   zp_free(sim->relax_work);
@@ -323,9 +323,9 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              sim->settle_residual, (long long)sim->settle_steps);
     break;
   case ZP_DIVERGED:
-    if (sim->eval.surplus.end != ZP_FIELD_SOLVED)
+    if (sim->eval.fault)
       snprintf(text, size, "the field could not be solved before %g s: %s; what was recorded until then is kept", t,
-               zp_field_words(sim->eval.surplus.end));
+               sim->eval.fault);
     else if (sim->stuck)
       snprintf(text, size, "no time step converges at %g s, however short; what was recorded until then is kept", t);
     else
@@ -410,7 +410,7 @@ void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   sim->row_time = state->t;
-  sim->row_charge = zp_eval_electric_now(sim->model, state, state->U, &sim->eval).charge;
+  sim->row_charge = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   zp_sim_jump(sim, voltage);
   sim->cut = false;

@@ -107,8 +107,7 @@ static double accelerate(void *self, const double *q, const double *v, double *a
   ZpSpan now = zp_span_of(model, m->state, q, v);
   zp_system_accelerations(model, &now, &model->masses, m->eval, a);
   m->opened = m->state->zip;
-  if (is_sequential(model) && m->state->U == 0)
-    m->opened = zp_zip_open(m->opened, model->nodes, a + model->stride);
+  if (is_sequential(model) && m->state->U == 0) m->opened = zp_zip_open(m->opened, model->nodes, a + model->stride);
   zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &m->state->zip, a);
   return bound_step(m);
 }
