@@ -82,7 +82,7 @@ check-web: $(BUILD)/zipact
 	ZIPACT=$(abspath $(BUILD)/zipact) scripts/web.sh --test
 
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch] octave/src/*.[ch] web/*.c
+	clang-format -i include/zipact/*.h src/*/*.[ch] src/*/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch] octave/src/*.[ch] web/*.c
 
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)

@@ -7,13 +7,13 @@ cd "$(dirname "$0")/.."
 scripts/deps.sh --web
 mkdir -p web/build
 
-# The core without the two-dimensional field and what reads or writes files; web/without_field.c and web/units.c
-# stand in for what it misses.
+# The core without what reads or writes files (web/units.c stands in for it) and without one law, the two-dimensional
+# field: its line of terms.def and its study are left out, with all that only they need.
 sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/paper src/drive src/solve src/actuator src/term src/system src/rest \
   src/sim src/study -name '*.c' | sort | grep -v -E \
-  -e 'electro/(field|grid|surplus)\.c|math/skyline\.c|study/(profile|faces|bookkeeping)\.c')
+  -e 'term/field\.c|electro/(edges_fit|field|grid|surplus)\.c|math/skyline\.c|study/(profile|faces|bookkeeping)\.c')
 # shellcheck disable=SC2086
-clang --target=wasm32-wasi -O3 -msimd128 -std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off \
+clang --target=wasm32-wasi -O3 -msimd128 -std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off -DZP_WITHOUT_FIELD \
   -Wall -Wextra -Werror -fvisibility=hidden -Iinclude -Isrc -mexec-model=reactor \
   $sources src/io/value.c src/io/number.c src/io/source.c src/io/unit_nouns.c web/*.c \
   -Wl,--export-dynamic -Wl,--strip-all -Wl,-z,stack-size=1048576 -o web/build/zipact.wasm

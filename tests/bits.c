@@ -154,14 +154,14 @@ static void print_accelerations(const char *name, const ZpActuatorDef *def, int 
     zp_system_accelerations(model, &now, &model->masses, &eval, a);
     put_array(name, a, model->count);
     put_array(name, a + model->stride, model->count);
-    ZpEnergies e = zp_eval_energies(model, state, &eval);
+    ZpEnergies e = zp_system_energies(model, state, &eval);
     put_array("energies", (double[]){e.kinetic, e.axial, e.bending, e.gravity}, 4);
-    ZpElectric electric = zp_eval_electric_now(model, state, state->U, &eval);
+    ZpElectric electric = zp_system_electric_now(model, state, state->U, &eval);
     put_array("electric", (double[]){electric.force, electric.charge, electric.potential, electric.capacitance}, 4);
     ZpStepBounds bounds = zp_eval_step_bounds(model, state, &eval);
     put_array("bounds", (double[]){bounds.drag, bounds.axial, bounds.shear}, 3);
   }
-  zp_eval_destroy(&eval);
+  zp_system_destroy(&eval);
   free(a);
   free(state);
   zp_model_destroy(model);

@@ -27,8 +27,9 @@ MAY_INCLUDE = {
     "actuator": ["ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "term": ["actuator", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "system": ["term", "actuator", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "paper/motion": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "rest": ["system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
-    "sim": ["rest", "system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
+    "sim": ["rest", "paper/motion", "system", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "paper", "drive", "math", "def", "base"],
     "io": ["base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
@@ -137,7 +138,7 @@ def line_at(text, position):
 def folder_of(name):
     parts = name.split("/")
     if parts[0] == "src" and len(parts) > 2:
-        return parts[1]
+        return "/".join(parts[1:-1])
     return "cli" if name.startswith(("cli/", "python/src/", "octave/src/")) else None  # the bindings, too, see public headers only
 
 
@@ -153,7 +154,7 @@ def include_is_right(folder, mark, target):
         return True  # of the system; what may be used is another rule
     if folder == "cli":
         return "/" not in target or target == "reproduce/reproduce.h"  # which is part of the command
-    wanted = target.split("/")[0]
+    wanted = target.rpartition("/")[0]
     return "/" in target and (wanted == folder or wanted in MAY_INCLUDE[folder])
 
 

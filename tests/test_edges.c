@@ -258,7 +258,7 @@ static Pair make_pair(ZpModel *model) {
 
 static void free_pair(Pair *pair) {
   zp_free(pair->q);
-  zp_eval_destroy(&pair->eval);
+  zp_system_destroy(&pair->eval);
   zp_model_destroy(pair->model);
 }
 
@@ -416,11 +416,11 @@ START_TEST(test_with_solved_field) {
     shape_wedge(&pair[k], 2e-3, 0, 1);
     size_t stride = pair[k].model->stride;
     F[k] = calloc(2 * stride, sizeof(double));
-    ck_assert(zp_eval_solve_field(pair[k].model, pair[k].q, 6e3, &pair[k].eval));
+    ck_assert(zp_system_solve(pair[k].model, pair[k].q, 6e3, &pair[k].eval));
     ZpSpan span = zp_span_at(pair[k].q);
     span.U0 = span.U1 = 6e3;
     span.faces_pass = true;
-    span.beyond = pair[k].model->field_solved ? pair[k].eval.surplus.F : NULL;
+    span.beyond = zp_eval_beyond(&pair[k].eval);
     zp_system_force(pair[k].model, &span, &pair[k].eval, F[k]);
     ZpPlatesTotals t = totals_of(&pair[k], 6e3);
     energy[k] = t.potential - 36e6 * pair[k].eval.surplus.energy;

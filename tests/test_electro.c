@@ -153,7 +153,7 @@ static Pair make_pair(ZpModel *model) {
 static void free_pair(Pair *pair) {
   zp_free(pair->x);
   zp_free(pair->y);
-  zp_eval_destroy(&pair->eval);
+  zp_system_destroy(&pair->eval);
   zp_model_destroy(pair->model);
 }
 

@@ -394,8 +394,8 @@ START_TEST(test_surplus_makes_plates_the_field) {
     q[model->stride + 2 * i] = 1e-3 * cubic(xi);
     q[model->stride + 2 * i + 1] = -1e-3 * cubic(xi);
   }
-  ck_assert(zp_eval_solve_field(model, q, 6e3, &eval));
-  ck_assert(zp_eval_solve_field(model, q, 5e3, &eval));
+  ck_assert(zp_system_solve(model, q, 6e3, &eval));
+  ck_assert(zp_system_solve(model, q, 5e3, &eval));
   ck_assert_int_eq(eval.surplus.solutions, 1); /* without cap it does not depend on the voltage */
   double beyond = 0;
   for (size_t i = 0; i < model->nodes; i++)
@@ -404,7 +404,7 @@ START_TEST(test_surplus_makes_plates_the_field) {
          beyond / plates_force(&model->cross_section, 2e-3, false));
   ck_assert_double_lt(fabs(beyond), 1e-4 * plates_force(&model->cross_section, 2e-3, false));
   free(q);
-  zp_eval_destroy(&eval);
+  zp_system_destroy(&eval);
   zp_model_destroy(model);
 }
 END_TEST

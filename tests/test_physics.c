@@ -317,7 +317,7 @@ START_TEST(test_drag_law) {
   ck_assert_double_eq(bounds.shear, 0); /* straight */
   free(a);
   free(state);
-  zp_eval_destroy(&eval);
+  zp_system_destroy(&eval);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }

@@ -36,7 +36,7 @@ static void free_rest(Rest *r) {
   free(r->a0);
   free(r->a);
   free(r->state);
-  zp_eval_destroy(&r->eval);
+  zp_system_destroy(&r->eval);
   zp_sim_destroy(r->sim);
   zp_model_destroy(r->model);
 }

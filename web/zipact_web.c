@@ -134,10 +134,6 @@ EXPORT int zp_web_assign(ZpWeb *web) {
 }
 
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
-  if (def->electro.model == ZP_ELECTRO_FIELD || def->electro.edges)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "this page leaves the two-dimensional field out; the command knows electro.model = field and "
-                   "electro.edges = true");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "this page shows actuator.kind electro_ribbon; the command knows the others");
   if (study != ZP_STUDY_ACTUATE)

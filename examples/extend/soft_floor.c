@@ -34,7 +34,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-static const ZpTerm soft_floor = {"soft_floor", NULL, NULL, force, stiffness};
+static const ZpTerm soft_floor = {.name = "soft_floor", .force = force, .stiffness = stiffness};
 
 int main(void) {
   ZpActuatorDef def = zp_actuator_def_default();

@@ -395,6 +395,7 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
   model->waveform = zp_waveform_of(&model->def, &copy);
 }
 
+#ifndef ZP_WITHOUT_FIELD
 /* What the lateral edges add, up to more than ribbons that hang straight down part. */
 static ZpStatus make_edges(ZpModel *model, ZpError *err) {
   static const double halves = 2.5; /* of the flexible length */
@@ -408,6 +409,7 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
   model->plates.edges = &model->edge_law;
   return zp_edges_make(&params, halves * model->L, &model->edge_law, err);
 }
+#endif
 
 ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
   return zp_model_create_driven(def, NULL, out, err);
@@ -425,7 +427,10 @@ ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *ta
   derive(model);
   Arrays arrays;
   model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
-  status = model->memory ? make_edges(model, err) : zp_fail_memory(err);
+  status = model->memory ? ZP_OK : zp_fail_memory(err);
+#ifndef ZP_WITHOUT_FIELD
+  if (status == ZP_OK) status = make_edges(model, err);
+#endif
   if (status != ZP_OK) {
     zp_model_destroy(model);
     return status;

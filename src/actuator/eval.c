@@ -34,29 +34,40 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   return carver.used;
 }
 
-bool zp_eval_create(const ZpModel *model, bool solves_field, ZpEval *e) {
+bool zp_eval_create(const ZpModel *model, ZpEval *e) {
   memset(e, 0, sizeof *e);
   e->memory = zp_calloc(1, carve(model, e, NULL));
   if (!e->memory) return false;
   carve(model, e, e->memory);
-  return !model->field_solved || !solves_field ||
-         zp_surplus_create(&model->cross_section, &model->plates, model->field_scale, &e->surplus);
+  return true;
 }
 
 void zp_eval_destroy(ZpEval *e) {
-  zp_surplus_destroy(&e->surplus);
   zp_free(e->memory);
   e->memory = NULL;
 }
 
-bool zp_eval_solve_field(const ZpModel *model, const double *q, double U, ZpEval *e) {
-  return !model->field_solved || zp_surplus_solve(&e->surplus, q, U) == ZP_FIELD_SOLVED;
+ZpHeld zp_state_beyond(const ZpModel *model, const ZpState *state) {
+  if (!model->field_solved) return (ZpHeld){0};
+  const double *F = state->data + 4 * model->stride;
+  return (ZpHeld){F, F + 2 * model->stride, state->held_energy, state->held_charge, state->held_capacitance};
+}
+
+ZpHeld zp_eval_beyond(const ZpEval *e) {
+  const ZpSurplus *surplus = &e->surplus;
+  if (surplus->solutions == 0) return (ZpHeld){0};
+  return (ZpHeld){surplus->F, surplus->q, surplus->energy, surplus->charge, surplus->capacitance};
 }
 
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {
   if (model->s < 2) return;
   zp_zip_share(zip, model->nodes, &masses->x, a);
   zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
+}
+
+ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
+  size_t front = zp_faces_front(&model->faces, gap);
+  return (ZpZipState){front, front + 1 == model->nodes};
 }
 
 static double ratio_bound(double length, double speed) {

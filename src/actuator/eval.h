@@ -14,6 +14,16 @@ typedef struct ZpEdges {
 
 enum { ZP_MOST_TERMS = 16 };
 
+/* What a solved field has beyond plates, found last at some coordinates; it goes with U^2. */
+typedef struct ZpHeld {
+  const double *F;                    /* [2 stride] force, N/V^2; NULL: there is none */
+  const double *at;                   /* [2 stride] the coordinates */
+  double energy, charge, capacitance; /* co-energy, J/V^2, charge, C/V, and capacitance, F, of one modelled part */
+} ZpHeld;
+
+/* As the state holds it. */
+ZpHeld zp_state_beyond(const ZpModel *model, const ZpState *state);
+
 /* Work space of the terms, of the start and the end of a span; at rest and at an instant only of its end. */
 typedef struct ZpEval {
   const struct ZpTerm *term[ZP_MOST_TERMS]; /* those that the model has; a program may append its own */
@@ -25,7 +35,9 @@ typedef struct ZpEval {
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpFacesEval faces;       /* of unilateral contact */
-  ZpSurplus surplus;       /* where the field is solved */
+  bool solves;             /* it can solve the field, not only hold what was found */
+  ZpSurplus surplus;       /* where it does */
+  const char *fault;       /* why the last attempt to find a held force has failed; NULL: it has not */
   ZpBezierSurface surface; /* for the free stations; remade when the front moves */
   ZpGapDerivatives gaps;   /* sum of the terms that depend on gaps */
   double (*D)[4];          /* [3 edges] stiffness of edges */
@@ -36,16 +48,18 @@ typedef struct ZpEval {
   void *memory;
 } ZpEval;
 
-/* Allocate the arrays of `eval`, without terms, and, if it is to solve the field, what that takes; false if there is no
- * memory. */
-bool zp_eval_create(const ZpModel *model, bool solves_field, ZpEval *eval);
+/* Allocate the arrays of `eval`, without terms; false if there is no memory. */
+bool zp_eval_create(const ZpModel *model, ZpEval *eval);
 void zp_eval_destroy(ZpEval *eval);
 
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
-/* Solve the field at these positions and voltage, where the model does; false if it cannot be. */
-bool zp_eval_solve_field(const ZpModel *model, const double *q, double voltage, ZpEval *eval);
+/* What a solved field has beyond plates, as it was found last. */
+ZpHeld zp_eval_beyond(const ZpEval *eval);
+
+/* Which stations are closed at these gaps, from the clip on, the clip not counted; the platform is if all are. */
+ZpZipState zp_eval_touching(const ZpModel *model, const double *gap);
 
 /* The three bounds of eq. (9) of the paper at the last accelerations, s; INFINITY where nothing moves. */
 typedef struct ZpStepBounds {
@@ -64,7 +78,11 @@ double zp_eval_imbalance(const ZpModel *model, const double *a);
 typedef struct ZpEnergies {
   double kinetic, axial, bending, gravity; /* J */
 } ZpEnergies;
-ZpEnergies zp_eval_energies(const ZpModel *model, const ZpState *state, ZpEval *eval);
+
+/* Lost by one modelled part over a span. */
+typedef struct ZpLosses {
+  double drag, internal; /* J */
+} ZpLosses;
 
 /* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */
 typedef struct ZpElectric {
@@ -78,12 +96,5 @@ typedef struct ZpElectric {
 static inline double zp_field_energy(ZpElectric electric, double U) {
   return electric.charge * U + electric.potential;
 }
-
-/* (held field of the state, coordinates, their gaps, U) => totals. */
-ZpElectric zp_eval_electric(const ZpModel *model, const ZpState *state, const double *q, const ZpPlatesEval *gaps,
-                            double U);
-
-/* The same where the state is. */
-ZpElectric zp_eval_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *eval);
 
 #endif

@@ -341,7 +341,16 @@ ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err) {
 }
 
 /* What electro.model field asks of other keys. */
+/* Is the two-dimensional field in this build? */
+#ifdef ZP_WITHOUT_FIELD
+static const bool knows_field = false;
+#else
+static const bool knows_field = true;
+#endif
+
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
+  if (!knows_field)
+    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: this build leaves the two-dimensional field out");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.model = field: requires actuator.kind electro_ribbon; use plates, which is accurate "
@@ -394,6 +403,9 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
 
 /* What electro.edges asks of other keys. */
 static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
+  if (!knows_field)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges: this build leaves the two-dimensional field out, which gives them");
   if (def->actuator.kind == ZP_KIND_FLANGE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges: requires actuator.kind electro_ribbon, two strips of the same width; the width of "

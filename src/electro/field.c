@@ -31,10 +31,6 @@ struct ZpFieldRow {
   double share; /* 0 on the lower surface of the layer, 1 on the upper */
 };
 
-ZpFieldMesh zp_field_mesh(void) {
-  return (ZpFieldMesh){.gap = 3, .insulator = 1, .strip = 1, .clip = 8, .platform = 3, .outside = 12, .first = 5e-5};
-}
-
 const char *zp_field_words(ZpFieldEnd end) {
   static const char *const words[] = {
       "solved", "the faces pass through each other", "the faces touch without an insulator between the metals",

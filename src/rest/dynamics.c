@@ -41,11 +41,6 @@ static double end_time(const ZpDynamics *d) {
   return d->h == d->latest - t ? d->latest : t + d->h;
 }
 
-/* Internal damping time over the step's length. */
-static double internal_damping(const ZpDynamics *d) {
-  return d->model->internal_damping / d->h;
-}
-
 /* The voltage at the step's end: what the user holds, or the waveform's. */
 static double end_voltage(const ZpDynamics *d) {
   const ZpState *state = d->state;
@@ -53,18 +48,22 @@ static double end_voltage(const ZpDynamics *d) {
   return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
+/* Of the load input, N: it changes evenly, so its mean over the step does its work, eq. (17.5). */
+static double mean_load(const ZpDynamics *d) {
+  const ZpState *state = d->state;
+  return 0.5 * (zp_state_load(d->model, state, state->t) + zp_state_load(d->model, state, end_time(d)));
+}
+
 /* The step under way. */
 static ZpSpan span_of(const ZpDynamics *d) {
-  const ZpState *state = d->state;
-  double load = 0.5 * (zp_state_load(d->model, state, state->t) + zp_state_load(d->model, state, end_time(d)));
   return (ZpSpan){.start = d->start,
                   .end = d->end,
                   .h = d->h,
                   .U0 = d->U0,
                   .U1 = d->U1,
-                  .load = load, /* changing evenly, its mean over the step does its work, eq. (17.5) */
+                  .load = mean_load(d),
                   .share = 1,
-                  .beyond = d->beyond};
+                  .beyond = zp_state_beyond(d->model, d->state)};
 }
 
 /* => energies of bending and field: an imbalance is small or large beside them. */
@@ -237,7 +236,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
 
 void zp_dynamics_destroy(ZpDynamics *d) {
   zp_assembly_destroy(&d->assembly);
-  zp_eval_destroy(&d->eval);
+  zp_system_destroy(&d->eval);
   zp_free(d->memory);
   d->memory = NULL;
 }
@@ -247,10 +246,11 @@ void zp_dynamics_destroy(ZpDynamics *d) {
 static void book_work(const ZpDynamics *d, ZpState *state) {
   double U0 = d->U0, U1 = d->U1;
   if (U0 == U1) return;
-  ZpElectric moved = zp_eval_electric(d->model, state, d->end, &d->eval.plates, U1);
-  double at_start = zp_eval_electric(d->model, state, d->start, &d->eval.plates_start, U1).potential -
-                    zp_eval_electric(d->model, state, d->start, &d->eval.plates_start, U0).potential;
-  double at_end = moved.potential - zp_eval_electric(d->model, state, d->end, &d->eval.plates, U0).potential;
+  ZpSpan span = span_of(d);
+  ZpElectric moved = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U1);
+  double at_start = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_START, U1).potential -
+                    zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_START, U0).potential;
+  double at_end = moved.potential - zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U0).potential;
   state->work += U1 * moved.charge - U0 * state->base_charge + 0.5 * (at_start + at_end);
   state->base_charge = moved.charge;
   state->base_U = state->U = U1;
@@ -263,7 +263,6 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   d->state = state;
   d->latest = latest;
   d->U0 = state->U;
-  d->beyond = model->field_solved ? zp_state_held(model, state) : NULL;
   memcpy(d->start, q, 2 * model->stride * sizeof *q);
   gather(d, q, d->q);
   gather(d, v, d->v);
@@ -273,12 +272,13 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   d->history.next = state->next_step;
   double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
-  /* how far it is strained where the step has ended, a last correction beyond the last force */
-  zp_rod_eval(&model->rod, d->end, d->end + model->stride, &d->eval.rod);
+  ZpSpan span = span_of(d);
+  ZpLosses losses = zp_system_losses(model, &span, &d->eval);
   if (model->field) {
     book_work(d, state);
     state->contact_loss += impact(d);
   }
+  double *hangs = q + model->stride + model->count - 1, before = *hangs, load = mean_load(d);
   scatter(d, d->q, q);
   scatter(d, d->v, v);
   scatter(d, d->history.w, w);
@@ -286,7 +286,9 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   state->t = end_time(d);
   state->last_step = d->history.last;
   state->next_step = d->history.next;
-  state->drag_loss += d->eval.drag_power * taken;
-  state->internal_loss += zp_rod_step_loss(&model->rod, &d->eval.rod_start, &d->eval.rod, internal_damping(d));
+  state->load_work += load * (before - *hangs);
+  if (model->s == 2) state->zip = zp_eval_touching(model, d->eval.plates.gap);
+  state->drag_loss += losses.drag;
+  state->internal_loss += losses.internal;
   return taken;
 }

@@ -19,7 +19,6 @@ typedef struct ZpDynamics {
   double *force;        /* [2 stride] N */
   double *gap;          /* [N] gaps of the last force, m */
   double *foreseen;     /* [N] what the last tangent makes of the push after a correction, N */
-  const double *beyond; /* [2 stride] what a solved field has beyond plates, N/V^2; NULL without */
   const ZpState *state; /* at the start of the step under way */
   double latest;        /* when that step ends at the latest, s */
   double h, U0, U1;     /* its length, s; voltage at its start and its end, V */

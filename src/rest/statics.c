@@ -68,7 +68,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
 }
 
 void zp_statics_destroy(ZpStatics *s) {
-  zp_eval_destroy(&s->eval);
+  zp_system_destroy(&s->eval);
   zp_assembly_destroy(&s->assembly);
   zp_free(s->memory);
   s->memory = NULL;
@@ -231,23 +231,22 @@ bool zp_statics_shorted(const ZpStatics *s) {
   return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->model->faces.depth;
 }
 
-static ZpPlatesTotals totals(const ZpStatics *s) {
-  return s->model->field ? zp_plates_totals(&s->model->plates, &s->eval.plates, s->U) : (ZpPlatesTotals){0, 0, 0, 0};
+const char *zp_statics_trouble(const ZpStatics *s) {
+  return s->eval.fault;
 }
 
-const char *zp_statics_trouble(const ZpStatics *s) {
-  bool failed = s->model->field_solved && s->eval.surplus.end != ZP_FIELD_SOLVED;
-  return failed ? zp_field_words(s->eval.surplus.end) : NULL;
+static ZpElectric totals(const ZpStatics *s) {
+  ZpSpan here = zp_span_at(s->q);
+  here.beyond = zp_eval_beyond(&s->eval);
+  return zp_system_electric(s->model, &here, &s->eval, ZP_SPAN_END, s->U);
 }
 
 double zp_statics_charge(const ZpStatics *s) {
-  return s->model->parts * (totals(s).charge + s->eval.surplus.charge * s->U);
+  return s->model->parts * totals(s).charge;
 }
 
 double zp_statics_capacitance(const ZpStatics *s) {
-  const ZpActuatorDef *def = &s->model->def;
-  return s->model->parts * (ZP_EPS0 * def->medium.permittivity * def->ribbon.width) * totals(s).inverse_gap +
-         s->model->parts * s->eval.surplus.capacitance;
+  return s->model->parts * totals(s).capacitance;
 }
 
 /* Of closed faces, whole actuator, F. */
@@ -331,7 +330,7 @@ static ZpSpan span_of(const ZpStatics *s) {
   span.load = def->load.share * (s->load - def->load.mass) * def->gravity;
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
-  span.beyond = s->model->field_solved ? s->eval.surplus.F : NULL;
+  span.beyond = zp_eval_beyond(&s->eval);
   span.tension = s->tension;
   return span;
 }
@@ -487,7 +486,7 @@ static void move(void *self, const double *step, double fraction) {
 
 static ZpEnd refresh(void *self) {
   ZpStatics *s = self;
-  bool solved = s->U == 0 || zp_eval_solve_field(s->model, s->q, s->U, &s->eval);
+  bool solved = s->U == 0 || zp_system_solve(s->model, s->q, s->U, &s->eval);
   return solved ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 

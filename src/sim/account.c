@@ -20,13 +20,13 @@ static ZpAccount charged(const ZpState *state, ZpElectric before, ZpElectric aft
 ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now) {
   const ZpState *state = sim->state;
   if (state->U == state->base_U) return charged(state, now, now);
-  return charged(state, zp_eval_electric_now(sim->model, state, state->base_U, &sim->eval), now);
+  return charged(state, zp_system_electric_now(sim->model, state, state->base_U, &sim->eval), now);
 }
 
 void zp_sim_start_account(ZpSim *sim) {
   ZpState *state = sim->state;
-  ZpEnergies energies = zp_eval_energies(sim->model, state, &sim->eval);
-  ZpElectric now = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
+  ZpEnergies energies = zp_system_energies(sim->model, state, &sim->eval);
+  ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   state->work = state->charging_loss = state->drag_loss = state->contact_loss = state->internal_loss = 0;
   state->load_work = 0;
   state->base_energy = zp_energy_without_field(&energies);
@@ -38,9 +38,9 @@ void zp_sim_start_account(ZpSim *sim) {
 /* A field that cannot be solved stays due, and ends the run before the next step. */
 void zp_sim_close_account(ZpSim *sim) {
   ZpState *state = sim->state;
-  ZpElectric before = zp_eval_electric_now(sim->model, state, state->base_U, &sim->eval);
+  ZpElectric before = zp_system_electric_now(sim->model, state, state->base_U, &sim->eval);
   if (zp_held_due(sim->model, state)) zp_held_refresh(sim->model, state, &sim->eval);
-  ZpElectric after = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
+  ZpElectric after = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   ZpAccount account = charged(state, before, after);
   state->work = account.work;
   state->charging_loss = account.charging_loss;
@@ -61,8 +61,8 @@ void zp_sim_glide(ZpSim *sim, double voltage) {
   ZpState *state = sim->state;
   if (voltage == state->U) return;
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  ZpElectric before = zp_eval_electric_now(sim->model, state, state->U, &sim->eval),
-             after = zp_eval_electric_now(sim->model, state, voltage, &sim->eval);
+  ZpElectric before = zp_system_electric_now(sim->model, state, state->U, &sim->eval),
+             after = zp_system_electric_now(sim->model, state, voltage, &sim->eval);
   state->work += state->U * (before.charge - state->base_charge) + zp_field_energy(after, voltage) -
                  zp_field_energy(before, state->U);
   state->base_charge = after.charge;

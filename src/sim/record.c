@@ -63,7 +63,7 @@ static void fill_state(const ZpSim *sim, double *row) {
 /* => rise of kinetic and stored energy without the field since the account was opened, of one part, J. */
 static double fill_mechanics(ZpSim *sim, double *row) {
   double parts = sim->model->parts;
-  ZpEnergies e = zp_eval_energies(sim->model, sim->state, &sim->eval);
+  ZpEnergies e = zp_system_energies(sim->model, sim->state, &sim->eval);
   row[SIGNAL_kinetic_energy] = parts * e.kinetic;
   row[SIGNAL_axial_energy] = parts * e.axial;
   row[SIGNAL_bending_energy] = parts * e.bending;
@@ -74,7 +74,7 @@ static double fill_mechanics(ZpSim *sim, double *row) {
 /* => what the source has given less what the field has kept and jumps have lost, of one part, J. */
 static double fill_electric(ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
-  ZpElectric e = zp_eval_electric_now(sim->model, state, state->U, &sim->eval);
+  ZpElectric e = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   ZpAccount account = zp_sim_account(sim, e);
   double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
   row[SIGNAL_force] = parts * e.force;

@@ -35,14 +35,12 @@ static bool allocate(ZpSim *sim) {
   zp_signal_columns(&signals);
   sim->state = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
-  sim->a = zp_calloc(2 * model->stride, sizeof(double));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->line_force = zp_calloc(model->nodes, sizeof(double));
-  bool implicit = model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT;
-  if (implicit && !zp_dynamics_create(model, &sim->dynamics)) return false;
-  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->a && sim->relax_work &&
-         sim->row && sim->line_force;
+  sim->stepping = zp_stepping_of(model);
+  return zp_system_create(model, true, &sim->eval) && sim->stepping->create(sim) && sim->state && sim->kept &&
+         sim->relax_work && sim->row && sim->line_force;
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -86,7 +84,6 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   ZpSim *sim = zp_calloc(1, sizeof *sim);
   if (!sim) return zp_fail_memory(err);
   sim->model = model;
-  sim->even = INFINITY;
   sim->drive = zp_key_find("drive.voltage");
   if (!allocate(sim)) {
     zp_sim_destroy(sim);
@@ -101,7 +98,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   }
   zp_sim_start_account(sim);
   zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
-  sim->row_charge = zp_eval_electric_now(model, state, state->U, &sim->eval).charge;
+  sim->row_charge = zp_system_electric_now(model, state, state->U, &sim->eval).charge;
   *out = sim;
   return ZP_OK;
 }
@@ -109,10 +106,10 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
 void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
   zp_dynamics_destroy(&sim->dynamics);
-  zp_eval_destroy(&sim->eval);
+  zp_paper_motion_destroy(&sim->paper);
+  zp_system_destroy(&sim->eval);
   zp_free(sim->state);
   zp_free(sim->kept);
-  zp_free(sim->a);
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->line_force);
@@ -176,98 +173,6 @@ static bool prepare_step(ZpSim *sim) {
 
 /* -- one step ------------------------------------------------------------------------------------- */
 
-/* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
-static ZpZipState touching(const ZpModel *model, const double *gap) {
-  size_t front = zp_faces_front(&model->faces, gap);
-  return (ZpZipState){front, front + 1 == model->nodes};
-}
-
-static const ZpZipState clip_only = {0, false};
-
-static bool is_sequential(const ZpModel *model) {
-  return model->field && model->def.contact.model == ZP_CONTACT_SEQUENTIAL;
-}
-
-static bool is_unilateral(const ZpModel *model) {
-  return model->field && model->def.contact.model == ZP_CONTACT_UNILATERAL;
-}
-
-/* The damper takes relative velocity from station i => the loss, J: its kinetic energy, and half of
- * what attraction and ribbons do over the step with the velocity taken, since symplectic steps keep the energy of
- * velocities half a step later. */
-static double damp(const ZpSim *sim, size_t i, const double *ay, double dt, double *vy) {
-  const double *inverse = sim->model->masses.y.inverse;
-  double upper = inverse[2 * i], lower = inverse[2 * i + 1], both = upper + lower;
-  if (both == 0) return 0;
-  double apart = vy[2 * i] - vy[2 * i + 1];
-  double lost = (1 - zp_faces_kept(&sim->eval.faces, i, 1 / both, dt)) * apart;
-  double other = (ay[2 * i] - ay[2 * i + 1]) / both - sim->eval.faces.push[i];
-  vy[2 * i] -= lost * upper / both;
-  vy[2 * i + 1] += lost * lower / both;
-  return 0.5 * ((apart - lost) + apart) * lost / both + 0.5 * dt * other * lost;
-}
-
-/* After a step dt: what the push of overlapping faces does at the mean velocity is lost, and what the damper takes. How
- * far faces are closed goes into the state. */
-static void damp_faces(ZpSim *sim, double dt) {
-  const ZpModel *model = sim->model;
-  ZpState *state = sim->state;
-  const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = sim->a + model->stride;
-  const double *gap = sim->eval.plates.gap, *push = sim->eval.faces.push;
-  double *vy = zp_state_v(model, state) + model->stride;
-  for (size_t i = 1; i < model->nodes; i++) {
-    if (!(push[i] > 0)) continue;
-    double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
-    state->contact_loss -= push[i] * apart * dt;
-    state->contact_loss += damp(sim, i, ay, dt, vy);
-  }
-  zp_plates_gaps(&model->plates, x, y, &sim->eval.plates);
-  state->zip = touching(model, gap);
-}
-
-static double accelerate(void *self, const double *q, const double *v, double *a) {
-  ZpSim *sim = self;
-  const ZpModel *model = sim->model;
-  ZpSpan now = zp_span_of(model, sim->state, q, v);
-  zp_system_accelerations(model, &now, &model->masses, &sim->eval, a);
-  sim->opened = sim->state->zip;
-  if (is_sequential(model) && sim->state->U == 0)
-    sim->opened = zp_zip_open(sim->opened, model->nodes, a + model->stride);
-  zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &sim->state->zip, a);
-
-  double dt = fmin(model->stable_step, sim->even), asked = model->def.solver.time_step;
-  /* Half of the first bound of eq. (9): at the bound itself drag would turn a speed round, undiminished.
-   * Infinite without drag. */
-  double drag = 1 / (model->def.damping.drag * sim->eval.drag_rate);
-  sim->bound = ZP_LIMIT_STABILITY;
-  if (asked < dt) {
-    dt = asked;
-    sim->bound = ZP_LIMIT_TIME_STEP;
-  }
-  if (drag < dt) {
-    dt = drag;
-    sim->bound = ZP_LIMIT_DRAG;
-  }
-  return dt;
-}
-
-static double next_event(void *self, const double *q, const double *v, const double *a, double dt) {
-  ZpSim *sim = self;
-  size_t stride = sim->model->stride;
-  return zp_zip_next(&sim->state->zip, sim->model->nodes, q + stride, v + stride, a + stride, dt, &sim->met);
-}
-
-/* Pair sim->met has met: it moves as one from now on, and a held electric force is out of date. */
-static void meet(ZpSim *sim) {
-  const ZpModel *model = sim->model;
-  ZpState *state = sim->state;
-  double *v = zp_state_v(model, state);
-  state->contact_loss += zp_zip_merge(sim->met, &model->masses.x, v);
-  state->contact_loss += zp_zip_merge(sim->met, &model->masses.y, v + model->stride);
-  state->zip = zp_zip_after(state->zip, model->nodes, sim->met);
-  state->refreshed = NAN;
-}
-
 static double opening(const ZpModel *model, const ZpState *state) {
   const double *y = zp_state_motion(model, state).y;
   return y[model->count - 2] - y[model->count - 1];
@@ -297,93 +202,41 @@ static bool shorted(const ZpModel *model, const ZpState *state) {
   return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
 }
 
-static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner) {
-  if (limit == ZP_EXPLICIT_EVENT || corner) return ZP_LIMIT_EVENT;
-  return limit == ZP_EXPLICIT_END ? ZP_LIMIT_END : sim->bound;
-}
-
-/* Where the load hangs, m. */
-static double height(const ZpSim *sim) {
-  return zp_state_motion(sim->model, sim->state).y[sim->model->count - 1];
-}
-
-static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
-  const ZpModel *model = sim->model;
-  ZpState *state = sim->state;
-  ZpExplicitSystem system = {2 * model->stride, sim, accelerate, is_sequential(model) ? next_event : NULL};
-  if (!prepare_step(sim)) return;
-  double corner = next_corner(sim), stop = fmin(end_time, corner), before = height(sim),
-         load = zp_state_load(model, state, state->t);
-  ZpExplicitStep taken =
-      zp_explicit_step(&system, stop - state->t, zp_state_q(model, state), zp_state_v(model, state), sim->a);
-  state->t = taken.limit == ZP_EXPLICIT_END ? stop : state->t + taken.dt;
-  state->drag_loss += sim->eval.drag_power * taken.dt;
-  state->load_work += load * (before - height(sim));
-  info->steps++;
-  info->limited[limit_of(sim, taken.limit, state->t >= corner)]++;
-  if (is_unilateral(model)) damp_faces(sim, taken.dt);
-  follow_voltage(sim);
-  if (!model->field) return;
-  if (taken.limit == ZP_EXPLICIT_EVENT)
-    meet(sim);
-  else if (is_sequential(model))
-    state->zip = sim->opened;
-  state->was_open |= is_open(model, state);
-  if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state)) state->zip_time = state->t;
-}
-
 /* When within the step that has just been taken the opening fell to 1 %: on the straight line between its ends. */
 static double zipped_at(const ZpModel *model, const ZpState *state, double before, double taken) {
   double now = opening(model, state), limit = 0.01 * state->opening0;
   return before > limit ? state->t - taken * (limit - now) / (before - now) : state->t;
 }
 
-static ZpStepLimit implicit_limit(const ZpSim *sim, bool corner, bool end) {
-  if (corner) return ZP_LIMIT_EVENT;
-  if (end) return ZP_LIMIT_END;
-  return sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
-}
-
-/* A step that ends at `latest` or before => its length, 0 if none was found. Of the shortest, where rounding, a pulse
- * or a steep rise has put the next corner, only time takes notice. */
-static double advance_implicit(ZpSim *sim, double latest) {
-  static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
-  ZpState *state = sim->state;
-  double left = latest - state->t, before = height(sim), load = zp_state_load(sim->model, state, state->t);
-  if (left < shortest) {
-    state->t = latest;
-    return left;
-  }
-  double taken = zp_dynamics_step(&sim->dynamics, state, latest);
-  if (!(taken > 0)) return 0;
-  state->load_work += 0.5 * (load + zp_state_load(sim->model, state, state->t)) * (before - height(sim));
-  if (sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.eval.plates.gap);
-  return taken;
-}
-
-static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
+/* Has the step from `start` on, which began at the opening `before`, closed the actuator? */
+static void note_closing(ZpSim *sim, double start, double before) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  double corner = next_corner(sim), latest = fmin(fmin(end_time, corner), state->t + resolution(sim));
-  double before = model->s == 2 ? opening(model, state) : 0;
-  if (!prepare_step(sim)) return;
-  double taken = advance_implicit(sim, latest);
-  sim->stuck = !(taken > 0);
-  if (sim->stuck) return;
-  info->steps++;
-  info->limited[implicit_limit(sim, state->t >= corner, state->t >= end_time)]++;
-  follow_voltage(sim);
-  if (model->s < 2) return;
   state->was_open |= is_open(model, state);
-  if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state))
-    state->zip_time = zipped_at(model, state, before, taken);
+  if (!isnan(state->zip_time) || state->U == 0 || !reached_zip(model, state)) return;
+  state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, before, state->t - start);
+}
+
+static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, double end_time) {
+  if (sim->state->t >= corner) return ZP_LIMIT_EVENT;
+  return limit != ZP_LIMIT_EVENT && sim->state->t >= end_time ? ZP_LIMIT_END : limit;
 }
 
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
-  if (sim->model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT)
-    implicit_step(sim, end_time, info);
-  else
-    explicit_step(sim, end_time, info);
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  bool two = model->s == 2;
+  double corner = next_corner(sim), latest = fmin(end_time, corner);
+  if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
+  double start = state->t, before = two ? opening(model, state) : 0;
+  if (!prepare_step(sim)) return;
+  ZpStepLimit limit;
+  sim->stuck = !sim->stepping->step(sim, latest, &limit);
+  if (sim->stuck) return;
+  info->steps++;
+  info->limited[limit_of(sim, limit, corner, end_time)]++;
+  follow_voltage(sim);
+  if (two) note_closing(sim, start, before);
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -405,9 +258,7 @@ static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
 /* Before a step that the end of the run may cut: from there on a longer run would take others. */
 static void keep_before_cut(ZpSim *sim, double end_time) {
   static const double rounding = 1e-5;
-  const ZpModel *model = sim->model;
-  double fixed = sim->dynamics.stepper.fixed, longest = fixed > 0 ? fixed : sim->state->next_step;
-  if (model->def.solver.integrator == ZP_INTEGRATOR_EXPLICIT) longest = model->stable_step;
+  double longest = sim->stepping->longest(sim);
   if (sim->cut || end_time - sim->state->t > (1 + rounding) * longest) return;
   keep(sim);
   sim->cut = true;
@@ -421,16 +272,10 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
 }
 
-/* Steps between questions to the caller, about a millisecond. An implicit step costs as much as a hundred explicit
- * ones. */
-static int64_t between_questions(const ZpModel *model) {
-  return model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT ? 8 : 1024;
-}
-
 static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
   enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
-  const int64_t between = between_questions(model);
+  const int64_t between = sim->stepping->between_questions;
   ZpState *state = sim->state;
   double start = state->t, interval = sampling_interval(model), next_sample = start + interval;
   bool recording = sim->series || sim->shapes;
@@ -478,9 +323,9 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              sim->settle_residual, (long long)sim->settle_steps);
     break;
   case ZP_DIVERGED:
-    if (sim->eval.surplus.end != ZP_FIELD_SOLVED)
+    if (sim->eval.fault)
       snprintf(text, size, "the field could not be solved before %g s: %s; what was recorded until then is kept", t,
-               zp_field_words(sim->eval.surplus.end));
+               sim->eval.fault);
     else if (sim->stuck)
       snprintf(text, size, "no time step converges at %g s, however short; what was recorded until then is kept", t);
     else
@@ -549,9 +394,9 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
   double longest = fmin(sim->model->stable_step, sim->model->def.solver.time_step); /* NAN, auto, does not count */
   double end = sim->state->t + dt;
   if (!(end > sim->state->t) || isinf(dt)) return refuse(sim, "dt", dt, "not a finite time that moves on", info);
-  sim->even = dt / ceil(dt / longest) * (1 + rounding);
+  sim->paper.longest = dt / ceil(dt / longest) * (1 + rounding);
   ZpOutcome outcome = zp_sim_run(sim, end, false, hooks, info);
-  sim->even = INFINITY;
+  sim->paper.longest = INFINITY;
   return outcome;
 }
 
@@ -565,7 +410,7 @@ void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   sim->row_time = state->t;
-  sim->row_charge = zp_eval_electric_now(sim->model, state, state->U, &sim->eval).charge;
+  sim->row_charge = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   zp_sim_jump(sim, voltage);
   sim->cut = false;

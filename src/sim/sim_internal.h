@@ -4,9 +4,24 @@
 
 #include <zipact/sim.h>
 
+#include "paper/motion/motion.h"
 #include "rest/dynamics.h"
-#include "solve/explicit.h"
 #include "system/held.h"
+
+/* How a run moves on (stepping.c). */
+typedef struct ZpStepping {
+  /* What it takes. False if there is no memory. */
+  bool (*create)(ZpSim *sim);
+  /* One step that ends at `latest`, s, or before => what set its size; false if none was found. */
+  bool (*step)(ZpSim *sim, double latest, ZpStepLimit *limit);
+  /* No step will be longer than that, s. */
+  double (*longest)(const ZpSim *sim);
+  int64_t between_questions; /* steps between questions to the caller, about a millisecond */
+  bool fine;                 /* steps are so short that what happens inside one happens at its end */
+} ZpStepping;
+
+/* As solver.integrator says. */
+const ZpStepping *zp_stepping_of(const ZpModel *model);
 
 struct ZpSim {
   const ZpModel *model;
@@ -15,7 +30,6 @@ struct ZpSim {
   bool cut;      /* the end of the run has cut a step since */
   int drive;     /* the key drive.voltage: its range is that of voltages set by hand */
   ZpEval eval;
-  double *a;                   /* [2 stride] accelerations, work space of a step */
   double *relax_work;          /* [12 stride] work space of settling */
   ZpTable *series;             /* the caller's; NULL: no record */
   ZpShapes *shapes;            /* the caller's; NULL: no record */
@@ -25,13 +39,10 @@ struct ZpSim {
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
-  ZpDynamics dynamics; /* integrator implicit */
-  bool stuck;          /* it found no step */
-  double even;         /* explicit: longest step of zp_sim_step, s; else infinite */
-  /* of the step under way */
-  ZpStepLimit bound; /* what set the largest step allowed */
-  size_t met;        /* pair that meets inside it */
-  ZpZipState opened; /* what is joined after it if nothing meets */
+  const ZpStepping *stepping; /* how it moves on: */
+  ZpDynamics dynamics;        /* by implicit steps, */
+  ZpPaperMotion paper;        /* or by the paper's */
+  bool stuck;                 /* no step was found */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if

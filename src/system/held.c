@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "term/term.h"
+#include "system/system.h"
 
 /* Has any gap, with what stands for its insulators, changed by more than this share since the last refresh? */
 static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
@@ -36,7 +36,7 @@ bool zp_held_due(const ZpModel *model, const ZpState *state) {
 
 static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
   size_t bytes = 2 * model->stride * sizeof(double);
-  if (!zp_eval_solve_field(model, q, state->U, e)) return ZP_END_STOP;
+  if (!zp_system_solve(model, q, state->U, e)) return ZP_END_STOP;
   state->refreshed = state->t;
   memcpy(zp_state_held(model, state), e->surplus.F, bytes);
   memcpy(zp_state_held_at(model, state), q, bytes);

@@ -11,11 +11,21 @@ static const ZpTerm *const table[] = {
 };
 _Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "an eval has room for all terms, and one of a program");
 
-bool zp_system_create(const ZpModel *model, bool solves_field, ZpEval *e) {
-  if (!zp_eval_create(model, solves_field, e)) return false;
-  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
-    if (!table[k]->acts || table[k]->acts(model)) e->term[e->terms++] = table[k];
+bool zp_system_create(const ZpModel *model, bool solves, ZpEval *e) {
+  if (!zp_eval_create(model, e)) return false;
+  e->solves = solves;
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
+    if (table[k]->acts && !table[k]->acts(model)) continue;
+    e->term[e->terms++] = table[k];
+    if (table[k]->create && !table[k]->create(model, e)) return false;
+  }
   return true;
+}
+
+void zp_system_destroy(ZpEval *e) {
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->destroy) e->term[k]->destroy(e);
+  zp_eval_destroy(e);
 }
 
 ZpSpan zp_span_at(const double *q) {
@@ -29,7 +39,7 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
   span.U0 = span.U1 = state->U;
   span.load = zp_state_load(model, state, state->t);
   span.faces_pass = def->contact.model != ZP_CONTACT_UNILATERAL;
-  span.beyond = model->field_solved ? state->data + 4 * model->stride : NULL;
+  span.beyond = zp_state_beyond(model, state);
   span.paper = def->electro.surface == ZP_SURFACE_POLYLINE ? NULL : state;
   return span;
 }
@@ -72,4 +82,41 @@ void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpM
   e->drag_power = e->drag_rate = 0;
   zp_system_force(model, span, e, a);
   divide(model->stride, masses->x.inverse, masses->y.inverse, a, a + model->stride);
+}
+
+ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
+  ZpMotion m = zp_state_motion(model, state);
+  ZpEnergies sum = {0};
+  for (size_t j = 0; j < model->count; j++)
+    sum.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->energy) e->term[k]->energy(model, m.x, e, &sum);
+  return sum;
+}
+
+ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  ZpLosses sum = {0};
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->loss) e->term[k]->loss(model, span, e, &sum);
+  return sum;
+}
+
+ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U) {
+  ZpElectric sum = {0};
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->electric) e->term[k]->electric(model, span, e, at, U, &sum);
+  return sum;
+}
+
+ZpElectric zp_system_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *e) {
+  ZpMotion m = zp_state_motion(model, state);
+  ZpSpan now = zp_span_of(model, state, m.x, m.vx);
+  if (model->field) zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
+  return zp_system_electric(model, &now, e, ZP_SPAN_END, U);
+}
+
+bool zp_system_solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->solve && !e->term[k]->solve(model, q, U, e)) return false;
+  return true;
 }

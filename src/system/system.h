@@ -4,9 +4,10 @@
 
 #include "term/term.h"
 
-/* Allocate the arrays of `eval` (and what solving the field takes, if it is to) and find the terms that the model has;
- * false if there is no memory. zp_eval_destroy takes it back. */
-bool zp_system_create(const ZpModel *model, bool solves_field, ZpEval *eval);
+/* Allocate the arrays of `eval` (and what finding held forces takes, if it is to) and find the terms that the model
+ * has; false if there is no memory. */
+bool zp_system_create(const ZpModel *model, bool solves, ZpEval *eval);
+void zp_system_destroy(ZpEval *eval);
 
 /* Still, without voltage and load, with all weight, at coordinates q: for callers to change. */
 ZpSpan zp_span_at(const double *q);
@@ -27,5 +28,20 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
 /* (span of an instant, masses) => accelerations a [2 stride] of nodes that no other is joined to; drag_power and
  * drag_rate of eval. */
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
+
+/* Energies of a state without the field. */
+ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *eval);
+
+/* What the terms have lost over a span, at its last force. */
+ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
+
+/* Electric totals at the start or the end of a span, where gaps were found last, at voltage U. */
+ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U);
+
+/* The same where a state is. */
+ZpElectric zp_system_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *eval);
+
+/* Find the forces that are held at coordinates q and voltage U; false if they cannot be: eval->fault says why. */
+bool zp_system_solve(const ZpModel *model, const double *q, double U, ZpEval *eval);
 
 #endif

@@ -38,4 +38,4 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   zp_term_add(model->stride, e->none, Fy, F);
 }
 
-const ZpTerm zp_term_bezier = {"bezier", acts, NULL, force, NULL};
+const ZpTerm zp_term_bezier = {.name = "bezier", .acts = acts, .force = force};

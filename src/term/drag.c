@@ -48,4 +48,9 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-const ZpTerm zp_term_drag = {"drag", acts, NULL, force, stiffness};
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+  (void)model;
+  sum->drag += e->drag_power * span->h;
+}
+
+const ZpTerm zp_term_drag = {.name = "drag", .acts = acts, .force = force, .stiffness = stiffness, .loss = loss};

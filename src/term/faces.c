@@ -26,4 +26,4 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-const ZpTerm zp_term_faces = {"faces", acts, NULL, force, stiffness};
+const ZpTerm zp_term_faces = {.name = "faces", .acts = acts, .force = force, .stiffness = stiffness};

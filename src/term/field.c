@@ -5,11 +5,49 @@ static bool acts(const ZpModel *model) {
   return model->field_solved;
 }
 
+static bool create(const ZpModel *model, ZpEval *e) {
+  return !e->solves || zp_surplus_create(&model->cross_section, &model->plates, model->field_scale, &e->surplus);
+}
+
+static void destroy(ZpEval *e) {
+  zp_surplus_destroy(&e->surplus);
+}
+
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
   double U2 = 0.5 * (span->U0 * span->U0 + span->U1 * span->U1);
-  for (size_t k = 0; span->beyond && k < 2 * model->stride; k++)
-    F[k] += U2 * span->beyond[k];
+  for (size_t k = 0; span->beyond.F && k < 2 * model->stride; k++)
+    F[k] += U2 * span->beyond.F[k];
 }
 
-const ZpTerm zp_term_field = {"field", acts, NULL, force, NULL};
+/* Since it was solved last its co-energy has changed by the held force's work. */
+static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
+                     ZpElectric *sum) {
+  (void)e;
+  const ZpHeld *held = &span->beyond;
+  if (!held->F) return;
+  const double *q = at == ZP_SPAN_START ? span->start : span->end, *Fy = held->F + model->stride;
+  double work = 0;
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    work += held->F[k] * (q[k] - held->at[k]);
+  for (size_t i = 0; i < model->nodes; i++)
+    sum->force += 0.5 * U * U * (Fy[2 * i + 1] - Fy[2 * i]);
+  sum->charge += U * (held->charge + 2 * work);
+  sum->potential -= U * U * (held->energy + work);
+  sum->capacitance += held->capacitance + 2 * work / model->field_scale;
+}
+
+static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
+  (void)model;
+  ZpFieldEnd end = zp_surplus_solve(&e->surplus, q, U);
+  e->fault = end == ZP_FIELD_SOLVED ? NULL : zp_field_words(end);
+  return !e->fault;
+}
+
+const ZpTerm zp_term_field = {.name = "field",
+                              .acts = acts,
+                              .create = create,
+                              .destroy = destroy,
+                              .force = force,
+                              .electric = electric,
+                              .solve = solve};

@@ -52,4 +52,20 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   add_shear_stiffness(model, assembly, e, K);
 }
 
-const ZpTerm zp_term_mass_spring = {"mass_spring", acts, begin, force, stiffness};
+static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {
+  zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+  sum->axial += zp_massspring_axial_energy(&model->spring, &e->spring);
+  sum->bending += zp_massspring_shear_energy(&model->spring, &e->spring);
+}
+
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+  sum->internal += zp_term_edges_loss(model, span, e);
+}
+
+const ZpTerm zp_term_mass_spring = {.name = "mass_spring",
+                                    .acts = acts,
+                                    .begin = begin,
+                                    .force = force,
+                                    .stiffness = stiffness,
+                                    .energy = energy,
+                                    .loss = loss};

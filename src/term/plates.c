@@ -32,4 +32,16 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-const ZpTerm zp_term_plates = {"plates", acts, begin, force, stiffness};
+static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
+                     ZpElectric *sum) {
+  const ZpActuatorDef *def = &model->def;
+  const ZpPlatesEval *gaps = at == ZP_SPAN_START ? start_of(span, e) : &e->plates;
+  ZpPlatesTotals totals = zp_plates_totals(&model->plates, gaps, U);
+  sum->force += totals.force;
+  sum->charge += totals.charge;
+  sum->potential += totals.potential;
+  sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+}
+
+const ZpTerm zp_term_plates = {
+    .name = "plates", .acts = acts, .begin = begin, .force = force, .stiffness = stiffness, .electric = electric};

@@ -28,4 +28,20 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
 }
 
-const ZpTerm zp_term_rod = {"rod", acts, begin, force, stiffness};
+static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {
+  zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+  sum->axial += zp_rod_stretching_energy(&model->rod, &e->rod);
+  sum->bending += zp_rod_bending_energy(&model->rod, &e->rod);
+}
+
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+  sum->internal += zp_term_edges_loss(model, span, e);
+}
+
+const ZpTerm zp_term_rod = {.name = "rod",
+                            .acts = acts,
+                            .begin = begin,
+                            .force = force,
+                            .stiffness = stiffness,
+                            .energy = energy,
+                            .loss = loss};

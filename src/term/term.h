@@ -16,10 +16,12 @@ typedef struct ZpSpan {
   double share;              /* of all weight that acts: 1, less on the way to an equilibrium */
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
   const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; else NULL */
-  const double *beyond;      /* [2 stride] force of a solved field beyond plates, N/V^2; NULL: there is none */
+  ZpHeld beyond;             /* what a solved field has beyond plates; all 0: nothing */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver foresees, for the stiffness, N; NULL: of the last force */
 } ZpSpan;
+
+typedef enum ZpSpanEnd { ZP_SPAN_START, ZP_SPAN_END } ZpSpanEnd;
 
 static inline bool zp_span_is_still(const ZpSpan *span) {
   return span->start == span->end;
@@ -34,6 +36,10 @@ typedef struct ZpTerm {
   const char *name;
   /* Does the model have it? NULL: every model has. */
   bool (*acts)(const ZpModel *model);
+  /* Work space of its own, beyond the arrays of an eval; false if there is no memory. destroy takes it back, also where
+   * nothing was made. Both or neither may be NULL. */
+  bool (*create)(const ZpModel *model, ZpEval *eval);
+  void (*destroy)(ZpEval *eval);
   /* What it needs of the start of a span that is not still => eval. May be NULL. */
   void (*begin)(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
   /* F [2 stride] += its force on the nodes, N: over a span the mean that does the work by which its energy changes. */
@@ -41,6 +47,17 @@ typedef struct ZpTerm {
   /* At the last force: minus its derivative by the end's coordinates, added to K, or to eval->gaps where it depends on
    * gaps. NULL: there is none, or it is left out. */
   void (*stiffness)(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
+  /* At coordinates q: sum += the energy that it stores, J. NULL: none. */
+  void (*energy)(const ZpModel *model, const double *q, ZpEval *eval, ZpEnergies *sum);
+  /* Of a span that is not still, at the last force: sum += what it has lost over it, J. NULL: nothing. */
+  void (*loss)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpLosses *sum);
+  /* At the start or the end of the span, where gaps were found last, and at voltage U: sum += its electric totals.
+   * NULL: none. */
+  void (*electric)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U,
+                   ZpElectric *sum);
+  /* A force that is held, being too dear to find at every span: find it at coordinates q and voltage U. Where it cannot
+   * be, eval->fault says why. NULL: none is held. */
+  bool (*solve)(const ZpModel *model, const double *q, double U, ZpEval *eval);
 } ZpTerm;
 
 #define ZP_TERM(name) extern const ZpTerm zp_term_##name;
@@ -49,6 +66,10 @@ typedef struct ZpTerm {
 
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);
+
+/* Internal damping of the edges over a span => J, eq. (18.2). The edges are those where the span has ended, a last
+ * correction beyond the last force. */
+double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
 /* F [2 stride] += forces of edges on their nodes: R [-s .. stride) on the right ones, the opposite on the left. */
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F);

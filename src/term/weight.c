@@ -14,4 +14,10 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   F[model->stride + model->count - 1] -= span->load;
 }
 
-const ZpTerm zp_term_weight = {"weight", NULL, NULL, force, NULL};
+static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {
+  (void)e;
+  for (size_t j = 0; j < model->count; j++)
+    sum->gravity += model->weight[j] * q[model->stride + j];
+}
+
+const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};

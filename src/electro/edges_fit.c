@@ -1,0 +1,146 @@
+/* How the law of lateral edges is made: the field of the cross-section across the strips, solved at some gaps, and a
+ * polynomial through what it gives. Letters as in edges.c. */
+#include "electro/edges.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "electro/plates.h"
+
+/* A quarter of the cross-section is mirrored in the middle of the strips; upper and lower half are both solved. */
+enum { MIRRORED = 2, STATIONS = 3, TERMS = ZP_EDGE_TERMS };
+
+ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
+  ZpFieldMesh mesh = zp_field_mesh();
+  mesh.gap = 6;
+  mesh.insulator = 2;
+  mesh.clip = 12;
+  mesh.outside = 16;
+  mesh.first = 0.08 * p->t; /* the field's corner at the strip's edge is as large as the insulator */
+  return mesh;
+}
+
+/* Capacitance per length at one gap: twice the energy at 1 V, of all that is mirrored. */
+static double solve_at(ZpField *f, const ZpEdgeParams *p, double g) {
+  double to_edge = 0.5 * p->w - f->params.clip, half = 0.5 * g;
+  const double x[STATIONS] = {0, 0.5 * to_edge, to_edge}, upper[STATIONS] = {half, half, half},
+               lower[STATIONS] = {-half, -half, -half};
+  ZpFaces faces = {x, upper, x, lower, 1};
+  if (zp_field_solve(f, &faces) != ZP_FIELD_SOLVED) return NAN;
+  return 2 * MIRRORED * zp_grid_energy(&f->grid);
+}
+
+bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t count, const double *gap, double *C) {
+  static const double graded = 0.8; /* of the half width, from the edge on */
+  ZpFieldParams params = {.stations = STATIONS,
+                          .columns = 2,
+                          .w = 1,
+                          .b = p->b,
+                          .t = p->t,
+                          .eps_m = p->eps_m,
+                          .eps_i = p->eps_i,
+                          .clip = graded * 0.5 * p->w,
+                          .electrode = true,
+                          .mesh = *mesh};
+  ZpField field;
+  if (!zp_field_create(&params, &field)) return false;
+  for (size_t i = 0; i < count; i++)
+    C[i] = solve_at(&field, p, gap[i]);
+  zp_field_destroy(&field);
+  return true;
+}
+
+/* -- the law --------------------------------------------------------------------------------------- */
+
+/* z = stretch (s - s0) / (s + s0): like a logarithm over the range, but of roots, which are the same everywhere. */
+static void choose_variable(ZpEdgeLaw *law) {
+  double most = law->largest + law->d, middle = sqrt(law->d * most), s = sqrt(most);
+  law->s0 = sqrt(middle);
+  law->stretch = (s + law->s0) / (s - law->s0);
+}
+
+static double gap_at(const ZpEdgeLaw *law, double z) {
+  double part = z / law->stretch, s = law->s0 * (1 + part) / (1 - part);
+  return fmax(s * s - law->d, 0);
+}
+
+/* Roots of Chebyshev's polynomial of degree TERMS, cos((2 k + 1) a), a = pi / (2 TERMS), by their recurrence: no
+ * library's cosine. */
+static void chebyshev_roots(double z[TERMS]) {
+  static const double cos_a = 0.9961946980917455323, cos_2a = 0.9848077530122080594;
+  double before = cos_a; /* cos(-a) */
+  z[0] = cos_a;
+  for (size_t k = 1; k < TERMS; k++) {
+    z[k] = 2 * cos_2a * z[k - 1] - before;
+    before = z[k - 1];
+  }
+}
+
+/* Values at the roots => coefficients of Chebyshev's polynomials. */
+static void expand(const double z[TERMS], const double value[TERMS], double c[TERMS]) {
+  memset(c, 0, TERMS * sizeof *c);
+  for (size_t k = 0; k < TERMS; k++) {
+    double T = 1, before = z[k]; /* T_0, T_-1 */
+    for (size_t j = 0; j < TERMS; j++) {
+      c[j] += (j ? 2.0 : 1.0) / TERMS * value[k] * T;
+      double next = 2 * z[k] * T - before;
+      before = T;
+      T = next;
+    }
+  }
+}
+
+/* Coefficients of Chebyshev's polynomials => of powers. These stay as small as those: they fall off faster than 2^k
+ * grows. */
+static void to_powers(const double c[TERMS], double p[TERMS]) {
+  double T[TERMS] = {1}, before[TERMS] = {0, 1}; /* T_0 = 1, T_-1 = z */
+  memset(p, 0, TERMS * sizeof *p);
+  for (size_t j = 0; j < TERMS; j++)
+    for (size_t k = TERMS; k-- > 0;) {
+      p[k] += c[j] * T[k];
+      double next = 2 * (k ? T[k - 1] : 0) - before[k];
+      before[k] = T[k];
+      T[k] = next;
+    }
+}
+
+/* What the last terms still add, as a share of the least capacitance. */
+static double error_of(const double c[TERMS], double least) {
+  return (fabs(c[TERMS - 1]) + fabs(c[TERMS - 2])) / least;
+}
+
+static ZpStatus fit(const ZpEdgeParams *p, ZpEdgeLaw *law, ZpError *err) {
+  double z[TERMS], gap[TERMS], value[TERMS], c[TERMS], least = INFINITY;
+  ZpFieldMesh mesh = zp_edges_mesh(p);
+  chebyshev_roots(z);
+  for (size_t k = 0; k < TERMS; k++)
+    gap[k] = gap_at(law, z[k]);
+  if (!zp_edges_capacitance(p, &mesh, TERMS, gap, value)) return zp_fail_memory(err);
+  for (size_t k = 0; k < TERMS; k++) {
+    value[k] /= ZP_EPS0 * p->eps_m * p->w;
+    if (!(value[k] > 0))
+      return zp_fail(err, ZP_BAD_INPUT, "electro.edges: the field across the strips has no solution at a gap of %g m",
+                     gap[k]);
+    least = fmin(least, value[k]);
+    value[k] -= 1 / (gap[k] + law->d);
+  }
+  expand(z, value, c);
+  to_powers(c, law->p);
+  law->error = error_of(c, least);
+  return ZP_OK;
+}
+
+ZpStatus zp_edges_make(const ZpEdgeParams *p, double largest, ZpEdgeLaw *law, ZpError *err) {
+  static const double worst = 1e-2;
+  memset(law, 0, sizeof *law);
+  law->largest = largest;
+  law->d = 2 * p->t * p->eps_m / p->eps_i;
+  choose_variable(law);
+  ZpStatus status = fit(p, law, err);
+  if (status != ZP_OK || law->error < worst) return status;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "electro.edges: no smooth law of the gap fits the field across strips of width %g m with insulators of "
+      "%g m; the relative error is %.2g",
+      p->w, p->t, law->error);
+}
