@@ -46,10 +46,8 @@ static bool allocate(ZpSim *sim) {
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
-  for (size_t j = 0; j < model->stride; j++) {
-    size_t station = j / model->s;
-    q[j] = (double)station * model->l;
-  }
+  for (size_t j = 0; j < model->stride; j++)
+    q[j] = zp_straight_x(model, j / model->s);
 }
 
 /* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
@@ -179,7 +177,7 @@ static bool prepare_step(ZpSim *sim) {
 /* How many stations from the clip on are in touch, the clip not counted; the platform is if all are. */
 static ZpZipState touching(const ZpModel *model, const double *gap) {
   size_t front = zp_faces_front(&model->faces, gap);
-  return (ZpZipState){front, front + 1 == model->nodes};
+  return (ZpZipState){front, front == model->topology.platform.first};
 }
 
 static const ZpZipState clip_only = {0, false};
@@ -269,8 +267,7 @@ static void meet(ZpSim *sim) {
 }
 
 static double opening(const ZpModel *model, const ZpState *state) {
-  const double *y = zp_state_motion(model, state).y;
-  return y[model->count - 2] - y[model->count - 1];
+  return zp_opening(&model->topology, zp_state_motion(model, state).y);
 }
 
 static bool is_open(const ZpModel *model, const ZpState *state) {
@@ -280,7 +277,7 @@ static bool is_open(const ZpModel *model, const ZpState *state) {
 /* From open to closed, or, where it started closed, held there by the platforms' faces. */
 static bool reached_zip(const ZpModel *model, const ZpState *state) {
   size_t margin = (size_t)model->def.contact.complete_margin;
-  if (margin) return state->zip.front + 1 + margin >= model->nodes;
+  if (margin) return state->zip.front + margin >= model->topology.platform.first;
   return state->opening0 > 0 && (state->zip.platform || (state->was_open && !is_open(model, state)));
 }
 
@@ -288,7 +285,7 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
 static bool closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin) return true;
-  return state->zip.platform || zp_state_motion(model, state).vy[model->count - 1] <= 0;
+  return state->zip.platform || zp_state_motion(model, state).vy[zp_load_node(&model->topology)] <= 0;
 }
 
 /* Do electrodes without an insulator touch under a voltage? */
@@ -304,7 +301,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpExplicitLimit limit, bool corner
 
 /* Where the load hangs, m. */
 static double height(const ZpSim *sim) {
-  return zp_state_motion(sim->model, sim->state).y[sim->model->count - 1];
+  return zp_state_motion(sim->model, sim->state).y[zp_load_node(&sim->model->topology)];
 }
 
 static void explicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
@@ -357,7 +354,7 @@ static double advance_implicit(ZpSim *sim, double latest) {
   double taken = zp_dynamics_step(&sim->dynamics, state, latest);
   if (!(taken > 0)) return 0;
   state->load_work += 0.5 * (load + zp_state_load(sim->model, state, state->t)) * (before - height(sim));
-  if (sim->model->s == 2) state->zip = touching(sim->model, sim->dynamics.eval.plates.gap);
+  if (zp_is_pair(&sim->model->topology)) state->zip = touching(sim->model, sim->dynamics.eval.plates.gap);
   return taken;
 }
 
@@ -365,7 +362,7 @@ static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   double corner = next_corner(sim), latest = fmin(fmin(end_time, corner), state->t + resolution(sim));
-  double before = model->s == 2 ? opening(model, state) : 0;
+  double before = opening(model, state);
   if (!prepare_step(sim)) return;
   double taken = advance_implicit(sim, latest);
   sim->stuck = !(taken > 0);
@@ -373,7 +370,7 @@ static void implicit_step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->steps++;
   info->limited[implicit_limit(sim, state->t >= corner, state->t >= end_time)]++;
   follow_voltage(sim);
-  if (model->s < 2) return;
+  if (!zp_is_pair(&model->topology)) return;
   state->was_open |= is_open(model, state);
   if (isnan(state->zip_time) && state->U != 0 && reached_zip(model, state))
     state->zip_time = zipped_at(model, state, before, taken);
