@@ -4,15 +4,22 @@
 
 #include "base/kernel.h"
 
-static size_t number(const ZpModel *model, int *equation) {
+static size_t number(const ZpTopology *t, int *equation) {
   int next = 0;
-  for (size_t j = 0; j < model->count; j++) {
-    bool joined = model->s == 2 && j == 1;
-    bool free_x = model->masses.x.inverse[j] > 0, free_y = model->masses.y.inverse[j] > 0;
-    equation[2 * j] = joined ? equation[0] : free_x ? next++ : -1;
-    equation[2 * j + 1] = joined ? equation[1] : free_y ? next++ : -1;
+  for (size_t k = 0; k < 2 * t->nodes; k++) {
+    size_t leader = zp_topology_leader(t, k);
+    equation[k] = zp_topology_is_held(t, k) ? -1 : leader < k ? equation[leader] : next++;
   }
   return (size_t)next;
+}
+
+/* Two halves have the platform's coordinates in common, as far as they are not held. */
+static ZpParts parts_of(const ZpTopology *t, const int *equation) {
+  ZpParts parts = {.more = t->halves - 1};
+  size_t first = 2 * zp_upper(t, t->platform.first), end = 2 * zp_upper(t, t->platform.first + 1);
+  for (size_t k = first; parts.more && k < end; k++)
+    if (equation[k] >= 0) parts.common[parts.count++] = (size_t)equation[k];
+  return parts;
 }
 
 /* Coordinate - equation of all coordinates of stations i .. i + 2, if that is one number; else -1. */
@@ -33,7 +40,8 @@ bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(model, a->equation);
+  a->n = number(&model->topology, a->equation);
+  a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
     a->shift[i] = shift_of(a, i);
   return true;

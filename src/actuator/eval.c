@@ -67,7 +67,7 @@ void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipStat
 
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
   size_t front = zp_faces_front(&model->faces, gap);
-  return (ZpZipState){front, front + 1 == model->nodes};
+  return (ZpZipState){front, front == model->topology.platform.first};
 }
 
 static double ratio_bound(double length, double speed) {
