@@ -34,6 +34,7 @@ typedef struct ZpEval {
   ZpEdges edges; /* at the end, of the mechanics in use */
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
+  ZpPlatesByVoltage by_voltage;
   ZpFacesEval faces;       /* of unilateral contact */
   bool solves;             /* it can solve the field, not only hold what was found */
   ZpSurplus surplus;       /* where it does */

@@ -103,8 +103,10 @@ typedef struct ZpState {
   ZpRamp voltage_input;    /* V; counts where by_hand */
   ZpRamp load_input;       /* N, down on the lower platform (one ribbon: the right end) of the whole actuator */
   double load_work;        /* per part: of that force so far, J */
-  double data[];           /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
-                              mean velocity and acceleration of the last implicit step [4 stride] */
+  double U_rate,
+      U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
+  double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
+                    mean velocity and acceleration of the last implicit step [4 stride] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */

@@ -174,15 +174,20 @@ static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along
   s->Fy[2 * i + 1] = closing;
 }
 
-static void stations(const ZpPlatesParams *p, ZpPlatesStep *s) {
+static void act_all(const ZpPlatesParams *p, ZpPlatesStep *s) {
   size_t last = p->nodes - 1;
   act(p, s, 0, 0.5 * s->P[0], s->A[0]);
-  s->own[0] = s->own_A[0];
-  for (size_t i = 1; i < last; i++) {
+  for (size_t i = 1; i < last; i++)
     act(p, s, i, 0.5 * (s->P[i] - s->P[i - 1]), s->A[i] + s->B[i - 1]);
-    s->own[i] = s->own_A[i] + s->own_B[i - 1];
-  }
   act(p, s, last, -0.5 * s->P[last - 1], s->B[last - 1]);
+}
+
+static void stations(const ZpPlatesParams *p, ZpPlatesStep *s) {
+  size_t last = p->nodes - 1;
+  act_all(p, s);
+  s->own[0] = s->own_A[0];
+  for (size_t i = 1; i < last; i++)
+    s->own[i] = s->own_A[i] + s->own_B[i - 1];
   s->own[last] = s->own_B[last - 1];
 }
 
@@ -211,6 +216,98 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
     elements_at_two(last, &laws, p->d, e0, e1, s);
   stations(p, s);
   add_platform(p, &laws, e0, e1, s);
+}
+
+/* -- by the voltage ------------------------------------------------------------------------------- */
+
+void zp_plates_by_voltage_carve(const ZpPlatesParams *p, ZpPlatesByVoltage *by, ZpCarver *carver) {
+  double **arrays[] = {&by->Fx, &by->Fy, &by->Qx, &by->Qy};
+  for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
+    *arrays[k] = zp_carve(carver, p->stride);
+}
+
+/* Since dP/dU = -q, eq. (18.3) by the voltage has differences of the charge in place of those of the potential. */
+typedef struct Charges {
+  double W; /* -(q1 - q0) / (g1 - g0): how the force on the gap goes with the voltage, N/V per length */
+  double P; /* -(q0 + q1) / 2 */
+} Charges;
+
+/* Of the law with edges gaps that are too close give rounding: they are then taken a little apart. */
+static Charges charges_with_edges(const ZpPlatesParams *p, double U, double g0, double g1) {
+  static const double little = 1e-8; /* m */
+  double q0 = zp_plates_law(p, U, g0).q, q1 = zp_plates_law(p, U, g1).q, P = -0.5 * (q0 + q1), over = g1 - g0;
+  if (fabs(over) < little) {
+    over = 2 * little;
+    q0 = zp_plates_law(p, U, g1 - little).q;
+    q1 = zp_plates_law(p, U, g1 + little).q;
+  }
+  return (Charges){-(q1 - q0) / over, P};
+}
+
+static Charges charges_between(const ZpPlatesParams *p, double U, double g0, double g1) {
+  if (p->edges) return charges_with_edges(p, U, g0, g1);
+  double h_c = zp_plates_least_h(p, U), h0 = g0 + p->d, h1 = g1 + p->d, per_volt = 2 * p->k * U;
+  double b0 = 1 / fmax(h0, h_c), b1 = 1 / fmax(h1, h_c);
+  bool across = (h0 > h_c) != (h1 > h_c);
+  double W = across ? (b0 - b1) / (h1 - h0) : h1 > h_c ? b0 * b1 : 0;
+  return (Charges){per_volt * W, -0.5 * per_volt * (b0 + b1)};
+}
+
+/* dq/dU at a gap, F/m: 0 where the cap holds the charge. */
+static double capacitance_at(const ZpPlatesParams *p, double U, double g) {
+  static const double part = 1e-4; /* of the voltage, or of a volt */
+  double little = part * fmax(fabs(U), 1);
+  if (p->edges) return (zp_plates_law(p, U + little, g).q - zp_plates_law(p, U - little, g).q) / (2 * little);
+  double h = g + p->d, h_c = p->h_per_volt * fabs(U);
+  if (h < p->h_least) h = p->h_least;
+  return h > h_c ? 2 * p->k / h : 0;
+}
+
+/* Forces of `share` of the charges between two ends => Fx, Fy. */
+static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
+                              double share, ZpPlatesStep *s) {
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    double dx = 0.5 * (e0->dx[i] + e1->dx[i]), A = 0, B = 0, P = 0;
+    for (int q = 0; q < GAUSS; q++) {
+      double r = gauss_at[q], l = 1 - r;
+      double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
+      Charges at = charges_between(p, U, g0, g1);
+      A += gauss_weight[q] * l * at.W * dx;
+      B += gauss_weight[q] * r * at.W * dx;
+      P += gauss_weight[q] * at.P;
+    }
+    s->A[i] = share * A;
+    s->B[i] = share * B;
+    s->P[i] = share * P;
+  }
+  act_all(p, s);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+    double W = share * p->flat_length * charges_between(p, U, e0->gap[i], e1->gap[i]).W;
+    s->Fy[2 * i] -= W;
+    s->Fy[2 * i + 1] += W;
+  }
+}
+
+static double capacitance(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
+  double sum = 0;
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    for (int q = 0; q < GAUSS; q++)
+      sum += gauss_weight[q] * e->dx[i] * capacitance_at(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * gauss_at[q]);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
+    sum += p->flat_length * capacitance_at(p, U, e->gap[i]);
+  return sum;
+}
+
+void zp_plates_by_voltage(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U1,
+                          ZpPlatesStep *step, ZpPlatesByVoltage *by) {
+  ZpPlatesStep lent = *step;
+  lent.Fx = by->Fx;
+  lent.Fy = by->Fy;
+  forces_of_charges(p, e0, e1, U1, 0.5, &lent); /* the law at the end is half of the mean */
+  lent.Fx = by->Qx;
+  lent.Fy = by->Qy;
+  forces_of_charges(p, e1, e1, U1, 1, &lent); /* F = -dP/dq at one voltage, so dF/dU = dq/dq */
+  by->capacitance = capacitance(p, e1, U1);
 }
 
 void zp_plates_rest(const ZpPlatesParams *p, const double *x, const double *y, double U, ZpPlatesEval *e,

@@ -23,6 +23,19 @@ void zp_plates_step_carve(const ZpPlatesParams *params, ZpPlatesStep *step, ZpCa
 void zp_plates_step(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U0,
                     double U1, ZpPlatesStep *step);
 
+/* How the step goes with the voltage at its end. */
+typedef struct ZpPlatesByVoltage {
+  double *Fx, *Fy;    /* [stride] derivative of the mean force by that voltage, N/V */
+  double *Qx, *Qy;    /* [stride] of the charge at the end by its coordinates, C/m */
+  double capacitance; /* of that charge by that voltage, F */
+} ZpPlatesByVoltage;
+
+void zp_plates_by_voltage_carve(const ZpPlatesParams *params, ZpPlatesByVoltage *by, ZpCarver *carver);
+
+/* (gaps and dx at both ends, U1) => all of `by`. `step` lends its parts A, B, P; its forces and derivatives stay. */
+void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U1,
+                          ZpPlatesStep *step, ZpPlatesByVoltage *by);
+
 /* At rest: (x, y of interleaved upper and lower nodes, voltage) => gaps and all of `step`. */
 void zp_plates_rest(const ZpPlatesParams *params, const double *x, const double *y, double voltage, ZpPlatesEval *eval,
                     ZpPlatesStep *step);

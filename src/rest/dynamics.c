@@ -5,7 +5,7 @@
 
 static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
-  size_t stride = model->stride, all = 2 * model->count;
+  size_t stride = model->stride, all = 2 * model->count + 1; /* with the voltage */
   ZpCarver carver = {block, 0};
   zp_implicit_carve(&d->stepper, &d->system, &carver);
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
@@ -14,6 +14,10 @@ static size_t carve(ZpDynamics *d, void *block) {
   double **of_nodes[] = {&d->start, &d->end, &d->force};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
+  d->by_voltage.force = zp_carve(&carver, 2 * stride);
+  d->by_voltage.charge = zp_carve(&carver, 2 * stride);
+  d->scale = zp_carve(&carver, all);
+  d->kind = (ZpUnknown *)zp_carve(&carver, all); /* room for doubles is more than enough */
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
   return carver.used;
@@ -66,6 +70,12 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
 
+/* What has flowed through the source over the step, C, less what the electrodes have taken; of one part. */
+static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
+  double flowed = d->source->flow(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
+  return flowed - (zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1).charge - d->charge0);
+}
+
 /* => energies of bending and field: an imbalance is small or large beside them. */
 static double begin(void *self, const double *q0, const double *v0) {
   ZpDynamics *d = self;
@@ -76,6 +86,7 @@ static double begin(void *self, const double *q0, const double *v0) {
   memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
   ZpSpan span = span_of(d);
   zp_system_begin(model, &span, &d->eval);
+  if (d->source) d->charge0 = zp_system_electric(model, &span, &d->eval, ZP_SPAN_START, d->U0).charge;
   double bending = model->is_rod ? zp_rod_bending_energy(&model->rod, &e->rod_start)
                                  : zp_massspring_shear_energy(&model->shear, &e->spring_start);
   double field = model->field ? zp_plates_totals(&model->plates, &e->plates_start, d->U0).potential : 0;
@@ -86,7 +97,7 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   d->h = h;
-  d->U1 = end_voltage(d);
+  d->U1 = d->source ? q1[d->assembly.n] : end_voltage(d);
   scatter(d, q1, d->end);
   ZpSpan span = span_of(d);
   zp_system_force(model, &span, &d->eval, d->force);
@@ -94,13 +105,32 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   memset(f, 0, d->system.n * sizeof *f);
   for (size_t k = 0; k < 2 * model->count; k++)
     if (d->assembly.equation[k] >= 0) f[d->assembly.equation[k]] += d->force[place(d, k)];
+  if (d->source) f[d->assembly.n] = missing_charge(d, &span);
   return ZP_END_FOUND;
+}
+
+/* Row and column of the voltage behind a source, eq. (18.10). */
+static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
+  const ZpByVoltage *by = &d->by_voltage;
+  size_t u = d->assembly.n;
+  zp_system_by_voltage(d->model, span, &d->eval, &d->by_voltage);
+  memset(J->B, 0, u * sizeof *J->B);
+  memset(J->C, 0, u * sizeof *J->C);
+  for (size_t k = 0; k < 2 * d->model->count; k++) {
+    if (d->assembly.equation[k] < 0) continue;
+    size_t i = (size_t)d->assembly.equation[k];
+    *zp_bordered_at(J, i, u) -= by->force[place(d, k)];
+    *zp_bordered_at(J, u, i) += by->charge[place(d, k)];
+  }
+  double slope = d->source->slope(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
+  *zp_bordered_at(J, u, u) = by->capacitance - slope;
 }
 
 static void tangent(void *self, ZpBordered *J) {
   ZpDynamics *d = self;
   ZpSpan span = span_of(d);
   zp_system_stiffness(d->model, &span, &d->assembly, &d->eval, &J->A);
+  if (d->source) border(d, &span, J);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */
@@ -213,12 +243,26 @@ static double impact(ZpDynamics *d) {
 
 /* -- creation and step ---------------------------------------------------------------------------- */
 
-bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
+/* The voltage behind a source has a rate and no inertia. */
+static void add_voltage(ZpDynamics *d) {
+  size_t u = d->assembly.n;
+  for (size_t i = 0; i < u; i++)
+    d->scale[i] = 1;
+  d->kind[u] = ZP_FIRST_ORDER;
+  d->scale[u] = d->source->scale / d->model->L;
+  d->system.kind = d->kind;
+  d->system.scale = d->scale;
+}
+
+bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
   memset(d, 0, sizeof *d);
   d->model = model;
+  d->source = source;
   if (!zp_system_create(model, false, &d->eval)) return false;
   if (!zp_assembly_create(model, true, &d->assembly)) return false;
-  d->system = (ZpImplicitSystem){.n = d->assembly.n,
+  size_t border = source ? 1 : 0;
+  d->system = (ZpImplicitSystem){.n = d->assembly.n + border,
+                                 .border = border,
                                  .bandwidth = d->assembly.bandwidth,
                                  .parts = d->assembly.parts,
                                  .self = d,
@@ -231,6 +275,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   if (!d->memory) return false;
   carve(d, d->memory);
   d->system.mass = d->mass;
+  if (source) add_voltage(d);
   for (size_t k = 0; k < 2 * model->count; k++)
     if (d->assembly.equation[k] >= 0) d->mass[d->assembly.equation[k]] += model->mass[k / 2];
   const ZpActuatorDef *def = &model->def;
@@ -274,6 +319,13 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   gather(d, v, d->v);
   gather(d, w, d->history.w);
   gather(d, a, d->history.a);
+  if (d->source) {
+    size_t u = d->assembly.n;
+    d->q[u] = state->U;
+    d->v[u] = 0;
+    d->history.w[u] = state->U_rate;
+    d->history.a[u] = state->U_change;
+  }
   d->history.last = state->last_step;
   d->history.next = state->next_step;
   double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
@@ -290,6 +342,10 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   scatter(d, d->history.w, w);
   scatter(d, d->history.a, a);
   state->t = end_time(d);
+  if (d->source) {
+    state->U_rate = d->history.w[d->assembly.n];
+    state->U_change = d->history.a[d->assembly.n];
+  }
   state->last_step = d->history.last;
   state->next_step = d->history.next;
   state->load_work += load * (before - *hangs);

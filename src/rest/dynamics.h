@@ -6,6 +6,7 @@
 #include "actuator/assemble.h"
 #include "solve/implicit.h"
 #include "system/system.h"
+#include "term/source.h"
 
 typedef struct ZpDynamics {
   const ZpModel *model;
@@ -14,19 +15,24 @@ typedef struct ZpDynamics {
   ZpEval eval;
   ZpImplicitHistory history;
   ZpAssembly assembly;
-  double *mass, *q, *v; /* [n] by equations */
-  double *start, *end;  /* [2 stride] coordinates of nodes */
-  double *force;        /* [2 stride] N */
-  double *gap;          /* [N] gaps of the last force, m */
-  double *foreseen;     /* [N] what the last tangent makes of the push after a correction, N */
-  const ZpState *state; /* at the start of the step under way */
-  double latest;        /* when that step ends at the latest, s */
-  double h, U0, U1;     /* its length, s; voltage at its start and its end, V */
+  const ZpSource *source; /* NULL: the voltage is given */
+  ZpUnknown *kind;        /* [n] with a source: the last is the voltage */
+  double *scale;          /* [n] */
+  ZpByVoltage by_voltage; /* with a source */
+  double charge0;         /* of one part where the step begins, C */
+  double *mass, *q, *v;   /* [n] by equations */
+  double *start, *end;    /* [2 stride] coordinates of nodes */
+  double *force;          /* [2 stride] N */
+  double *gap;            /* [N] gaps of the last force, m */
+  double *foreseen;       /* [N] what the last tangent makes of the push after a correction, N */
+  const ZpState *state;   /* at the start of the step under way */
+  double latest;          /* when that step ends at the latest, s */
+  double h, U0, U1;       /* its length, s; voltage at its start and its end, V */
   void *memory;
 } ZpDynamics;
 
-/* False if there is no memory. */
-bool zp_dynamics_create(const ZpModel *model, ZpDynamics *dynamics);
+/* `source` must live as long; NULL: the voltage is given. False if there is no memory. */
+bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
 
 /* One step that ends at `latest`, s, or before => the state at its end: its time, its losses, the source's work where

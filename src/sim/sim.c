@@ -149,6 +149,7 @@ static double resolution(const ZpSim *sim) {
 
 /* The voltage at the time that a step has reached. By explicit steps it was that of the step's start all the way. */
 static void follow_voltage(ZpSim *sim) {
+  if (sim->dynamics.source) return;
   const ZpWaveform *waveform = &sim->model->waveform;
   ZpState *state = sim->state;
   if (state->by_hand) {

@@ -23,6 +23,10 @@ typedef struct ZpStepping {
 /* As solver.integrator says. */
 const ZpStepping *zp_stepping_of(const ZpModel *model);
 
+/* From now on a source, which must live as long, is between the drive and the electrodes of a simulation by implicit
+ * steps; it says what the voltage is. False if there is no memory. */
+bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
+
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;

@@ -2,7 +2,7 @@
 #include "sim/sim_internal.h"
 
 static bool create_implicit(ZpSim *sim) {
-  return zp_dynamics_create(sim->model, &sim->dynamics);
+  return zp_dynamics_create(sim->model, NULL, &sim->dynamics);
 }
 
 /* Of the shortest, where rounding, a pulse or a steep rise has put the next corner, only time takes notice. */
@@ -46,4 +46,9 @@ static const ZpStepping explicit = {create_explicit, step_explicit, longest_expl
 
 const ZpStepping *zp_stepping_of(const ZpModel *model) {
   return model->def.solver.integrator == ZP_INTEGRATOR_IMPLICIT ? &implicit : &explicit;
+}
+
+bool zp_sim_connect(ZpSim *sim, const ZpSource *source) {
+  zp_dynamics_destroy(&sim->dynamics);
+  return zp_dynamics_create(sim->model, source, &sim->dynamics);
 }

@@ -41,6 +41,10 @@ ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const Zp
 /* The same where a state is. */
 ZpElectric zp_system_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *eval);
 
+/* At the last force: how it and the charge go with the voltage at the span's end => sum, whose arrays are the caller's.
+ */
+void zp_system_by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpByVoltage *sum);
+
 /* Find the forces that are held at coordinates q and voltage U; false if they cannot be: eval->fault says why. */
 bool zp_system_solve(const ZpModel *model, const double *q, double U, ZpEval *eval);
 

@@ -37,6 +37,18 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
   sum->capacitance += held->capacitance + 2 * work / model->field_scale;
 }
 
+static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
+  (void)e;
+  const ZpHeld *held = &span->beyond;
+  if (!held->F) return;
+  sum->capacitance += held->charge;
+  for (size_t k = 0; k < 2 * model->stride; k++) {
+    sum->force[k] += span->U1 * held->F[k];
+    sum->charge[k] += 2 * span->U1 * held->F[k];
+    sum->capacitance += 2 * held->F[k] * (span->end[k] - held->at[k]);
+  }
+}
+
 static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
   (void)model;
   ZpFieldEnd end = zp_surplus_solve(&e->surplus, q, U);
@@ -50,4 +62,5 @@ const ZpTerm zp_term_field = {.name = "field",
                               .destroy = destroy,
                               .force = force,
                               .electric = electric,
+                              .by_voltage = by_voltage,
                               .solve = solve};

@@ -43,5 +43,19 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
   sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
 }
 
-const ZpTerm zp_term_plates = {
-    .name = "plates", .acts = acts, .begin = begin, .force = force, .stiffness = stiffness, .electric = electric};
+static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
+  size_t stride = model->stride;
+  ZpPlatesByVoltage *by = &e->by_voltage;
+  zp_plates_by_voltage(&model->plates, start_of(span, e), &e->plates, span->U1, &e->attraction, by);
+  zp_term_add(stride, by->Fx, by->Fy, sum->force);
+  zp_term_add(stride, by->Qx, by->Qy, sum->charge);
+  sum->capacitance += by->capacitance;
+}
+
+const ZpTerm zp_term_plates = {.name = "plates",
+                               .acts = acts,
+                               .begin = begin,
+                               .force = force,
+                               .stiffness = stiffness,
+                               .electric = electric,
+                               .by_voltage = by_voltage};

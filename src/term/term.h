@@ -32,6 +32,13 @@ static inline double zp_span_damping(const ZpModel *model, const ZpSpan *span) {
   return span->h > 0 ? model->internal_damping / span->h : 0;
 }
 
+/* How a step goes with the voltage at its end. */
+typedef struct ZpByVoltage {
+  double *force;      /* [2 stride] derivative of the mean force by it, N/V */
+  double *charge;     /* [2 stride] of the charge at the end by its coordinates, C/m */
+  double capacitance; /* of that charge by it, F */
+} ZpByVoltage;
+
 typedef struct ZpTerm {
   const char *name;
   /* Does the model have it? NULL: every model has. */
@@ -55,6 +62,9 @@ typedef struct ZpTerm {
    * NULL: none. */
   void (*electric)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U,
                    ZpElectric *sum);
+  /* At the last force, of a step whose voltage at the end is unknown: sum += how mean force and charge go with it.
+   * NULL: they do not. */
+  void (*by_voltage)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpByVoltage *sum);
   /* A force that is held, being too dear to find at every span: find it at coordinates q and voltage U. Where it cannot
    * be, eval->fault says why. NULL: none is held. */
   bool (*solve)(const ZpModel *model, const double *q, double U, ZpEval *eval);
