@@ -4,15 +4,21 @@
 
 #include "base/kernel.h"
 
-static size_t number(const ZpModel *model, int *equation) {
+static size_t number(const ZpTopology *t, int *equation) {
   int next = 0;
-  for (size_t j = 0; j < model->count; j++) {
-    bool joined = model->s == 2 && j == 1;
-    bool free_x = model->masses.x.inverse[j] > 0, free_y = model->masses.y.inverse[j] > 0;
-    equation[2 * j] = joined ? equation[0] : free_x ? next++ : -1;
-    equation[2 * j + 1] = joined ? equation[1] : free_y ? next++ : -1;
+  for (size_t k = 0; k < 2 * t->nodes; k++) {
+    size_t leader = zp_topology_leader(t, k);
+    equation[k] = zp_topology_is_held(t, k) ? -1 : leader < k ? equation[leader] : next++;
   }
   return (size_t)next;
+}
+
+/* What the platform's ends have in common belongs to both halves. */
+static void count_halves(const ZpTopology *t, const ZpAssembly *a) {
+  for (size_t i = 0; i < a->n; i++)
+    a->halves[i] = 1;
+  for (size_t k = 2 * zp_upper(t, t->platform.first); k < 2 * zp_upper(t, t->platform.first + 1); k++)
+    if (a->equation[k] >= 0) a->halves[a->equation[k]] = (double)t->halves;
 }
 
 /* Coordinate - equation of all coordinates of stations i .. i + 2, if that is one number; else -1. */
@@ -27,13 +33,17 @@ static int shift_of(const ZpAssembly *a, size_t i) {
 
 bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
   *a = (ZpAssembly){.s = model->s, .nodes = model->nodes, .bandwidth = 6 * model->s - 1, .symmetric = symmetric};
+  const ZpTopology *t = &model->topology;
+  bool shared = t->halves > 1;
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->shift = zp_calloc(model->nodes, sizeof *a->shift);
-  if (!a->equation || !a->shift) {
+  a->halves = shared ? zp_calloc(2 * model->count, sizeof *a->halves) : NULL;
+  if (!a->equation || !a->shift || (shared && !a->halves)) {
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(model, a->equation);
+  a->n = number(t, a->equation);
+  if (shared) count_halves(t, a);
   for (size_t i = 0; i < model->nodes; i++)
     a->shift[i] = shift_of(a, i);
   return true;
@@ -42,6 +52,7 @@ bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
   zp_free(a->shift);
+  zp_free(a->halves);
   *a = (ZpAssembly){0};
 }
 

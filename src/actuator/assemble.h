@@ -11,7 +11,8 @@ typedef struct ZpAssembly {
   size_t n;         /* equations */
   size_t bandwidth; /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;   /* only the upper triangle is kept */
-  int *equation;    /* [2 count] numbered station by station; the clip's two nodes share theirs */
+  int *equation;    /* [2 count] numbered station by station; coordinates that are always the same share theirs */
+  double *halves;   /* [n] by how many halves of the actuator an equation is shared; NULL: the model has one half */
   int *shift;       /* [N] where all coordinates of stations i .. i + 2 are free: coordinate - equation; else -1 */
 } ZpAssembly;
 

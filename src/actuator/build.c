@@ -15,33 +15,28 @@ static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane == ZP_PLANE_STRAIN);
 }
 
-/* What a ribbon is along a piece of it. */
-typedef struct Place {
-  ZpSection section;
-  double curvature; /* natural, 1/m */
-} Place;
+/* What lies along a ribbon from its left end on. */
+static ZpRibbon ribbon_of(const ZpActuatorDef *def) {
+  ZpPlace place[ZP_PLACES] = {
+      {section_of(def, def->segment_1.thickness), def->segment_1.curvature, def->segment_1.length},
+      {section_of(def, def->segment_2.thickness), def->segment_2.curvature, def->segment_2.length},
+      {section_of(def, def->segment_3.thickness), def->segment_3.curvature, def->segment_3.length},
+      {section_of(def, def->ribbon.thickness), 0, INFINITY},
+  };
+  ZpRibbon ribbon;
+  double along = 0;
+  for (int k = 0; k < ZP_PLACES; k++) {
+    ribbon.place[k] = place[k];
+    ribbon.place[k].end = along += place[k].end;
+  }
+  return ribbon;
+}
 
 /* A piece of an edge: from `from` to `to`, in edge lengths. */
 typedef struct Piece {
-  Place place;
+  ZpPlace place;
   double from, to;
 } Piece;
-
-enum { SEGMENTS = 3, PIECES = SEGMENTS + 1 };
-
-/* What lies along the ribbon from the left end on: the segments, then the rest. => ends of each, m */
-static void places_of(const ZpModel *model, Place place[PIECES], double end[PIECES]) {
-  const ZpActuatorDef *def = &model->def;
-  const double lengths[SEGMENTS] = {def->segment_1.length, def->segment_2.length, def->segment_3.length};
-  place[0] = (Place){section_of(def, def->segment_1.thickness), def->segment_1.curvature};
-  place[1] = (Place){section_of(def, def->segment_2.thickness), def->segment_2.curvature};
-  place[2] = (Place){section_of(def, def->segment_3.thickness), def->segment_3.curvature};
-  place[3] = (Place){model->section, 0};
-  double along = 0;
-  for (int k = 0; k < SEGMENTS; k++)
-    end[k] = along += lengths[k];
-  end[SEGMENTS] = INFINITY;
-}
 
 /* A place along the ribbon in edge lengths; a node that rounding misses is that node. */
 static double in_edges(const ZpModel *model, double along) {
@@ -50,14 +45,13 @@ static double in_edges(const ZpModel *model, double along) {
   return fabs(edges - node) < missed ? node : edges;
 }
 
-/* The pieces of edge `station` between the ends of segments. => how many */
-static int pieces_of(const ZpModel *model, size_t station, Piece piece[PIECES]) {
-  Place place[PIECES];
-  double end[PIECES], from = 0;
+/* The pieces of edge `station` of the left half between the ends of segments. => how many */
+static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece piece[ZP_PLACES]) {
+  const ZpPlace *place = model->ribbon[ribbon].place;
+  double from = 0;
   int count = 0;
-  places_of(model, place, end);
-  for (int k = 0; k < PIECES && from < 1; k++) {
-    double to = fmin(in_edges(model, end[k]) - (double)station, 1);
+  for (int k = 0; k < ZP_PLACES && from < 1; k++) {
+    double to = fmin(in_edges(model, place[k].end) - (double)station, 1);
     if (to <= from) continue;
     piece[count++] = (Piece){place[k], from, to};
     from = to;
@@ -73,10 +67,10 @@ typedef struct Share {
   double mass;       /* kg */
 } Share;
 
-static Share share_of(const ZpModel *model, size_t station, bool right) {
-  Piece piece[PIECES];
+static Share share_of(const ZpModel *model, size_t ribbon, size_t station, bool right) {
+  Piece piece[ZP_PLACES];
   Share share = {0, 0, 0};
-  int count = pieces_of(model, station, piece);
+  int count = pieces_of(model, ribbon, station, piece);
   for (int k = 0; k < count; k++) {
     double middle = 0.5 * (piece[k].from + piece[k].to);
     double part = (piece[k].to - piece[k].from) * (right ? middle : 1 - middle) * model->l;
@@ -87,19 +81,22 @@ static Share share_of(const ZpModel *model, size_t station, bool right) {
   return share;
 }
 
-/* The sum of what the edges beside a node give to it. */
-static Share node_share(const ZpModel *model, size_t station) {
+/* The sum of what the edges beside node j give to it. A rigid edge gives nothing; those of the right half are mirror
+ * images. */
+static Share node_share(const ZpModel *model, size_t j) {
+  const ZpTopology *t = &model->topology;
+  size_t ribbon = j % t->ribbons, station = zp_topology_station_image(t, j / t->ribbons);
   Share left = {0, 0, 0}, right = {0, 0, 0};
-  if (station > 0) left = share_of(model, station - 1, true);
-  if (station + 1 < model->nodes) right = share_of(model, station, false);
+  if (station > 0) left = share_of(model, ribbon, station - 1, true);
+  if (station < zp_half_elements(t)) right = share_of(model, ribbon, station, false);
   return (Share){left.compliance + right.compliance, left.turn + right.turn, left.mass + right.mass};
 }
 
-/* Axial compliance of an edge, m/N. */
-static double edge_compliance(const ZpModel *model, size_t station) {
-  Piece piece[PIECES];
+/* Axial compliance of an edge of the left half, m/N. */
+static double edge_compliance(const ZpModel *model, size_t ribbon, size_t station) {
+  Piece piece[ZP_PLACES];
   double sum = 0;
-  int count = pieces_of(model, station, piece);
+  int count = pieces_of(model, ribbon, station, piece);
   for (int k = 0; k < count; k++)
     sum += (piece[k].to - piece[k].from) * model->l / piece[k].place.section.EA;
   return sum;
@@ -107,18 +104,23 @@ static double edge_compliance(const ZpModel *model, size_t station) {
 
 static ZpMassSpringParams spring_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double elements = (double)(model->nodes - 1), K_S = def->mass_spring.shear_coefficient;
-  double text = model->section.EA * elements / model->L, code = model->section.EA / (elements * model->L);
-  bool two = model->s == 2;
+  ZpSection section = zp_ribbon_section(model, 0);
+  double elements = (double)zp_half_elements(&model->topology), K_S = def->mass_spring.shear_coefficient;
+  double text = section.EA * elements / model->L, code = section.EA / (elements * model->L);
   return (ZpMassSpringParams){
       .ribbons = model->s,
       .nodes = model->nodes,
       .stride = model->stride,
       .l = model->l,
       .K_D = def->mass_spring.axial == ZP_AXIAL_TEXT ? text : code,
-      .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(model->section.EI, model->l, (int)model->nodes) : K_S,
+      .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(section.EI, model->l, def->mesh.nodes) : K_S,
       .left_slope = true,
-      .right_slope = two || def->actuator.right_end != ZP_END_FREE};
+      .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1)};
+}
+
+/* Length of platform at each station that it has, m. */
+static double platform_length(const ZpModel *model) {
+  return zp_is_pair(&model->topology) ? model->def.platform.length / 2 : 0;
 }
 
 static ZpPlatesParams plates_of(const ZpModel *model) {
@@ -136,7 +138,9 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .h_least = least_gap,
                           .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
                           .switch_offset = def->electro.switch_offset,
-                          .flat_length = model->s == 2 && def->platform.electrode ? def->platform.length / 2 : 0,
+                          .platform = model->topology.platform.first,
+                          .platform_end = model->topology.platform.last,
+                          .flat_length = def->platform.electrode ? platform_length(model) : 0,
                           .flat = model->flat,
                           .flat_height = def->electro.gap_offset};
 }
@@ -163,32 +167,19 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
                          .mesh = zp_field_mesh()};
 }
 
-/* Which coordinates of node j are held, and what it weighs. */
-typedef struct Node {
-  bool held_x, held_y;
-  double mass;
-} Node;
-
 /* Mass of the ribbon at a node: the paper's particles have 1/N each, eq. (6); the rod's nodes have their share of the
  * edges beside them, which keeps the centre of mass. */
-static double ribbon_mass(const ZpModel *model, size_t station) {
-  return model->is_rod ? node_share(model, station).mass : model->section.mu * model->L / (double)model->nodes;
+static double ribbon_mass(const ZpModel *model, size_t j) {
+  return model->is_rod ? node_share(model, j).mass
+                       : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
 
-static Node node_of(const ZpModel *model, size_t j) {
-  const ZpActuatorDef *def = &model->def;
-  size_t s = model->s, last = s * (model->nodes - 1);
-  Node node = {false, false, ribbon_mass(model, j / model->s)};
-  if (s == 2) { /* the upper platform is held, the lower one slides; the clip hangs free */
-    node.held_x = j >= last;
-    node.held_y = j == last;
-    if (j == last + 1) node.mass += def->load.share * def->load.mass;
-    return node;
-  }
-  bool clamped_right = def->actuator.right_end == ZP_END_CLAMPED;
-  node.held_x = node.held_y = j == 0 || (j == last && clamped_right);
-  if (j == last) node.mass += def->load.share * def->load.mass;
-  return node;
+/* With what hangs on it. */
+static double node_mass(const ZpModel *model, size_t j) {
+  const ZpTopology *t = &model->topology;
+  size_t station = j / t->ribbons;
+  bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
+  return ribbon_mass(model, j) + (carries ? model->def.load.share * model->def.load.mass : 0);
 }
 
 /* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
@@ -218,36 +209,58 @@ static double joined(double inverse1, double inverse2) {
   return inverse1 > 0 && inverse2 > 0 ? 1 / (1 / inverse1 + 1 / inverse2) : 0;
 }
 
+/* Of stretching and bending of one edge, as its nodes feel them at most, N/m. */
+static double edge_stiffness(const ZpModel *model, double EA, double EI) {
+  return 4 * EA / model->l + 16 * EI / (model->l * model->l * model->l);
+}
+
+/* A frequency of 1.4 in unit steps, below what relaxation allows. */
+static double pseudo_mass_of(const ZpModel *model) {
+  if (!model->is_rod) return 0.5 * (4 * model->spring.K_D + 16 * model->spring.K_S);
+  ZpSection one = zp_ribbon_section(model, 0), other = zp_ribbon_section(model, model->s - 1);
+  return 0.5 * edge_stiffness(model, fmax(one.EA, other.EA), fmax(one.EI, other.EI));
+}
+
 static void fill_masses(ZpModel *model, Arrays *a) {
-  double stiffness = 4 * model->spring.K_D + 16 * model->spring.K_S;
-  if (model->is_rod) {
-    ZpSection e = model->section;
-    stiffness = 4 * e.EA / model->l + 16 * e.EI / (model->l * model->l * model->l);
-  }
-  /* a frequency of 1.4 in unit steps, below what relaxation allows */
-  double pseudo = model->pseudo_mass = 0.5 * stiffness;
-  model->total_weight = 0;
+  const ZpTopology *t = &model->topology;
+  double pseudo = model->pseudo_mass = pseudo_mass_of(model), weight = 0;
   for (size_t j = 0; j < model->count; j++) {
-    Node node = node_of(model, j);
-    a->mass[j] = node.mass;
+    bool held_x = zp_topology_is_held(t, 2 * j), held_y = zp_topology_is_held(t, 2 * j + 1);
+    double mass = node_mass(model, j);
+    a->mass[j] = mass;
     a->pseudo[j] = pseudo;
-    a->weight[j] = node.mass * model->def.gravity;
-    a->x1[j] = node.held_x ? 0 : 1 / node.mass;
-    a->y1[j] = node.held_y ? 0 : 1 / node.mass;
-    a->px1[j] = node.held_x ? 0 : 1 / pseudo;
-    a->py1[j] = node.held_y ? 0 : 1 / pseudo;
-    if (!node.held_y) model->total_weight += a->weight[j];
+    a->weight[j] = mass * model->def.gravity;
+    a->x1[j] = held_x ? 0 : 1 / mass;
+    a->y1[j] = held_y ? 0 : 1 / mass;
+    a->px1[j] = held_x ? 0 : 1 / pseudo;
+    a->py1[j] = held_y ? 0 : 1 / pseudo;
+    if (!held_y) weight += a->weight[j];
   }
-  for (size_t i = 0; model->s == 2 && i < model->nodes; i++) {
-    a->x2[i] = joined(a->x1[2 * i], a->x1[2 * i + 1]);
-    a->y2[i] = joined(a->y1[2 * i], a->y1[2 * i + 1]);
-    a->px2[i] = joined(a->px1[2 * i], a->px1[2 * i + 1]);
-    a->py2[i] = joined(a->py1[2 * i], a->py1[2 * i + 1]);
+  model->total_weight = weight / (double)t->halves;
+  for (size_t i = 0; zp_is_pair(t) && i < model->nodes; i++) {
+    size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
+    a->x2[i] = joined(a->x1[upper], a->x1[lower]);
+    a->y2[i] = joined(a->y1[upper], a->y1[lower]);
+    a->px2[i] = joined(a->px1[upper], a->px1[lower]);
+    a->py2[i] = joined(a->py1[upper], a->py1[lower]);
   }
   model->mass = a->mass;
   model->weight = a->weight;
   model->masses = (ZpMasses){{a->mass, a->x1, a->x2}, {a->mass, a->y1, a->y2}};
   model->pseudo = (ZpMasses){{a->pseudo, a->px1, a->px2}, {a->pseudo, a->py1, a->py2}};
+}
+
+static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
+  const ZpJoint *platform = &model->topology.platform;
+  return (ZpRodParams){.ribbons = model->s,
+                       .nodes = model->nodes,
+                       .stride = model->stride,
+                       .l = a->rod_l,
+                       .S = a->rod_S,
+                       .B = a->rod_B,
+                       .k0 = a->rod_k0,
+                       .rigid = platform->first,
+                       .rigid_end = platform->last};
 }
 
 /* Without bending, for the axial springs of mass_spring over an implicit step. */
@@ -256,42 +269,41 @@ static void fill_chain(ZpModel *model, Arrays *a) {
     a->rod_l[j] = model->l;
     a->rod_S[j] = model->spring.K_D;
   }
-  model->rod = (ZpRodParams){model->s, model->nodes, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
+  model->rod = rod_of(model, a);
 }
 
 /* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a clamp is the held slope, over half an
  * edge, which makes it second order in l; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
-  size_t s = model->s, N = model->nodes;
-  bool right_slope = s == 2 || model->def.actuator.right_end != ZP_END_FREE;
+  const ZpTopology *t = &model->topology;
+  size_t last = model->nodes - 1;
   for (size_t j = 0; j < model->count; j++) {
-    size_t station = j / s;
-    Share share = node_share(model, station);
-    a->rod_B[j] = station + 1 == N && !right_slope ? 0 : 1 / share.compliance;
+    size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
+    Share share = node_share(model, j);
+    a->rod_B[j] = station == last && !zp_topology_holds_slope(t, last) ? 0 : 1 / share.compliance;
     a->rod_k0[j] = 2 * zp_tangent(0.5 * share.turn);
-    if (station + 1 == N) continue;
+    if (station == last) continue;
     a->rod_l[j] = model->l;
-    a->rod_S[j] = 1 / edge_compliance(model, station);
+    a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
   }
-  model->rod = (ZpRodParams){s, N, model->stride, a->rod_l, a->rod_S, a->rod_B, a->rod_k0};
+  model->rod = rod_of(model, a);
 }
 
 /* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.5): an edge of several pieces is as stiff as its
  * stiffest and as light as its lightest. */
 static double frequency_bound(const ZpModel *model) {
-  double l = model->l, stiffest = 0;
-  if (!model->is_rod)
-    return zp_massspring_frequency_bound(&model->spring, model->section.mu * model->L / (double)model->nodes);
-  for (size_t i = 0; i + 1 < model->nodes; i++) {
-    Piece piece[PIECES];
-    int count = pieces_of(model, i, piece);
+  double stiffest = 0;
+  if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, ribbon_mass(model, 0));
+  for (size_t j = 0; j < model->s * zp_half_elements(&model->topology); j++) {
+    Piece piece[ZP_PLACES];
+    int count = pieces_of(model, j % model->s, j / model->s, piece);
     double EA = 0, EI = 0, mu = INFINITY;
     for (int k = 0; k < count; k++) {
       EA = fmax(EA, piece[k].place.section.EA);
       EI = fmax(EI, piece[k].place.section.EI);
       mu = fmin(mu, piece[k].place.section.mu);
     }
-    stiffest = fmax(stiffest, (4 * EA / l + 16 * EI / (l * l * l)) / (mu * l));
+    stiffest = fmax(stiffest, edge_stiffness(model, EA, EI) / (mu * model->l));
   }
   return sqrt(stiffest);
 }
@@ -302,7 +314,7 @@ static double layer_stiffness(const ZpModel *model) {
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  return E * def->ribbon.width / ((model->s == 2 ? 2 : 1) * fmax(def->insulator.thickness, thinnest));
+  return E * def->ribbon.width / ((double)model->s * fmax(def->insulator.thickness, thinnest));
 }
 
 /* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
@@ -322,9 +334,16 @@ static ZpFacesParams faces_of(const ZpModel *model) {
   double depth = fmin(fmax(part * model->plates.d, least), ZP_CLOSED_GAP);
   const ZpActuatorDef *def = &model->def;
   double stiffest = layer_stiffness(model) * depth / 3;
-  double weight = model->section.mu * def->gravity; /* the load hangs: it presses no faces */
+  double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
+  double weight = heavier * def->gravity; /* the load hangs: it presses no faces */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
-  return (ZpFacesParams){model->nodes, model->l, depth, push, model->s == 2 ? def->platform.length / 2 : 0};
+  return (ZpFacesParams){.nodes = model->nodes,
+                         .l = model->l,
+                         .depth = depth,
+                         .push = push,
+                         .platform = model->topology.platform.first,
+                         .platform_end = model->topology.platform.last,
+                         .flat_length = platform_length(model)};
 }
 
 /* damping.internal, or what auto stands for: docs/theory.md, section 18. */
@@ -342,29 +361,35 @@ static double contact_frequency(const ZpModel *model) {
   enum { DEPTH = 5 };
   const ZpActuatorDef *def = &model->def;
   const ZpFacesParams *p = &model->faces;
-  double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, mu = model->section.mu, half = 0.5 * model->l;
+  double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, half = 0.5 * model->l;
+  double mu = fmin(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double platform = stiffness * (half + p->flat_length);
   return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
-static void derive(ZpModel *model) {
+static void derive(ZpModel *model, const ZpActuatorDef *lower) {
   const ZpActuatorDef *def = &model->def;
-  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
-  model->s = two ? 2 : 1;
-  model->nodes = (size_t)def->mesh.nodes;
-  model->count = model->s * model->nodes;
+  const ZpTopology *t = &model->topology;
+  model->topology = zp_topology_of(def);
+  bool two = zp_is_pair(t);
+  model->s = t->ribbons;
+  model->nodes = t->stations;
+  model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = def->actuator.kind != ZP_KIND_RIBBON;
   model->flat = def->actuator.kind == ZP_KIND_FLANGE;
-  model->parts = two ? 2 : 1;
+  model->parts = two ? 2 / (double)t->halves : 1;
   model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
-  model->l = model->L / (double)(model->nodes - 1);
-  model->section = section_of(def, def->ribbon.thickness);
+  model->l = model->L / (double)zp_half_elements(t);
+  model->ribbon[0] = ribbon_of(def);
+  model->ribbon[1] = ribbon_of(lower);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->spring = model->shear = spring_of(model);
+  double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
+  model->axial_stiffness = model->is_rod ? EA / model->l : model->spring.K_D;
   model->shear.K_D = 0;
   model->plates = plates_of(model);
-  model->field_solved = model->s == 2 && def->electro.model == ZP_ELECTRO_FIELD;
+  model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
   model->faces = faces_of(model);
   model->internal_damping = internal_damping_of(def);
@@ -416,6 +441,11 @@ ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) 
 }
 
 ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
+  return zp_model_create_unlike(def, NULL, table, out, err);
+}
+
+ZpStatus zp_model_create_unlike(const ZpActuatorDef *def, const ZpActuatorDef *lower, const ZpDriveTable *table,
+                                ZpModel **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
   if (status == ZP_OK) status = check_table(def, table, err);
@@ -424,7 +454,7 @@ ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *ta
   ZpModel *model = zp_calloc(1, sizeof *model);
   if (!model) return zp_fail_memory(err);
   model->def = *def;
-  derive(model);
+  derive(model, lower ? lower : def);
   Arrays arrays;
   model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
   status = model->memory ? ZP_OK : zp_fail_memory(err);
@@ -458,14 +488,15 @@ const ZpActuatorDef *zp_model_def(const ZpModel *model) {
 
 ZpModelInfo zp_model_info(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
+  ZpSection section = zp_ribbon_section(model, 0);
   double metal_to_metal = 2 * def->insulator.thickness, highest = zp_waveform_largest(&model->waveform);
   return (ZpModelInfo){.ribbons = (int)model->s,
                        .nodes = (int)model->nodes,
                        .flexible_length = model->L,
                        .element_length = model->l,
-                       .bending_stiffness = model->section.EI,
-                       .axial_stiffness = model->section.EA,
-                       .line_mass = model->section.mu,
+                       .bending_stiffness = section.EI,
+                       .axial_stiffness = section.EA,
+                       .line_mass = section.mu,
                        .axial_spring = model->spring.K_D,
                        .shear_coefficient = model->spring.K_S,
                        .insulator_offset = model->plates.d,

@@ -1,6 +1,6 @@
 /* The inside of a model, a state and an eval: what actuator/, sim/ and study/ share.
  *
- * Node i of ribbon r is at [i * s + r] (s ribbons; of two, the upper is 0). Arrays over nodes have `stride`
+ * Node i of ribbon r is at [i * s + r] (topology.h). Arrays over nodes have `stride`
  * places, a multiple of ZP_LANES, so that kernels need no remainder, over edges either; places beyond `count` hold
  * nodes that lie on the prolonged ribbon, weigh nothing and never move. Coordinates q hold all x, then all y, `stride`
  * apart; velocities v and accelerations a likewise.
@@ -10,6 +10,7 @@
 
 #include <zipact/model.h>
 
+#include "actuator/topology.h"
 #include "contact/faces.h"
 #include "drive/waveform.h"
 #include "electro/edges.h"
@@ -26,17 +27,32 @@ typedef struct ZpMasses {
   ZpZipMasses x, y;
 } ZpMasses;
 
+/* What a ribbon is along a part of it, to `end` from its left end, m. */
+typedef struct ZpPlace {
+  ZpSection section;
+  double curvature; /* natural, 1/m */
+  double end;
+} ZpPlace;
+
+/* The segments from the left end on, then the rest, without end. */
+enum { ZP_REST = 3, ZP_PLACES };
+typedef struct ZpRibbon {
+  ZpPlace place[ZP_PLACES];
+} ZpRibbon;
+
 struct ZpModel {
   ZpActuatorDef def;
-  size_t s, nodes, count; /* ribbons, N, s N */
+  ZpTopology topology;
+  size_t s, nodes, count; /* of it: ribbons, stations, nodes */
   size_t stride;          /* count, rounded up */
   bool field;             /* there are electrodes that attract each other */
   bool field_solved;      /* in two dimensions, beyond the plates law */
   bool flat;              /* one ribbon below a flat electrode */
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
-  double L, l;            /* flexible length, element, m */
-  ZpSection section;
-  bool is_rod; /* mechanics: rod, else spring */
+  double L, l;            /* flexible length of a half or of the one ribbon, element, m */
+  ZpRibbon ribbon[2];     /* upper or only one, lower one */
+  double axial_stiffness; /* of the stiffest edge, N/m */
+  bool is_rod;            /* mechanics: rod, else spring */
   ZpMassSpringParams spring;
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
@@ -52,7 +68,7 @@ struct ZpModel {
   double pseudo_mass;   /* kg, in units of the pseudo-time step */
   const double *weight; /* [stride] of each node with its load, N */
   const double *mass;   /* [stride] kg */
-  double total_weight;  /* of what moves, N */
+  double total_weight;  /* of what moves, of one half, N */
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
 };
@@ -101,9 +117,44 @@ static inline double *zp_state_v(const ZpModel *model, ZpState *state) {
   return state->data + 2 * model->stride;
 }
 
+/* Section of a ribbon beyond its segments. */
+static inline ZpSection zp_ribbon_section(const ZpModel *model, size_t ribbon) {
+  return model->ribbon[ribbon].place[ZP_REST].section;
+}
+
+/* The fraction of the load that the modelled part carries: load.share at each end that it hangs on. */
+static inline double zp_load_share(const ZpModel *model) {
+  return (double)zp_load_ends(&model->topology) * model->def.load.share;
+}
+
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */
 static inline double zp_state_load(const ZpModel *model, const ZpState *state, double t) {
-  return model->def.load.share * zp_ramp_value(&state->load_input, t);
+  return zp_load_share(model) * zp_ramp_value(&state->load_input, t);
+}
+
+/* Where a station of the straight actuator is, m; beyond the right end, of the prolonged ribbon. */
+static inline double zp_straight_x(const ZpModel *model, size_t station) {
+  const ZpJoint *platform = &model->topology.platform;
+  double rigid = (double)(platform->last - platform->first);
+  return (double)station * model->l + (station < platform->last ? 0 : rigid * (model->def.platform.length - model->l));
+}
+
+/* Coordinates of an actuator whose lengths L are `stretch` times these ones, laid so that the platform has its own
+ * length. */
+static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
+  const ZpJoint *platform = &model->topology.platform;
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    q[k] *= stretch;
+  if (platform->first == platform->last) return;
+  size_t right = zp_upper(&model->topology, platform->last);
+  double shift = zp_straight_x(model, platform->last) - q[right];
+  for (size_t j = right; j < model->stride; j++)
+    q[j] += shift;
+}
+
+/* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
+static inline double zp_faces_length(const ZpModel *model) {
+  return model->parts * (double)model->topology.halves * (model->L + model->plates.flat_length);
 }
 
 /* The same by axis, for reading. */
@@ -136,5 +187,11 @@ static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
 }
 
 size_t zp_state_size(const ZpModel *model);
+
+/* As zp_model_create_driven, the lower of two ribbons unlike the upper one: of `lower`, thickness, modulus, Poisson's
+ * ratio, density and plane of its strip, density and modulus of its insulator, and its segments count, no other keys.
+ * NULL: both are alike. Of ribbon.model rod. */
+ZpStatus zp_model_create_unlike(const ZpActuatorDef *def, const ZpActuatorDef *lower, const ZpDriveTable *table,
+                                ZpModel **model, ZpError *err);
 
 #endif

@@ -33,18 +33,24 @@ static void add_element(const ZpFacesParams *p, const double *gap, size_t i, con
   }
 }
 
+static void add_platform(const ZpFacesParams *p, const double *gap, size_t i, const ZpFacesEval *e) {
+  double s = depth(p, gap[i]), f = p->flat_length * p->push * s * s;
+  e->push[i] += f * s;
+  e->own[i] += 3 * f / p->depth;
+  e->stiffness[i] += 3 * f / p->depth;
+}
+
 void zp_faces_eval(const ZpFacesParams *p, const double *gap, const ZpFacesEval *e) {
-  size_t last = p->nodes - 1;
   memset(e->push, 0, p->nodes * sizeof *e->push);
   memset(e->own, 0, p->nodes * sizeof *e->own);
   memset(e->next, 0, p->nodes * sizeof *e->next);
   memset(e->stiffness, 0, p->nodes * sizeof *e->stiffness);
-  for (size_t i = 0; i < last; i++)
+  for (size_t i = 0; i < p->platform; i++)
     if (gap[i] < 0 || gap[i + 1] < 0) add_element(p, gap, i, e);
-  double s = depth(p, gap[last]), f = p->flat_length * p->push * s * s;
-  e->push[last] += f * s;
-  e->own[last] += 3 * f / p->depth;
-  e->stiffness[last] += 3 * f / p->depth;
+  for (size_t i = p->platform_end; i + 1 < p->nodes; i++)
+    if (gap[i] < 0 || gap[i + 1] < 0) add_element(p, gap, i, e);
+  for (size_t i = p->platform; i <= p->platform_end; i++)
+    add_platform(p, gap, i, e);
 }
 
 double zp_faces_kept(const ZpFacesEval *e, size_t i, double reduced_mass, double dt) {
@@ -53,7 +59,7 @@ double zp_faces_kept(const ZpFacesEval *e, size_t i, double reduced_mass, double
 
 size_t zp_faces_front(const ZpFacesParams *p, const double *gap) {
   size_t front = 0;
-  while (front + 1 < p->nodes && gap[front + 1] < ZP_CLOSED_GAP)
+  while (front < p->platform && gap[front + 1] < ZP_CLOSED_GAP)
     front++;
   return front;
 }

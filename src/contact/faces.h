@@ -17,7 +17,8 @@ typedef struct ZpFacesParams {
   double l;           /* element length, m */
   double depth;       /* delta: overlap at which the push is p_c, m */
   double push;        /* p_c, N/m */
-  double flat_length; /* of the platform's faces, at the gap of the last station, m */
+  size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
+  double flat_length;            /* of its faces, at the gap of each of these, m */
 } ZpFacesParams;
 
 /* Faces closer than that count as closed, m: far below a micrometre, far above rounding. */
@@ -42,7 +43,7 @@ void zp_faces_eval(const ZpFacesParams *params, const double *gap, const ZpFaces
  * dt. */
 double zp_faces_kept(const ZpFacesEval *eval, size_t i, double reduced_mass, double dt);
 
-/* How many stations from the clip on are closed, the clip not counted. */
+/* How many stations from the first clip to the platform are closed, the clip not counted. */
 size_t zp_faces_front(const ZpFacesParams *params, const double *gap);
 
 #endif

@@ -79,12 +79,14 @@ void zp_plates_gaps(const ZpPlatesParams *p, const double *x, const double *y, Z
     gaps_below_flat(p, x, y, e);
   else
     gaps(p->nodes, x, y, e->gap, e->dx);
+  for (size_t i = p->platform; i < p->platform_end; i++)
+    e->dx[i] = 0;
 }
 
 double zp_plates_least_gap(const ZpPlatesParams *p, const double *y) {
   double least = INFINITY;
   for (size_t i = 0; i < p->nodes; i++)
-    least = fmin(least, p->flat ? p->flat_height - y[i] : y[2 * i] - y[2 * i + 1]);
+    least = fmin(least, zp_plates_gap(p, y, i));
   return least;
 }
 
@@ -156,6 +158,7 @@ ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *p, const ZpPlatesEval *e, 
     add_elements_with_edges(p, e, U, &totals);
   else
     add_elements(p, e, U, zp_plates_least_h(p, U), &totals);
-  if (p->flat_length > 0) add_piece(p, U, e->gap[p->nodes - 1], p->flat_length, &totals);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
+    add_piece(p, U, e->gap[i], p->flat_length, &totals);
   return totals;
 }

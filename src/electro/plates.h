@@ -25,7 +25,8 @@ typedef struct ZpPlatesParams {
   double switch_offset;     /* what it takes for g + d - g, m */
   bool flat;                /* one ribbon below a flat electrode instead of two that face each other */
   double flat_height;       /* y of that electrode's face, m */
-  double flat_length;       /* of the platform's electrode, at the gap of the last station, m; 0 without */
+  size_t platform, platform_end; /* first and last station of the platform: elements between them attract nothing */
+  double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
 
   const struct ZpEdgeLaw *edges; /* what lateral edges add, edges.h; NULL without */
 } ZpPlatesParams;
@@ -58,7 +59,12 @@ void zp_plates_carve(const ZpPlatesParams *params, ZpPlatesEval *eval, ZpCarver 
 /* (x, y of interleaved upper and lower nodes) => eval->gap and eval->dx. */
 void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double *y, ZpPlatesEval *eval);
 
-/* (y of interleaved upper and lower nodes; flat: of one ribbon's) => the smallest gap of facing nodes, m. */
+/* (y of interleaved upper and lower nodes; flat: of one ribbon's) => the gap of station i, m. */
+static inline double zp_plates_gap(const ZpPlatesParams *params, const double *y, size_t i) {
+  return params->flat ? params->flat_height - y[i] : y[2 * i] - y[2 * i + 1];
+}
+
+/* The same => the smallest gap of facing nodes, m. */
 double zp_plates_least_gap(const ZpPlatesParams *params, const double *y);
 
 /* Integrals over the polyline at the gaps of the last eval. */

@@ -174,7 +174,7 @@ static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along
   s->Fy[2 * i + 1] = closing;
 }
 
-static void stations(const ZpPlatesParams *p, ZpPlatesStep *s, Between platform) {
+static void stations(const ZpPlatesParams *p, ZpPlatesStep *s) {
   size_t last = p->nodes - 1;
   act(p, s, 0, 0.5 * s->P[0], s->A[0]);
   s->own[0] = s->own_A[0];
@@ -182,8 +182,19 @@ static void stations(const ZpPlatesParams *p, ZpPlatesStep *s, Between platform)
     act(p, s, i, 0.5 * (s->P[i] - s->P[i - 1]), s->A[i] + s->B[i - 1]);
     s->own[i] = s->own_A[i] + s->own_B[i - 1];
   }
-  act(p, s, last, -0.5 * s->P[last - 1], s->B[last - 1] + p->flat_length * platform.W);
-  s->own[last] = s->own_B[last - 1] + p->flat_length * platform.slope;
+  act(p, s, last, -0.5 * s->P[last - 1], s->B[last - 1]);
+  s->own[last] = s->own_B[last - 1];
+}
+
+/* The platform's electrode, at both its ends where it has two. */
+static void add_platform(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
+                         ZpPlatesStep *s) {
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+    Between law = mean_between(p, laws, e0->gap[i], e1->gap[i]);
+    s->Fy[2 * i] -= p->flat_length * law.W;
+    s->Fy[2 * i + 1] += p->flat_length * law.W;
+    s->own[i] += p->flat_length * law.slope;
+  }
 }
 
 void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U0, double U1,
@@ -198,7 +209,8 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
     elements_at_one(last, &laws, p->d, e0, e1, s);
   else
     elements_at_two(last, &laws, p->d, e0, e1, s);
-  stations(p, s, mean_between(p, &laws, e0->gap[last], e1->gap[last]));
+  stations(p, s);
+  add_platform(p, &laws, e0, e1, s);
 }
 
 void zp_plates_rest(const ZpPlatesParams *p, const double *x, const double *y, double U, ZpPlatesEval *e,

@@ -4,19 +4,21 @@
 #include <string.h>
 
 static size_t last_to_close(const ZpModel *model) {
-  bool clamped = model->flat && model->def.actuator.right_end == ZP_END_CLAMPED;
-  return clamped ? (model->nodes - 1) / 2 : model->nodes - 1;
+  const ZpJoint *end = &model->topology.platform;
+  return end->kind == ZP_JOINT_CLAMP ? end->first / 2 : end->first;
 }
 
 double zp_closing_gap(void *self, double *row) {
   const ZpStatics *s = self;
   const ZpModel *model = s->model;
-  size_t station = last_to_close(model), lower = model->s * station + model->s - 1;
+  const ZpTopology *t = &model->topology;
+  size_t station = last_to_close(model);
   if (row) {
-    const int *equation = s->assembly.equation;
+    int lower = s->assembly.equation[2 * zp_lower(t, station) + 1],
+        upper = s->assembly.equation[2 * zp_upper(t, station) + 1];
     memset(row, 0, s->assembly.n * sizeof *row);
-    if (equation[2 * lower + 1] >= 0) row[equation[2 * lower + 1]] -= 1;
-    if (model->s == 2 && equation[2 * lower - 1] >= 0) row[equation[2 * lower - 1]] += 1;
+    if (lower >= 0) row[lower] -= 1;
+    if (zp_is_pair(t) && upper >= 0) row[upper] += 1;
   }
   return s->eval.plates.gap[station];
 }

@@ -105,7 +105,8 @@ static void tangent(void *self, ZpBordered *J) {
 
 /* -- faces that meet ------------------------------------------------------------------------------ */
 
-/* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. */
+/* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. Both ends
+ * of a platform are alike: one tells of both. */
 typedef struct Pair {
   int upper, lower;
   double upper_share; /* of the pair's mass */
@@ -113,14 +114,16 @@ typedef struct Pair {
 } Pair;
 
 static Pair pair_of(const ZpDynamics *d, size_t i) {
-  size_t s = d->model->s, lower = s * i + s - 1;
-  Pair pair = {s == 2 ? d->assembly.equation[2 * lower - 1] : -1, d->assembly.equation[2 * lower + 1], 1, 0};
+  const ZpTopology *t = &d->model->topology;
+  const int *equation = d->assembly.equation;
+  size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
+  Pair pair = {zp_is_pair(t) ? equation[2 * upper + 1] : -1, equation[2 * lower + 1], 1, 0};
   if (pair.lower < 0) return pair;
-  pair.reduced = d->mass[pair.lower];
+  pair.reduced = d->model->mass[lower];
   if (pair.upper < 0) return pair;
-  double upper = d->mass[pair.upper], both = upper + d->mass[pair.lower];
-  pair.upper_share = upper / both;
-  pair.reduced = upper * d->mass[pair.lower] / both;
+  double both = d->model->mass[upper] + d->model->mass[lower];
+  pair.upper_share = d->model->mass[upper] / both;
+  pair.reduced = d->model->mass[upper] * d->model->mass[lower] / both;
   return pair;
 }
 
@@ -132,7 +135,7 @@ static void keep_apart(const ZpDynamics *d, double *q1) {
   for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(d, i);
     if (pair.lower < 0) continue;
-    double held = model->s == 2 ? y[2 * i] : model->plates.flat_height;
+    double held = zp_is_pair(&model->topology) ? y[zp_upper(&model->topology, i)] : model->plates.flat_height;
     double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
     bool overlapped = d->eval.plates_start.gap[i] < 0;
     if (!(overlap > 0) && !overlapped) continue;
@@ -177,8 +180,10 @@ static double kinetic_energy(const ZpDynamics *d) {
   return sum / 2;
 }
 
-/* The damper takes relative velocity from station i. */
+/* The damper takes relative velocity from station i, of a platform from its first one. */
 static void damp(ZpDynamics *d, size_t i) {
+  const ZpJoint *platform = &d->model->topology.platform;
+  if (i > platform->first && i <= platform->last) return;
   Pair pair = pair_of(d, i);
   if (pair.lower < 0) return;
   double apart = (pair.upper >= 0 ? d->v[pair.upper] : 0) - d->v[pair.lower];
@@ -215,6 +220,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   if (!zp_assembly_create(model, true, &d->assembly)) return false;
   d->system = (ZpImplicitSystem){.n = d->assembly.n,
                                  .bandwidth = d->assembly.bandwidth,
+                                 .weight = d->assembly.halves,
                                  .self = d,
                                  .begin = begin,
                                  .residual = force,

@@ -43,10 +43,8 @@ static void lay_straight(ZpStatics *s) {
   const ZpModel *model = s->model;
   memset(s->q, 0, 2 * model->stride * sizeof *s->q);
   memset(s->tension, 0, model->stride * sizeof *s->tension);
-  for (size_t j = 0; j < model->stride; j++) {
-    size_t station = j / model->s;
-    s->q[j] = (double)station * model->l;
-  }
+  for (size_t j = 0; j < model->stride; j++)
+    s->q[j] = zp_straight_x(model, j / model->s);
 }
 
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
@@ -59,7 +57,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
     zp_statics_destroy(s);
     return false;
   }
-  s->scale = fmax(model->total_weight, 1e-3);
+  s->scale = zp_eval_weight_scale(model);
   s->load = model->def.load.mass;
   put_on(s, 1);
   s->opening = NAN;
@@ -76,8 +74,7 @@ void zp_statics_destroy(ZpStatics *s) {
 
 double zp_statics_tolerance(const ZpStatics *s) {
   const ZpModel *model = s->model;
-  double stiffest = model->is_rod ? model->section.EA / model->l : model->spring.K_D;
-  return fmax(1e-3 * model->def.solver.tolerance, 4 * DBL_EPSILON * model->L * stiffest / s->scale);
+  return fmax(1e-3 * model->def.solver.tolerance, 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
 }
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
@@ -163,8 +160,7 @@ static bool has_jumped(const ZpStatics *s) {
   const ZpModel *model = s->model;
   const double *y = s->good + model->stride;
   for (size_t i = 0; i < model->nodes; i++) {
-    size_t lower = model->s * i + model->s - 1;
-    double before = (model->s == 2 ? y[lower - 1] : model->plates.flat_height) - y[lower];
+    double before = zp_plates_gap(&model->plates, y, i);
     if (!(fabs(s->eval.plates.gap[i] - before) < jump * (fabs(before) + model->plates.d))) return true;
   }
   return false;
@@ -212,13 +208,11 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
 }
 
 double zp_statics_stroke(const ZpStatics *s) {
-  const double *y = s->q + s->model->stride;
-  return y[s->model->s - 1] - y[s->model->count - 1];
+  return zp_stroke(&s->model->topology, s->q + s->model->stride);
 }
 
 double zp_statics_opening(const ZpStatics *s) {
-  const double *y = s->q + s->model->stride;
-  return s->model->s == 2 ? y[s->model->count - 2] - y[s->model->count - 1] : NAN;
+  return zp_opening(&s->model->topology, s->q + s->model->stride);
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
@@ -254,7 +248,7 @@ static double closed_capacitance(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
   double per_length =
       zp_plates_inverse_gap(&s->model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  return s->model->parts * per_length * (s->model->L + s->model->plates.flat_length);
+  return per_length * zp_faces_length(s->model);
 }
 
 const char *zp_statics_fault(const ZpStatics *s) {
@@ -289,14 +283,14 @@ static bool is_held(const ZpStatics *s) {
 }
 
 static size_t platform_row(const ZpStatics *s) {
-  return (size_t)s->assembly.equation[2 * (s->model->count - 1) + 1];
+  return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
 }
 
-/* The equation is a force for the tolerance's sake: a stiffness times the way that is left. */
+/* The equation is a force for the tolerance's sake: a stiffness, of each half, times the way that is left. */
 static double holding(const ZpStatics *s) {
   static const double soft = 1e-3; /* of the stiffest: what rounding leaves of y then counts nothing */
   const ZpModel *model = s->model;
-  return soft * (model->is_rod ? model->section.EA / model->l : model->spring.K_D);
+  return soft * (double)model->topology.halves * model->axial_stiffness;
 }
 
 static void hold_platform(ZpStatics *s, double *r) {
@@ -327,12 +321,22 @@ static ZpSpan span_of(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
   ZpSpan span = zp_span_at(s->q);
   span.U0 = span.U1 = s->U;
-  span.load = def->load.share * (s->load - def->load.mass) * def->gravity;
+  span.load = zp_load_share(s->model) * (s->load - def->load.mass) * def->gravity;
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
   span.beyond = zp_eval_beyond(&s->eval);
   span.tension = s->tension;
   return span;
+}
+
+/* The largest force left, on each half of the actuator, N. */
+static double largest_of(const ZpAssembly *a, const double *r) {
+  double largest = 0;
+  for (size_t i = 0; i < a->n; i++) {
+    double left = a->halves ? fabs(r[i]) / a->halves[i] : fabs(r[i]);
+    if (!(left <= largest)) largest = left;
+  }
+  return largest;
 }
 
 static ZpEnd residual(void *self, double *r, double *size) {
@@ -347,9 +351,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
     if (row >= 0) r[row] += s->force[k / 2 + (k % 2) * stride];
   }
   if (is_held(s)) hold_platform(s, r);
-  double largest = 0;
-  for (size_t i = 0; i < s->assembly.n; i++)
-    if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
+  double largest = largest_of(&s->assembly, r);
   if (size) *size = largest / s->scale;
   return isfinite(largest) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
@@ -394,10 +396,11 @@ static double length(void *self, const double *step) {
 static double gap_share(const ZpStatics *s, const double *step) {
   const ZpModel *model = s->model;
   const ZpPlatesParams *p = &model->plates;
+  const ZpTopology *t = &model->topology;
   double most = 0, least_h = zp_plates_least_h(p, s->U);
   for (size_t i = 0; i < model->nodes; i++) {
-    size_t lower = model->s * i + model->s - 1;
-    double dy = part(s, step, 2 * lower + 1) - (model->s == 2 ? part(s, step, 2 * lower - 1) : 0);
+    double upper = zp_is_pair(t) ? part(s, step, 2 * zp_upper(t, i) + 1) : 0;
+    double dy = part(s, step, 2 * zp_lower(t, i) + 1) - upper;
     most = fmax(most, fabs(dy) / fmax(s->eval.plates.gap[i] + p->d, least_h));
   }
   return most;
@@ -454,31 +457,70 @@ static void lay_one(ZpStatics *s) {
   }
 }
 
-/* Lay two ribbons from the upper platform to the clip and back to the lower one, which keeps its x. */
+/* The way along one half from its upper platform to its clip, and back to the lower platform. */
+typedef struct Loop {
+  size_t platform; /* station */
+  bool left;       /* half */
+  size_t elements;
+} Loop;
+
+/* The station that is `k` elements from the platform, and the left one of the element behind it. */
+static size_t station_of(const Loop *loop, size_t k) {
+  return loop->left ? loop->platform - k : loop->platform + k;
+}
+
+static size_t element_of(const Loop *loop, size_t k) {
+  return loop->left ? loop->platform - k - 1 : loop->platform + k;
+}
+
+/* Lay both ribbons of a half along its loop, with edges `d` that count to the right. */
+static void lay_loop(const ZpTopology *t, const Loop *loop, const double *d, double *q) {
+  size_t clip = station_of(loop, loop->elements);
+  double towards_clip = loop->left ? -1 : 1;
+  for (size_t k = 0; k < loop->elements; k++) {
+    size_t from = zp_upper(t, station_of(loop, k)), to = zp_upper(t, station_of(loop, k + 1));
+    q[to] = q[from] + towards_clip * d[zp_upper(t, element_of(loop, k))];
+  }
+  q[zp_lower(t, clip)] = q[zp_upper(t, clip)];
+  for (size_t k = loop->elements; k-- > 0;) {
+    size_t from = zp_lower(t, station_of(loop, k + 1)), to = zp_lower(t, station_of(loop, k));
+    q[to] = q[from] - towards_clip * d[zp_lower(t, element_of(loop, k))];
+  }
+}
+
+/* What misses the lower platform is spread along the loop. */
+static void spread(const ZpTopology *t, const Loop *loop, double missed, double *q) {
+  double path = 2 * (double)loop->elements;
+  for (size_t k = 0; k <= loop->elements; k++) {
+    size_t i = station_of(loop, k);
+    q[zp_upper(t, i)] -= missed * ((double)k / path);
+    q[zp_lower(t, i)] -= missed * ((double)(2 * loop->elements - k) / path);
+  }
+}
+
+/* Lay two ribbons; the lower platform keeps its x and, where two halves meet there, gets the mean of their y. */
 static void lay_two(ZpStatics *s) {
   const ZpModel *model = s->model;
-  size_t stride = model->stride, N = model->nodes;
-  for (size_t c = 0; c < 2; c++) {
-    double *q = s->q + c * stride;
-    const double *d = s->moved + c * stride;
-    for (size_t i = N - 1; i-- > 0;)
-      q[2 * i] = q[2 * i + 2] - d[2 * i];
-    q[1] = q[0];
-    for (size_t i = 0; i + 1 < N; i++)
-      q[2 * i + 3] = q[2 * i + 1] + d[2 * i + 1];
+  const ZpTopology *t = &model->topology;
+  size_t stride = model->stride, elements = zp_half_elements(t);
+  const Loop loop[2] = {{t->platform.first, true, elements}, {t->platform.last, false, elements}};
+  double *x = s->q, *y = s->q + stride, sum = 0;
+  for (size_t h = 0; h < t->halves; h++) {
+    size_t upper = zp_upper(t, loop[h].platform), lower = zp_lower(t, loop[h].platform);
+    lay_loop(t, &loop[h], s->moved, x);
+    lay_loop(t, &loop[h], s->moved + stride, y);
+    spread(t, &loop[h], x[lower] - x[upper], x);
+    sum += y[lower];
   }
-  double missed = s->q[2 * N - 1] - s->q[2 * N - 2], path = 2 * (double)(N - 1);
-  for (size_t i = 0; i < N; i++) {
-    double upper = (double)(N - 1 - i) / path, lower = (double)(N - 1 + i) / path;
-    s->q[2 * i] -= missed * upper;
-    s->q[2 * i + 1] -= missed * lower;
-  }
+  double mean = sum / (double)t->halves;
+  for (size_t h = 0; h < t->halves && t->halves > 1; h++)
+    spread(t, &loop[h], y[zp_lower(t, loop[h].platform)] - mean, y);
 }
 
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   turn_edges(s, step, fraction);
-  if (s->model->s == 2)
+  if (zp_is_pair(&s->model->topology))
     lay_two(s);
   else
     lay_one(s);

@@ -56,19 +56,23 @@ ZP_KERNEL static void joint_curvatures(size_t s, size_t padded, const ZpRodEval 
   }
 }
 
-/* What lies beyond the last edges, where kernels over whole lanes have written. */
-static void hold_right_ends(const ZpRodParams *p, const ZpRodEval *e) {
+/* What lies beyond the last edges, and rigid edges, where kernels over whole lanes have written. */
+static void hold_slopes(const ZpRodParams *p, const ZpRodEval *e) {
   size_t edges = edge_count(p);
   for (size_t j = edges; j < edges + p->ribbons; j++) {
     e->ux[j] = 1;
     e->uy[j] = e->inverse[j] = 0;
+  }
+  for (size_t j = p->ribbons * p->rigid; j < p->ribbons * p->rigid_end; j++) {
+    e->dpx[j] = e->ux[j] = 1;
+    e->dpy[j] = e->uy[j] = e->inverse[j] = e->T[j] = 0;
   }
 }
 
 void zp_rod_eval(const ZpRodParams *p, const double *x, const double *y, ZpRodEval *e) {
   size_t edges = edge_count(p);
   edge_directions(p, zp_round_up(edges), x, y, e);
-  hold_right_ends(p, e);
+  hold_slopes(p, e);
   joint_curvatures(p->ribbons, zp_round_up(edges + p->ribbons), e);
 }
 

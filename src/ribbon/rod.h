@@ -2,8 +2,8 @@
  * are those of rod_step.h, over a time step or at rest.
  *
  * All ribbons at once: node i of ribbon r is at [i * ribbons + r], edge i (node i to i+1) and joint i (at
- * node i) likewise. Joints stand at every node; those of the first and last nodes tie the rod to a held
- * slope, over half a cell, or are absent (B = 0) at a free end. */
+ * node i) likewise. Joints stand at every node; those of the first and last nodes, and at both ends
+ * of rigid edges, tie the rod to a held slope, over half a cell, or are absent (B = 0) at a free end. */
 #ifndef ZP_RIBBON_ROD_H
 #define ZP_RIBBON_ROD_H
 
@@ -19,12 +19,13 @@ typedef struct ZpRodParams {
   const double *S;  /* [stride] stretching stiffness EA / l of edges, N/m */
   const double *B;  /* [stride] bending stiffness of joints, EI over their length of rod, N m */
   const double *k0; /* [stride] natural 2 tan(phi / 2) of joints */
+  size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
 } ZpRodParams;
 
 /* Written by zp_rod_eval. Arrays over edges and joints, with one edge more before the first and after the
  * last of each ribbon: the held slopes. */
 typedef struct ZpRodEval {
-  double *dpx, *dpy; /* edges, m */
+  double *dpx, *dpy; /* edges, m; rigid: 1, 0 */
   double *ux, *uy;   /* their unit vectors; outside: horizontal */
   double *inverse;   /* 1 / length; outside: 0, a held slope does not turn */
   double *T;         /* [stride] tension of edges, N */

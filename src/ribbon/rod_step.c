@@ -83,10 +83,13 @@ ZP_KERNEL static void edges_at_rest(const ZpRodParams *p, size_t padded, const Z
   mean_edges(p, padded, e, e, 0, true, s);
 }
 
-/* What lies beyond the last edges, where the kernel over whole lanes has written: held slopes never turn. */
-static void hold_right_ends(const ZpRodParams *p, const ZpRodStep *s) {
+/* What lies beyond the last edges, where the kernel over whole lanes has written: held slopes never turn; and rigid
+ * edges, which do not stretch either: they have the length 1 and no tension at both ends. */
+static void hold_slopes(const ZpRodParams *p, const ZpRodStep *s) {
   for (size_t j = edge_count(p); j < edge_count(p) + p->ribbons; j++)
     s->turn[j] = s->gx[j] = s->gy[j] = 0;
+  for (size_t j = p->ribbons * p->rigid; j < p->ribbons * p->rigid_end; j++)
+    s->turn[j] = s->gx[j] = s->gy[j] = s->tx[j] = s->ty[j] = 0;
 }
 
 ZP_INLINE void mean_joints(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
@@ -151,13 +154,13 @@ void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
   size_t edges = edge_count(p), padded = zp_round_up(edges), joints = zp_round_up(edges + p->ribbons);
   if (e0 == e1) {
     edges_at_rest(p, padded, e1, s);
-    hold_right_ends(p, s);
+    hold_slopes(p, s);
     joints_at_rest(p, joints, e1, s);
   } else {
     foresee(p, padded, e1, damping, s);
     s->begun = true;
     edges_over_step(p, padded, e0, e1, damping, s);
-    hold_right_ends(p, s);
+    hold_slopes(p, s);
     joints_over_step(p, joints, e0, e1, damping, s);
   }
   edge_forces(p, edges, s);

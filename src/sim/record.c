@@ -38,12 +38,11 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
   ZpMotion motion = zp_state_motion(model, state);
-  const double *y = motion.y;
-  size_t s = model->s, end = model->count - 1;
-  row[SIGNAL_stroke] = y[s - 1] - y[end];
-  row[SIGNAL_end_velocity] = motion.vy[end];
+  const ZpTopology *t = &model->topology;
+  row[SIGNAL_stroke] = zp_stroke(t, motion.y);
+  row[SIGNAL_end_velocity] = motion.vy[zp_load_node(t)];
   row[SIGNAL_zipped_length] = (double)state->zip.front * model->l;
-  row[SIGNAL_opening] = s == 2 ? y[end - 1] - y[end] : NAN;
+  row[SIGNAL_opening] = zp_opening(t, motion.y);
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
 

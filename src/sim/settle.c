@@ -100,13 +100,12 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
   if (goes_on) return true;
   /* of one straight ribbon neither a start nor a reference is needed */
-  if (model->s == 1 && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
+  if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
   if (!solve(sim, q, &found)) return false;
   if (!found) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
-  const double *y = q + model->stride;
-  if (model->s == 2) sim->state->opening0 = y[model->count - 2] - y[model->count - 1];
+  if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM)
     memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
   return true;

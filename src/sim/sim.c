@@ -44,10 +44,8 @@ static bool allocate(ZpSim *sim) {
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
-  for (size_t j = 0; j < model->stride; j++) {
-    size_t station = j / model->s;
-    q[j] = (double)station * model->l;
-  }
+  for (size_t j = 0; j < model->stride; j++)
+    q[j] = zp_straight_x(model, j / model->s);
 }
 
 /* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
@@ -174,8 +172,7 @@ static bool prepare_step(ZpSim *sim) {
 /* -- one step ------------------------------------------------------------------------------------- */
 
 static double opening(const ZpModel *model, const ZpState *state) {
-  const double *y = zp_state_motion(model, state).y;
-  return y[model->count - 2] - y[model->count - 1];
+  return zp_opening(&model->topology, zp_state_motion(model, state).y);
 }
 
 static bool is_open(const ZpModel *model, const ZpState *state) {
@@ -185,7 +182,7 @@ static bool is_open(const ZpModel *model, const ZpState *state) {
 /* From open to closed, or, where it started closed, held there by the platforms' faces. */
 static bool reached_zip(const ZpModel *model, const ZpState *state) {
   size_t margin = (size_t)model->def.contact.complete_margin;
-  if (margin) return state->zip.front + 1 + margin >= model->nodes;
+  if (margin) return state->zip.front + margin >= model->topology.platform.first;
   return state->opening0 > 0 && (state->zip.platform || (state->was_open && !is_open(model, state)));
 }
 
@@ -193,7 +190,7 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
 static bool closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin) return true;
-  return state->zip.platform || zp_state_motion(model, state).vy[model->count - 1] <= 0;
+  return state->zip.platform || zp_state_motion(model, state).vy[zp_load_node(&model->topology)] <= 0;
 }
 
 /* Do electrodes without an insulator touch under a voltage? */

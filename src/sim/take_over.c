@@ -14,8 +14,8 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   ZpState *state = sim->state;
   double opening0 = state->opening0, stretch = model->L / other->L;
   memcpy(state, from->state, zp_state_size(model));
-  double *moving[] = {zp_state_q(model, state), zp_state_v(model, state), zp_state_mean_v(model, state),
-                      zp_state_mean_a(model, state)};
+  double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
+  zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
     for (size_t j = 0; j < 2 * model->stride; j++)
       moving[k][j] *= stretch;

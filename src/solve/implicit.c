@@ -33,12 +33,17 @@ static double scale_of(const ZpImplicitSystem *system, size_t i) {
 
 /* Root mean square of `counted` unknowns in their scales; the others are 0. */
 static double rms(const ZpImplicitSystem *system, const double *x, size_t counted) {
-  double sum = 0;
+  double sum = 0, all = (double)counted;
   for (size_t i = 0; i < system->n; i++) {
     double size = x[i] / scale_of(system, i);
     sum += size * size;
   }
-  return counted > 0 ? sqrt(sum / (double)counted) : 0;
+  for (size_t i = 0; system->weight && i < system->n; i++) {
+    double size = x[i] / scale_of(system, i), more = system->weight[i] - 1;
+    sum += more * size * size;
+    all += more;
+  }
+  return counted > 0 ? sqrt(sum / all) : 0;
 }
 
 static double largest(const ZpImplicitSystem *system, const double *x) {

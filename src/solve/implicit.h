@@ -29,6 +29,7 @@ typedef struct ZpImplicitSystem {
   size_t lower;          /* and below; 0: it is symmetric, and only the upper triangle is kept */
   const ZpUnknown *kind; /* [n]; NULL: all of second order */
   const double *scale;   /* [n] positive: what counts as much as 1 m of a position; NULL: all 1 */
+  const double *weight;  /* [n] for how many like unknowns it stands in a mean; NULL: all 1 */
   void *self;            /* handed to the functions below */
   const double *mass;    /* [n] 0 or more, the inertia that the stepper adds; 0 of what is not of second order */
   /* A step begins at y0 [n], with velocities v0 [n], 0 of what is not of second order; both stay valid until it ends =>

@@ -92,7 +92,7 @@ static bool asked_to_stop(const Holder *h) {
 /* Can the present state be? Its force is at most the attraction of closed faces. */
 static bool is_possible(Holder *h) {
   const ZpPlatesParams *plates = &h->rest.statics.model->plates;
-  double most = zp_plates_law(plates, h->rest.statics.U, 0).W * (h->model->L + plates->flat_length) * h->model->parts;
+  double most = zp_plates_law(plates, h->rest.statics.U, 0).W * zp_faces_length(h->model);
   h->fault = zp_statics_fault(&h->rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;

@@ -60,8 +60,7 @@ static void take(Finder *f, const double *state) {
   ZpStatics *s = &f->rest.statics;
   double own = s->load, ratio = f->model->L / f->near->L;
   f->slow.square.restore(s, state);
-  for (size_t k = 0; k < 2 * f->model->stride; k++)
-    s->q[k] *= ratio;
+  zp_stretch(f->model, ratio, s->q);
   s->load = own;
   zp_statics_stable(s, &f->rest.branch.newton);
 }

@@ -20,7 +20,7 @@ static ZpSeen stronger(ZpSeen a, ZpSeen b) {
 }
 
 ZpSeen zp_seen_in(const ZpModel *model, double highest, const ZpShapes *film, size_t frames) {
-  ZpSeen seen = model->s == 2 ? zp_seen_at(model, highest, 0) : (ZpSeen){0, 0};
+  ZpSeen seen = zp_is_pair(&model->topology) ? zp_seen_at(model, highest, 0) : (ZpSeen){0, 0};
   for (size_t i = 0; model->flat && film && i < film->frames && i < frames; i++) {
     ZpShape shape = zp_shapes_get(film, i);
     seen = stronger(seen, zp_seen_at(model, shape.voltage, zp_plates_least_gap(&model->plates, shape.y)));
@@ -45,10 +45,11 @@ void zp_note_breakdown(ZpResult *result, const ZpModel *model, ZpSeen seen) {
 /* Length over which closed faces part by the range of their attraction, m, eq. (9.4). INFINITY where none zip. */
 static double front_length(const ZpModel *model, double voltage) {
   const ZpActuatorDef *def = &model->def;
-  bool zips = model->s == 2 || (model->flat && def->electro.gap_offset == 0);
+  bool pair = zp_is_pair(&model->topology), zips = pair || (model->flat && def->electro.gap_offset == 0);
   if (!zips || voltage == 0 || def->electro.surface != ZP_SURFACE_POLYLINE) return INFINITY;
   ZpPlatesLaw closed = zp_plates_law(&model->plates, voltage, 0);
-  double bend = (model->s == 2 ? 1 : 2) * model->section.EI;
+  double upper = zp_ribbon_section(model, 0).EI, lower = zp_ribbon_section(model, 1).EI;
+  double bend = pair ? 2 / (1 / upper + 1 / lower) : 2 * upper; /* twice that of what parts */
   return closed.W > 0 ? sqrt(sqrt(bend * -closed.P)) / sqrt(closed.W) : INFINITY;
 }
 
@@ -56,14 +57,14 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   static const double fewest = 6; /* elements: docs/theory.md, section 9, has what this and the other bound leave */
   double front = front_length(model, voltage), elements = model->L / model->l;
   if (elements < fewest)
-    zp_result_note(result, "mesh.nodes = %zu: with fewer than %g elements a shape at rest is off by some 5 %% or more",
-                   model->nodes, fewest);
+    zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements a shape at rest is off by some 5 %% or more",
+                   model->def.mesh.nodes, fewest);
   if (model->l > front)
     zp_result_note(
         result,
-        "mesh.nodes = %zu: elements of %.3g mm are longer than the zip front, %.3g mm; pull-in, zip time and "
+        "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm; pull-in, zip time and "
         "force are off by some 10 %% or more; mesh.nodes = %.0f leaves some 5 %%",
-        model->nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
+        model->def.mesh.nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
 }
 
 void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames) {

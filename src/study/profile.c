@@ -402,6 +402,9 @@ ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "actuator.kind = %s: study profile requires actuator.kind electro_ribbon, which has two ribbons",
                    zp_word_of("actuator.kind", (int)def->actuator.kind));
+  if (def->actuator.symmetry != ZP_SYMMETRY_HALF)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "actuator.symmetry = none: study profile solves the field of one half; use actuator.symmetry half");
   if (def->insulator.thickness == 0)
     return zp_fail(
         err, ZP_BAD_INPUT,

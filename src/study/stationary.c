@@ -19,16 +19,13 @@ enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
 static void fill_table(const ZpStatics *s, ZpTable *table) {
   const ZpModel *model = s->model;
+  const ZpTopology *t = &model->topology;
   const double *x = s->q, *y = s->q + model->stride;
-  for (size_t i = 0; i < model->nodes; i++) {
-    size_t lower = model->s * i + model->s - 1;
-    bool last = i + 1 == model->nodes, two = model->s == 2;
-    double row[COLUMNS] = {(double)i,
-                           x[lower],
-                           y[lower],
-                           last ? NAN : s->eval.edges.T[lower],
-                           two ? x[lower - 1] : NAN,
-                           two ? y[lower - 1] : NAN};
+  for (size_t i = 0; i < t->stations; i++) {
+    size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
+    bool edge = i + 1 < t->stations && (i < t->platform.first || i >= t->platform.last), two = zp_is_pair(t);
+    double row[COLUMNS] = {
+        (double)i, x[lower], y[lower], edge ? s->eval.edges.T[lower] : NAN, two ? x[upper] : NAN, two ? y[upper] : NAN};
     zp_table_offer(table, row);
   }
 }
@@ -56,7 +53,7 @@ static void run(ZpRest *rest, ZpResult *result) {
   result->outcome = found ? ZP_CONVERGED : ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "%s", words_of(info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
-  if (s->model->s == 2) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
+  if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
   zp_result_note_model(result, s->model, 0, 0);

@@ -8,13 +8,12 @@ static bool acts(const ZpModel *model) {
 /* Up on the upper ribbon, down on the lower or only one. */
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (span->faces_pass) return;
-  size_t s = model->s;
+  const ZpTopology *t = &model->topology;
   double *Fy = F + model->stride;
   zp_faces_eval(&model->faces, e->plates.gap, &e->faces);
   for (size_t i = 0; i < model->nodes; i++) {
-    size_t lower = s * i + s - 1;
-    Fy[lower] -= e->faces.push[i];
-    if (s == 2) Fy[lower - 1] += e->faces.push[i];
+    Fy[zp_lower(t, i)] -= e->faces.push[i];
+    if (zp_is_pair(t)) Fy[zp_upper(t, i)] += e->faces.push[i];
   }
 }
 

@@ -11,7 +11,9 @@ ZP_KERNEL static void subtract(size_t stride, double share, const double *weight
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
   subtract(model->stride, span->share, model->weight, F + model->stride);
-  F[model->stride + model->count - 1] -= span->load;
+  const ZpTopology *t = &model->topology;
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    F[model->stride + zp_lower(t, i)] -= span->load / (double)zp_load_ends(t);
 }
 
 static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {

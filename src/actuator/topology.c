@@ -1,0 +1,88 @@
+#include "actuator/topology.h"
+
+/* What a joint does to the nodes of its stations. */
+typedef struct Hold {
+  bool unites;  /* upper and lower node are one */
+  bool x;       /* held */
+  bool y[2];    /* held: of the upper or only ribbon, of the lower one */
+  bool slope;   /* horizontal */
+} Hold;
+
+static const Hold hold_of[ZP_JOINT_KINDS] = {
+    [ZP_JOINT_CLIP] = {.unites = true, .slope = true},
+    [ZP_JOINT_CLAMP] = {.x = true, .y = {true, true}, .slope = true},
+    [ZP_JOINT_GUIDE] = {.slope = true},
+    [ZP_JOINT_FREE] = {0},
+    [ZP_JOINT_PLATFORM] = {.x = true, .y = {true, false}, .slope = true},
+};
+
+static void add(ZpTopology *t, ZpJointKind kind, size_t first, size_t last) {
+  t->joint[t->joints++] = (ZpJoint){kind, first, last};
+}
+
+/* One ribbon, clamped at its left end. */
+static void of_one(ZpRightEnd end, size_t nodes, ZpTopology *t) {
+  static const ZpJointKind right[] = {
+      [ZP_END_GUIDED] = ZP_JOINT_GUIDE, [ZP_END_FREE] = ZP_JOINT_FREE, [ZP_END_CLAMPED] = ZP_JOINT_CLAMP};
+  t->stations = nodes;
+  add(t, ZP_JOINT_CLAMP, 0, 0);
+  add(t, right[end], nodes - 1, nodes - 1);
+  t->platform = t->joint[1];
+}
+
+/* Two ribbons from the left clip to the platform and, if there are two halves, on to the right clip. */
+static void of_two(size_t halves, size_t nodes, ZpTopology *t) {
+  t->halves = halves;
+  t->stations = halves * nodes;
+  add(t, ZP_JOINT_CLIP, 0, 0);
+  add(t, ZP_JOINT_PLATFORM, nodes - 1, nodes + halves - 2);
+  t->platform = t->joint[1];
+  if (halves == 2) add(t, ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
+}
+
+ZpTopology zp_topology_of(const ZpActuatorDef *def) {
+  bool pair = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON, whole = def->actuator.symmetry == ZP_SYMMETRY_NONE;
+  size_t nodes = (size_t)def->mesh.nodes;
+  ZpTopology t = {.ribbons = pair ? 2 : 1, .halves = 1};
+  if (pair)
+    of_two(whole ? 2 : 1, nodes, &t);
+  else
+    of_one(def->actuator.right_end, nodes, &t);
+  t.nodes = t.ribbons * t.stations;
+  return t;
+}
+
+/* The joint that holds a station; NULL if none does. */
+static const ZpJoint *joint_at(const ZpTopology *t, size_t station) {
+  for (size_t k = 0; k < t->joints; k++)
+    if (t->joint[k].first <= station && station <= t->joint[k].last) return &t->joint[k];
+  return NULL;
+}
+
+bool zp_topology_is_held(const ZpTopology *t, size_t k) {
+  const ZpJoint *joint = joint_at(t, k / 2 / t->ribbons);
+  if (!joint) return false;
+  const Hold *hold = &hold_of[joint->kind];
+  bool is_y = k % 2 == 1;
+  return is_y ? hold->y[k / 2 % t->ribbons] : hold->x;
+}
+
+size_t zp_topology_leader(const ZpTopology *t, size_t k) {
+  const ZpJoint *joint = joint_at(t, k / 2 / t->ribbons);
+  if (!joint) return k;
+  size_t ribbon = hold_of[joint->kind].unites ? 0 : k / 2 % t->ribbons;
+  return 2 * (t->ribbons * joint->first + ribbon) + k % 2;
+}
+
+bool zp_topology_holds_slope(const ZpTopology *t, size_t station) {
+  const ZpJoint *joint = joint_at(t, station);
+  return joint && hold_of[joint->kind].slope;
+}
+
+size_t zp_topology_station_image(const ZpTopology *t, size_t station) {
+  return station <= t->platform.first ? station : t->stations - 1 - station;
+}
+
+size_t zp_topology_element_image(const ZpTopology *t, size_t element) {
+  return element < t->platform.first ? element : t->stations - 2 - element;
+}

@@ -1,0 +1,94 @@
+/* What an actuator consists of: how many ribbons, how many stations along them, what joins and holds them at their ends,
+ * and where the platform is. The one place that says so: all others ask for the platform, the clip or the nodes of a
+ * station. docs/theory.md, section 2.
+ *
+ * Stations are numbered from left to right. Node j = station * ribbons + ribbon; of two ribbons, 0 is the upper one.
+ * Coordinate k = 2 j is x of node j, 2 j + 1 its y. */
+#ifndef ZP_ACTUATOR_TOPOLOGY_H
+#define ZP_ACTUATOR_TOPOLOGY_H
+
+#include <math.h>
+#include <zipact/def.h>
+
+typedef enum ZpJointKind {
+  ZP_JOINT_CLIP,     /* both nodes are one; horizontal */
+  ZP_JOINT_CLAMP,    /* held; horizontal */
+  ZP_JOINT_GUIDE,    /* free to move; horizontal */
+  ZP_JOINT_FREE,     /* free to move and to turn */
+  ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
+  ZP_JOINT_KINDS
+} ZpJointKind;
+
+/* One body holds the stations first .. last. */
+typedef struct ZpJoint {
+  ZpJointKind kind;
+  size_t first, last;
+} ZpJoint;
+
+enum { ZP_MOST_JOINTS = 3 };
+
+typedef struct ZpTopology {
+  size_t ribbons;  /* 1 or 2 */
+  size_t stations; /* of each ribbon */
+  size_t nodes;    /* of all */
+  size_t halves;   /* modelled: 1, or 2 from clip to clip; 1 of one ribbon */
+  size_t joints;
+  ZpJoint joint[ZP_MOST_JOINTS];
+  ZpJoint platform; /* the one that the load hangs on; of one ribbon its right end. Of a half, a half of the platform */
+} ZpTopology;
+
+/* (def) => its topology. */
+ZpTopology zp_topology_of(const ZpActuatorDef *def);
+
+/* Is a coordinate held, whatever acts on it? */
+bool zp_topology_is_held(const ZpTopology *topology, size_t coordinate);
+
+/* The first coordinate that always is as this one: itself, or one of a node of the same body. */
+size_t zp_topology_leader(const ZpTopology *topology, size_t coordinate);
+
+/* Does what is at this station, if anything, keep the ribbons horizontal? */
+bool zp_topology_holds_slope(const ZpTopology *topology, size_t station);
+
+/* The station, or element (by its left station), of the left half that mirrors this one; itself if it is there. */
+size_t zp_topology_station_image(const ZpTopology *topology, size_t station);
+size_t zp_topology_element_image(const ZpTopology *topology, size_t element);
+
+/* Nodes of a station; of one ribbon both are the only one. */
+static inline size_t zp_upper(const ZpTopology *t, size_t station) {
+  return t->ribbons * station;
+}
+
+static inline size_t zp_lower(const ZpTopology *t, size_t station) {
+  return t->ribbons * station + t->ribbons - 1;
+}
+
+static inline bool zp_is_pair(const ZpTopology *t) {
+  return t->ribbons == 2;
+}
+
+/* The nodes that the load hangs on. The platform is rigid: where there are two, one tells of both. */
+static inline size_t zp_load_node(const ZpTopology *t) {
+  return zp_lower(t, t->platform.first);
+}
+
+/* How many ends of ribbons the load hangs on. */
+static inline size_t zp_load_ends(const ZpTopology *t) {
+  return t->platform.last - t->platform.first + 1;
+}
+
+/* Elements of a ribbon from its left end to the platform, or to its right end. */
+static inline size_t zp_half_elements(const ZpTopology *t) {
+  return t->platform.first;
+}
+
+/* (y of all nodes) => height of the clip or the left end over the lower platform or the right end, m. */
+static inline double zp_stroke(const ZpTopology *t, const double *y) {
+  return y[zp_lower(t, 0)] - y[zp_load_node(t)];
+}
+
+/* Distance of the platforms' faces, m; NAN for one ribbon. */
+static inline double zp_opening(const ZpTopology *t, const double *y) {
+  return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - y[zp_load_node(t)] : NAN;
+}
+
+#endif
