@@ -566,7 +566,13 @@ START_TEST(test_newton_without_residual) {
   double K[1], r[1];
   ZpNewtonWork work = {.K = {.n = 1, .stride = 1, .a = K}, .r = r};
   Rest rest = {0, 0.5, 0};
-  ZpStaticSystem system = {1, &rest, rest_left, rest_stiffness, rest_length, rest_change, rest_move, NULL};
+  ZpStaticSystem system = {.n = 1,
+                           .self = &rest,
+                           .residual = rest_left,
+                           .stiffness = rest_stiffness,
+                           .length = rest_length,
+                           .change = rest_change,
+                           .move = rest_move};
   ck_assert_int_eq(zp_newton(&system, 1e-12, 20, &work).end, ZP_NEWTON_CONVERGED);
   ck_assert_double_eq(rest.q, 0.5);
   rest = (Rest){0, 2, 0};

@@ -13,12 +13,13 @@ static size_t number(const ZpTopology *t, int *equation) {
   return (size_t)next;
 }
 
-/* What the platform's ends have in common belongs to both halves. */
-static void count_halves(const ZpTopology *t, const ZpAssembly *a) {
-  for (size_t i = 0; i < a->n; i++)
-    a->halves[i] = 1;
-  for (size_t k = 2 * zp_upper(t, t->platform.first); k < 2 * zp_upper(t, t->platform.first + 1); k++)
-    if (a->equation[k] >= 0) a->halves[a->equation[k]] = (double)t->halves;
+/* Two halves have the platform's coordinates in common, as far as they are not held. */
+static ZpParts parts_of(const ZpTopology *t, const int *equation) {
+  ZpParts parts = {.more = t->halves - 1};
+  size_t first = 2 * zp_upper(t, t->platform.first), end = 2 * zp_upper(t, t->platform.first + 1);
+  for (size_t k = first; parts.more && k < end; k++)
+    if (equation[k] >= 0) parts.common[parts.count++] = (size_t)equation[k];
+  return parts;
 }
 
 /* Coordinate - equation of all coordinates of stations i .. i + 2, if that is one number; else -1. */
@@ -33,17 +34,14 @@ static int shift_of(const ZpAssembly *a, size_t i) {
 
 bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
   *a = (ZpAssembly){.s = model->s, .nodes = model->nodes, .bandwidth = 6 * model->s - 1, .symmetric = symmetric};
-  const ZpTopology *t = &model->topology;
-  bool shared = t->halves > 1;
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->shift = zp_calloc(model->nodes, sizeof *a->shift);
-  a->halves = shared ? zp_calloc(2 * model->count, sizeof *a->halves) : NULL;
-  if (!a->equation || !a->shift || (shared && !a->halves)) {
+  if (!a->equation || !a->shift) {
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(t, a->equation);
-  if (shared) count_halves(t, a);
+  a->n = number(&model->topology, a->equation);
+  a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
     a->shift[i] = shift_of(a, i);
   return true;
@@ -52,7 +50,6 @@ bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
   zp_free(a->shift);
-  zp_free(a->halves);
   *a = (ZpAssembly){0};
 }
 

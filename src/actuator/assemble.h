@@ -5,6 +5,7 @@
 
 #include "actuator/model.h"
 #include "math/band.h"
+#include "solve/parts.h"
 
 typedef struct ZpAssembly {
   size_t s, nodes;  /* ribbons; stations, N */
@@ -12,7 +13,7 @@ typedef struct ZpAssembly {
   size_t bandwidth; /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;   /* only the upper triangle is kept */
   int *equation;    /* [2 count] numbered station by station; coordinates that are always the same share theirs */
-  double *halves;   /* [n] by how many halves of the actuator an equation is shared; NULL: the model has one half */
+  ZpParts parts;    /* halves, and the equations that both have */
   int *shift;       /* [N] where all coordinates of stations i .. i + 2 are free: coordinate - equation; else -1 */
 } ZpAssembly;
 

@@ -107,15 +107,15 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
   ZpSection section = zp_ribbon_section(model, 0);
   double elements = (double)zp_half_elements(&model->topology), K_S = def->mass_spring.shear_coefficient;
   double text = section.EA * elements / model->L, code = section.EA / (elements * model->L);
-  return (ZpMassSpringParams){
-      .ribbons = model->s,
-      .nodes = model->nodes,
-      .stride = model->stride,
-      .l = model->l,
-      .K_D = def->mass_spring.axial == ZP_AXIAL_TEXT ? text : code,
-      .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(section.EI, model->l, def->mesh.nodes) : K_S,
-      .left_slope = true,
-      .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1)};
+  return (ZpMassSpringParams){.ribbons = model->s,
+                              .nodes = model->nodes,
+                              .stride = model->stride,
+                              .l = model->l,
+                              .K_D = def->mass_spring.axial == ZP_AXIAL_TEXT ? text : code,
+                              .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(section.EI, model->l, def->mesh.nodes)
+                                                : K_S,
+                              .left_slope = true,
+                              .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1)};
 }
 
 /* Length of platform at each station that it has, m. */

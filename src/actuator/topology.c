@@ -2,10 +2,10 @@
 
 /* What a joint does to the nodes of its stations. */
 typedef struct Hold {
-  bool unites;  /* upper and lower node are one */
-  bool x;       /* held */
-  bool y[2];    /* held: of the upper or only ribbon, of the lower one */
-  bool slope;   /* horizontal */
+  bool unites; /* upper and lower node are one */
+  bool x;      /* held */
+  bool y[2];   /* held: of the upper or only ribbon, of the lower one */
+  bool slope;  /* horizontal */
 } Hold;
 
 static const Hold hold_of[ZP_JOINT_KINDS] = {

@@ -13,10 +13,10 @@
 #include "base/memory.h"
 
 typedef struct ZpFacesParams {
-  size_t nodes;       /* N stations; the first is the clip, which is closed by itself */
-  double l;           /* element length, m */
-  double depth;       /* delta: overlap at which the push is p_c, m */
-  double push;        /* p_c, N/m */
+  size_t nodes;                  /* N stations; the first is the clip, which is closed by itself */
+  double l;                      /* element length, m */
+  double depth;                  /* delta: overlap at which the push is p_c, m */
+  double push;                   /* p_c, N/m */
   size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
   double flat_length;            /* of its faces, at the gap of each of these, m */
 } ZpFacesParams;

@@ -482,14 +482,15 @@ static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
   static const struct {
     const char *key;
     int needed;
-  } needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},     {"ribbon.model", ZP_RIBBON_ROD},
-               {"electro.model", ZP_ELECTRO_PLATES},          {"electro.surface", ZP_SURFACE_POLYLINE},
-               {"contact.model", ZP_CONTACT_UNILATERAL},      {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+  } needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_ROD},
+               {"electro.model", ZP_ELECTRO_PLATES},      {"electro.surface", ZP_SURFACE_POLYLINE},
+               {"contact.model", ZP_CONTACT_UNILATERAL},  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
   for (size_t i = 0; def->actuator.symmetry == ZP_SYMMETRY_NONE && i < sizeof needs / sizeof needs[0]; i++) {
     int given = (int)zp_def_get(def, zp_key_find(needs[i].key));
     if (given != needs[i].needed)
-      return zp_fail(err, ZP_BAD_INPUT, "actuator.symmetry = none: requires %s %s, but it is %s; use actuator.symmetry half",
-                     needs[i].key, zp_word_of(needs[i].key, needs[i].needed), zp_word_of(needs[i].key, given));
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "actuator.symmetry = none: requires %s %s, but it is %s; use actuator.symmetry half", needs[i].key,
+                     zp_word_of(needs[i].key, needs[i].needed), zp_word_of(needs[i].key, given));
   }
   return ZP_OK;
 }

@@ -15,16 +15,16 @@
 #define ZP_EPS0 8.8541878128e-12 /* electric constant, F/m, CODATA 2018 */
 
 typedef struct ZpPlatesParams {
-  size_t nodes;             /* N stations */
-  size_t stride;            /* places of arrays over the nodes of both ribbons, at least 2 N */
-  double k;                 /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
-  double d;                 /* liquid thickness that stands for both insulators, m */
-  double h_per_volt;        /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
-  double h_least;           /* g + d below which the law is not followed further, m */
-  double h_switch_per_volt; /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
-  double switch_offset;     /* what it takes for g + d - g, m */
-  bool flat;                /* one ribbon below a flat electrode instead of two that face each other */
-  double flat_height;       /* y of that electrode's face, m */
+  size_t nodes;                  /* N stations */
+  size_t stride;                 /* places of arrays over the nodes of both ribbons, at least 2 N */
+  double k;                      /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
+  double d;                      /* liquid thickness that stands for both insulators, m */
+  double h_per_volt;             /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
+  double h_least;                /* g + d below which the law is not followed further, m */
+  double h_switch_per_volt;      /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
+  double switch_offset;          /* what it takes for g + d - g, m */
+  bool flat;                     /* one ribbon below a flat electrode instead of two that face each other */
+  double flat_height;            /* y of that electrode's face, m */
   size_t platform, platform_end; /* first and last station of the platform: elements between them attract nothing */
   double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
 

@@ -220,7 +220,7 @@ bool zp_dynamics_create(const ZpModel *model, ZpDynamics *d) {
   if (!zp_assembly_create(model, true, &d->assembly)) return false;
   d->system = (ZpImplicitSystem){.n = d->assembly.n,
                                  .bandwidth = d->assembly.bandwidth,
-                                 .weight = d->assembly.halves,
+                                 .parts = d->assembly.parts,
                                  .self = d,
                                  .begin = begin,
                                  .residual = force,

@@ -329,13 +329,19 @@ static ZpSpan span_of(const ZpStatics *s) {
   return span;
 }
 
-/* The largest force left, on each half of the actuator, N. */
-static double largest_of(const ZpAssembly *a, const double *r) {
-  double largest = 0;
-  for (size_t i = 0; i < a->n; i++) {
-    double left = a->halves ? fabs(r[i]) / a->halves[i] : fabs(r[i]);
-    if (!(left <= largest)) largest = left;
-  }
+/* Forces on what both halves have, r, times a factor. */
+static void scale_common(const ZpParts *parts, double factor, double *r) {
+  for (size_t k = 0; k < parts->count; k++)
+    r[parts->common[k]] *= factor;
+}
+
+/* The largest force left on one half, N. */
+static double largest_of(const ZpAssembly *a, double *r) {
+  double largest = 0, halves = (double)(1 + a->parts.more);
+  scale_common(&a->parts, 1 / halves, r);
+  for (size_t i = 0; i < a->n; i++)
+    if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
+  scale_common(&a->parts, halves, r);
   return largest;
 }
 
@@ -533,8 +539,15 @@ static ZpEnd refresh(void *self) {
 }
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
-  return (ZpStaticSystem){s->assembly.n, s,      residual, stiffness,
-                          length,        change, move,     s->model->field_solved ? refresh : NULL};
+  return (ZpStaticSystem){.n = s->assembly.n,
+                          .parts = s->assembly.parts,
+                          .self = s,
+                          .residual = residual,
+                          .stiffness = stiffness,
+                          .length = length,
+                          .change = change,
+                          .move = move,
+                          .refresh = s->model->field_solved ? refresh : NULL};
 }
 
 /* -- falling -------------------------------------------------------------------------------------- */
@@ -644,7 +657,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .save = save,
                           .restore = restore,
                           .save_size = (3 * model->stride + 2) * sizeof(double),
-                          .q_scale = 0.01 * model->L * sqrt((double)s->assembly.n),
+                          .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->assembly.parts, s->assembly.n)),
                           .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(model->def.load.mass, 1e-3)};
 }
 

@@ -12,13 +12,13 @@
 #include "base/memory.h"
 
 typedef struct ZpRodParams {
-  size_t ribbons;   /* s */
-  size_t nodes;     /* N per ribbon */
-  size_t stride;    /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
-  const double *l;  /* [stride] rest lengths of edges, m */
-  const double *S;  /* [stride] stretching stiffness EA / l of edges, N/m */
-  const double *B;  /* [stride] bending stiffness of joints, EI over their length of rod, N m */
-  const double *k0; /* [stride] natural 2 tan(phi / 2) of joints */
+  size_t ribbons;          /* s */
+  size_t nodes;            /* N per ribbon */
+  size_t stride;           /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  const double *l;         /* [stride] rest lengths of edges, m */
+  const double *S;         /* [stride] stretching stiffness EA / l of edges, N/m */
+  const double *B;         /* [stride] bending stiffness of joints, EI over their length of rod, N m */
+  const double *k0;        /* [stride] natural 2 tan(phi / 2) of joints */
   size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
 } ZpRodParams;
 

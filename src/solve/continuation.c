@@ -28,11 +28,11 @@ void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth
   b->saved_before = zp_carve(carver, saved);
 }
 
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
+/* Negative eigenvalues for motions in which like parts move alike, as they do along a branch: what all have in common
+ * is coupled to each in the same way, so each eigenvalue of a part by itself is there once for each part, and at most
+ * one is left for them together. */
+static size_t negative_of_part(const ZpParts *parts, size_t negative) {
+  return (negative + parts->more) / (1 + parts->more);
 }
 
 /* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
@@ -50,13 +50,13 @@ static double find_direction(ZpBranch *b) {
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
     b->a[i] *= to_scaled;
-  double length = sqrt(dot(n, b->a, b->a) + 1), m = 1 / length;
-  double cosine = m * (dot(n, b->a, b->direction) + b->direction_m);
+  double length = sqrt(zp_static_dot(rest, b->a, b->a) + 1), m = 1 / length;
+  double cosine = m * (zp_static_dot(rest, b->a, b->direction) + b->direction_m);
   if (cosine < 0) m = -m;
   for (size_t i = 0; i < n; i++)
     b->direction[i] = b->a[i] * m;
   b->direction_m = m;
-  bool negative = zp_band_negative(&b->newton.K) % 2 == 1; /* the determinant */
+  bool negative = negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2 == 1; /* the determinant */
   b->reversed = b->along != ((m > 0) != negative);
   return isfinite(length) ? fabs(cosine) : 0;
 }
@@ -78,6 +78,17 @@ static bool refresh(const ZpStaticSystem *rest) {
   return !rest->refresh || rest->refresh(rest->self) == ZP_END_FOUND;
 }
 
+/* How far the point in b->q has gone along the direction from q_start, m_start. */
+static double arc_length(const ZpBranch *b, double m_start) {
+  const ZpBranchSystem *sys = b->system;
+  const ZpParts *parts = &sys->at_rest.parts;
+  double gone = (sys->get(sys->at_rest.self) - m_start) / sys->m_scale * b->direction_m;
+  for (size_t i = 0; i < sys->at_rest.n; i++)
+    gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
+  double common = zp_parts_dot(parts, b->direction, b->q) - zp_parts_dot(parts, b->direction, b->q_start);
+  return gone + common / sys->q_scale;
+}
+
 /* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, the most between
  * two refreshes; -1: failed. */
 static int correct(ZpBranch *b, double s, double m_start) {
@@ -93,9 +104,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
     double left;
     if (rest->residual(rest->self, b->newton.r, &left) != ZP_END_FOUND) return -1;
     sys->position(rest->self, b->q);
-    double gone = (sys->get(rest->self) - m_start) / sys->m_scale * b->direction_m;
-    for (size_t i = 0; i < n; i++)
-      gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
+    double gone = arc_length(b, m_start);
     bool close = zp_closing_done(&closing, left, b->tolerance) || zp_closing_stalled(&closing, left, b->tolerance);
     if (close && fabs(s - gone) < 1e-3 * s) {
       effort = k > effort ? k : effort;
@@ -112,7 +121,8 @@ static int correct(ZpBranch *b, double s, double m_start) {
     memcpy(b->a, b->newton.r, n * sizeof *b->a);
     zp_band_solve(&b->newton.K, b->a);
     zp_band_solve(&b->newton.K, b->b);
-    double ta = dot(n, b->direction, b->a) / sys->q_scale, tb = dot(n, b->direction, b->b) / sys->q_scale;
+    double ta = zp_static_dot(rest, b->direction, b->a) / sys->q_scale,
+           tb = zp_static_dot(rest, b->direction, b->b) / sys->q_scale;
     double dm = (s - gone - ta) / (tb + b->direction_m / sys->m_scale);
     for (size_t i = 0; i < n; i++)
       b->a[i] += b->b[i] * dm;

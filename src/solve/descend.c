@@ -16,6 +16,8 @@ static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewt
     system->stiffness(system->self, &work->K, NULL);
     for (size_t i = 0; i < work->K.n; i++)
       *zp_band_at(&work->K, i, i) += *c;
+    for (size_t k = 0; k < system->parts.count; k++)
+      *zp_band_at(&work->K, system->parts.common[k], system->parts.common[k]) += (double)system->parts.more * *c;
     if (zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0) return true;
     *c = fmax(4 * *c, least);
   }

@@ -31,24 +31,27 @@ static double scale_of(const ZpImplicitSystem *system, size_t i) {
   return system->scale ? system->scale[i] : 1;
 }
 
-/* Root mean square of `counted` unknowns in their scales; the others are 0. */
+/* Root mean square of `counted` unknowns of all parts in their scales; the others are 0. */
 static double rms(const ZpImplicitSystem *system, const double *x, size_t counted) {
-  double sum = 0, all = (double)counted;
+  const ZpParts *parts = &system->parts;
+  double sum = 0;
   for (size_t i = 0; i < system->n; i++) {
     double size = x[i] / scale_of(system, i);
     sum += size * size;
   }
-  for (size_t i = 0; system->weight && i < system->n; i++) {
-    double size = x[i] / scale_of(system, i), more = system->weight[i] - 1;
-    sum += more * size * size;
-    all += more;
+  for (size_t k = 0; k < parts->count; k++) {
+    double size = x[parts->common[k]] / scale_of(system, parts->common[k]);
+    sum += (double)parts->more * size * size;
   }
-  return counted > 0 ? sqrt(sum / all) : 0;
+  return counted > 0 ? sqrt(sum / zp_parts_unknowns(parts, counted)) : 0;
 }
 
+/* Of the first part: what comes after it is as large, but may count from another origin. */
 static double largest(const ZpImplicitSystem *system, const double *x) {
+  const ZpParts *parts = &system->parts;
+  size_t first_part = (system->n + parts->more * parts->count) / (1 + parts->more);
   double most = 0;
-  for (size_t i = 0; i < system->n; i++)
+  for (size_t i = 0; i < first_part; i++)
     most = fmax(most, fabs(x[i] / scale_of(system, i)));
   return most;
 }
@@ -76,6 +79,23 @@ static double algebraic_work(const ZpImplicit *s, const double *q) {
   return work;
 }
 
+/* Work of an unknown that has `moved`, its position rounded. */
+static double rounded_work(const ZpImplicit *s, size_t i, double stiffness, double moved) {
+  return stiffness * (s->reach * scale_of(s->system, i)) * moved;
+}
+
+/* The same of all, from the sum of their squares. Like parts are rounded alike: their works add up. */
+static double rounding_of(ZpImplicit *s, const double *q, double squares) {
+  const ZpParts *parts = &s->system->parts;
+  double all = (double)(1 + parts->more);
+  for (size_t k = 0; k < parts->count; k++) {
+    size_t i = parts->common[k];
+    double rounded = rounded_work(s, i, *zp_bordered_at(&s->A, i, i), s->q[i] - q[i]);
+    squares -= (double)parts->more / all * rounded * rounded; /* a part has its share of the stiffness only */
+  }
+  return DBL_EPSILON * sqrt(all * squares);
+}
+
 /* f - M a of (18.1) => r, and the Jacobian factored. */
 static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
   const ZpImplicitSystem *system = s->system;
@@ -87,13 +107,13 @@ static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v
     double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
     s->r[i] -= inertia * (moved - h * v[i]);
     double stiffness = *zp_bordered_at(&s->A, i, i) += inertia;
-    double rounded = stiffness * (s->reach * scale_of(system, i)) * moved;
+    double rounded = rounded_work(s, i, stiffness, moved);
     work += s->r[i] * moved;
     turnover += inertia * moved * moved;
     rounding += rounded * rounded;
   }
   work += algebraic_work(s, q);
-  *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + DBL_EPSILON * sqrt(rounding)};
+  *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + rounding_of(s, q, rounding)};
   return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 

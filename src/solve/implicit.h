@@ -13,6 +13,7 @@
 
 #include "base/end.h"
 #include "math/bordered.h"
+#include "solve/parts.h"
 
 typedef enum ZpUnknown {
   ZP_SECOND_ORDER, /* a position, with a velocity */
@@ -29,7 +30,7 @@ typedef struct ZpImplicitSystem {
   size_t lower;          /* and below; 0: it is symmetric, and only the upper triangle is kept */
   const ZpUnknown *kind; /* [n]; NULL: all of second order */
   const double *scale;   /* [n] positive: what counts as much as 1 m of a position; NULL: all 1 */
-  const double *weight;  /* [n] for how many like unknowns it stands in a mean; NULL: all 1 */
+  ZpParts parts;         /* like ones that it consists of, the first one's unknowns first; all 0: it is one */
   void *self;            /* handed to the functions below */
   const double *mass;    /* [n] 0 or more, the inertia that the stepper adds; 0 of what is not of second order */
   /* A step begins at y0 [n], with velocities v0 [n], 0 of what is not of second order; both stay valid until it ends =>
@@ -70,7 +71,7 @@ typedef struct ZpImplicit {
   double balance;  /* work that the iteration may leave unbalanced in a step, of the energy there */
   double fixed;    /* length of all steps; 0: by the local error, s */
   double energy;   /* where the step under way begins, J */
-  double reach;    /* largest unknown there, in its scale: all are rounded to its last digits */
+  double reach;    /* largest unknown of the first part there, in its scale: all are rounded to its last digits */
   ZpEnd end;       /* how the last step ended; ZP_END_SHORTER: even the shortest was too long */
   ZpImplicitCounts counts;
   double *q, *r; /* [n] end of the step under way; what is left of its force, and more */

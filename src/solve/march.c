@@ -39,7 +39,7 @@ static bool is_stable(ZpMarch *m) {
 static void keep(ZpMarch *m, bool first) {
   const ZpBranchSystem *sys = m->fold.system;
   const ZpStaticSystem *rest = &sys->at_rest;
-  double flat = 1 / dot(rest->n, m->fold.along, m->fold.along), gone = fabs(parameter(m) - m->m);
+  double flat = 1 / zp_static_dot(rest, m->fold.along, m->fold.along), gone = fabs(parameter(m) - m->m);
   m->to_fold = !first && flat < m->flat ? gone * flat / (m->flat - flat) : (double)INFINITY;
   if (2 * m->to_fold < little * sys->q_scale * sqrt(flat))
     m->to_fold = INFINITY; /* what moves that little is at rest */

@@ -11,6 +11,13 @@ bool zp_newton_good(ZpNewtonEnd end) {
   return end == ZP_NEWTON_CONVERGED || end == ZP_NEWTON_FLOOR;
 }
 
+double zp_static_dot(const ZpStaticSystem *system, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < system->n; i++)
+    sum += a[i] * b[i];
+  return sum + zp_parts_dot(&system->parts, a, b);
+}
+
 /* -- closing in ----------------------------------------------------------------------------------- */
 
 void zp_closing_start(ZpClosing *c) {

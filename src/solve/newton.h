@@ -8,6 +8,7 @@
 
 #include "base/end.h"
 #include "math/band.h"
+#include "solve/parts.h"
 
 typedef struct ZpStaticSystem {
   size_t n;   /* equations */
@@ -27,7 +28,11 @@ typedef struct ZpStaticSystem {
   /* Find again, at the present point, what is dear and what the residual holds while a point moves. NULL where nothing
    * is held. An equilibrium is one with nothing out of date. */
   ZpEnd (*refresh)(void *self);
+  ZpParts parts; /* like ones that it consists of; all 0: it is one */
 } ZpStaticSystem;
+
+/* Inner product of two changes of the coordinates, each part by itself. */
+double zp_static_dot(const ZpStaticSystem *system, const double *a, const double *b);
 
 /* By which test an iteration ended. */
 typedef enum ZpNewtonEnd {

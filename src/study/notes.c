@@ -60,11 +60,10 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
     zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements a shape at rest is off by some 5 %% or more",
                    model->def.mesh.nodes, fewest);
   if (model->l > front)
-    zp_result_note(
-        result,
-        "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm; pull-in, zip time and "
-        "force are off by some 10 %% or more; mesh.nodes = %.0f leaves some 5 %%",
-        model->def.mesh.nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
+    zp_result_note(result,
+                   "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm; pull-in, zip time and "
+                   "force are off by some 10 %% or more; mesh.nodes = %.0f leaves some 5 %%",
+                   model->def.mesh.nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
 }
 
 void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames) {
