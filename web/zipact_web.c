@@ -241,8 +241,9 @@ EXPORT double zp_web_insulator_offset(ZpWeb *web) {
   return zp_model_info(web->model).insulator_offset;
 }
 
+/* Of the left half, which the page draws with its mirror image. */
 EXPORT int zp_web_nodes(ZpWeb *web) {
-  return zp_model_info(web->model).nodes;
+  return zp_model_def(web->model)->mesh.nodes;
 }
 
 /* x and y [2 nodes] of interleaved faces, gap and line force [nodes]. */

@@ -116,6 +116,16 @@ void zp_plot_text(FILE *file, const char *text) {
   fputc('\'', file);
 }
 
+bool zp_plot_is_half(const ZpPlot *plot) {
+  return plot->single->shapes->ribbons > 1 && plot->def.actuator.symmetry == ZP_SYMMETRY_HALF;
+}
+
+void zp_plot_head_of_shapes(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right) {
+  char text[96];
+  snprintf(text, sizeof text, "%s%s", title, zp_plot_is_half(plot) ? ", left half" : "");
+  zp_plot_head(plot, file, name, text, right);
+}
+
 void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right) {
   fprintf(file,
           "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s.gp\n"

@@ -101,6 +101,12 @@ void zp_plot_text(FILE *file, const char *text);
  * (0 .. 1) and the legend, at the top, right of it. */
 void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right);
 
+/* Do the shapes show the left half only, the right half being its mirror image? */
+bool zp_plot_is_half(const ZpPlot *plot);
+
+/* As zp_plot_head, the title that of the shapes drawn: it says where they are of the left half only. */
+void zp_plot_head_of_shapes(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right);
+
 /* Small print at the foot of a picture that shows how fast something zips. */
 void zp_plot_foot(const ZpPlot *plot, FILE *file, const char *more);
 

@@ -298,7 +298,7 @@ static void script_shapes(const ZpPlot *plot, FILE *file) {
   const ZpPlotBox box = zp_plot_box(film(plot));
   const ZpPlotUnit length = zp_plot_box_unit(&box), voltage = voltage_unit(plot);
   size_t chosen[SNAPSHOTS], count = choose(plot, chosen);
-  zp_plot_head(plot, file, "shapes", film(plot)->ribbons > 1 ? "Shapes at rest, left half" : "Shapes at rest", 0.78);
+  zp_plot_head_of_shapes(plot, file, "shapes", "Shapes at rest", 0.78);
   if (!zp_plot_fits_same_scale(&box)) zp_plot_remark(file, "x and y have different scales");
   fprintf(file,
           "set key title 'along the path' left font ',12'\n"

@@ -39,7 +39,7 @@ static void script_shape(const ZpPlot *plot, FILE *file) {
   const ZpPlotUnit length = zp_plot_box_unit(&box);
   const bool pair = film(plot)->ribbons > 1, tall = zp_plot_fits_same_scale(&box);
   double stroke = zp_result_get(plot->single, "stroke_m");
-  zp_plot_head(plot, file, "shape", pair ? "Shape at rest, left half" : "Shape at rest", pair ? 0.82 : 0.96);
+  zp_plot_head_of_shapes(plot, file, "shape", "Shape at rest", pair ? 0.82 : 0.96);
   if (!tall) zp_plot_remark(file, "x and y have different scales");
   fprintf(file,
           "set xlabel 'x / %s'\nset ylabel 'y / %s' offset 0.5\nset autoscale noextend\n"
@@ -117,10 +117,7 @@ static void script_modes(const ZpPlot *plot, FILE *file) {
   const ZpPlotUnit length = zp_plot_box_unit(&box);
   const double edge = 0.04 * (box.right - box.left), bottom = box.bottom - edge, top = box.top + edge;
   const size_t count = modes(plot);
-  zp_plot_head(plot, file, "modes",
-               film(plot)->ribbons > 1 ? "Modes about the loaded equilibrium, left half"
-                                       : "Modes about the loaded equilibrium",
-               0.96);
+  zp_plot_head_of_shapes(plot, file, "modes", "Modes about the loaded equilibrium", 0.96);
   zp_plot_remark(file, starts_at_rest(plot) ? "grey: at rest; the size of a mode is arbitrary"
                                             : "the size of a mode is arbitrary");
   fprintf(file,

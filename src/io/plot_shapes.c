@@ -68,10 +68,11 @@ static void data_profiles(const ZpPlot *plot, FILE *file) {
 static void script_profiles(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   const ZpPlotBox box = zp_plot_box(shapes);
-  const bool tall = zp_plot_fits_same_scale(&box), pair = shapes->ribbons > 1;
+  const bool tall = zp_plot_fits_same_scale(&box);
   ZpPlotUnit length = zp_plot_box_unit(&box);
   ZpPlotUnit time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
-  zp_plot_head(plot, file, "profiles", pair ? "Shapes of the ribbons, left half" : "Shapes of the ribbon", 0.82);
+  zp_plot_head_of_shapes(plot, file, "profiles", shapes->ribbons > 1 ? "Shapes of the ribbons" : "Shapes of the ribbon",
+                         0.82);
   zp_plot_foot(plot, file, tall ? NULL : "x and y have different scales");
   fprintf(file,
           "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#c8d020')\n"
@@ -87,10 +88,17 @@ static void script_profiles(const ZpPlot *plot, FILE *file) {
           length.factor, length.factor, time.factor);
 }
 
+/* The node of the lower ribbon at the platform's left end, or the right end of the one ribbon. */
+static size_t load_node(const ZpPlot *plot) {
+  const ZpShapes *shapes = film(plot);
+  bool whole = shapes->ribbons > 1 && !zp_plot_is_half(plot);
+  return shapes->ribbons * (whole ? shapes->nodes / 2 : shapes->nodes) - 1;
+}
+
 /* The stage of the film: x counts from the middle of what is drawn, m. */
 typedef struct Stage {
   ZpPlotBox box; /* of the shapes */
-  double middle; /* x of the mirror (kind ribbon: of the middle of the box) */
+  double middle; /* x of the platform's middle (kind ribbon: of the middle of the box) */
   double half;   /* half of the width of all that moves */
   double clamp;  /* x of the left end, from the middle */
   double unit;   /* a length to size clip, load and margins with */
@@ -100,10 +108,9 @@ typedef struct Stage {
 
 static Stage stage_of(const ZpPlot *plot) {
   const ZpShapes *shapes = film(plot);
-  const size_t last = (shapes->nodes - 1) * shapes->ribbons;
   Stage s = {.box = zp_plot_box(shapes)};
   s.middle = (s.box.left + s.box.right) / 2;
-  if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[last] + plot->def.platform.length / 2;
+  if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[load_node(plot)] + plot->def.platform.length / 2;
   s.half = fmax(s.middle - s.box.left, s.box.right - s.middle);
   s.clamp = zp_shapes_get(shapes, 0).x[0] - s.middle;
   s.unit = 0.1 * s.half;
@@ -124,7 +131,7 @@ static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, c
   }
 }
 
-/* One index per frame: the left half and, for two ribbons, its mirror image. */
+/* One index per frame: all nodes, of the left half then those of its mirror image. */
 static void data_animation(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   const Stage stage = stage_of(plot);
@@ -135,7 +142,7 @@ static void data_animation(const ZpPlot *plot, FILE *file) {
     const ZpShape shape = zp_shapes_get(shapes, film_frame(shapes, &stage, k));
     for (size_t i = 0; i < shapes->nodes; i++)
       put_node(file, &shape, shapes, &stage, i, 1);
-    for (size_t i = shapes->nodes; shapes->ribbons > 1 && i-- > 0;)
+    for (size_t i = shapes->nodes; zp_plot_is_half(plot) && i-- > 0;)
       put_node(file, &shape, shapes, &stage, i, -1);
     fputs("\n\n", file);
   }
@@ -166,8 +173,7 @@ typedef enum Caption {
 } Caption;
 
 static double caption_value(const ZpPlot *plot, Caption what, const ZpShape *shape) {
-  const ZpShapes *shapes = film(plot);
-  const size_t end = shapes->nodes * shapes->ribbons - 1;
+  const size_t end = load_node(plot);
   switch (what) {
   case CAPTION_TIME:
     return shape->time;
@@ -318,7 +324,8 @@ static void script_animation(const ZpPlot *plot, FILE *file) {
     fprintf(file,
             ", \\\n    '' index i-1 using ($3*%g):($4*%g) with lines lw 2 lc rgb '%s'"
             ", \\\n    '' index i-1 every %zu using ($3*%g):($4*%g) with points pt 5 ps 1.5 lc rgb '#555555'",
-            mm.factor, mm.factor, zp_plot_colour(1), 2 * shapes->nodes - 1, mm.factor, mm.factor);
+            mm.factor, mm.factor, zp_plot_colour(1), (zp_plot_is_half(plot) ? 2 : 1) * shapes->nodes - 1, mm.factor,
+            mm.factor);
   fputs("\n}\n", file);
 }
 
