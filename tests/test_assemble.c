@@ -4,13 +4,14 @@
 
 #include "actuator/assemble.h"
 
-enum { NODES = 9 };
+enum { NODES = 9, STATIONS = 2 * NODES };
 
 static const Setting kinds[][3] = {
     {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}},
     {{"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 1e-4}, {"actuator.right_end", ZP_END_FREE}},
     {{"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED}},
     {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}},
+    {{"actuator.symmetry", ZP_SYMMETRY_NONE}},
 };
 
 static ZpModel *model_of_kind(size_t kind) {
@@ -31,9 +32,9 @@ static void *zero_band(ZpBand *K, const ZpAssembly *a) {
 }
 
 /* Random derivatives, those of edges symmetric. */
-static void draw(const ZpModel *model, double (*D)[4], double gaps[4][NODES]) {
+static void draw(const ZpModel *model, double (*D)[4], double gaps[4][STATIONS]) {
   uint64_t seed = 7;
-  size_t s = model->s, edges = s * (NODES - 1);
+  size_t s = model->s, edges = s * (model->nodes - 1);
   for (size_t j = 0; j < edges; j++) {
     for (size_t k = 0; k < 4; k++) {
       D[3 * j + 1][k] = noise(&seed);
@@ -43,15 +44,15 @@ static void draw(const ZpModel *model, double (*D)[4], double gaps[4][NODES]) {
     for (size_t k = 0; k < 4 && j >= s; k++) /* the transpose of what edge j - s has with j */
       D[3 * j][k] = D[3 * (j - s) + 2][2 * (k % 2) + k / 2];
   }
-  for (size_t k = 0; k < 4 * NODES; k++)
-    gaps[k / NODES][k % NODES] = noise(&seed);
+  for (size_t k = 0; k < 4 * model->nodes; k++)
+    gaps[k / model->nodes][k % model->nodes] = noise(&seed);
 }
 
 START_TEST(test_symmetric_matrix_is_half_of_the_other) {
   ZpModel *model = model_of_kind((size_t)_i);
   ZpAssembly half, whole;
   ck_assert(zp_assembly_create(model, true, &half) && zp_assembly_create(model, false, &whole));
-  double D[3 * 2 * NODES][4] = {{0}}, gaps[4][NODES];
+  double D[3 * 2 * STATIONS][4] = {{0}}, gaps[4][STATIONS];
   draw(model, D, gaps);
   ZpGapDerivatives of = {gaps[0], gaps[1], gaps[2], gaps[3]};
   ZpBand A, B;

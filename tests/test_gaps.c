@@ -39,7 +39,7 @@ END_TEST
 /* -- contact --------------------------------------------------------------------------------------- */
 
 static size_t front_of(const double *gap, size_t nodes) {
-  ZpFacesParams faces = {.nodes = nodes, .l = 1e-3, .depth = 1e-7, .push = 60};
+  ZpFacesParams faces = {.nodes = nodes, .platform = nodes - 1, .platform_end = nodes - 1};
   return zp_faces_front(&faces, gap);
 }
 

@@ -108,6 +108,12 @@ static const Row rows[] = {
      "ribbon",
      {{TIMES, "stroke_m", CUBE(100.0 / 45), 1e-3}}},
     {"actuator.right_end", STRIP, "guided", "free", {{TIMES, "y_m", 4 * (1 + 1.0 / 800) / (1 + 1.0 / 200), 5e-4}}},
+    /* the second mode leaves the platform where it is, and one half rises as the other sinks */
+    {"actuator.symmetry",
+     "study=modes mesh.nodes=11",
+     "half",
+     "none",
+     {{SAME, "frequency_1_Hz", 0, 1e-7}, {LESS, "frequency_2_Hz", 0.995, 0}}},
     {"ribbon.length", STRIP, "0.1m", "0.05m", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
     {"ribbon.width", STRIP, "10mm", "20mm", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"ribbon.thickness", STRIP, "50um", "100um", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},

@@ -37,6 +37,9 @@ static const Case cases[] = {
     {"attraction with edges", SET(SOFT, {"electro.edges", 1}), 1e-4, 5e3, false},
     {"faces in touch", SET(SOFT, {"drive.voltage", 10}), 4.5e-7, 0, true},
     {"faces in touch under voltage", SET(SOFT, {"drive.voltage", 10}), 4.5e-7, 5e3, true},
+    {"whole actuator", SET(SOFT, {"actuator.symmetry", ZP_SYMMETRY_NONE}), 1e-4, 5e3, false},
+    {"whole actuator, faces in touch", SET(SOFT, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"drive.voltage", 10}),
+     4.5e-7, 5e3, true},
     {"particles", SET(SOFT, {"ribbon.model", ZP_RIBBON_MASS_SPRING}), 1e-4, 5e3, false},
     {"flange", SET(SOFT, FLANGE), 1e-4, 1e3, false},
     {"clamped flange", SET(SOFT, FLANGE, {"actuator.right_end", ZP_END_CLAMPED}), 1e-4, 1e3, true},
@@ -57,7 +60,9 @@ static void bend(ZpStatics *s, double gap) {
     if (s->assembly.equation[2 * j] >= 0) x[j] += 0.1 * model->l * noise(&seed);
     double rise = gap > 0 ? 0.3 * gap * noise(&seed) : 0.1 * model->l * noise(&seed);
     y[j] = lower ? y[upper] - gap - rise : rise;
-    if (j == 1 && model->s == 2) x[1] = x[0], y[1] = y[0];
+    size_t body = zp_topology_leader(&model->topology, 2 * j) / 2; /* a node of it */
+    if (s->assembly.equation[2 * j] >= 0) x[j] = x[body];
+    y[j] = y[body];
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "actuator/model.h"
 #include "math/band.h"
-#include "solve/parts.h"
+#include "math/parts.h"
 
 typedef struct ZpAssembly {
   size_t s, nodes;  /* ribbons; stations, N */

@@ -33,6 +33,11 @@ static void add_element(const ZpFacesParams *p, const double *gap, size_t i, con
   }
 }
 
+/* Is element i the platform? */
+static bool is_rigid(const ZpFacesParams *p, size_t i) {
+  return i >= p->platform && i < p->platform_end;
+}
+
 static void add_platform(const ZpFacesParams *p, const double *gap, size_t i, const ZpFacesEval *e) {
   double s = depth(p, gap[i]), f = p->flat_length * p->push * s * s;
   e->push[i] += f * s;
@@ -45,10 +50,8 @@ void zp_faces_eval(const ZpFacesParams *p, const double *gap, const ZpFacesEval 
   memset(e->own, 0, p->nodes * sizeof *e->own);
   memset(e->next, 0, p->nodes * sizeof *e->next);
   memset(e->stiffness, 0, p->nodes * sizeof *e->stiffness);
-  for (size_t i = 0; i < p->platform; i++)
-    if (gap[i] < 0 || gap[i + 1] < 0) add_element(p, gap, i, e);
-  for (size_t i = p->platform_end; i + 1 < p->nodes; i++)
-    if (gap[i] < 0 || gap[i + 1] < 0) add_element(p, gap, i, e);
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    if ((gap[i] < 0 || gap[i + 1] < 0) && !is_rigid(p, i)) add_element(p, gap, i, e);
   for (size_t i = p->platform; i <= p->platform_end; i++)
     add_platform(p, gap, i, e);
 }

@@ -447,15 +447,21 @@ static void turn_edges(ZpStatics *s, const double *step, double fraction) {
   }
 }
 
+/* Put the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the right
+ * from their left nodes. */
+static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
+  for (size_t j = from; j < to; j += s)
+    q[j + s] = q[j] + d[j];
+  for (size_t j = from; j > to; j -= s)
+    q[j - s] = q[j] - d[j - s];
+}
+
 /* Lay one ribbon from its clamp; what misses a clamped right end is spread along it. */
 static void lay_one(ZpStatics *s) {
-  const ZpModel *model = s->model;
-  size_t stride = model->stride, end = model->count - 1;
+  size_t stride = s->model->stride, end = s->model->count - 1;
   for (size_t c = 0; c < 2; c++) {
     double *q = s->q + c * stride, last = q[end];
-    const double *d = s->moved + c * stride;
-    for (size_t j = 0; j < end; j++)
-      q[j + 1] = q[j] + d[j];
+    lay(s->moved + c * stride, 1, 0, end, q);
     if (s->assembly.equation[2 * end + c] >= 0) continue;
     double missed = q[end] - last;
     for (size_t j = 1; j <= end; j++)
@@ -463,64 +469,43 @@ static void lay_one(ZpStatics *s) {
   }
 }
 
-/* The way along one half from its upper platform to its clip, and back to the lower platform. */
+/* Stations of a half: its upper ribbon is laid from the platform to the clip, the lower one from there back. */
 typedef struct Loop {
-  size_t platform; /* station */
-  bool left;       /* half */
-  size_t elements;
+  size_t platform, clip;
 } Loop;
 
-/* The station that is `k` elements from the platform, and the left one of the element behind it. */
-static size_t station_of(const Loop *loop, size_t k) {
-  return loop->left ? loop->platform - k : loop->platform + k;
-}
-
-static size_t element_of(const Loop *loop, size_t k) {
-  return loop->left ? loop->platform - k - 1 : loop->platform + k;
-}
-
-/* Lay both ribbons of a half along its loop, with edges `d` that count to the right. */
-static void lay_loop(const ZpTopology *t, const Loop *loop, const double *d, double *q) {
-  size_t clip = station_of(loop, loop->elements);
-  double towards_clip = loop->left ? -1 : 1;
-  for (size_t k = 0; k < loop->elements; k++) {
-    size_t from = zp_upper(t, station_of(loop, k)), to = zp_upper(t, station_of(loop, k + 1));
-    q[to] = q[from] + towards_clip * d[zp_upper(t, element_of(loop, k))];
-  }
-  q[zp_lower(t, clip)] = q[zp_upper(t, clip)];
-  for (size_t k = loop->elements; k-- > 0;) {
-    size_t from = zp_lower(t, station_of(loop, k + 1)), to = zp_lower(t, station_of(loop, k));
-    q[to] = q[from] - towards_clip * d[zp_lower(t, element_of(loop, k))];
-  }
+static void lay_loop(const ZpTopology *t, Loop loop, const double *d, double *q) {
+  lay(d, t->ribbons, zp_upper(t, loop.platform), zp_upper(t, loop.clip), q);
+  q[zp_lower(t, loop.clip)] = q[zp_upper(t, loop.clip)];
+  lay(d, t->ribbons, zp_lower(t, loop.clip), zp_lower(t, loop.platform), q);
 }
 
 /* What misses the lower platform is spread along the loop. */
-static void spread(const ZpTopology *t, const Loop *loop, double missed, double *q) {
-  double path = 2 * (double)loop->elements;
-  for (size_t k = 0; k <= loop->elements; k++) {
-    size_t i = station_of(loop, k);
+static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
+  size_t elements = zp_half_elements(t);
+  double path = 2 * (double)elements;
+  for (size_t k = 0; k <= elements; k++) {
+    size_t i = loop.clip < loop.platform ? loop.platform - k : loop.platform + k;
     q[zp_upper(t, i)] -= missed * ((double)k / path);
-    q[zp_lower(t, i)] -= missed * ((double)(2 * loop->elements - k) / path);
+    q[zp_lower(t, i)] -= missed * ((double)(2 * elements - k) / path);
   }
 }
 
 /* Lay two ribbons; the lower platform keeps its x and, where two halves meet there, gets the mean of their y. */
 static void lay_two(ZpStatics *s) {
-  const ZpModel *model = s->model;
-  const ZpTopology *t = &model->topology;
-  size_t stride = model->stride, elements = zp_half_elements(t);
-  const Loop loop[2] = {{t->platform.first, true, elements}, {t->platform.last, false, elements}};
-  double *x = s->q, *y = s->q + stride, sum = 0;
+  const ZpTopology *t = &s->model->topology;
+  const Loop loops[2] = {{t->platform.first, 0}, {t->platform.last, t->stations - 1}};
+  double *x = s->q, *y = x + s->model->stride, sum = 0;
   for (size_t h = 0; h < t->halves; h++) {
-    size_t upper = zp_upper(t, loop[h].platform), lower = zp_lower(t, loop[h].platform);
-    lay_loop(t, &loop[h], s->moved, x);
-    lay_loop(t, &loop[h], s->moved + stride, y);
-    spread(t, &loop[h], x[lower] - x[upper], x);
+    size_t upper = zp_upper(t, loops[h].platform), lower = zp_lower(t, loops[h].platform);
+    lay_loop(t, loops[h], s->moved, x);
+    lay_loop(t, loops[h], s->moved + s->model->stride, y);
+    spread(t, loops[h], x[lower] - x[upper], x);
     sum += y[lower];
   }
   double mean = sum / (double)t->halves;
-  for (size_t h = 0; h < t->halves && t->halves > 1; h++)
-    spread(t, &loop[h], y[zp_lower(t, loop[h].platform)] - mean, y);
+  for (size_t h = 0; t->halves > 1 && h < t->halves; h++)
+    spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
 }
 
 static void move(void *self, const double *step, double fraction) {

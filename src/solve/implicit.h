@@ -13,7 +13,7 @@
 
 #include "base/end.h"
 #include "math/bordered.h"
-#include "solve/parts.h"
+#include "math/parts.h"
 
 typedef enum ZpUnknown {
   ZP_SECOND_ORDER, /* a position, with a velocity */

@@ -8,7 +8,7 @@
 
 #include "base/end.h"
 #include "math/band.h"
-#include "solve/parts.h"
+#include "math/parts.h"
 
 typedef struct ZpStaticSystem {
   size_t n;   /* equations */

@@ -1,8 +1,8 @@
 /* A system may consist of several like parts, as two halves that mirror each other, which have some unknowns in common.
  * Its lengths and means count a common unknown once for each part: then they are those of one part alone, and a solver
  * takes the same steps for both. */
-#ifndef ZP_SOLVE_PARTS_H
-#define ZP_SOLVE_PARTS_H
+#ifndef ZP_MATH_PARTS_H
+#define ZP_MATH_PARTS_H
 
 #include <stddef.h>
 

@@ -1,0 +1,443 @@
+/* The whole actuator, from clip to clip, against its half; what holds and joins its nodes; and ribbons that are not
+ * alike, which run through the same code: against closed forms, by energy and by momentum. */
+#include "state_util.h"
+
+#include "rest/rest.h"
+
+static const int meshes[] = {21, 61};
+
+static ZpActuatorDef def_of(int symmetry, int nodes) {
+  return DEF({"actuator.symmetry", symmetry}, {"mesh.nodes", nodes});
+}
+
+/* -- against the half ------------------------------------------------------------------------------- */
+
+typedef struct Both {
+  ZpResult *half, *whole;
+} Both;
+
+static ZpResult *run(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
+  return result;
+}
+
+static Both run_both(ZpStudy study, ZpActuatorDef def) {
+  Both both;
+  def.actuator.symmetry = ZP_SYMMETRY_HALF;
+  both.half = run(study, &def);
+  def.actuator.symmetry = ZP_SYMMETRY_NONE;
+  both.whole = run(study, &def);
+  ck_assert_int_eq(both.half->outcome, both.whole->outcome);
+  ck_assert_str_eq(both.half->message, both.whole->message);
+  return both;
+}
+
+static void destroy(Both both) {
+  zp_result_destroy(both.half);
+  zp_result_destroy(both.whole);
+}
+
+/* Both say the same, or that there is none. */
+static void check_scalar(Both both, const char *name, double scale) {
+  double half = zp_result_get(both.half, name), whole = zp_result_get(both.whole, name);
+  if (isnan(half) && isnan(whole)) return;
+  note_check(__func__, name, "half", fabs(whole - half) / scale, 1e-9);
+  ck_assert_msg(fabs(whole - half) <= 1e-9 * scale, "%s: half %.15g, whole %.15g", name, half, whole);
+}
+
+static void check_scalars(Both both, const char *const *name, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    ck_assert_msg(isfinite(zp_result_get(both.half, name[k])), "%s", name[k]);
+    check_scalar(both, name[k], fabs(zp_result_get(both.half, name[k])));
+  }
+}
+#define CHECK_SCALARS(both, ...)                                                                                       \
+  check_scalars(both, (const char *const[]){__VA_ARGS__}, LENGTH_OF(((const char *const[]){__VA_ARGS__})))
+
+START_TEST(limits_are_those_of_the_half) {
+  Both both = run_both(ZP_STUDY_LIMITS, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
+  CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg");
+  destroy(both);
+}
+END_TEST
+
+START_TEST(branches_are_those_of_the_half) {
+  Both both = run_both(ZP_STUDY_EQUILIBRIUM, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
+  CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "points");
+  destroy(both);
+}
+END_TEST
+
+/* On the coarse mesh it jumps on its way, where both halves lose their stability at once. */
+START_TEST(held_forces_are_those_of_the_half) {
+  Both both = run_both(ZP_STUDY_ISOMETRIC, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
+  CHECK_SCALARS(both, "force_N", "force_unpowered_N", "charge_C", "capacitance_F", "opening_m");
+  check_scalar(both, "jumps", 1);
+  destroy(both);
+}
+END_TEST
+
+START_TEST(rest_is_that_of_the_half) {
+  Both both = run_both(ZP_STUDY_STATIONARY, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
+  CHECK_SCALARS(both, "stroke_m", "opening_m");
+  destroy(both);
+}
+END_TEST
+
+/* Those that move both halves alike are all among the modes; the others leave the platform where it is. */
+START_TEST(modes_of_the_half_are_modes_of_the_whole) {
+  enum { SYMMETRIC = 4, MODES = 8 };
+  static const double of_eigenvalues = 1e-7; /* to which study modes iterates */
+  Both both = run_both(ZP_STUDY_MODES, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
+  for (size_t k = 0; k < SYMMETRIC; k++) {
+    double half = zp_table_get(both.half->series, k, "frequency_Hz"), nearest = INFINITY;
+    for (size_t j = 0; j < MODES; j++)
+      nearest = fmin(nearest, fabs(zp_table_get(both.whole->series, j, "frequency_Hz") / half - 1));
+    ck_below(nearest, of_eigenvalues);
+  }
+  destroy(both);
+}
+END_TEST
+
+/* Between those are the modes of a half whose platform rests, as it does under a load that is too heavy to move. */
+START_TEST(modes_that_hold_the_platform) {
+  enum { HELD = 3, MODES = 8 };
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 1000});
+  ZpResult *heavy = run(ZP_STUDY_MODES, &def);
+  def.load.mass = 8e-3;
+  def.actuator.symmetry = ZP_SYMMETRY_NONE;
+  ZpResult *whole = run(ZP_STUDY_MODES, &def);
+  for (size_t k = 1; k <= HELD; k++) { /* the first one moves the load */
+    double held = zp_table_get(heavy->series, k, "frequency_Hz"), nearest = INFINITY;
+    for (size_t j = 0; j < MODES; j++)
+      nearest = fmin(nearest, fabs(zp_table_get(whole->series, j, "frequency_Hz") / held - 1));
+    ck_below(nearest, 1e-5);
+  }
+  zp_result_destroy(heavy);
+  zp_result_destroy(whole);
+}
+END_TEST
+
+static double largest_in(const ZpTable *table, const char *column) {
+  double largest = 0;
+  for (size_t row = 0; row < table->rows; row++)
+    largest = fmax(largest, fabs(zp_table_get(table, row, column)));
+  return largest;
+}
+
+/* A signal at all times, within a part of a scale. */
+static void check_signal(Both both, const char *column, double scale, double allowed) {
+  double most = 0;
+  for (size_t row = 0; row < both.half->series->rows; row++)
+    most =
+        fmax(most, fabs(zp_table_get(both.half->series, row, column) - zp_table_get(both.whole->series, row, column)));
+  note_check(__func__, column, "half", most / scale, allowed);
+  ck_assert_msg(most <= allowed * scale, "%s: off by %.2e of %g", column, most / scale, scale);
+}
+
+static void check_motion(const ZpActuatorDef *def, double allowed) {
+  static const char *const by_largest[] = {"time_s",         "voltage_V",     "stroke_m",
+                                           "opening_m",      "contraction",   "force_N",
+                                           "charge_C",       "capacitance_F", "end_velocity_m_per_s",
+                                           "zipped_length_m"};
+  static const char *const energy[] = {
+      "electric_work_J", "load_work_J", "kinetic_energy_J", "axial_energy_J", "bending_energy_J", "gravity_energy_J",
+      "field_energy_J",  "drag_loss_J", "internal_loss_J",  "contact_loss_J", "charging_loss_J",  "energy_imbalance_J"};
+  Both both = run_both(ZP_STUDY_ACTUATE, *def);
+  ck_assert_uint_eq(both.half->series->rows, both.whole->series->rows);
+  CHECK_SCALARS(both, "zip_time_s", "contraction", "steps", "newton_iterations");
+  for (size_t k = 0; k < LENGTH_OF(by_largest); k++)
+    check_signal(both, by_largest[k], largest_in(both.half->series, by_largest[k]), allowed);
+  for (size_t k = 0; k < LENGTH_OF(energy); k++)
+    check_signal(both, energy[k], largest_in(both.half->series, "electric_work_J"), allowed);
+  destroy(both);
+}
+
+START_TEST(motion_is_that_of_the_half) {
+  ZpActuatorDef def = def_of(ZP_SYMMETRY_HALF, meshes[_i]);
+  check_motion(&def, 1e-9);
+}
+END_TEST
+
+/* Segments are mirrored, too, a platform may be short or bare, and the load need not be shared evenly. */
+START_TEST(motion_of_others_is_that_of_the_half) {
+  static const double after_impacts = 1e-6; /* rounding grows from bounce to bounce; until it has closed it is 1e-9 */
+  ZpActuatorDef def[] = {
+      DEF({"mesh.nodes", 21}, {"platform.length", 0}, {"load.share", 0.3}),
+      DEF({"mesh.nodes", 21}, {"platform.electrode", 0}, {"electro.edges", 1}, {"drive.voltage", 8e3}),
+      DEF({"mesh.nodes", 31}, {"segment_1.length", 7e-3}, {"segment_1.curvature", 2}, {"segment_1.thickness", 100e-6},
+          {"drive.waveform", ZP_WAVEFORM_SINE}, {"solver.end_time", 0.2}),
+  };
+  check_motion(&def[_i], after_impacts);
+}
+END_TEST
+
+/* -- the platform and the clips ---------------------------------------------------------------------- */
+
+static double energy_of(ZpSim *sim) {
+  return zp_sim_get(sim, "kinetic_energy") + zp_sim_get(sim, "bending_energy") + zp_sim_get(sim, "axial_energy") +
+         zp_sim_get(sim, "gravity_energy");
+}
+
+/* One half is pushed, the other is not: the platform stays horizontal and where it is held, each clip one body, and
+ * energy stays. */
+START_TEST(platform_stays_horizontal) {
+  ZpActuatorDef def =
+      DEF({"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mesh.nodes", 21}, {"damping.internal", 0}, {"drive.voltage", 0});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  const ZpTopology *t = &model->topology;
+  double *v = zp_state_v(model, sim->state), *x = zp_state_q(model, sim->state), *y = x + model->stride;
+  for (size_t j = 0; j < zp_upper(t, t->platform.first); j++)
+    v[model->stride + j] = 0.05 * cos(0.3 * (double)(j / 2));
+  double before = energy_of(sim), bending = zp_sim_get(sim, "bending_energy");
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_sim_run(sim, 0.02, false, NULL, &info), ZP_REACHED_END);
+  size_t left = t->platform.first, right = t->platform.last, clip = t->stations - 1;
+  ck_assert(y[zp_lower(t, left)] == y[zp_lower(t, right)]);
+  ck_assert(y[zp_upper(t, left)] == 0 && y[zp_upper(t, right)] == 0);
+  ck_near(x[zp_lower(t, right)] - x[zp_lower(t, left)], def.platform.length, 1e-12);
+  ck_assert(x[zp_upper(t, clip)] == x[zp_lower(t, clip)] && y[zp_upper(t, clip)] == y[zp_lower(t, clip)]);
+  ck_assert_double_gt(fabs(y[zp_upper(t, clip)] - y[zp_upper(t, 0)]), 1e-8); /* the halves do not move alike */
+  ck_below(fabs(energy_of(sim) - before) / bending, 1e-7);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* What a joint holds has no equation, and what it makes one has one. */
+START_TEST(equations_are_those_of_the_topology) {
+  ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 4);
+  ZpModel *model = model_of(&def);
+  ZpAssembly a;
+  ck_assert(zp_assembly_create(model, true, &a));
+  const ZpTopology *t = &model->topology;
+  ck_assert_uint_eq(t->stations, 8);
+  ck_assert_uint_eq(a.n, 8 * 4 - 2 * 2 - 2 * 2 - 2 - 1); /* clips, x of platforms, y of the upper, and of the lower */
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    ck_assert(a.equation[2 * zp_upper(t, i)] < 0 && a.equation[2 * zp_lower(t, i)] < 0 &&
+              a.equation[2 * zp_upper(t, i) + 1] < 0);
+  int common = a.equation[2 * zp_lower(t, t->platform.first) + 1];
+  ck_assert_int_eq(a.equation[2 * zp_lower(t, t->platform.last) + 1], common);
+  ck_assert(a.parts.more == 1 && a.parts.count == 1 && a.parts.common[0] == (size_t)common);
+  ck_assert_int_eq(a.equation[2 * zp_upper(t, 7)], a.equation[2 * zp_lower(t, 7)]);
+  ck_assert_int_eq(a.equation[2 * zp_lower(t, 7) + 1], (int)a.n - 1);
+  zp_assembly_destroy(&a);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* What only the half has is refused by name. */
+START_TEST(what_knows_the_half_only_is_refused) {
+  static const struct {
+    Setting setting;
+    const char *key;
+  } refused[] = {{{"actuator.kind", ZP_KIND_RIBBON}, "actuator.kind"},
+                 {{"actuator.kind", ZP_KIND_FLANGE}, "actuator.kind"},
+                 {{"ribbon.model", ZP_RIBBON_MASS_SPRING}, "ribbon.model"},
+                 {{"electro.model", ZP_ELECTRO_FIELD}, "electro.model"},
+                 {{"electro.surface", ZP_SURFACE_BEZIER}, "electro.surface"},
+                 {{"contact.model", ZP_CONTACT_SEQUENTIAL}, "contact.model"},
+                 {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, "solver.integrator"},
+                 {{"preset", ZP_PRESET_PAPER_TEXT}, "ribbon.model"},
+                 {{"preset", ZP_PRESET_PAPER_CODE}, "ribbon.model"},
+                 {{"preset", ZP_PRESET_PAPER_FE}, "actuator.kind"}};
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    ZpActuatorDef def = DEF({"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mesh.nodes", 21}, refused[k].setting);
+    ZpError err = {ZP_OK, ""};
+    ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, "actuator.symmetry = none: requires") && strstr(err.message, refused[k].key) &&
+                      strstr(err.message, "use actuator.symmetry half"),
+                  "%s", err.message);
+  }
+  ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 21);
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_study_check(ZP_STUDY_PROFILE, &def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, "actuator.symmetry = none"), "%s", err.message);
+}
+END_TEST
+
+/* -- ribbons that are not alike ----------------------------------------------------------------------- */
+
+/* The lower ribbon is thicker, softer and heavier. */
+static void make_unlike(ZpActuatorDef *lower) {
+  lower->ribbon.thickness *= 1.4;
+  lower->ribbon.young_modulus = 150e9;
+  lower->ribbon.density = 9000;
+}
+
+static ZpModel *unlike(const ZpActuatorDef *def) {
+  ZpActuatorDef lower = *def;
+  ZpModel *model = NULL;
+  ZpError err = {ZP_OK, ""};
+  make_unlike(&lower);
+  ck_assert_msg(zp_model_create_unlike(def, &lower, NULL, &model, &err) == ZP_OK, "%s", err.message);
+  return model;
+}
+
+typedef struct Strip {
+  double EI, q; /* N m^2; weight per length, N/m */
+} Strip;
+
+static Strip strip_of(const ZpActuatorDef *def) {
+  double b = def->ribbon.thickness, nu = def->ribbon.poisson_ratio;
+  return (Strip){def->ribbon.young_modulus * def->ribbon.width * b * b * b / 12 / (1 - nu * nu),
+                 def->ribbon.density * b * def->ribbon.width * def->gravity};
+}
+
+/* Ribbons that sink by different amounts would be shortened by different amounts, if they were not joined: each pulls
+ * the other. That counts for nothing where they sink by far less than they are thick, as thick ones do. */
+#define THICK                                                                                                          \
+  {"ribbon.thickness", 500e-6}, {"mesh.nodes", 161}, {"load.share", 0.5}, {                                            \
+    "drive.voltage", 0                                                                                                 \
+  }
+
+/* Small deflections of two guided beams in series: each sinks by F L^3 / (12 EI) under what hangs on it and by q L^4 /
+ * (24 EI) under its own weight; on the upper one hangs the lower one, too. */
+START_TEST(unlike_ribbons_bend_in_series) {
+  ZpActuatorDef def = DEF(THICK, {"load.mass", 10e-3}, {"gravity", 1});
+  ZpActuatorDef lower = def;
+  make_unlike(&lower);
+  def.actuator.symmetry = _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF;
+  ZpModel *model = unlike(&def);
+  ZpRest *rest;
+  ZpError err;
+  ck_assert_int_eq(zp_rest_create(model, &rest, &err), ZP_OK);
+  ck_assert(zp_rest_hang(rest, 0));
+  Strip top = strip_of(&def), bottom = strip_of(&lower);
+  double L = model->L, F = 0.5 * def.load.mass * def.gravity, on_top = F + bottom.q * L;
+  double sinks = F * L * L * L / 12 / bottom.EI + bottom.q * L * L * L * L / 24 / bottom.EI;
+  double clip = on_top * L * L * L / 12 / top.EI + top.q * L * L * L * L / 24 / top.EI;
+  ck_near(zp_rest_stroke(rest), sinks, 1e-4);
+  ck_near(zp_rest_opening(rest), sinks + clip, 1e-4);
+  zp_rest_destroy(rest);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Under a heavy load it swings as a mass on two springs in series, 12 EI / L^3 each: after a quarter of a period it has
+ * stopped, as far from rest as its energy reaches. */
+START_TEST(unlike_ribbons_swing_in_series) {
+  ZpActuatorDef def = DEF(THICK, {"load.mass", 10}, {"gravity", 0}, {"solver.tolerance", 1e-8});
+  ZpActuatorDef lower = def;
+  make_unlike(&lower);
+  ZpModel *model = unlike(&def);
+  ZpSim *sim = sim_of(model);
+  Strip top = strip_of(&def), bottom = strip_of(&lower);
+  double L = model->L, M = 0.5 * def.load.mass, k = 12 / (L * L * L * (1 / top.EI + 1 / bottom.EI)), speed = 1e-4;
+  double *v = zp_state_v(model, sim->state), quarter = 0.5 * 3.14159265358979323846 / sqrt(k / M);
+  /* the shape in which it sinks: each beam turns by 3 s^2 - 2 s^3 */
+  double part = bottom.EI / (top.EI + bottom.EI); /* of the opening, at the clip */
+  for (size_t i = 0; i < model->nodes; i++) {
+    double s = (double)i / (double)(model->nodes - 1), turn = s * s * (3 - 2 * s);
+    v[model->stride + 2 * i] = -speed * part * (1 - turn);
+    v[model->stride + 2 * i + 1] = -speed * (part + (1 - part) * turn);
+  }
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_sim_run(sim, quarter, false, NULL, &info), ZP_REACHED_END);
+  ck_near(zp_sim_get(sim, "opening"), speed * sqrt(M / k), 2e-3);
+  ck_below(fabs(zp_sim_get(sim, "end_velocity")) / speed, 5e-3);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Bent at random about a shape with open faces, what is held left where it is. */
+static void bend(const ZpModel *model, uint64_t *seed, double *q) {
+  const ZpTopology *t = &model->topology;
+  for (size_t k = 0; k < 2 * model->count; k++) {
+    size_t leader = zp_topology_leader(t, k), j = k / 2, i = j / t->ribbons;
+    double *value = &q[j + k % 2 * model->stride];
+    double straight = k % 2 ? -1e-4 * (double)(j % 2) : zp_straight_x(model, i);
+    *value = straight + 0.02 * model->l * noise(seed) * (k % 2 ? 0.1 : 1);
+    if (leader < k) *value = q[leader / 2 + leader % 2 * model->stride];
+  }
+}
+
+/* Over any span the forces of rod, attraction and faces do the work by which their energies change, and push nothing as
+ * a whole. */
+START_TEST(unlike_ribbons_keep_energy_and_momentum) {
+  ZpActuatorDef def = DEF({"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF}, {"mesh.nodes", 9},
+                          {"gravity", 0}, {"load.mass", 0}, {"damping.internal", 0});
+  ZpModel *model = unlike(&def);
+  ZpEval e;
+  ck_assert(zp_system_create(model, false, &e));
+  size_t stride = model->stride, bytes = 2 * stride * sizeof(double);
+  double *q0 = calloc(1, bytes), *q1 = calloc(1, bytes), *F = calloc(1, bytes), work = 0, size = 0;
+  uint64_t seed = 3;
+  bend(model, &seed, q0);
+  bend(model, &seed, q1);
+  ZpSpan span = {.start = q0, .end = q1, .h = 1e-4, .U0 = 5e3, .U1 = 5e3, .share = 1};
+  zp_system_begin(model, &span, &e);
+  zp_system_force(model, &span, &e, F);
+  double before = zp_rod_stretching_energy(&model->rod, &e.rod_start) +
+                  zp_rod_bending_energy(&model->rod, &e.rod_start) +
+                  zp_plates_totals(&model->plates, &e.plates_start, 5e3).potential;
+  double after = zp_rod_stretching_energy(&model->rod, &e.rod) + zp_rod_bending_energy(&model->rod, &e.rod) +
+                 zp_plates_totals(&model->plates, &e.plates, 5e3).potential;
+  double sum[2] = {0, 0}, most = 0;
+  for (size_t j = 0; j < model->count; j++)
+    for (size_t c = 0; c < 2; c++) {
+      size_t k = j + c * stride;
+      work += F[k] * (q1[k] - q0[k]);
+      size += fabs(F[k] * (q1[k] - q0[k]));
+      sum[c] += F[k];
+      most = fmax(most, fabs(F[k]));
+    }
+  ck_below(fabs(work + after - before) / size, 1e-9);
+  ck_below(fabs(sum[0]) / most, 1e-9);
+  ck_below(fabs(sum[1]) / most, 1e-9);
+  free(q0), free(q1), free(F);
+  zp_eval_destroy(&e);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A whole zip of unlike ribbons keeps its energy, and the whole actuator zips as its half. */
+START_TEST(unlike_ribbons_zip) {
+  double zip_time[2], opening[2];
+  for (int whole = 0; whole < 2; whole++) {
+    ZpActuatorDef def = def_of(whole ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF, 21);
+    ZpModel *model = unlike(&def);
+    ZpSim *sim = sim_of(model);
+    ZpRunInfo info;
+    opening[whole] = zp_sim_get(sim, "opening");
+    ck_assert_msg(zp_sim_run(sim, 1, true, NULL, &info) == ZP_ZIPPED, "%s", info.message);
+    zip_time[whole] = zp_sim_zip_time(sim);
+    ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work"), 1e-6);
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+  ck_near(opening[1], opening[0], 1e-9);
+  ck_near(zip_time[1], zip_time[0], 1e-9);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("whole");
+  TCase *half = tcase_create("half");
+  tcase_add_loop_test(half, limits_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
+  tcase_add_loop_test(half, branches_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
+  tcase_add_loop_test(half, held_forces_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
+  tcase_add_loop_test(half, rest_is_that_of_the_half, 0, LENGTH_OF(meshes));
+  tcase_add_loop_test(half, modes_of_the_half_are_modes_of_the_whole, 0, FULL_OR(LENGTH_OF(meshes), 1));
+  tcase_add_test(half, modes_that_hold_the_platform);
+  tcase_add_loop_test(half, motion_is_that_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
+  tcase_add_loop_test(half, motion_of_others_is_that_of_the_half, 0, FULL_OR(3, 1));
+  suite_add_tcase(suite, half);
+  TCase *joints = tcase_create("joints");
+  tcase_add_test(joints, platform_stays_horizontal);
+  tcase_add_test(joints, equations_are_those_of_the_topology);
+  tcase_add_test(joints, what_knows_the_half_only_is_refused);
+  suite_add_tcase(suite, joints);
+  TCase *ribbons = tcase_create("unlike");
+  tcase_add_loop_test(ribbons, unlike_ribbons_bend_in_series, 0, 2);
+  tcase_add_test(ribbons, unlike_ribbons_swing_in_series);
+  tcase_add_loop_test(ribbons, unlike_ribbons_keep_energy_and_momentum, 0, 2);
+  tcase_add_test(ribbons, unlike_ribbons_zip);
+  suite_add_tcase(suite, ribbons);
+  return run_suite(suite);
+}
