@@ -52,7 +52,8 @@ int main(void) {
   eval->term[eval->terms++] = &soft_floor;
   ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
   double lambda = pow(k / (4 * zp_ribbon_section(model, 0).EI), 0.25), P = def.load.share * def.load.mass * def.gravity;
-  double expected = 2 * P * lambda / k + zp_ribbon_section(model, 0).mu * def.gravity / k, found = zp_statics_stroke(&rest.statics);
+  double expected = 2 * P * lambda / k + zp_ribbon_section(model, 0).mu * def.gravity / k,
+         found = zp_statics_stroke(&rest.statics);
   printf("the end sinks by %.3f um, expected %.3f um; %d iterations\n", 1e6 * found, 1e6 * expected, info.iterations);
   zp_rest_close(&rest);
   zp_model_destroy(model);

@@ -60,14 +60,14 @@ ZpHeld zp_eval_beyond(const ZpEval *e) {
 }
 
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {
-  if (model->s < 2) return;
+  if (!zp_is_pair(&model->topology)) return;
   zp_zip_share(zip, model->nodes, &masses->x, a);
   zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
 }
 
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
   size_t front = zp_faces_front(&model->faces, gap);
-  return (ZpZipState){front, front + 1 == model->nodes};
+  return (ZpZipState){front, front == model->topology.platform.first};
 }
 
 static double ratio_bound(double length, double speed) {

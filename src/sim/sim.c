@@ -222,7 +222,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, 
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  bool two = model->s == 2;
+  bool two = zp_is_pair(&model->topology);
   double corner = next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
   double start = state->t, before = two ? opening(model, state) : 0;

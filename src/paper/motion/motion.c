@@ -119,7 +119,7 @@ static ZpPaperLimit limit_of(const ZpPaperMotion *m, ZpExplicitLimit limit) {
 
 ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double latest) {
   const ZpModel *model = m->model;
-  double *q = zp_state_q(model, state), *hangs = q + model->stride + model->count - 1;
+  double *q = zp_state_q(model, state), *hangs = q + model->stride + zp_load_node(&model->topology);
   double load = zp_state_load(model, state, state->t), before = *hangs;
   ZpExplicitSystem system = {2 * model->stride, m, accelerate, is_sequential(model) ? next_meeting : NULL};
   m->state = state;
