@@ -2,6 +2,8 @@
  * rows are written directly. Near held and joined nodes each entry asks for its equations. */
 #include "actuator/assemble.h"
 
+#include <string.h>
+
 #include "base/kernel.h"
 
 static size_t number(const ZpTopology *t, int *equation) {
@@ -33,7 +35,12 @@ static int shift_of(const ZpAssembly *a, size_t i) {
 }
 
 bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
-  *a = (ZpAssembly){.s = model->s, .nodes = model->nodes, .bandwidth = 6 * model->s - 1, .symmetric = symmetric};
+  *a = (ZpAssembly){.s = model->s,
+                    .nodes = model->nodes,
+                    .count = model->count,
+                    .stride = model->stride,
+                    .bandwidth = 6 * model->s - 1,
+                    .symmetric = symmetric};
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->shift = zp_calloc(model->nodes, sizeof *a->shift);
   if (!a->equation || !a->shift) {
@@ -51,6 +58,35 @@ void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
   zp_free(a->shift);
   *a = (ZpAssembly){0};
+}
+
+/* -- values ----------------------------------------------------------------------------------------- */
+
+/* Where coordinate k stands in arrays over nodes. */
+static size_t place(const ZpAssembly *a, size_t k) {
+  return k / 2 + (k % 2) * a->stride;
+}
+
+void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) equations[a->equation[k]] = nodes[place(a, k)];
+}
+
+void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) nodes[place(a, k)] = equations[a->equation[k]];
+}
+
+void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
+  memset(equations, 0, a->n * sizeof *equations);
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) equations[a->equation[k]] += nodes[place(a, k)];
+}
+
+void zp_assembly_masses(const ZpAssembly *a, const double *mass, double *equations) {
+  memset(equations, 0, a->n * sizeof *equations);
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) equations[a->equation[k]] += mass[k / 2];
 }
 
 /* -- one entry, anywhere ---------------------------------------------------------------------------- */

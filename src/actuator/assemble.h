@@ -9,6 +9,8 @@
 
 typedef struct ZpAssembly {
   size_t s, nodes;  /* ribbons; stations, N */
+  size_t count;     /* nodes */
+  size_t stride;    /* arrays over nodes: all x, then, so much further, all y */
   size_t n;         /* equations */
   size_t bandwidth; /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;   /* only the upper triangle is kept */
@@ -20,6 +22,14 @@ typedef struct ZpAssembly {
 /* False if there is no memory. */
 bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
+
+/* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */
+void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
+void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
+
+/* (forces on nodes [2 stride], or masses [count]) => sums over what has the same equation [n]. */
+void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
+void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *equations);
 
 /* Add the stiffness of the ribbons to K, which is n x n with `bandwidth` diagonals on each kept side: D[3 j + m] [4] =
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */

@@ -61,7 +61,7 @@ ZpHeld zp_eval_beyond(const ZpEval *e) {
 }
 
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {
-  if (model->s < 2) return;
+  if (!zp_is_pair(&model->topology)) return;
   zp_zip_share(zip, model->nodes, &masses->x, a);
   zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
 }

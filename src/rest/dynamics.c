@@ -23,21 +23,6 @@ static size_t carve(ZpDynamics *d, void *block) {
   return carver.used;
 }
 
-/* Coordinate k (2 j: x of node j, 2 j + 1: its y) in arrays over nodes. */
-static size_t place(const ZpDynamics *d, size_t k) {
-  return k / 2 + (k % 2) * d->model->stride;
-}
-
-static void gather(const ZpDynamics *d, const double *nodes, double *equations) {
-  for (size_t k = 0; k < 2 * d->model->count; k++)
-    if (d->assembly.equation[k] >= 0) equations[d->assembly.equation[k]] = nodes[place(d, k)];
-}
-
-static void scatter(const ZpDynamics *d, const double *equations, double *nodes) {
-  for (size_t k = 0; k < 2 * d->model->count; k++)
-    if (d->assembly.equation[k] >= 0) nodes[place(d, k)] = equations[d->assembly.equation[k]];
-}
-
 /* -- the system ----------------------------------------------------------------------------------- */
 
 static double end_time(const ZpDynamics *d) {
@@ -82,7 +67,7 @@ static double begin(void *self, const double *q0, const double *v0) {
   (void)v0;
   const ZpModel *model = d->model;
   const ZpEval *e = &d->eval;
-  scatter(d, q0, d->start);
+  zp_assembly_scatter(&d->assembly, q0, d->start);
   memcpy(d->end, d->start, 2 * model->stride * sizeof *d->end);
   ZpSpan span = span_of(d);
   zp_system_begin(model, &span, &d->eval);
@@ -98,13 +83,11 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   const ZpModel *model = d->model;
   d->h = h;
   d->U1 = d->source ? q1[d->assembly.n] : end_voltage(d);
-  scatter(d, q1, d->end);
+  zp_assembly_scatter(&d->assembly, q1, d->end);
   ZpSpan span = span_of(d);
   zp_system_force(model, &span, &d->eval, d->force);
   if (model->field) memcpy(d->gap, d->eval.plates.gap, model->nodes * sizeof *d->gap);
-  memset(f, 0, d->system.n * sizeof *f);
-  for (size_t k = 0; k < 2 * model->count; k++)
-    if (d->assembly.equation[k] >= 0) f[d->assembly.equation[k]] += d->force[place(d, k)];
+  zp_assembly_sum(&d->assembly, d->force, f);
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
   return ZP_END_FOUND;
 }
@@ -114,14 +97,10 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   const ZpByVoltage *by = &d->by_voltage;
   size_t u = d->assembly.n;
   zp_system_by_voltage(d->model, span, &d->eval, &d->by_voltage);
-  memset(J->B, 0, u * sizeof *J->B);
-  memset(J->C, 0, u * sizeof *J->C);
-  for (size_t k = 0; k < 2 * d->model->count; k++) {
-    if (d->assembly.equation[k] < 0) continue;
-    size_t i = (size_t)d->assembly.equation[k];
-    *zp_bordered_at(J, i, u) -= by->force[place(d, k)];
-    *zp_bordered_at(J, u, i) += by->charge[place(d, k)];
-  }
+  zp_assembly_sum(&d->assembly, by->force, J->B);
+  zp_assembly_sum(&d->assembly, by->charge, J->C);
+  for (size_t i = 0; i < u; i++)
+    J->B[i] = -J->B[i];
   double slope = d->source->slope(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
   *zp_bordered_at(J, u, u) = by->capacitance - slope;
 }
@@ -188,7 +167,7 @@ static double unforeseen(void *self, const double *q1) {
   const ZpFacesEval *faces = &d->eval.faces;
   double work = 0, *foreseen = d->foreseen, *before = d->gap;
   const double *gap = d->eval.plates.gap;
-  scatter(d, q1, d->end);
+  zp_assembly_scatter(&d->assembly, q1, d->end);
   if (!model->field) return 0;
   zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->eval.plates);
   for (size_t i = 0; i < model->nodes; i++)
@@ -275,9 +254,8 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!d->memory) return false;
   carve(d, d->memory);
   d->system.mass = d->mass;
+  zp_assembly_masses(&d->assembly, model->mass, d->mass);
   if (source) add_voltage(d);
-  for (size_t k = 0; k < 2 * model->count; k++)
-    if (d->assembly.equation[k] >= 0) d->mass[d->assembly.equation[k]] += model->mass[k / 2];
   const ZpActuatorDef *def = &model->def;
   d->stepper.accuracy = 0.08 * def->solver.tolerance * model->L;
   d->stepper.balance = 1e-5 * def->solver.tolerance;
@@ -315,10 +293,10 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   d->latest = latest;
   d->U0 = state->U;
   memcpy(d->start, q, 2 * model->stride * sizeof *q);
-  gather(d, q, d->q);
-  gather(d, v, d->v);
-  gather(d, w, d->history.w);
-  gather(d, a, d->history.a);
+  zp_assembly_gather(&d->assembly, q, d->q);
+  zp_assembly_gather(&d->assembly, v, d->v);
+  zp_assembly_gather(&d->assembly, w, d->history.w);
+  zp_assembly_gather(&d->assembly, a, d->history.a);
   if (d->source) {
     size_t u = d->assembly.n;
     d->q[u] = state->U;
@@ -337,10 +315,10 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
     state->contact_loss += impact(d);
   }
   double *hangs = q + model->stride + zp_load_node(&model->topology), before = *hangs, load = mean_load(d);
-  scatter(d, d->q, q);
-  scatter(d, d->v, v);
-  scatter(d, d->history.w, w);
-  scatter(d, d->history.a, a);
+  zp_assembly_scatter(&d->assembly, d->q, q);
+  zp_assembly_scatter(&d->assembly, d->v, v);
+  zp_assembly_scatter(&d->assembly, d->history.w, w);
+  zp_assembly_scatter(&d->assembly, d->history.a, a);
   state->t = end_time(d);
   if (d->source) {
     state->U_rate = d->history.w[d->assembly.n];

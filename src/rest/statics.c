@@ -347,15 +347,9 @@ static double largest_of(const ZpAssembly *a, double *r) {
 
 static ZpEnd residual(void *self, double *r, double *size) {
   ZpStatics *s = self;
-  const ZpModel *model = s->model;
-  size_t stride = model->stride;
   ZpSpan here = span_of(s);
-  zp_system_force(model, &here, &s->eval, s->force);
-  memset(r, 0, s->assembly.n * sizeof *r);
-  for (size_t k = 0; k < 2 * model->count; k++) {
-    int row = s->assembly.equation[k];
-    if (row >= 0) r[row] += s->force[k / 2 + (k % 2) * stride];
-  }
+  zp_system_force(s->model, &here, &s->eval, s->force);
+  zp_assembly_sum(&s->assembly, s->force, r);
   if (is_held(s)) hold_platform(s, r);
   double largest = largest_of(&s->assembly, r);
   if (size) *size = largest / s->scale;
@@ -606,8 +600,7 @@ static void by_load(void *self, double *r_m) {
 
 static void position(void *self, double *q) {
   const ZpStatics *s = self;
-  for (size_t k = 0; k < 2 * s->model->count; k++)
-    if (s->assembly.equation[k] >= 0) q[s->assembly.equation[k]] = s->q[k / 2 + (k % 2) * s->model->stride];
+  zp_assembly_gather(&s->assembly, s->q, q);
 }
 
 /* q, tensions, voltage, load. */

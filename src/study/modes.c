@@ -56,9 +56,7 @@ static double scattered(size_t k) {
 
 /* Masses by equation, and a start that has a part of every mode. */
 static void prepare(Problem *p) {
-  const ZpModel *model = p->rest.statics.model;
-  for (size_t k = 0; k < 2 * model->count; k++)
-    if (p->rest.statics.assembly.equation[k] >= 0) p->mass[p->rest.statics.assembly.equation[k]] += model->mass[k / 2];
+  zp_assembly_masses(&p->rest.statics.assembly, p->rest.statics.model->mass, p->mass);
   for (size_t j = 0; j < p->m; j++)
     for (size_t i = 0; i < p->n; i++)
       p->u[j * p->n + i] = scattered((i + 1) * (j + 1)) + (i % p->m == j);
@@ -133,11 +131,10 @@ static bool solve(Problem *p, size_t modes) {
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
   const ZpModel *model = p->rest.statics.model;
   double *q = p->rest.statics.q;
-  for (size_t k = 0; k < 2 * model->count; k++) {
-    size_t place = k / 2 + (k % 2) * model->stride;
-    int row = p->rest.statics.assembly.equation[k];
-    q[place] = p->q[place] + (row >= 0 ? amplitude * p->u[j * p->n + (size_t)row] : 0);
-  }
+  memset(q, 0, 2 * model->stride * sizeof *q);
+  zp_assembly_scatter(&p->rest.statics.assembly, p->u + j * p->n, q);
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    q[k] = p->q[k] + amplitude * q[k];
   if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->rest.statics.eval.plates);
   ZpShape shape = zp_statics_shape(&p->rest.statics, frame, p->rest.line_force);
   zp_shapes_offer(shapes, &shape);

@@ -9,7 +9,7 @@
 static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
   const double *y = state->data + model->stride, *then = state->data + 7 * model->stride;
   for (size_t i = 0; i < model->nodes; i++) {
-    double gap = y[2 * i] - y[2 * i + 1], before = then[2 * i] - then[2 * i + 1];
+    double gap = zp_plates_gap(&model->plates, y, i), before = zp_plates_gap(&model->plates, then, i);
     if (fabs(gap - before) > share * (before + model->plates.d)) return true;
   }
   return false;
