@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "math/elementary.h"
 #include "solve/descend.h"
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
@@ -257,10 +258,19 @@ static double closed_capacitance(const ZpStatics *s) {
   return s->model->parts * per_length * (s->model->L + s->model->plates.flat_length);
 }
 
+/* The overlap that a state may have, m. By (9.1) attraction as strong as at the breakdown of the insulators makes it the
+ * contact depth, stronger attraction more, and at a front the bent ribbons press on closed faces like a lever. */
+static double deepest_overlap(const ZpStatics *s) {
+  static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
+  const ZpFacesParams *faces = &s->model->faces;
+  double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
+  double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
+  return fmax(fmax(micrometre, of_insulators * 2 * s->model->def.insulator.thickness), lever * balanced);
+}
+
 const char *zp_statics_fault(const ZpStatics *s) {
   static const double beyond_plates = 1.1; /* what fields round the ends add to plates is below that */
-  static const double micrometre = 1e-6;
-  double least = INFINITY, most = fmax(micrometre, 0.01 * 2 * s->model->def.insulator.thickness);
+  double least = INFINITY, most = deepest_overlap(s);
   for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
   if (s->contact_acts && least < -most) return "the insulators' faces overlap";

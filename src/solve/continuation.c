@@ -35,30 +35,45 @@ static double dot(size_t n, const double *a, const double *b) {
   return sum;
 }
 
-/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
- * the way back; the determinant of the stiffness tells, eq. (10.2). => cosine of the angle by which it has turned; 0 if
- * there is no direction. */
-static double find_direction(ZpBranch *b) {
+/* Tangent of the branch at the present point, of length 1 and towards growing m => direction. => is the determinant of
+ * the stiffness negative? Not 0 or 1: there is no tangent. */
+static int find_tangent(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
-  if (rest->residual(rest->self, b->newton.r, NULL) != ZP_END_FOUND) return 0;
+  if (rest->residual(rest->self, b->newton.r, NULL) != ZP_END_FOUND) return -1;
   rest->stiffness(rest->self, &b->newton.K, NULL);
   sys->sensitivity(rest->self, b->a);
-  if (!zp_band_factor(&b->newton.K)) return 0;
+  if (!zp_band_factor(&b->newton.K)) return -1;
   zp_band_solve(&b->newton.K, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
     b->a[i] *= to_scaled;
-  double length = sqrt(dot(n, b->a, b->a) + 1), m = 1 / length;
-  double cosine = m * (dot(n, b->a, b->direction) + b->direction_m);
-  if (cosine < 0) m = -m;
+  double length = sqrt(dot(n, b->a, b->a) + 1);
+  b->a_m = 1 / length;
   for (size_t i = 0; i < n; i++)
-    b->direction[i] = b->a[i] * m;
-  b->direction_m = m;
-  bool negative = zp_band_negative(&b->newton.K) % 2 == 1; /* the determinant */
-  b->reversed = b->along != ((m > 0) != negative);
-  return isfinite(length) ? fabs(cosine) : 0;
+    b->a[i] *= b->a_m;
+  return isfinite(length) ? (int)(zp_band_negative(&b->newton.K) % 2) : -1;
+}
+
+/* The tangent => direction, on this side. */
+static void face(ZpBranch *b, bool growing) {
+  double sign = growing ? 1 : -1;
+  for (size_t i = 0; i < b->system->at_rest.n; i++)
+    b->direction[i] = sign * b->a[i];
+  b->direction_m = sign * b->a_m;
+}
+
+/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
+ * the way back; the determinant of the stiffness tells, eq. (10.2). => cosine of the angle by which it has turned; 0 if
+ * there is no direction. */
+static double find_direction(ZpBranch *b) {
+  int negative = find_tangent(b);
+  if (negative < 0) return 0;
+  double cosine = dot(b->system->at_rest.n, b->a, b->direction) + b->a_m * b->direction_m;
+  face(b, cosine >= 0);
+  b->reversed = b->along != ((cosine >= 0) != (negative == 1));
+  return fabs(cosine);
 }
 
 bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, double tolerance) {
@@ -127,19 +142,24 @@ static int correct(ZpBranch *b, double s, double m_start) {
   return -1;
 }
 
-/* Predict along the direction, then correct. */
-static int try_step(ZpBranch *b, double s) {
+/* Move by arc length `s` along the direction. False if that is too far. */
+static bool predict(ZpBranch *b, double s) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
-  double m_start = sys->get(rest->self);
   rest->residual(rest->self, b->newton.r, NULL); /* the edges that a move turns are those of the last residual */
   sys->position(rest->self, b->q_start);
   for (size_t i = 0; i < rest->n; i++)
     b->a[i] = b->direction[i] * s * sys->q_scale;
-  if (!(rest->length(rest->self, b->a) < 1)) return -1;
+  if (!(rest->length(rest->self, b->a) < 1)) return false;
   rest->move(rest->self, b->a, 1);
-  sys->set(rest->self, m_start + b->direction_m * s * sys->m_scale);
-  return correct(b, s, m_start);
+  sys->set(rest->self, sys->get(rest->self) + b->direction_m * s * sys->m_scale);
+  return true;
+}
+
+/* Predict along the direction, then correct. */
+static int try_step(ZpBranch *b, double s) {
+  double m_start = b->system->get(b->system->at_rest.self);
+  return predict(b, s) ? correct(b, s, m_start) : -1;
 }
 
 /* Has m turned twice on a step by s from m_start, along which `before` was its direction? Both ends go the same way
@@ -148,6 +168,28 @@ static bool turned_twice(const ZpBranch *b, double s, double m_start, double bef
   double after = b->direction_m, gone = (b->system->get(b->system->at_rest.self) - m_start) / b->system->m_scale;
   double middle = 1.5 * gone / s - 0.25 * (before + after);
   return before * after > 0 && before * middle < 0;
+}
+
+/* Over a corner, where the stiffness jumps and the branch turns by any angle: not further ahead than `ahead`, or no step
+ * would have failed. Eq. (10.2) holds across it, so the tangent found beyond it says where the branch goes on. */
+static bool turn_corner(ZpBranch *b, double ahead) {
+  static const double farthest = 1e-4;
+  const ZpBranchSystem *sys = b->system;
+  size_t bytes = sys->at_rest.n * sizeof *b->direction;
+  double m = b->direction_m;
+  for (double s = ahead; s < farthest; s *= 4) {
+    sys->restore(sys->at_rest.self, b->saved_before);
+    memcpy(b->direction, b->direction_saved, bytes);
+    b->direction_m = m;
+    int negative = predict(b, s) ? find_tangent(b) : -1;
+    if (negative < 0) continue;
+    face(b, b->along != (negative == 1));
+    sys->restore(sys->at_rest.self, b->saved_before);
+    if (try_step(b, 4 * s) < 0 || find_direction(b) < sharpest_turn || b->reversed) continue;
+    b->step = b->taken = 4 * s;
+    return true;
+  }
+  return false;
 }
 
 bool zp_branch_advance(ZpBranch *b) {
@@ -173,6 +215,8 @@ bool zp_branch_advance(ZpBranch *b) {
     b->direction_m = m;
     b->step = 0.5 * s;
   }
+  if (turn_corner(b, corner_step)) return true;
+  sys->restore(self, b->saved_before);
   return false;
 }
 
