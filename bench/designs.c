@@ -92,9 +92,9 @@ static double insulators(const ZpActuatorDef *def) {
   return 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
 }
 
-/* How far faces may overlap, m: 1 um, 1 % of the insulators, or three times what the attraction of closed faces makes of
- * the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press on
- * closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
+/* How far faces may overlap, m: 1 um, 1 % of the insulators, or three times what the attraction of closed faces makes
+ * of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press
+ * on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
 static double deepest(const ZpActuatorDef *def) {
   static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
   double d = insulators(def), depth = fmax(fmin(0.5e-6, d / 150), 1e-8);

@@ -341,8 +341,8 @@ START_TEST(test_thin_insulators_stay_apart) {
 }
 END_TEST
 
-/* Without the breakdown cap the attraction of thin insulators far beyond their breakdown presses faces deeper than 1 um:
- * that was taken for faces that overlap, and the branch was given up at 8.6 of 13 kV. */
+/* Without the breakdown cap the attraction of thin insulators far beyond their breakdown presses faces deeper than 1
+ * um: that was taken for faces that overlap, and the branch was given up at 8.6 of 13 kV. */
 START_TEST(insulators_beyond_their_breakdown_are_pressed_not_passed) {
   ZpActuatorDef def = held_def(MM(8.43), KV(13.05), false, 71);
   def.ribbon.length = MM(54.9);

@@ -258,8 +258,8 @@ static double closed_capacitance(const ZpStatics *s) {
   return s->model->parts * per_length * (s->model->L + s->model->plates.flat_length);
 }
 
-/* The overlap that a state may have, m. By (9.1) attraction as strong as at the breakdown of the insulators makes it the
- * contact depth, stronger attraction more, and at a front the bent ribbons press on closed faces like a lever. */
+/* The overlap that a state may have, m. By (9.1) attraction as strong as at the breakdown of the insulators makes it
+ * the contact depth, stronger attraction more, and at a front the bent ribbons press on closed faces like a lever. */
 static double deepest_overlap(const ZpStatics *s) {
   static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
   const ZpFacesParams *faces = &s->model->faces;

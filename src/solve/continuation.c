@@ -7,11 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double shortest_step = 1e-9;
+static const double shortest_step = 1e-8;
 static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
-static const double surest_step = 1e-5;  /* too short to cross a sharp fold onto the way back */
 static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
-enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
+enum { MOST_CORRECTIONS = 25, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
 void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
@@ -93,14 +92,28 @@ static bool refresh(const ZpStaticSystem *rest) {
   return !rest->refresh || rest->refresh(rest->self) == ZP_END_FOUND;
 }
 
+/* Corrections that go to and fro over a corner at which the branch turns by more than a right angle, so that there is
+ * no solution at that arc length: det(K, -dr/dm; t) has another sign on the other side. */
+typedef struct Sides {
+  bool first, last; /* is it negative? at the first correction, at the last */
+  bool both;        /* it was either */
+} Sides;
+
+static void look_at_side(Sides *sides, bool negative, int corrections) {
+  if (corrections == 0) *sides = (Sides){negative, negative, false};
+  sides->both = sides->both || negative != sides->first;
+  sides->last = negative;
+}
+
 /* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, the most between
- * two refreshes; -1: failed. */
+ * two refreshes; -1: failed. If that is for a corner, the present point is beyond it. */
 static int correct(ZpBranch *b, double s, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
   bool fresh = refresh(rest);
   int refreshes = 1, effort = 0;
+  Sides sides = {false, false, false};
   ZpClosing closing;
   zp_closing_start(&closing);
   if (!fresh) return -1;
@@ -111,7 +124,9 @@ static int correct(ZpBranch *b, double s, double m_start) {
     double gone = (sys->get(rest->self) - m_start) / sys->m_scale * b->direction_m;
     for (size_t i = 0; i < n; i++)
       gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
-    bool close = zp_closing_done(&closing, left, b->tolerance) || zp_closing_stalled(&closing, left, b->tolerance);
+    bool close = zp_closing_done(&closing, left, b->tolerance), to_and_fro = sides.both && closing.stalled >= 3;
+    if (to_and_fro && sides.last == sides.first) return -1;
+    close = close || (!to_and_fro && zp_closing_stalled(&closing, left, b->tolerance));
     if (close && fabs(s - gone) < 1e-3 * s) {
       effort = k > effort ? k : effort;
       if (fresh) return effort;
@@ -128,7 +143,8 @@ static int correct(ZpBranch *b, double s, double m_start) {
     zp_band_solve(&b->newton.K, b->a);
     zp_band_solve(&b->newton.K, b->b);
     double ta = dot(n, b->direction, b->a) / sys->q_scale, tb = dot(n, b->direction, b->b) / sys->q_scale;
-    double dm = (s - gone - ta) / (tb + b->direction_m / sys->m_scale);
+    double across = tb + b->direction_m / sys->m_scale, dm = (s - gone - ta) / across;
+    look_at_side(&sides, (across < 0) != (zp_band_negative(&b->newton.K) % 2 == 1), k);
     for (size_t i = 0; i < n; i++)
       b->a[i] += b->b[i] * dm;
     zp_closing_correct(&closing, rest, b->a);
@@ -170,22 +186,40 @@ static bool turned_twice(const ZpBranch *b, double s, double m_start, double bef
   return before * after > 0 && before * middle < 0;
 }
 
-/* Over a corner, where the stiffness jumps and the branch turns by any angle: not further ahead than `ahead`, or no step
- * would have failed. Eq. (10.2) holds across it, so the tangent found beyond it says where the branch goes on. */
+/* Back to the last good point. */
+static void go_back(ZpBranch *b, double direction_m) {
+  const ZpBranchSystem *sys = b->system;
+  sys->restore(sys->at_rest.self, b->saved_before);
+  memcpy(b->direction, b->direction_saved, sys->at_rest.n * sizeof *b->direction);
+  b->direction_m = direction_m;
+}
+
+/* The tangent at the present point => direction, on the side that eq. (10.2) says. => cosine of the angle by which it
+ * has turned; 2: there is no tangent. */
+static double face_on(ZpBranch *b) {
+  int negative = find_tangent(b);
+  if (negative < 0) return 2;
+  double before = b->direction_m;
+  face(b, b->along != (negative == 1));
+  return dot(b->system->at_rest.n, b->direction, b->direction_saved) + b->direction_m * before;
+}
+
+/* Over a corner, where the stiffness jumps and the branch turns by any angle: not further ahead than `ahead`, or no
+ * step would have failed. Eq. (10.2) holds across it, so the tangent beyond it says where the branch goes on. Where the
+ * branch meets the corner at a grazing angle, corrections find what is beyond. */
 static bool turn_corner(ZpBranch *b, double ahead) {
   static const double farthest = 1e-4;
-  const ZpBranchSystem *sys = b->system;
-  size_t bytes = sys->at_rest.n * sizeof *b->direction;
   double m = b->direction_m;
   for (double s = ahead; s < farthest; s *= 4) {
-    sys->restore(sys->at_rest.self, b->saved_before);
-    memcpy(b->direction, b->direction_saved, bytes);
-    b->direction_m = m;
-    int negative = predict(b, s) ? find_tangent(b) : -1;
-    if (negative < 0) continue;
-    face(b, b->along != (negative == 1));
-    sys->restore(sys->at_rest.self, b->saved_before);
-    if (try_step(b, 4 * s) < 0 || find_direction(b) < sharpest_turn || b->reversed) continue;
+    go_back(b, m);
+    if (!predict(b, s)) return false;
+    double cosine = face_on(b);
+    if (cosine > sharpest_turn) {
+      go_back(b, m);
+      try_step(b, s);
+      cosine = face_on(b);
+    }
+    if (cosine > 1 || try_step(b, 4 * s) < 0 || find_direction(b) < sharpest_turn || b->reversed) continue;
     b->step = b->taken = 4 * s;
     return true;
   }
@@ -202,21 +236,18 @@ bool zp_branch_advance(ZpBranch *b) {
   while (b->step > shortest_step) {
     double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
     int corrections = try_step(b, s);
-    bool stayed = corrections >= 0 && find_direction(b) > (s < corner_step ? 0 : sharpest_turn);
-    if (stayed && (s < surest_step || !(b->reversed || turned_twice(b, s, m_start, m)))) {
-      b->along = b->along != b->reversed;
+    bool stayed = corrections >= 0 && find_direction(b) > (s < corner_step ? 0 : sharpest_turn) && !b->reversed;
+    if (stayed && (s < corner_step || !turned_twice(b, s, m_start, m))) {
       b->step = b->taken = s;
       if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
       if (corrections > 2 * EASY_CORRECTIONS) b->step = 0.5 * s;
       return true;
     }
-    sys->restore(self, b->saved_before);
-    memcpy(b->direction, b->direction_saved, bytes);
-    b->direction_m = m;
+    go_back(b, m);
     b->step = 0.5 * s;
   }
-  if (turn_corner(b, corner_step)) return true;
-  sys->restore(self, b->saved_before);
+  if (turn_corner(b, shortest_step)) return true;
+  go_back(b, m);
   return false;
 }
 
