@@ -160,7 +160,12 @@ static const char *violated(const ZpActuatorDef *def, const ZpResult *r) {
 
 /* -- every study -------------------------------------------------------------------------------------- */
 
-/* => is there an answer, and can it be? If not, `text` says why. */
+/* The field's grid follows ribbons that do not run back: study profile says so, and of which separation. */
+static bool is_beyond_the_grid(const ZpResult *r) {
+  return r->study == ZP_STUDY_PROFILE && r->outcome == ZP_DIVERGED && strstr(r->message, "a ribbon runs back");
+}
+
+/* => is there an answer, or a reason why there is none, and can it be? If not, `text` says why. */
 static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512]) {
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
@@ -169,7 +174,7 @@ static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512])
     return false;
   }
   const char *fault = violated(def, result);
-  bool good = zp_outcome_good(result->outcome) && !fault;
+  bool good = (zp_outcome_good(result->outcome) || is_beyond_the_grid(result)) && !fault;
   snprintf(text, 512, "%s%s%s: %s", fault ? fault : "", fault ? "; " : "", zp_outcome_name(result->outcome),
            result->message);
   zp_result_destroy(result);

@@ -92,6 +92,40 @@ START_TEST(voltages_do_not_depend_on_a_branch_that_is_left) {
 }
 END_TEST
 
+/* 18 um PET under 1e5 times the load that bends it by its length: weight was put on in shares that were too large, and
+ * it did not hang. */
+START_TEST(a_floppy_ribbon_hangs) {
+  ZpActuatorDef def = DEF({"ribbon.length", MM(216.25)}, {"ribbon.width", MM(3.1)}, {"ribbon.thickness", UM(18.154)},
+                          {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38}, {"ribbon.density", 1390},
+                          {"platform.length", MM(21.6)}, {"insulator.thickness", UM(57.79)}, {"load.mass", 0.1357},
+                          {"mesh.nodes", 165});
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(result->outcome, ZP_CONVERGED);
+  /* nearly a plumb line, longer by what the load stretches it */
+  double EA = def.ribbon.young_modulus / (1 - 0.38 * 0.38) * def.ribbon.width * def.ribbon.thickness;
+  double length = def.ribbon.length - def.platform.length, pull = 0.5 * def.load.mass * def.gravity;
+  ck_near(zp_result_get(result, "opening_m"), length * (1 + pull / EA), 0.01);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Ribbons that sag by more than the opening at which they are held have no straight shape to start from. */
+START_TEST(a_sagging_ribbon_is_held) {
+  ZpActuatorDef def = DEF({"ribbon.length", MM(289.55)}, {"ribbon.width", MM(25.09)}, {"ribbon.thickness", UM(11.617)},
+                          {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34}, {"ribbon.density", 8960},
+                          {"platform.length", MM(28.955)}, {"insulator.thickness", UM(10.256)}, {"mesh.nodes", 61},
+                          {"drive.voltage", 0}, {"isometric.separation", MM(6.984)});
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_study_run(ZP_STUDY_ISOMETRIC, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  ck_near(zp_result_get(result, "opening_m"), MM(6.984), 1e-9);
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("lost");
   TCase *branch = tcase_create("branch");
@@ -101,6 +135,8 @@ int main(void) {
   tcase_add_test(branch, faces_that_just_touch_take_more_corrections);
   tcase_add_test(branch, voltages_do_not_depend_on_a_branch_that_is_left);
   tcase_add_test(branch, closed_faces_push_in_a_vibration);
+  tcase_add_test(branch, a_floppy_ribbon_hangs);
+  tcase_add_test(branch, a_sagging_ribbon_is_held);
   suite_add_tcase(suite, branch);
   return run_suite(suite);
 }

@@ -84,10 +84,10 @@ double zp_statics_tolerance(const ZpStatics *s) {
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
 /* From straight while what is put on grows to `whole`, by the share `step` at first, for what is too far to reach at
- * once. */
+ * once. A load 1e5 times that at which a ribbon bends by its length takes a first share that small. */
 static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step,
                                  ZpNewtonWork *work) {
-  static const double shortest = 1e-4;
+  static const double shortest = 1e-8;
   ZpStaticSystem system = zp_statics_system(s);
   size_t bytes = 2 * s->model->stride * sizeof *s->q;
   double reached = 0;
@@ -144,16 +144,24 @@ static void open_to(ZpStatics *s, double opening) {
   s->opening = opening;
 }
 
+/* The same while weight is put on, too: ribbons that sag by more than the opening have no straight shape to start from.
+ */
+static void open_and_put_on(ZpStatics *s, double opening) {
+  s->opening = opening;
+  put_on(s, opening / s->held_at);
+}
+
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   s->U = 0;
   s->load = 0;
-  s->opening = opening;
+  s->opening = s->held_at = opening;
   s->contact_acts = false;
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
   if (folded || !zp_newton_good(info.end)) info = step_by_step(s, open_to, opening, 0.05, work);
+  if (!zp_newton_good(info.end)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
   return let_faces_push(s, info, work);
 }
 

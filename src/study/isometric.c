@@ -251,8 +251,11 @@ static void describe(Holder *h) {
   else if (h->outcome == ZP_INTERRUPTED)
     snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
   else if (h->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size, "lost the branch at %.4g V, drive.voltage = %g V%s%s; what was found is kept",
-             h->rest.statics.U, top, trouble ? ": " : "", trouble ? trouble : "");
+    snprintf(
+        r->message, size,
+        "a rising voltage was followed to %.4g V of drive.voltage = %g V%s%s: set more mesh.nodes; what was found is "
+        "kept",
+        h->highest, top, trouble ? "; there " : "", trouble ? trouble : "");
   else
     snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
 }
