@@ -95,10 +95,11 @@ END_TEST
 /* 18 um PET under 1e5 times the load that bends it by its length: weight was put on in shares that were too large, and
  * it did not hang. */
 START_TEST(a_floppy_ribbon_hangs) {
-  ZpActuatorDef def = DEF({"ribbon.length", MM(216.25)}, {"ribbon.width", MM(3.1)}, {"ribbon.thickness", UM(18.154)},
-                          {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38}, {"ribbon.density", 1390},
-                          {"platform.length", MM(21.6)}, {"insulator.thickness", UM(57.79)}, {"load.mass", 0.1357},
-                          {"mesh.nodes", 165});
+  ZpActuatorDef def =
+      DEF({"ribbon.length", 0.21625376098785298}, {"ribbon.width", 0.0031007512522075822},
+          {"ribbon.thickness", 1.8154074755111463e-05}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
+          {"ribbon.density", 1390}, {"platform.length", 0.021625376098785301},
+          {"insulator.thickness", 5.7790547849421387e-05}, {"load.mass", 0.13573764533378752}, {"mesh.nodes", 165});
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
