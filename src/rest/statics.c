@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "math/elementary.h"
 #include "solve/descend.h"
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
@@ -80,10 +81,10 @@ double zp_statics_tolerance(const ZpStatics *s) {
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
 /* From straight while what is put on grows to `whole`, by the share `step` at first, for what is too far to reach at
- * once. */
+ * once. A load 1e5 times that at which a ribbon bends by its length takes a first share that small. */
 static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step,
                                  ZpNewtonWork *work) {
-  static const double shortest = 1e-4;
+  static const double shortest = 1e-8;
   ZpStaticSystem system = zp_statics_system(s);
   size_t bytes = 2 * s->model->stride * sizeof *s->q;
   double reached = 0;
@@ -140,16 +141,24 @@ static void open_to(ZpStatics *s, double opening) {
   s->opening = opening;
 }
 
+/* The same while weight is put on, too: ribbons that sag by more than the opening have no straight shape to start from.
+ */
+static void open_and_put_on(ZpStatics *s, double opening) {
+  s->opening = opening;
+  put_on(s, opening / s->held_at);
+}
+
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   s->U = 0;
   s->load = 0;
-  s->opening = opening;
+  s->opening = s->held_at = opening;
   s->contact_acts = false;
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
   if (folded || !zp_newton_good(info.end)) info = step_by_step(s, open_to, opening, 0.05, work);
+  if (!zp_newton_good(info.end)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
   return let_faces_push(s, info, work);
 }
 
@@ -251,10 +260,19 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
+/* The overlap that a state may have, m. By (9.1) attraction as strong as at the breakdown of the insulators makes it
+ * the contact depth, stronger attraction more, and at a front the bent ribbons press on closed faces like a lever. */
+static double deepest_overlap(const ZpStatics *s) {
+  static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
+  const ZpFacesParams *faces = &s->model->faces;
+  double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
+  double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
+  return fmax(fmax(micrometre, of_insulators * 2 * s->model->def.insulator.thickness), lever * balanced);
+}
+
 const char *zp_statics_fault(const ZpStatics *s) {
   static const double beyond_plates = 1.1; /* what fields round the ends add to plates is below that */
-  static const double micrometre = 1e-6;
-  double least = INFINITY, most = fmax(micrometre, 0.01 * 2 * s->model->def.insulator.thickness);
+  double least = INFINITY, most = deepest_overlap(s);
   for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
   if (s->contact_acts && least < -most) return "the insulators' faces overlap";

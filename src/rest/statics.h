@@ -19,6 +19,7 @@ typedef struct ZpStatics {
   const double *k0;  /* [stride] natural 2 tan(phi / 2) of joints, of all natural curvature */
   double *k0_now;    /* and of what acts */
   double opening;    /* at which the lower platform is held, m; NAN: it hangs free */
+  double held_at;    /* that opening in the end, on the way there, m */
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
@@ -84,9 +85,9 @@ bool zp_statics_shorted(const ZpStatics *statics);
 /* Why the field could not be solved where it was tried last; NULL if it was, or is not asked for. */
 const char *zp_statics_trouble(const ZpStatics *statics);
 
-/* Why the present point cannot be: faces overlap by more than 1 um and 1 % of their
- * insulators, or the capacitance exceeds that of
- * closed faces. NULL if nothing speaks against it. Of the last residual. */
+/* Why the present point cannot be: faces overlap by more than 1 um, 1 % of their insulators and three times what their
+ * attraction alone makes of it, or the capacitance exceeds that of closed faces. NULL if nothing speaks against it. Of
+ * the last residual. */
 const char *zp_statics_fault(const ZpStatics *statics);
 
 /* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */

@@ -22,7 +22,7 @@ static const ZpColumn columns[] = {
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000 };
 
 /* Hanging: the faces that close last are within this part of where they hang without voltage. */
 static const double hanging_part = 0.01;
@@ -39,6 +39,8 @@ typedef struct Follower {
   void *start;    /* of the branch under way */
   double hanging; /* distance of the faces that close last, without voltage, m */
   bool ran_back;  /* the branch that hangs turned back into itself */
+  int turns;      /* limit points on the branch under way */
+  double left;    /* voltage at which a branch was left beyond a limit point, V; NAN: none was */
   ZpOutcome outcome;
 } Follower;
 
@@ -115,7 +117,9 @@ static bool follow(Follower *f, bool growing, int mark) {
   record(f, mark);
   if (!zp_rest_follow(&f->rest, growing)) return false;
   for (int k = 0; k < MOST_POINTS; k++) {
-    if (!zp_branch_advance(&f->rest.branch)) return false;
+    double direction = f->rest.branch.direction_m;
+    if (!zp_branch_advance(&f->rest.branch) || zp_statics_fault(&f->rest.statics)) return false;
+    f->turns += direction * f->rest.branch.direction_m < 0;
     if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
     if (f->rest.statics.U < 0) return !f->ran_back;
     if (zp_statics_shorted(&f->rest.statics)) {
@@ -136,8 +140,14 @@ static bool follow(Follower *f, bool growing, int mark) {
   return false;
 }
 
+/* Beyond its first limit point a branch may be left: the voltages do not depend on what is there. */
 static void follow_whole(Follower *f, bool growing, int mark) {
-  if (!follow(f, growing, mark)) f->outcome = ZP_BRANCH_LOST;
+  f->turns = 0;
+  if (follow(f, growing, mark)) return;
+  if (f->turns > 0 && !f->ran_back)
+    f->left = f->rest.statics.U;
+  else
+    f->outcome = ZP_BRANCH_LOST;
 }
 
 /* -- the study ------------------------------------------------------------------------------------ */
@@ -185,7 +195,7 @@ static void find(Follower *f) {
     return;
   }
   follow_whole(f, true, 0);
-  bool whole = f->outcome == ZP_FOLLOWED && f->model->field && zp_slow_is_closed(&f->slow);
+  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->model->field && zp_slow_is_closed(&f->slow);
   if (f->outcome == ZP_INTERRUPTED) return;
   zp_slow_go_to(&f->slow, f->start);
   if (!find_voltages(f) || whole) return;
@@ -197,6 +207,12 @@ static void note(Follower *f) {
   ZpResult *r = f->result;
   zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
   if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
+  if (!isnan(f->left))
+    zp_result_note(
+        r,
+        "a branch was left at %.4g V, beyond its first limit point: other states of rest there are not in the "
+        "table; pull-in, closing and release do not depend on them",
+        f->left);
   if (!isnan(f->shorted))
     zp_result_note(r, "at %.4g V electrodes without an insulator touch, a short circuit: the branch ends there",
                    f->shorted);
@@ -263,7 +279,8 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {.model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
+  Follower f = {
+      .model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .left = NAN, .outcome = ZP_FOLLOWED};
   f.slow.stop = must_stop;
   f.slow.caller = &f;
   status = run(&f, err);

@@ -26,7 +26,7 @@ static const ZpColumn columns[] = {
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"passed", "1", "1: a rising voltage leads through it, 0: it is jumped over"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000, MOST_BEYOND = 2000 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
 
 /* Other states at drive.voltage are looked for where the branch comes back from up to this times it. */
 static const double look_beyond = 1.25;
@@ -134,8 +134,8 @@ static End follow(Holder *h) {
     double direction = h->rest.branch.direction_m;
     h->rising = direction > 0;
     h->rest.system.save(s, h->before);
-    if (!zp_branch_advance(&h->rest.branch) || s->U < 0) return turned ? TURNED_FOR_GOOD : LOST;
-    if (!is_possible(h)) return LOST;
+    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h);
+    if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
       h->rest.system.save(s, h->near);
@@ -146,7 +146,7 @@ static End follow(Holder *h) {
     record(h, s->U == h->highest, false);
     if (asked_to_stop(h)) return INTERRUPTED;
   }
-  return LOST;
+  return turned ? TURNED_FOR_GOOD : LOST;
 }
 
 /* Release at the last turn, just above its voltage. */
@@ -251,8 +251,11 @@ static void describe(Holder *h) {
   else if (h->outcome == ZP_INTERRUPTED)
     snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
   else if (h->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size, "lost the branch at %.4g V, drive.voltage = %g V%s%s; what was found is kept",
-             h->rest.statics.U, top, trouble ? ": " : "", trouble ? trouble : "");
+    snprintf(
+        r->message, size,
+        "a rising voltage was followed to %.4g V of drive.voltage = %g V%s%s: set more mesh.nodes; what was found is "
+        "kept",
+        h->highest, top, trouble ? "; there " : "", trouble ? trouble : "");
   else
     snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
 }

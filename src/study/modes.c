@@ -183,7 +183,6 @@ static void run(Problem *p, ZpResult *result) {
              "short circuit at modes.voltage = %g V: electrodes without an insulator touch", voltage);
     return;
   }
-  p->rest.statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
   if (!zp_statics_stable(&p->rest.statics, &p->rest.branch.newton)) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
     return;
