@@ -300,10 +300,11 @@ static void plot_many(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
       plot_curve(plot, file, unit, k, i, zp_plot_shade(curves > 1 ? (double)k / (double)(curves - 1) : 0.3));
       zp_plot_text(file, i == named ? name : "");
     }
-  for (size_t i = named; i < 2; i++)
-    if (a->legend[i] && points(plot, i))
-      fprintf(file, ", \\\n     NaN with linespoints lw 2 dt %zu pt %d ps 0.8 lc rgb '#555555' title '%s'", i + 1,
-              i ? 5 : 7, a->legend[i]);
+  for (size_t i = named; i < 2; i++) {
+    if (!a->legend[i] || points(plot, i) == 0) continue;
+    fprintf(file, ", \\\n     NaN with linespoints lw 2 dt %zu pt %d ps 0.8 lc rgb '#555555' title ", i + 1, i ? 5 : 7);
+    zp_plot_text(file, a->legend[i]);
+  }
   fputc('\n', file);
 }
 
