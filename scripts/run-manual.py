@@ -21,6 +21,8 @@ PICTURES = {
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
     "limits.svg": "chart/plots/loads.svg",
+    "design-chart.svg": "design/plots/map.svg",
+    "stress.svg": "stress/plots/stress.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
     "profile.svg": "profile/plots/profile.svg",
     "field.svg": "profile/plots/field_tip.svg",

@@ -47,8 +47,9 @@ ZP_API void zp_limits_destroy(ZpLimits *limits);
 typedef struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
-  char message[256];            /* one sentence on how it ended */
-  char note[ZP_MAX_NOTES][256]; /* [notes] sentences: breakdown, limits of the model and of the mesh that were met */
+  char message[256]; /* one sentence on how it ended */
+  char note[ZP_MAX_NOTES]
+           [256]; /* [notes] sentences: breakdown, yield, limits of the model and of the mesh that were met */
   size_t notes;
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
@@ -88,9 +89,9 @@ ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, 
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
 
-/* Note breakdown and a mesh that is too coarse, for `model` under voltages up to `highest` (V), of the first `frames`
- * shapes of the result. */
-ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames);
+/* Note breakdown where the faces of two ribbons touch, at the clip, and a mesh that is too coarse, for `model` under
+ * voltages up to `highest` (V). */
+ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest);
 
 /* Free a result with all that it holds; NULL is allowed. */
 ZP_API void zp_result_destroy(ZpResult *result);

@@ -87,6 +87,8 @@ frames = numel(shapes.time_s);
 check(frames > 10 && isequal(size(shapes.y_m), [21 2 frames]) && isequal(size(shapes.gap_m), [21 frames]), 'shapes');
 gap = squeeze(shapes.y_m(:, 1, :) - shapes.y_m(:, 2, :));
 check(max(abs(gap(:) - shapes.gap_m(:))) < 1e-12, 'the gap is the distance of the ribbons');
+check(isequal(size(shapes.stress_Pa), size(shapes.x_m)) && max(shapes.stress_Pa(:)) <= moved.max_stress_Pa, 'stress');
+check(isequal(size(shapes.insulator_field_V_per_m), size(shapes.gap_m)), 'field in the insulators');
 alone = zipact('stationary', 'actuator.kind', 'ribbon');
 check(size(alone.shapes.x_m, 2) == 1 && ~isfield(alone.shapes, 'gap_m'), 'one ribbon alone');
 

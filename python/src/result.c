@@ -143,9 +143,10 @@ static PyObject *get_shapes(PyObject *self, void *unused) {
   const ZpShapes *shapes = of(self)->shapes;
   if (!shapes || shapes->frames == 0) Py_RETURN_NONE;
   ZpShape first = zp_shapes_get(shapes, 0);
-  return Py_BuildValue("{sNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
+  return Py_BuildValue("{sNsNsNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
                        film(self, first.y, 3), "gap", film(self, first.gap, 2), "line_force",
-                       film(self, first.line_force, 2));
+                       film(self, first.line_force, 2), "insulator_field", film(self, first.insulator_field, 2),
+                       "stress", film(self, first.stress, 3));
 }
 
 static PyObject *get_field(PyObject *self, void *unused) {

@@ -71,6 +71,10 @@ class Shapes(NamedTuple):
     """[frames, nodes] m; None for kind ribbon"""
     line_force: np.ndarray | None
     """[frames, nodes] N/m, attraction per length; None for kind ribbon"""
+    insulator_field: np.ndarray | None
+    """[frames, nodes] V/m; None for kind ribbon; nan without insulators"""
+    stress: np.ndarray | None
+    """[frames, nodes, ribbons] Pa, of the metal, the largest of its section; None in study profile"""
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the film, early shapes pale, late ones dark."""
@@ -106,7 +110,7 @@ def array(view: Any) -> Any:
 
 def shapes_of(parts: Mapping[str, Any]) -> Shapes:
     time, voltage, zipped = np.array(parts["heads"], dtype=float).T
-    arrays = (array(parts[name]) for name in ("x", "y", "gap", "line_force"))
+    arrays = (array(parts[name]) for name in ("x", "y", "gap", "line_force", "insulator_field", "stress"))
     return Shapes(time, voltage, zipped.astype(int), *arrays)
 
 
@@ -126,7 +130,7 @@ class Result(Mapping[str, float]):
         self.message: str = found.message
         """one sentence on how it ended"""
         self.notes: tuple[str, ...] = found.notes
-        """sentences: breakdown, limits of the model and of the mesh that were met"""
+        """sentences: breakdown, yield, limits of the model and of the mesh that were met"""
         self.units = {name: unit for name, unit, _, _ in found.scalars}
         """SI unit of each number; "1" for pure ones, "count" for whole ones"""
         self._numbers = {name: value for name, _, value, _ in found.scalars}

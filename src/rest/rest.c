@@ -18,7 +18,7 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
     }
     zp_branch_carve(&rest->branch, &rest->system, rest->statics.assembly.bandwidth, rest->statics.assembly.symmetric,
                     &carver);
-    rest->line_force = zp_carve(&carver, model->nodes);
+    zp_shape_carve(model, &rest->shape_room, &carver);
     if (carve) carve(user, &carver);
   }
   return true;

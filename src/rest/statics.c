@@ -281,14 +281,11 @@ const char *zp_statics_fault(const ZpStatics *s) {
   return NULL;
 }
 
-ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
-  const ZpModel *model = s->model;
-  ZpShape shape = {.time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + model->stride};
-  if (!model->field) return shape;
-  for (size_t i = 0; i < model->nodes; i++)
-    line_force[i] = zp_plates_law(&model->plates, s->U, s->eval.plates.gap[i]).W;
-  shape.gap = s->eval.plates.gap;
-  shape.line_force = line_force;
+ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *room) {
+  ZpShape shape = {
+      .time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + s->model->stride};
+  if (s->model->field) shape.gap = s->eval.plates.gap;
+  zp_shape_fill(s->model, room, &shape);
   return shape;
 }
 

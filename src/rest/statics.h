@@ -4,10 +4,9 @@
 #define ZP_REST_STATICS_H
 
 #include "actuator/assemble.h"
+#include "actuator/shape.h"
 #include "solve/continuation.h"
 #include "system/system.h"
-
-#include <zipact/table.h>
 
 typedef struct ZpStatics {
   const ZpModel *model; /* the one given, with natural turns as far as they are put on, and overlapping faces closed */
@@ -94,7 +93,7 @@ const char *zp_statics_fault(const ZpStatics *statics);
 double zp_statics_charge(const ZpStatics *statics);
 double zp_statics_capacitance(const ZpStatics *statics);
 
-/* The present shape, `time` being any mark; valid until the point moves. `line_force` [N] is filled. */
-ZpShape zp_statics_shape(const ZpStatics *statics, double time, double *line_force);
+/* The present shape, `time` being any mark; valid until the point moves; `room` is filled. */
+ZpShape zp_statics_shape(const ZpStatics *statics, double time, const ZpShapeRoom *room);
 
 #endif

@@ -29,6 +29,15 @@ const char *zp_step_limit_name(ZpStepLimit limit) {
 
 /* -- creation ------------------------------------------------------------------------------------- */
 
+static bool make_shape_room(ZpSim *sim) {
+  ZpCarver carver = {NULL, 0};
+  zp_shape_carve(sim->model, &sim->shape_room, &carver);
+  sim->shape_memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){sim->shape_memory, 0};
+  if (sim->shape_memory) zp_shape_carve(sim->model, &sim->shape_room, &carver);
+  return sim->shape_memory != NULL;
+}
+
 static bool allocate(ZpSim *sim) {
   const ZpModel *model = sim->model;
   size_t signals;
@@ -37,10 +46,10 @@ static bool allocate(ZpSim *sim) {
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
-  sim->line_force = zp_calloc(model->nodes, sizeof(double));
+  sim->margins = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
   return zp_system_create(model, true, &sim->eval) && sim->stepping->create(sim) && sim->state && sim->kept &&
-         sim->relax_work && sim->row && sim->line_force;
+         sim->relax_work && sim->row && make_shape_room(sim);
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -110,7 +119,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->kept);
   zp_free(sim->relax_work);
   zp_free(sim->row);
-  zp_free(sim->line_force);
+  zp_free(sim->shape_memory);
   zp_free(sim);
 }
 

@@ -21,6 +21,7 @@ static const ZpColumn columns[] = {
     {"capacitance_F", "F", "capacitance of the electrodes"},
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
+    ZP_MARGIN_COLUMNS,
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000 };
 
@@ -38,9 +39,10 @@ typedef struct Follower {
   double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
   void *start;    /* of the branch under way */
   double hanging; /* distance of the faces that close last, without voltage, m */
-  bool ran_back;  /* the branch that hangs turned back into itself */
-  int turns;      /* limit points on the branch under way */
-  double left;    /* voltage at which a branch was left beyond a limit point, V; NAN: none was */
+  ZpMargins margins;
+  bool ran_back; /* the branch that hangs turned back into itself */
+  int turns;     /* limit points on the branch under way */
+  double left;   /* voltage at which a branch was left beyond a limit point, V; NAN: none was */
   ZpOutcome outcome;
 } Follower;
 
@@ -62,6 +64,8 @@ static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
   ZpStatics *s = &f->rest.statics;
   bool stable = zp_statics_stable(s, &f->rest.branch.newton);
+  ZpShape shape = zp_statics_shape(s, f->points, &f->rest.shape_room);
+  ZpMargins margins = zp_margins_of(model, &shape);
   double row[COLUMNS] = {s->U,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
@@ -69,9 +73,11 @@ static void record(Follower *f, int branch) {
                          zp_statics_charge(s),
                          zp_statics_capacitance(s),
                          stable,
-                         branch};
+                         branch,
+                         ZP_MARGIN_VALUES(margins)};
   bool last = s->U == model->def.drive.voltage && f->points > 0;
-  ZpShape shape = zp_statics_shape(s, f->points++, f->rest.line_force);
+  f->points++;
+  zp_margins_join(&f->margins, margins);
   zp_table_offer(f->result->series, row);
   zp_shapes_offer(f->result->shapes, &shape);
   if (!last) return;
@@ -205,7 +211,9 @@ static void find(Follower *f) {
 
 static void note(Follower *f) {
   ZpResult *r = f->result;
-  zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
+  zp_add_margins(r, f->model, &f->margins);
+  zp_note_mesh(r, f->model, f->model->def.drive.voltage);
   if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
   if (!isnan(f->left))
     zp_result_note(
@@ -279,8 +287,13 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {
-      .model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .left = NAN, .outcome = ZP_FOLLOWED};
+  Follower f = {.model = model,
+                .hooks = task->hooks,
+                .result = result,
+                .shorted = NAN,
+                .left = NAN,
+                .margins = zp_margins_none(),
+                .outcome = ZP_FOLLOWED};
   f.slow.stop = must_stop;
   f.slow.caller = &f;
   status = run(&f, err);

@@ -25,6 +25,7 @@ static const ZpColumn columns[] = {
     {"capacitance_F", "F", "capacitance of the electrodes"},
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"passed", "1", "1: a rising voltage leads through it, 0: it is jumped over"},
+    ZP_MARGIN_COLUMNS,
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
 
@@ -46,6 +47,7 @@ typedef struct Holder {
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
+  ZpMargins margins;
   const char *fault; /* why the state found cannot be; NULL: nothing speaks against it */
   ZpOutcome outcome;
 } Holder;
@@ -73,9 +75,11 @@ static bool is_stable(Holder *h) {
 static void record(Holder *h, bool passed, bool last) {
   ZpStatics *s = &h->rest.statics;
   bool stable = is_stable(h);
-  double row[COLUMNS] = {s->U,   force(h), zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s),
-                         stable, passed};
-  ZpShape shape = zp_statics_shape(s, h->points++, h->rest.line_force);
+  ZpShape shape = zp_statics_shape(s, h->points++, &h->rest.shape_room);
+  ZpMargins margins = zp_margins_of(h->model, &shape);
+  double row[COLUMNS] = {s->U,   force(h), zipped_length(h),         zp_statics_charge(s), zp_statics_capacitance(s),
+                         stable, passed,   ZP_MARGIN_VALUES(margins)};
+  zp_margins_join(&h->margins, margins);
   zp_table_offer(h->result->series, row);
   zp_shapes_offer(h->result->shapes, &shape);
   if (!last) return;
@@ -226,7 +230,9 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 
 static void note(Holder *h) {
   ZpResult *r = h->result;
-  zp_result_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
+  zp_margins_join(&h->margins, zp_margins_at_clip(h->model, h->model->def.drive.voltage));
+  zp_add_margins(r, h->model, &h->margins);
+  zp_note_mesh(r, h->model, h->model->def.drive.voltage);
   if (h->jumps > 0)
     zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
@@ -316,7 +322,8 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Holder h = {.model = model, .hooks = task->hooks, .result = result, .outcome = ZP_CONVERGED};
+  Holder h = {
+      .model = model, .hooks = task->hooks, .result = result, .margins = zp_margins_none(), .outcome = ZP_CONVERGED};
   result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
   result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)bare.output.shapes);
   if (result->series && result->shapes && zp_rest_open(&h.rest, model, carve, &h))

@@ -35,6 +35,7 @@ typedef struct Problem {
   double *q;        /* [2 stride] of the equilibrium */
   double reduced[SUBSPACE * SUBSPACE], turn[SUBSPACE * SUBSPACE];
   double omega2[SUBSPACE];
+  ZpMargins margins; /* of the equilibrium */
 } Problem;
 
 static void carve(void *user, ZpCarver *carver) {
@@ -136,7 +137,8 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
   for (size_t k = 0; k < 2 * model->stride; k++)
     q[k] = p->q[k] + amplitude * q[k];
   if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->rest.statics.eval.plates);
-  ZpShape shape = zp_statics_shape(&p->rest.statics, frame, p->rest.line_force);
+  ZpShape shape = zp_statics_shape(&p->rest.statics, frame, &p->rest.shape_room);
+  if (frame == 0) p->margins = zp_margins_of(model, &shape);
   zp_shapes_offer(shapes, &shape);
 }
 
@@ -220,8 +222,11 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   result->series = zp_table_create(columns, COLUMNS, MODES);
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
   if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
+    p->margins = zp_margins_none();
     run(p, result);
-    zp_result_note_model(result, model, task->def->modes.voltage, 1); /* the others are no shapes at rest */
+    zp_margins_join(&p->margins, zp_margins_at_clip(model, task->def->modes.voltage));
+    zp_add_margins(result, model, &p->margins);
+    zp_note_mesh(result, model, task->def->modes.voltage);
   } else {
     status = zp_fail_memory(err);
   }

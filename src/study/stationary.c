@@ -14,18 +14,26 @@ static const ZpColumn columns[] = {
     {"tension_N", "N", "in the edge to the right"},
     {"upper_x_m", "m", "upper ribbon"},
     {"upper_y_m", "m", "upper ribbon"},
+    {"stress_Pa", "Pa", "of the metal of the lower or only ribbon, largest of its section"},
+    {"upper_stress_Pa", "Pa", "of the metal of the upper ribbon"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static void fill_table(const ZpStatics *s, ZpTable *table) {
+static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
   const ZpModel *model = s->model;
   const ZpTopology *t = &model->topology;
   const double *x = s->q, *y = s->q + model->stride;
   for (size_t i = 0; i < t->stations; i++) {
     size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
     bool edge = i + 1 < t->stations && (i < t->platform.first || i >= t->platform.last), two = zp_is_pair(t);
-    double row[COLUMNS] = {
-        (double)i, x[lower], y[lower], edge ? s->eval.edges.T[lower] : NAN, two ? x[upper] : NAN, two ? y[upper] : NAN};
+    double row[COLUMNS] = {(double)i,
+                           x[lower],
+                           y[lower],
+                           edge ? s->eval.edges.T[lower] : NAN,
+                           two ? x[upper] : NAN,
+                           two ? y[upper] : NAN,
+                           shape->stress[lower],
+                           two ? shape->stress[upper] : NAN};
     zp_table_offer(table, row);
   }
 }
@@ -56,12 +64,13 @@ static void run(ZpRest *rest, ZpResult *result) {
   if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  zp_result_note_model(result, s->model, 0, 0);
-  if (found) {
-    fill_table(s, result->series);
-    ZpShape shape = zp_statics_shape(s, 0, rest->line_force);
-    zp_shapes_offer(result->shapes, &shape);
-  }
+  ZpShape shape = zp_statics_shape(s, 0, &rest->shape_room);
+  ZpMargins margins = found ? zp_margins_of(s->model, &shape) : zp_margins_none();
+  zp_add_stress(result, s->model, &margins);
+  zp_note_mesh(result, s->model, 0);
+  if (!found) return;
+  fill_table(s, &shape, result->series);
+  zp_shapes_offer(result->shapes, &shape);
 }
 
 /* It has no voltage and asks for nothing. */
