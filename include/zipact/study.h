@@ -20,6 +20,17 @@ typedef struct ZpScalar {
 #define ZP_MAX_SCALARS 64
 #define ZP_MAX_NOTES   8
 
+/* A derivative of an output by a key of sensitivity.by, exact but for rounding. */
+typedef struct ZpSensitivity {
+  const char *output; /* name of a scalar: "stroke_m" */
+  int key;            /* index of the key */
+  double value;       /* in SI units of both; NAN where it does not exist */
+} ZpSensitivity;
+
+/* Most keys of sensitivity.by, and most derivatives. */
+#define ZP_MAX_SENSITIVITY_KEYS 16
+#define ZP_MAX_SENSITIVITIES    128
+
 /* The electric field around the ribbons, on a grid that follows them: node (i, j) is at [i * ny + j], i along the
  * ribbons, j upwards; cell (i, j) between the nodes (i, j) and (i + 1, j + 1) is at [i * (ny - 1) + j]. */
 typedef struct ZpFieldMap {
@@ -53,6 +64,8 @@ typedef struct ZpResult {
   size_t notes;
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
+  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
+  size_t sensitivities;
   ZpTable *series;          /* the study's table; NULL if it has none */
   ZpShapes *shapes;         /* NULL if it has none */
   ZpFieldMap *map;          /* NULL if it has none */
@@ -82,6 +95,10 @@ ZP_API ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpSt
 
 /* A result of `study` without anything in it, for whoever fills one; NULL if there is no memory. */
 ZP_API ZpResult *zp_result_create(ZpStudy study);
+
+/* Append the derivative of the scalar `output` by key `key`; beyond ZP_MAX_SENSITIVITIES it is left out. `output` must
+ * outlive the result. */
+ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
 
 /* Append a number to the summary; one that follows from wall time; a sentence of note. Beyond ZP_MAX_SCALARS and
  * ZP_MAX_NOTES they are left out. `name` and `unit` must outlive the result. */

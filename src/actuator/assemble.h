@@ -35,6 +35,10 @@ void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
+/* u' K u of the same for a direction u [n], edge by edge. Along a motion that hardly stretches an edge the matrix would
+ * lose it in rounding. */
+double zp_edges_along(const ZpAssembly *assembly, const double (*D)[4], const double *u);
+
 /* Second derivatives of what depends on gaps and on the mean x-length of an element's ribbons, N/m. */
 typedef struct ZpGapDerivatives {
   double *own;             /* [N] by the gap of a station */

@@ -29,6 +29,21 @@ static bool set_frequencies(json_t *object, const ZpResult *result) {
   return zp_json_set(object, "frequencies_Hz", array) && done;
 }
 
+/* {output: {key: derivative}} where there are any. */
+static bool set_sensitivity(json_t *object, const ZpResult *result) {
+  json_t *all = json_object();
+  bool done = all != NULL;
+  for (size_t i = 0; i < result->sensitivities && done; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    json_t *by = json_object_get(all, s->output);
+    if (!by) done = zp_json_set(all, s->output, by = json_object());
+    done = done && zp_json_set(by, zp_key(s->key)->name, zp_json_number(s->value, "1"));
+  }
+  if (result->sensitivities > 0) return zp_json_set(object, "sensitivity", all) && done;
+  json_decref(all);
+  return done;
+}
+
 static bool set_scalars(json_t *object, const ZpResult *result) {
   bool done = zp_study_shows(result->study) != ZP_SHOWS_modes || set_frequencies(object, result);
   for (size_t i = 0; i < result->scalars; i++) {
@@ -36,7 +51,7 @@ static bool set_scalars(json_t *object, const ZpResult *result) {
     if (!is_frequency(result, scalar))
       done = zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit)) && done;
   }
-  return done;
+  return set_sensitivity(object, result) && done;
 }
 
 /* Add the notes of a run that are not in the array yet. */

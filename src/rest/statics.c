@@ -380,6 +380,19 @@ static void stiffness(void *self, ZpBand *K, double *r) {
   if (is_held(s)) hold_equation(s, K, r);
 }
 
+double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
+  residual(s, r, NULL);
+  stiffness(s, K, NULL);
+  double sum = zp_edges_along(&s->assembly, (const double(*)[4])s->eval.D, u);
+  if (!s->model->field) return sum;
+  zp_band_clear(K);
+  zp_assemble_gaps(&s->assembly, &s->eval.gaps, K);
+  zp_band_multiply(K, u, r);
+  for (size_t i = 0; i < s->assembly.n; i++)
+    sum += u[i] * r[i];
+  return sum;
+}
+
 /* -- moving --------------------------------------------------------------------------------------- */
 
 static double part(const ZpStatics *s, const double *step, size_t k) {

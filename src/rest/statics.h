@@ -47,6 +47,10 @@ ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
  * factored. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
+/* u' K u at the present point, of a direction u [n], edge by edge (zp_edges_along); the tensions are those foreseen. K
+ * and r [n] are work space. */
+double zp_statics_stiffness_along(ZpStatics *statics, const double *u, ZpBand *K, double *r);
+
 /* Residual that is asked for: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */
 double zp_statics_tolerance(const ZpStatics *statics);
 

@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "sim/margins.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 /* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
@@ -152,7 +153,8 @@ static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHoo
 
 ZpStatus zp_check_actuate(const ZpActuatorDef *def, ZpError *err) {
   bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
-  ZpStatus status = zp_def_check_motion(def, err);
+  ZpStatus status = zp_check_no_sensitivity(def, "actuate", err);
+  if (status == ZP_OK) status = zp_def_check_motion(def, err);
   if (status != ZP_OK || table) return status;
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "rest/slow.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -38,6 +39,7 @@ typedef struct Follower {
   int points;
   double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
   void *start;    /* of the branch under way */
+  void *hung;     /* the state that hangs without voltage */
   double hanging; /* distance of the faces that close last, without voltage, m */
   ZpMargins margins;
   bool ran_back; /* the branch that hangs turned back into itself */
@@ -54,6 +56,7 @@ static void carve(void *user, ZpCarver *carver) {
   zp_limit_carve(&f->closing, save, equations, carver);
   zp_limit_carve(&f->release, save, equations, carver);
   f->start = zp_carve(carver, save);
+  f->hung = zp_carve(carver, save);
 }
 
 static double opening(Follower *f) {
@@ -163,6 +166,7 @@ static bool hang(Follower *f) {
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", info.residual);
   f->rest.system.save(&f->rest.statics, f->start);
+  f->rest.system.save(&f->rest.statics, f->hung);
   f->hanging = f->model->field ? opening(f) : 0;
   zp_slow_start(&f->slow, f->hanging);
   return zp_newton_good(info.end);
@@ -258,6 +262,17 @@ static ZpOutcome outcome_of(const Follower *f) {
   return lost && f->outcome == ZP_FOLLOWED ? ZP_BRANCH_LOST : f->outcome;
 }
 
+static ZpStatus derive(Follower *f, ZpError *err) {
+  ZpLimitList list = {&f->slow,
+                      f->hung,
+                      {{"pull_in_voltage_V", &f->pull_in, false},
+                       {"release_voltage_V", &f->release, false},
+                       {"closing_voltage_V", &f->closing, false}},
+                      3};
+  if (f->outcome == ZP_NOT_SETTLED) return ZP_OK;
+  return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, f->result, err);
+}
+
 static ZpStatus run(Follower *f, ZpError *err) {
   const ZpActuatorDef *def = &f->model->def;
   f->result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
@@ -276,11 +291,12 @@ static ZpStatus run(Follower *f, ZpError *err) {
   f->result->outcome = outcome_of(f);
   describe(f);
   note(f);
-  return ZP_OK;
+  return derive(f, err);
 }
 
 ZpStatus zp_check_equilibrium(const ZpActuatorDef *def, ZpError *err) {
-  return zp_def_check_voltage(def, def->drive.voltage, err);
+  ZpStatus status = zp_check_sensitivity(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
 ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {

@@ -15,6 +15,7 @@
 #include "rest/rest.h"
 #include "study/held.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -40,10 +41,11 @@ typedef struct Holder {
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
-  double unpowered;    /* holds the platform without voltage, N, whole actuator */
-  double highest;      /* voltage that the branch has come to, V */
-  double force;        /* at the last state that was passed, N */
-  double leap;         /* the largest change of force in a jump, N */
+  void *unpowered_state;
+  double unpowered; /* holds the platform without voltage, N, whole actuator */
+  double highest;   /* voltage that the branch has come to, V */
+  double force;     /* at the last state that was passed, N */
+  double leap;      /* the largest change of force in a jump, N */
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
@@ -54,7 +56,7 @@ typedef struct Holder {
 
 static void carve(void *user, ZpCarver *carver) {
   Holder *h = user;
-  void **const point[] = {&h->before, &h->edge, &h->near};
+  void **const point[] = {&h->before, &h->edge, &h->near, &h->unpowered_state};
   for (size_t k = 0; k < sizeof point / sizeof point[0]; k++)
     *point[k] = zp_carve(carver, zp_rest_save_size(&h->rest));
 }
@@ -280,11 +282,52 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
     h->outcome = ZP_BRANCH_LOST;
 }
 
+/* -- derivatives ---------------------------------------------------------------------------------- */
+
+static void pose_unpowered(const ZpActuatorDef *def, ZpStatics *s) {
+  s->opening = def->isometric.separation;
+}
+
+static void pose_powered(const ZpActuatorDef *def, ZpStatics *s) {
+  s->opening = def->isometric.separation;
+  s->U = def->drive.voltage;
+}
+
+static double charge(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_charge(s);
+}
+
+static double capacitance(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_capacitance(s);
+}
+
+/* From the state at drive.voltage, `near` being a copy of it. */
+static void derive(void *user, ZpSlope *slope, ZpResult *r) {
+  static const struct {
+    const char *name;
+    ZpOutput output;
+  } others[] = {{"opening_m", zp_output_opening}, {"charge_C", charge}, {"capacitance_F", capacitance}};
+  Holder *h = user;
+  ZpStatics *s = &h->rest.statics;
+  h->rest.system.restore(s, h->unpowered_state);
+  double unpowered = zp_slope_solve(slope, pose_unpowered) ? h->model->parts * slope->reaction : NAN;
+  h->rest.system.restore(s, h->near);
+  bool found = zp_slope_solve(slope, pose_powered);
+  zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->model->parts * slope->reaction - unpowered : NAN);
+  zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
+  for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
+    zp_result_add_sensitivity(r, others[k].name, slope->key,
+                              found ? zp_slope_of(slope, pose_powered, others[k].output, NULL) : NAN);
+}
+
 static void run(Holder *h) {
   ZpStatics *s = &h->rest.statics;
   ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
   if (zp_newton_good(info.end)) {
     h->unpowered = h->model->parts * s->reaction;
+    h->rest.system.save(s, h->unpowered_state);
     record(h, true, false);
     if (h->model->def.drive.voltage > 0) raise_voltage(h, &info);
   } else {
@@ -294,6 +337,7 @@ static void run(Holder *h) {
   describe(h);
   note(h);
   h->result->outcome = h->outcome;
+  h->rest.system.save(s, h->near);
 }
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
@@ -312,6 +356,7 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err
 
 ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_check_held(def, "isometric", err);
+  if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
@@ -330,6 +375,7 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
     run(&h);
   else
     status = zp_fail_memory(err);
+  if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = zp_sensitivity_of(&h.rest, derive, &h, result, err);
   zp_rest_close(&h.rest);
   zp_model_destroy(model);
   return status;

@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -324,6 +325,13 @@ static ZpOutcome outcome_of(const Finder *f) {
   return f->interrupted ? ZP_INTERRUPTED : ZP_CONVERGED;
 }
 
+static ZpStatus derive(Finder *f, ZpResult *r, ZpError *err) {
+  ZpLimitList list = {.slow = &f->slow, .hanging = f->limits->start, .count = ZP_LIMIT_KINDS};
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    list.item[k] = (ZpNamedLimit){scalars[k].name, &f->limits->limit[k], k == ZP_LIMIT_LOAD};
+  return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, r, err);
+}
+
 static void run(Finder *f, ZpResult *r) {
   bool hangs = find(f);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
@@ -350,7 +358,8 @@ ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "actuator.kind = ribbon: study limits requires electrodes: kind electro_ribbon or flange");
-  return zp_def_check_voltage(def, def->drive.voltage, err);
+  ZpStatus status = zp_check_sensitivity(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
 ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
@@ -368,6 +377,7 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
     run(&f, result);
   else
     status = zp_fail_memory(err);
+  if (f.limits && f.limits->hangs) status = derive(&f, result, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
   return status;

@@ -9,6 +9,7 @@
 #include "math/eigen.h"
 #include "rest/rest.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 enum { MODES = 8, SUBSPACE = 16, MOST_ROUNDS = 200 };
@@ -128,6 +129,13 @@ static bool solve(Problem *p, size_t modes) {
   return false;
 }
 
+/* Of a vector the error is the root of that of its frequency: what follows from it to first order takes more rounds. */
+static void refine(Problem *p) {
+  enum { ROUNDS = 30 };
+  for (int round = 0; round < ROUNDS; round++)
+    iterate(p);
+}
+
 /* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
   const ZpModel *model = p->rest.statics.model;
@@ -162,6 +170,47 @@ static void report(Problem *p, size_t modes, ZpResult *result) {
   }
 }
 
+/* -- derivatives ---------------------------------------------------------------------------------- */
+
+static void pose(const ZpActuatorDef *def, ZpStatics *s) {
+  s->load = def->load.mass;
+  s->U = def->modes.voltage;
+}
+
+typedef struct Mode {
+  ZpBand *K;
+  double *work;    /* [n] */
+  const double *u; /* [n] of length 1 in the mass's measure */
+  double omega2;
+} Mode;
+
+/* u' (K - omega^2 m) u of an actuator near, without contact: its derivative is that of omega^2. */
+static double stiffness_of_mode(ZpStatics *s, void *user) {
+  const Mode *mode = user;
+  s->contact_acts = false;
+  double sum = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);
+  for (size_t k = 0; k < 2 * s->model->count; k++) {
+    int row = s->assembly.equation[k];
+    if (row >= 0) sum -= mode->omega2 * s->model->mass[k / 2] * mode->u[row] * mode->u[row];
+  }
+  return sum;
+}
+
+static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+  const double two_pi = 6.283185307179586;
+  Problem *p = user;
+  size_t modes = p->m < MODES ? p->m : MODES;
+  ZpStatics *s = &p->rest.statics;
+  s->contact_acts = true; /* it is what the equilibrium has been found with */
+  memcpy(s->q, p->q, 2 * s->model->stride * sizeof *s->q);
+  bool found = zp_slope_solve(slope, pose);
+  for (size_t j = 0; j < modes; j++) {
+    Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->u + j * p->n, p->omega2[j]};
+    double by_key = found ? zp_slope_of(slope, pose, stiffness_of_mode, &mode) : NAN;
+    zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->omega2[j])));
+  }
+}
+
 static void run(Problem *p, ZpResult *result) {
   size_t modes = p->m < MODES ? p->m : MODES;
   ZpNewtonInfo info = zp_statics_hang(&p->rest.statics, &p->rest.branch.newton);
@@ -191,6 +240,7 @@ static void run(Problem *p, ZpResult *result) {
   }
   prepare(p);
   bool found = solve(p, modes);
+  if (found && *p->rest.statics.model->def.sensitivity.by) refine(p);
   result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
   if (!found)
     snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged in %d rounds",
@@ -211,6 +261,7 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
         "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
         def->modes.voltage);
   ZpStatus status = zp_check_mass(def, err);
+  if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
@@ -227,6 +278,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
     zp_margins_join(&p->margins, zp_margins_at_clip(model, task->def->modes.voltage));
     zp_add_margins(result, model, &p->margins);
     zp_note_mesh(result, model, task->def->modes.voltage);
+    if (result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&p->rest, derive, p, result, err);
   } else {
     status = zp_fail_memory(err);
   }

@@ -15,6 +15,7 @@
 #include "study/faces.h"
 #include "study/held.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 /* A row per column of the grid from the clip's edge on. */
@@ -410,6 +411,7 @@ static ZpStatus run(Profiler *p, ZpError *err) {
 }
 
 ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
+  if (*def->sensitivity.by) return zp_check_no_sensitivity(def, "profile", err);
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges = true: study profile compares forces in the plane of the ribbons, without "

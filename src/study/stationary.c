@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include "rest/rest.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -54,6 +55,16 @@ static const char *words_of(ZpNewtonEnd end) {
   return "no equilibrium found within the largest number of iterations";
 }
 
+static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+  (void)user;
+  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->model->topology);
+  zp_result_add_sensitivity(result, "stroke_m", slope->key,
+                            found ? zp_slope_of(slope, zp_pose_load, zp_output_stroke, NULL) : NAN);
+  if (two)
+    zp_result_add_sensitivity(result, "opening_m", slope->key,
+                              found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
+}
+
 static void run(ZpRest *rest, ZpResult *result) {
   ZpStatics *s = &rest->statics;
   ZpNewtonInfo info = zp_statics_hang(s, &rest->branch.newton);
@@ -73,10 +84,9 @@ static void run(ZpRest *rest, ZpResult *result) {
   zp_shapes_offer(result->shapes, &shape);
 }
 
-/* It has no voltage and asks for nothing. */
+/* It has no voltage. */
 ZpStatus zp_check_stationary(const ZpActuatorDef *def, ZpError *err) {
-  (void)def, (void)err;
-  return ZP_OK;
+  return zp_check_sensitivity(def, err);
 }
 
 ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
@@ -90,6 +100,7 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
     run(&rest, result);
   else
     status = zp_fail_memory(err);
+  if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);
   zp_rest_close(&rest);
   zp_model_destroy(model);
   return status;
