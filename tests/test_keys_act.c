@@ -385,6 +385,8 @@ static const Row rows[] = {
      "1.5",
      {{TIMES, "ribbon.young_modulus", 0.75 / 1.005, 1e-3}}},
 
+    {"sensitivity.by", "study=stationary", "gravity", "gravity,load.mass", {{PLUS, "derivatives", 2, 0}}},
+
     /* along a uniform gap the field softens a strip by 2 W / h per length, as much in every mode */
     {"modes.voltage",
      "study=modes electro.breakdown_cap=false electro.gap_offset=1mm electro.insulator_offset=100um " FLANGE,
@@ -449,6 +451,7 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
 static double output_of(const ZpResult *result, const char *name) {
   if (strcmp(name, "rows") == 0) return (double)result->series->rows;
   if (strcmp(name, "frames") == 0) return (double)result->shapes->frames;
+  if (strcmp(name, "derivatives") == 0) return (double)result->sensitivities;
   if (strcmp(name, "notes") == 0) return (double)result->notes;
   double value = zp_result_get(result, name);
   return isnan(value) ? zp_table_get(result->series, result->series->rows - 1, name) : value;

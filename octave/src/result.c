@@ -162,6 +162,17 @@ static mxArray *notes_cell(const ZpResult *result) {
   return notes;
 }
 
+/* Of each output a struct of its derivatives. */
+static mxArray *sensitivity_struct(const ZpResult *result) {
+  mxArray *all = new_struct();
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    if (mxGetFieldNumber(all, s->output) < 0) set(all, 0, s->output, new_struct());
+    set(mxGetField(all, 0, s->output), 0, zp_key(s->key)->name, mxCreateDoubleScalar(s->value));
+  }
+  return all;
+}
+
 /* frequency_1_Hz, ... together, as in summary.json; false if it is none of them. */
 static bool set_frequency(mxArray *structs, size_t index, const ZpScalar *scalar) {
   static const char name[] = "frequencies_Hz";
@@ -185,6 +196,7 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
   for (size_t i = 0; i < result->scalars; i++)
     if (!set_frequency(structs, index, &result->scalar[i]))
       set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));
+  if (result->sensitivities > 0) set(structs, index, "sensitivity", sensitivity_struct(result));
   if (result->series) set(structs, index, "series", series_struct(result->series));
   if (result->shapes) set(structs, index, "shapes", shapes_struct(result->shapes));
   if (result->map) set(structs, index, "field", map_struct(result->map));

@@ -72,6 +72,10 @@ check(ours.stroke_m > zipact('run', file, 'load.mass', '8 g').stroke_m, 'pairs a
 
 check(numel(zipact('equilibrium', 'insulator.thickness', '10 um', 'mesh.nodes', 31).notes) == 1, 'breakdown is noted');
 
+slopes = zipact('stationary', keys, 'sensitivity.by', 'ribbon.thickness, gravity').sensitivity;
+check(slopes.stroke_m.ribbon_thickness < 0 && slopes.opening_m.gravity > 0, 'derivatives');
+check(~isfield(ours, 'sensitivity'), 'no derivatives');
+
 % lists: the product, the last key of the table of keys fastest, as the command has it
 runs = zipact('stationary', 'mesh.nodes', [21 31], 'load.mass', {'8 g', 0.02});
 check(isequal(size(runs), [1 4]), 'size of a sweep');

@@ -167,10 +167,25 @@ def test_damaged_pickle_is_refused():
             _zipact.unpack_result(parts, *words)
     with pytest.raises(zipact.InputError, match="result: pickled by zipact 0.0.0; this is"):
         _zipact.unpack_result(("0.0.0", *packed[1:]), *words)
-    message, notes, scalars, columns = words
-    for wrong_words in ((1, notes, scalars, columns), (message, notes, scalars * 100, columns), (message, notes, scalars, ())):
+    message, notes, scalars, slopes, columns = words
+    wrong_slopes = (("stroke_m", "no.key", 1.0),)
+    for wrong_words in (
+        (1, notes, scalars, slopes, columns),
+        (message, notes, scalars * 100, slopes, columns),
+        (message, notes, scalars, wrong_slopes, columns),
+        (message, notes, scalars, slopes, ()),
+    ):
         with pytest.raises((zipact.InputError, TypeError)):
             _zipact.unpack_result(packed, *wrong_words)
+
+
+@pytest.mark.parametrize("study", ["stationary", "modes"])
+def test_sensitivity_is_that_of_the_command(study, tmp_path):
+    actuator = zipact.Actuator(mesh__nodes=21, sensitivity__by="ribbon.thickness, gravity")
+    summary, _ = command(actuator, study, tmp_path)
+    result = actuator.run(study)
+    assert result.sensitivity == summary["sensitivity"] and len(result.sensitivity) >= 2
+    assert pickle.loads(pickle.dumps(result)).sensitivity == result.sensitivity
 
 
 def test_dataframe_has_units():

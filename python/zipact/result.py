@@ -136,6 +136,10 @@ class Result(Mapping[str, float]):
         self._numbers = {name: value for name, _, value, _ in found.scalars}
         self.timings = {name for name, _, _, timing in found.scalars if timing}
         """names of numbers that follow from wall time: they differ from run to run"""
+        self.sensitivity: dict[str, dict[str, float]] = {}
+        """derivatives in SI units: sensitivity["stroke_m"]["ribbon.thickness"], by the keys of sensitivity.by"""
+        for output, key, value in found.sensitivities:
+            self.sensitivity.setdefault(output, {})[key] = value
         self.series = None if found.series is None else Table(found.series[0], array(found.series[1]))
         """the study's table, or None"""
         self.shapes = None if found.shapes is None else shapes_of(found.shapes)
@@ -181,7 +185,7 @@ class Result(Mapping[str, float]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         columns = None if self.series is None else self._found.series[0]
-        return _unpickle, (self.actuator, (self._found.pack(), self.message, self.notes, self._found.scalars, columns))
+        return _unpickle, (self.actuator, (self._found.pack(), self.message, self.notes, self._found.scalars, self._found.sensitivities, columns))
 
     def __repr__(self) -> str:
         lines = [f"{self.study}: {self.outcome}; {self.message}"]
