@@ -23,6 +23,7 @@ PICTURES = {
     "limits.svg": "chart/plots/loads.svg",
     "design-chart.svg": "design/plots/map.svg",
     "stress.svg": "stress/plots/stress.svg",
+    "sensitivity.svg": "counts/plots/tornado.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
     "profile.svg": "profile/plots/profile.svg",
     "field.svg": "profile/plots/field_tip.svg",

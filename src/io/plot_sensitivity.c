@@ -95,17 +95,17 @@ static void write_title(const char *output, FILE *file) {
 static void script_tornado(const ZpPlot *plot, FILE *file) {
   const Tornado t = tornado(plot);
   const double high = 0.8 / (double)t.outputs;
-  zp_plot_head(plot, file, "tornado", "What counts: change of the outputs", 0.82);
-  fputs(
-      "set lmargin at screen 0.25\nset xlabel 'percent per 1 % of the key'\nset yzeroaxis lt 1 lw 1 lc rgb '#555555'\n"
-      "set autoscale x\nset offsets graph 0.03, graph 0.03, 0, 0\nset style fill solid noborder\nset ytics (",
-      file);
+  zp_plot_head(plot, file, "tornado", "What counts: percent of the outputs per percent of a key", 0.775);
+  fputs("set lmargin at screen 0.29\nset xlabel 'change of an output for 1 % of the key / %'\n"
+        "set yzeroaxis lt 1 lw 1 lc rgb '#555555'\nset autoscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
+        "set style fill solid noborder\nset ytics (",
+        file);
   for (size_t i = 0; i < t.keys; i++) {
     if (i) fputs(", ", file);
     zp_plot_text(file, zp_key(t.key[i])->name);
     fprintf(file, " %zu", t.keys - i);
   }
-  fprintf(file, ")\nset yrange [0.4:%zu.6]\n", t.keys);
+  fprintf(file, ") font ',12'\nset yrange [0.4:%zu.6]\n", t.keys);
   for (size_t k = 0; k < t.outputs; k++) {
     double top = 0.4 - high * (double)k;
     fprintf(file, "%s'tornado.dat' index %zu using (0):1:(0):2:($1+%g):($1+%g) with boxxyerror fc rgb '%s' title ",
