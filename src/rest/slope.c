@@ -80,6 +80,7 @@ static size_t carve(ZpSlope *p, void *block) {
   ZpCarver carver = {block, 0};
   size_t stride = p->at->model->stride, n = p->at->assembly.n;
   p->rate = zp_carve(&carver, 2 * stride);
+  p->motion = zp_carve(&carver, 2 * stride);
   p->tension = zp_carve(&carver, stride);
   double **vectors[] = {&p->by_key, &p->by_parameter, &p->row};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
@@ -177,20 +178,15 @@ static void stiffness(ZpSlope *p, double *r) {
 
 /* dq/dp beyond the stretching is in by_key. */
 static void add_motion(ZpSlope *p) {
-  const ZpStatics *at = p->at;
-  const ZpModel *model = at->model;
-  const ZpEdges *e = &at->eval.edges;
-  const int *equation = at->assembly.equation;
-  const double *v = p->by_key;
-  for (size_t k = 0; k < 2 * model->count; k++)
-    if (equation[k] >= 0) p->rate[k / 2 + (k % 2) * model->stride] += v[equation[k]];
+  const ZpModel *model = p->at->model;
+  const ZpEdges *e = &p->at->eval.edges;
+  const double *x = p->motion, *y = x + model->stride;
+  zp_assembly_scatter(&p->at->assembly, p->by_key, p->motion); /* what is held stays 0 */
+  for (size_t i = 0; i < 2 * model->stride; i++)
+    p->rate[i] += p->motion[i];
   for (size_t j = 0; j < model->count - model->s; j++) {
-    double d[2];
-    for (size_t c = 0; c < 2; c++) {
-      int left = equation[2 * j + c], right = equation[2 * (j + model->s) + c];
-      d[c] = (right >= 0 ? v[right] : 0) - (left >= 0 ? v[left] : 0);
-    }
-    p->tension[j] += model->rod.S[j] * (e->ux[j] * d[0] + e->uy[j] * d[1]);
+    double dx = x[j + model->s] - x[j], dy = y[j + model->s] - y[j];
+    p->tension[j] += model->rod.S[j] * (e->ux[j] * dx + e->uy[j] * dy);
   }
 }
 
@@ -198,12 +194,11 @@ static void add_motion(ZpSlope *p) {
 static void add_reaction(ZpSlope *p) {
   ZpStatics *at = p->at;
   double opening = at->opening;
-  size_t platform = (size_t)at->assembly.equation[2 * zp_load_node(&at->model->topology) + 1];
   at->opening = NAN;
   stiffness(p, NULL);
   at->opening = opening;
   zp_band_multiply(&p->work->K, p->by_key, p->row);
-  p->reaction -= p->row[platform];
+  p->reaction -= p->row[zp_statics_platform(at)];
 }
 
 bool zp_slope_solve(ZpSlope *p, ZpPose pose) {

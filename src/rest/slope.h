@@ -29,6 +29,7 @@ typedef struct ZpSlope {
   double offset[ZP_SLOPE_POINTS];  /* of the key, SI */
   ZpModel *model[ZP_SLOPE_POINTS]; /* with the key there; NULL where it is not used */
   ZpStatics near[ZP_SLOPE_POINTS];
+  double *motion;                /* [2 stride] that beyond the stretching */
   double *rate;                  /* [2 stride] dq/dp of the last solution, m/SI */
   double *tension;               /* [stride] and of the tensions, N/SI */
   double reaction;               /* and of the force that holds the platform, one part, N/SI */

@@ -297,7 +297,7 @@ static bool is_held(const ZpStatics *s) {
   return !isnan(s->opening);
 }
 
-static size_t platform_row(const ZpStatics *s) {
+size_t zp_statics_platform(const ZpStatics *s) {
   return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
 }
 
@@ -309,14 +309,14 @@ static double holding(const ZpStatics *s) {
 }
 
 static void hold_platform(ZpStatics *s, double *r) {
-  size_t row = platform_row(s);
+  size_t row = zp_statics_platform(s);
   s->reaction = r[row];
   r[row] = holding(s) * (zp_statics_opening(s) - s->opening);
 }
 
 /* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
 static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
-  size_t row = platform_row(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
+  size_t row = zp_statics_platform(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
   double move = r ? r[row] / holding(s) : 0;
   for (size_t i = row > K->upper ? row - K->upper : 0; i <= last; i++) {
     if (i == row) continue;

@@ -66,6 +66,9 @@ bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
  * straight shape to the equilibrium there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
 
+/* The equation of the lower platform's height. */
+size_t zp_statics_platform(const ZpStatics *statics);
+
 /* From the straight shape, which of two ribbons has all faces closed, to a stable equilibrium at `voltage`. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 

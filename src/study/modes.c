@@ -184,15 +184,13 @@ typedef struct Mode {
   double omega2;
 } Mode;
 
-/* u' (K - omega^2 m) u of an actuator near, without contact: its derivative is that of omega^2. */
+/* u' (K - omega^2 m) u of an actuator near: its derivative is that of omega^2. */
 static double stiffness_of_mode(ZpStatics *s, void *user) {
   const Mode *mode = user;
-  s->contact_acts = false;
   double sum = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);
-  for (size_t k = 0; k < 2 * s->model->count; k++) {
-    int row = s->assembly.equation[k];
-    if (row >= 0) sum -= mode->omega2 * s->model->mass[k / 2] * mode->u[row] * mode->u[row];
-  }
+  zp_assembly_masses(&s->assembly, s->model->mass, mode->work);
+  for (size_t i = 0; i < s->assembly.n; i++)
+    sum -= mode->omega2 * mode->work[i] * mode->u[i] * mode->u[i];
   return sum;
 }
 
@@ -201,7 +199,6 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   Problem *p = user;
   size_t modes = p->m < MODES ? p->m : MODES;
   ZpStatics *s = &p->rest.statics;
-  s->contact_acts = true; /* it is what the equilibrium has been found with */
   memcpy(s->q, p->q, 2 * s->model->stride * sizeof *s->q);
   bool found = zp_slope_solve(slope, pose);
   for (size_t j = 0; j < modes; j++) {
