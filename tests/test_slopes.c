@@ -87,6 +87,13 @@ START_TEST(limits_change_as_differences_say) {
 }
 END_TEST
 
+/* The stiffness of the paper's springs is not symmetric: left and right null vector differ. */
+START_TEST(pull_in_of_springs_changes_as_differences_say) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"ribbon.model", ZP_RIBBON_MASS_SPRING});
+  check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity", 1e-3, 1e-6);
+}
+END_TEST
+
 START_TEST(held_forces_change_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"drive.voltage", 3e3});
   check_differences(ZP_STUDY_ISOMETRIC, &def,
@@ -184,6 +191,22 @@ START_TEST(gradual_closing_changes_as_differences_say) {
 }
 END_TEST
 
+/* The closed state under 120 g opens at a corner of the breakdown cap: there is no null vector, and one note says so
+ * for all keys. */
+START_TEST(no_derivative_at_a_corner) {
+  ZpActuatorDef def = DEF({"load.mass", 120e-3}, {"drive.voltage", 12e3});
+  ZpResult *result = run_by(ZP_STUDY_LIMITS, &def, "gravity, load.mass, insulator.permittivity");
+  size_t notes = 0;
+  for (size_t i = 0; i < result->notes; i++)
+    notes += strstr(result->note[i], "release_voltage_V has no derivatives") != NULL;
+  ck_assert_uint_eq(notes, 1);
+  ck_assert_double_nan(slope_in(result, "release_voltage_V", "gravity"));
+  ck_assert_double_nan(slope_in(result, "release_voltage_V", "load.mass"));
+  ck_assert(slope_in(result, "max_load_kg", "gravity") < 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* -- what is asked ---------------------------------------------------------------------------------- */
 
 START_TEST(what_has_no_derivative_is_refused) {
@@ -232,6 +255,7 @@ int main(void) {
   TCase *tests = tcase_create("slopes");
   tcase_add_test(tests, strokes_change_as_differences_say);
   tcase_add_test(tests, limits_change_as_differences_say);
+  tcase_add_test(tests, pull_in_of_springs_changes_as_differences_say);
   tcase_add_test(tests, held_forces_change_as_differences_say);
   tcase_add_test(tests, frequencies_change_as_differences_say);
   tcase_add_test(tests, stroke_of_a_cantilever);
@@ -239,6 +263,7 @@ int main(void) {
   tcase_add_test(tests, force_and_charge_are_reciprocal);
   tcase_add_test(tests, limits_scale_with_forces);
   tcase_add_test(tests, gradual_closing_changes_as_differences_say);
+  tcase_add_test(tests, no_derivative_at_a_corner);
   tcase_add_test(tests, what_has_no_derivative_is_refused);
   tcase_add_test(tests, keys_at_their_bounds);
   suite_add_tcase(suite, tests);

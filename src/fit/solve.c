@@ -72,8 +72,7 @@ static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
   return value;
 }
 
-/* What the model gives for row `row`, m or N; NAN where it finds no state of rest. */
-static double predict_rest(ZpFit *fit, const double *z, size_t row) {
+double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
   double voltage;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
@@ -114,7 +113,7 @@ static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
   fit->evaluations++;
   if (fit->x_key < 0 && !ask(fit)) predict_run(fit, z, fitted);
   for (size_t i = 0; i < fit->rows; i++) {
-    if (fit->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : predict_rest(fit, z, i);
+    if (fit->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, i);
     all &= isfinite(fitted[i]) != 0;
   }
   return all;
@@ -147,6 +146,11 @@ static double objective(unsigned n, const double *z, double *gradient, void *use
   return log(squares(search->fit, search->fitted) + 1e-30);
 }
 
+/* As near as Gauss-Newton starts from: with exact derivatives that costs one evaluation a step. */
+static double near_enough(const ZpFit *fit) {
+  return fit->x_key < 0 ? 1e-3 : 3e-2;
+}
+
 static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
   Search search = {fit, fitted, nlopt_create(NLOPT_LN_COBYLA, (unsigned)fit->n)};
   double best;
@@ -154,7 +158,7 @@ static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
   nlopt_set_lower_bounds(search.opt, fit->lower);
   nlopt_set_upper_bounds(search.opt, fit->upper);
   nlopt_set_min_objective(search.opt, objective, &search);
-  nlopt_set_xtol_rel(search.opt, fit->x_key < 0 ? 1e-3 : 3e-2);
+  nlopt_set_xtol_rel(search.opt, near_enough(fit));
   nlopt_set_maxeval(search.opt, 60 * fit->n);
   nlopt_set_initial_step1(search.opt, 0.1);
   nlopt_result end = nlopt_optimize(search.opt, z, &best);

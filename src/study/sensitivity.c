@@ -113,6 +113,13 @@ static double derive_limit(const ZpLimitList *list, const ZpNamedLimit *item, do
   return item->is_load ? rate : rate / (2 * item->limit->value);
 }
 
+/* Has it been found that an output has a derivative missing? */
+static bool has_none(const ZpResult *result, const char *output) {
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (strcmp(result->sensitivity[i].output, output) == 0 && isnan(result->sensitivity[i].value)) return true;
+  return false;
+}
+
 void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result) {
   const ZpLimitList *list = user;
   double closed = rate_of_closed(list, slope), found[ZP_MOST_LIMITS];
@@ -122,9 +129,8 @@ void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result) {
     while (list->item[same].limit->value != item->limit->value && same < k)
       same++;
     found[k] = same < k ? found[same] : derive_limit(list, item, closed, slope);
+    if (isnan(found[k]) && !isnan(item->limit->value) && !has_none(result, item->output))
+      zp_result_note(result, "%s has no derivatives: it is at a corner of a law", item->output);
     zp_result_add_sensitivity(result, item->output, slope->key, found[k]);
-    if (isnan(found[k]) && !isnan(item->limit->value))
-      zp_result_note(result, "%s has no derivative by %s: it is where a law has a corner", item->output,
-                     zp_key(slope->key)->name);
   }
 }
