@@ -82,16 +82,6 @@ double zp_rest_opening(const ZpRest *rest) {
   return zp_statics_opening(&rest->statics);
 }
 
-static double stroke_of(ZpStatics *s, void *user) {
-  (void)user;
-  return zp_statics_stroke(s);
-}
-
-static double opening_of(ZpStatics *s, void *user) {
-  (void)user;
-  return zp_statics_opening(s);
-}
-
 ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err) {
   ZpSlope slope;
   *stroke = *opening = NAN;
@@ -99,8 +89,8 @@ ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *open
   if (status != ZP_OK) return status;
   status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, key, err);
   if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {
-    *stroke = zp_slope_of(&slope, zp_pose_load, stroke_of, NULL);
-    *opening = zp_slope_of(&slope, zp_pose_load, opening_of, NULL);
+    *stroke = zp_slope_of(&slope, zp_pose_load, zp_output_stroke, NULL);
+    *opening = zp_slope_of(&slope, zp_pose_load, zp_output_opening, NULL);
   }
   zp_slope_close(&slope);
   return status;

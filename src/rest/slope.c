@@ -62,7 +62,10 @@ static ZpStatus build_one(ZpSlope *p, int k, ZpError *err) {
   ZpStatus status = zp_def_set(&def, p->key, zp_def_get(&def, p->key) + p->offset[k], err);
   if (status == ZP_OK) status = zp_model_create(&def, &p->model[k], err);
   if (status != ZP_OK) return status;
-  return zp_statics_create(p->model[k], &p->near[k]) ? ZP_OK : zp_fail_memory(err);
+  if (zp_statics_create(p->model[k], &p->near[k])) return ZP_OK;
+  zp_model_destroy(p->model[k]);
+  p->model[k] = NULL;
+  return zp_fail_memory(err);
 }
 
 static ZpStatus build(ZpSlope *p, const Stencil *stencil, ZpError *err) {
@@ -284,4 +287,16 @@ double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, 
   }
   event(p->at, p->row);
   return (rate - direct - dot(n, p->row, p->by_key)) / dot(n, p->row, p->by_parameter);
+}
+
+/* -- outputs -------------------------------------------------------------------------------------- */
+
+double zp_output_stroke(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_stroke(s);
+}
+
+double zp_output_opening(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_opening(s);
 }

@@ -68,24 +68,12 @@ ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slo
   return status;
 }
 
-/* -- outputs -------------------------------------------------------------------------------------- */
-
-double zp_output_stroke(ZpStatics *s, void *user) {
-  (void)user;
-  return zp_statics_stroke(s);
-}
-
-double zp_output_opening(ZpStatics *s, void *user) {
-  (void)user;
-  return zp_statics_opening(s);
-}
+/* -- limits --------------------------------------------------------------------------------------- */
 
 static double closing_gap(ZpStatics *s, void *user) {
   (void)user;
   return zp_closing_gap(s, NULL);
 }
-
-/* -- limits --------------------------------------------------------------------------------------- */
 
 static void pose_voltage(const ZpActuatorDef *def, ZpStatics *s) {
   s->U = def->drive.voltage;

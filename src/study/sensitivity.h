@@ -37,8 +37,4 @@ typedef struct ZpLimitList {
  * then another. */
 void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result);
 
-/* Outputs of states: m, m, m. `user` is not looked at. */
-double zp_output_stroke(ZpStatics *statics, void *user);
-double zp_output_opening(ZpStatics *statics, void *user);
-
 #endif
