@@ -213,17 +213,15 @@ START_TEST(what_has_no_derivative_is_refused) {
   static const struct {
     const char *by, *words;
     ZpStudy study;
-  } wrong[] = {
-      {"ribbon.thicknes", "did you mean ribbon.thickness?", ZP_STUDY_STATIONARY},
-      {"mesh.nodes", "mesh.nodes is not a real number", ZP_STUDY_STATIONARY},
-      {"study", "study is not a real number", ZP_STUDY_STATIONARY},
-      {"ribbon.plane", "ribbon.plane is not a real number", ZP_STUDY_MODES},
-      {"gravity, gravity", "gravity is named twice", ZP_STUDY_LIMITS},
-      {"gravity,", "unknown key", ZP_STUDY_LIMITS},
-      {"solver.tolerance", "a setting of the computation", ZP_STUDY_EQUILIBRIUM},
-      {"electro.insulator_offset", "is auto: give it a number", ZP_STUDY_ISOMETRIC},
-      {"gravity", "requires study stationary, equilibrium, limits, isometric or modes, not actuate", ZP_STUDY_ACTUATE},
-      {"gravity", "not profile", ZP_STUDY_PROFILE}};
+  } wrong[] = {{"ribbon.thicknes", "did you mean ribbon.thickness?", ZP_STUDY_STATIONARY},
+               {"mesh.nodes", "mesh.nodes is not a real number", ZP_STUDY_STATIONARY},
+               {"study", "study is not a real number", ZP_STUDY_STATIONARY},
+               {"ribbon.plane", "ribbon.plane is not a real number", ZP_STUDY_MODES},
+               {"gravity, gravity", "gravity is named twice", ZP_STUDY_LIMITS},
+               {"gravity,", "unknown key", ZP_STUDY_LIMITS},
+               {"solver.tolerance", "a setting of the computation", ZP_STUDY_EQUILIBRIUM},
+               {"electro.insulator_offset", "is auto: give it a number", ZP_STUDY_ISOMETRIC},
+               {",", "unknown key", ZP_STUDY_ISOMETRIC}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
     ZpActuatorDef def = zp_actuator_def_default();
     ZpError err = {ZP_OK, ""};
@@ -236,6 +234,18 @@ START_TEST(what_has_no_derivative_is_refused) {
   zp_def_set_text(&field, zp_key_find("sensitivity.by"), "gravity", NULL);
   ck_assert_int_eq(zp_study_check(ZP_STUDY_LIMITS, &field, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, "requires electro.model plates"), "%s", err.message);
+}
+END_TEST
+
+START_TEST(motion_notes_that_it_has_none) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"solver.end_time", 1e-3});
+  ZpResult *result = run_by(ZP_STUDY_ACTUATE, &def, "gravity");
+  size_t notes = 0;
+  for (size_t i = 0; i < result->notes; i++)
+    notes += strstr(result->note[i], "sensitivity.by is ignored: this study has no derivatives") != NULL;
+  ck_assert_uint_eq(notes, 1);
+  ck_assert_uint_eq(result->sensitivities, 0);
+  zp_result_destroy(result);
 }
 END_TEST
 
@@ -265,6 +275,7 @@ int main(void) {
   tcase_add_test(tests, gradual_closing_changes_as_differences_say);
   tcase_add_test(tests, no_derivative_at_a_corner);
   tcase_add_test(tests, what_has_no_derivative_is_refused);
+  tcase_add_test(tests, motion_notes_that_it_has_none);
   tcase_add_test(tests, keys_at_their_bounds);
   suite_add_tcase(suite, tests);
   SRunner *runner = srunner_create(suite);

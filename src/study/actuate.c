@@ -153,8 +153,7 @@ static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHoo
 
 ZpStatus zp_check_actuate(const ZpActuatorDef *def, ZpError *err) {
   bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
-  ZpStatus status = zp_check_no_sensitivity(def, "actuate", err);
-  if (status == ZP_OK) status = zp_def_check_motion(def, err);
+  ZpStatus status = zp_def_check_motion(def, err);
   if (status != ZP_OK || table) return status;
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
@@ -165,6 +164,7 @@ ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (status == ZP_OK) status = zp_model_create_driven(task->def, task->input.table, &model, err);
   if (status != ZP_OK) return status;
   status = run(model, task->input.start, task->hooks, result, err);
+  zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;
 }

@@ -411,7 +411,6 @@ static ZpStatus run(Profiler *p, ZpError *err) {
 }
 
 ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
-  if (*def->sensitivity.by) return zp_check_no_sensitivity(def, "profile", err);
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges = true: study profile compares forces in the plane of the ribbons, without "
@@ -452,6 +451,7 @@ ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
                 .by_field = task->def->electro.model == ZP_ELECTRO_FIELD,
                 .margins = zp_margins_none()};
   status = run(&p, err);
+  zp_note_no_sensitivity(result, task->def);
   zp_free(p.memory);
   zp_field_destroy(&p.field);
   zp_model_destroy(model);

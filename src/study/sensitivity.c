@@ -49,10 +49,10 @@ ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err) {
   return read_keys(def, &list, err);
 }
 
-ZpStatus zp_check_no_sensitivity(const ZpActuatorDef *def, const char *study, ZpError *err) {
-  if (!*def->sensitivity.by) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "sensitivity.by: requires study stationary, equilibrium, limits, isometric or modes, not %s", study);
+void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
+  if (*def->sensitivity.by)
+    zp_result_note(result, "sensitivity.by is ignored: this study has no derivatives; stationary, equilibrium, limits, "
+                           "isometric and modes have");
 }
 
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,

@@ -10,8 +10,8 @@
 /* Check sensitivity.by: real keys, each once, whose derivatives there are. ZP_BAD_INPUT names the key. */
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err);
 
-/* The same of a study that differentiates nothing. */
-ZpStatus zp_check_no_sensitivity(const ZpActuatorDef *def, const char *study, ZpError *err);
+/* A study that differentiates nothing notes that it was asked to. */
+void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def);
 
 /* Call `derive` for each key of sensitivity.by, with derivatives of states of `rest` by it prepared. */
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
