@@ -416,6 +416,13 @@ static const Row rows[] = {
 
     {"output.samples", SWING, "40", "20", {{LESS, "rows", 0.75, 0}, {SAME, "stroke_m", 0, 0}}},
     {"output.shapes", SWING, "40", "20", {{LESS, "frames", 0.75, 0}, {SAME, "stroke_m", 0, 0}}},
+    /* P L^3 / (12 EI) times four times 2 / (N - 1)^2: test_estimate */
+    {"output.errors",
+     STRIP,
+     "false",
+     "true",
+     {{BECOMES, "stroke_error_m", 10e-6 * 9.81 * CUBE(0.1) / (12 * EI) * 8 / SQUARE(20), 1e-3},
+      {SAME, "stroke_m", 0, 0}}},
 };
 
 /* -- how they are run ------------------------------------------------------------------------------ */

@@ -59,6 +59,7 @@ static ZpResult *isometric(ZpFit *fit, ZpActuatorDef *def) {
   ZpResult *result = NULL;
   def->output.samples = 10; /* of the way there only the end is asked for */
   def->output.shapes = 2;
+  def->output.errors = false;
   ZpStatus status = zp_study_run(ZP_STUDY_ISOMETRIC, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   return result;
