@@ -68,7 +68,9 @@ static void shape_end(Step *s, size_t end, double angle, double stretch, uint64_
 }
 
 static void make_step(Step *s, Kind kind, uint64_t *seed) {
-  *s = (Step){.params = {kind.ribbons, NODES, PLACES, s->l, s->S, s->B, s->k0}};
+  *s = (Step){
+      .params = {
+          .ribbons = kind.ribbons, .nodes = NODES, .stride = PLACES, .l = s->l, .S = s->S, .B = s->B, .k0 = s->k0}};
   set_params(s, kind, seed);
   ZpCarver carver = {NULL, 0};
   carve(s, &carver);
