@@ -17,7 +17,7 @@ static size_t carve(ZpDynamics *d, void *block) {
   d->by_voltage.force = zp_carve(&carver, 2 * stride);
   d->by_voltage.charge = zp_carve(&carver, 2 * stride);
   d->scale = zp_carve(&carver, all);
-  d->kind = (ZpUnknown *)zp_carve(&carver, all); /* room for doubles is more than enough */
+  d->kind = (ZpUnknown *)(void *)zp_carve(&carver, all); /* room for doubles is more than enough */
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
   return carver.used;

@@ -114,7 +114,7 @@ void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result) {
   for (size_t k = 0; k < list->count; k++) {
     const ZpNamedLimit *item = &list->item[k];
     size_t same = 0; /* a release is at most the closing voltage, whatever its state says */
-    while (list->item[same].limit->value != item->limit->value && same < k)
+    while (same < k && list->item[same].limit->value != item->limit->value)
       same++;
     found[k] = same < k ? found[same] : derive_limit(list, item, closed, slope);
     if (isnan(found[k]) && !isnan(item->limit->value) && !has_none(result, item->output))
