@@ -517,16 +517,17 @@ static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
 static void lay_two(ZpStatics *s) {
   const ZpTopology *t = &s->model->topology;
   const Loop loops[2] = {{t->platform.first, 0}, {t->platform.last, t->stations - 1}};
+  const size_t halves = t->halves > 1 ? 2 : 1;
   double *x = s->q, *y = x + s->model->stride, sum = 0;
-  for (size_t h = 0; h < t->halves; h++) {
+  for (size_t h = 0; h < halves; h++) {
     size_t upper = zp_upper(t, loops[h].platform), lower = zp_lower(t, loops[h].platform);
     lay_loop(t, loops[h], s->moved, x);
     lay_loop(t, loops[h], s->moved + s->model->stride, y);
     spread(t, loops[h], x[lower] - x[upper], x);
     sum += y[lower];
   }
-  double mean = sum / (double)t->halves;
-  for (size_t h = 0; t->halves > 1 && h < t->halves; h++)
+  double mean = sum / (double)halves;
+  for (size_t h = 0; halves > 1 && h < halves; h++)
     spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
 }
 
