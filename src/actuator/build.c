@@ -446,6 +446,8 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
   }
   ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage};
   model->waveform = zp_waveform_of(&model->def, &copy);
+  model->supply = zp_supply_of(&model->def);
+  model->supply.acts &= model->field;
 }
 
 #ifndef ZP_WITHOUT_FIELD

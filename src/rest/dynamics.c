@@ -55,8 +55,17 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
 
+/* Where a source holds the voltage at the step's end, its equation is that of a small capacitor. */
+static const double holding = 1e-12; /* F */
+
+static bool is_held(const ZpDynamics *d, double *U1) {
+  return d->source->holds && d->source->holds(d->source->self, d->state->t, d->h, U1);
+}
+
 /* What has flowed through the source over the step, C, less what the electrodes have taken; of one part. */
 static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
+  double held;
+  if (is_held(d, &held)) return holding * (held - d->U1);
   double flowed = d->source->flow(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
   return flowed - (zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1).charge - d->charge0);
 }
@@ -96,11 +105,17 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
 static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   const ZpByVoltage *by = &d->by_voltage;
   size_t u = d->assembly.n;
+  double held;
   zp_system_by_voltage(d->model, span, &d->eval, &d->by_voltage);
   zp_assembly_sum(&d->assembly, by->force, J->B);
   zp_assembly_sum(&d->assembly, by->charge, J->C);
   for (size_t i = 0; i < u; i++)
     J->B[i] = -J->B[i];
+  if (is_held(d, &held)) {
+    memset(J->C, 0, u * sizeof *J->C);
+    *zp_bordered_at(J, u, u) = holding;
+    return;
+  }
   double slope = d->source->slope(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
   *zp_bordered_at(J, u, u) = by->capacitance - slope;
 }
@@ -307,6 +322,9 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   zp_assembly_gather(&d->assembly, a, d->history.a);
   if (d->source) {
     size_t u = d->assembly.n;
+    double held;
+    d->h = latest - state->t;
+    d->kind[u] = is_held(d, &held) ? ZP_ALGEBRAIC : ZP_FIRST_ORDER;
     d->q[u] = state->U;
     d->v[u] = 0;
     d->history.w[u] = state->U_rate;
@@ -329,6 +347,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   zp_assembly_scatter(&d->assembly, d->history.a, a);
   state->t = end_time(d);
   if (d->source) {
+    d->charge1 = zp_system_electric(model, &span, &d->eval, ZP_SPAN_END, state->U).charge;
     state->U_rate = d->history.w[d->assembly.n];
     state->U_change = d->history.a[d->assembly.n];
   }

@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 3
+ *   8 .. 11         version of the format, 4
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -27,7 +27,7 @@
 
 #include "base/fail.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 3, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 4, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -49,6 +49,7 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(COUNT, zip.front),
                                 NUMBER(FLAG, zip.platform),
                                 NUMBER(FLAG, was_open),
+                                NUMBER(COUNT, supply_mode),
                                 NUMBER(REAL, zip_time),
                                 NUMBER(REAL, opening0),
                                 NUMBER(REAL, base_U),
@@ -67,6 +68,12 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, held_energy),
                                 NUMBER(REAL, held_charge),
                                 NUMBER(REAL, held_capacitance),
+                                NUMBER(REAL, supply.lagged),
+                                NUMBER(REAL, supply.voltage),
+                                NUMBER(REAL, source_charge),
+                                NUMBER(REAL, source_energy),
+                                NUMBER(REAL, source_loss),
+                                NUMBER(REAL, bleeder_loss),
                                 NUMBER(REAL, U_rate),
                                 NUMBER(REAL, U_change),
                                 NUMBER(REAL, voltage_input.value),
@@ -341,7 +348,7 @@ static void print_value(int index, double value, char *text, size_t size) {
   if (key->type == ZP_KEY_BOOL)
     snprintf(text, size, "%s", value != 0 ? "true" : "false");
   else if (isnan(value))
-    snprintf(text, size, "auto");
+    snprintf(text, size, "%s", key->text);
   else
     snprintf(text, size, "%.15g%s%s", value, bare ? "" : " ", bare ? "" : key->unit);
 }
