@@ -419,6 +419,17 @@ static const Row rows[] = {
      "1.5",
      {{TIMES, "ribbon.young_modulus", 0.75 / 1.005, 1e-3}}},
 
+    {"cycle.tolerance",
+     "study=cycle mesh.nodes=7 drive.voltage=3kV drive.waveform=sine",
+     "0.1",
+     "1e-6",
+     {{MORE, "cycles", 1.3, 0}, {TIMES, "opening_max_m", 1, 1e-2}}},
+    {"cycle.most_cycles",
+     "study=cycle mesh.nodes=7 drive.voltage=10kV drive.waveform=sine",
+     "3",
+     "5",
+     {{BECOMES, "cycles", 5, 0}}},
+
     {"sensitivity.by", "study=stationary", "gravity", "gravity,load.mass", {{PLUS, "derivatives", 2, 0}}},
 
     /* along a uniform gap the field softens a strip by 2 W / h per length, as much in every mode */
