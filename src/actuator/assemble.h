@@ -16,11 +16,14 @@ typedef struct ZpAssembly {
   bool symmetric;   /* only the upper triangle is kept */
   int *equation;    /* [2 count] numbered station by station; coordinates that are always the same share theirs */
   ZpParts parts;    /* halves, and the equations that both have */
-  int *shift;       /* [N] where all coordinates of stations i .. i + 2 are free: coordinate - equation; else -1 */
+  size_t own;       /* unknowns of the laws at each station, which come after its coordinates */
+  int *own_equation; /* [own N] */
+  int *first;       /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
+                       others following it; else -1 */
 } ZpAssembly;
 
-/* False if there is no memory. */
-bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *assembly);
+/* With `own` unknowns of the laws at each station. False if there is no memory. */
+bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
 /* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */
@@ -34,6 +37,11 @@ void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *
 /* Add the stiffness of the ribbons to K, which is n x n with `bandwidth` diagonals on each kept side: D[3 j + m] [4] =
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
+
+/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and at c and coordinate k.
+ * Of a symmetric matrix. */
+void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
+void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
 
 /* Second derivatives of what depends on gaps and on the mean x-length of an element's ribbons, N/m. */
 typedef struct ZpGapDerivatives {

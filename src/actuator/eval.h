@@ -36,6 +36,8 @@ typedef struct ZpEval {
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;
   ZpFacesEval faces;       /* of unilateral contact */
+  ZpFilmEval film;
+  double *own_residual;    /* [own N] what is left of the equations of the laws' own unknowns */
   bool solves;             /* it can solve the field, not only hold what was found */
   ZpSurplus surplus;       /* where it does */
   const char *fault;       /* why the last attempt to find a held force has failed; NULL: it has not */
@@ -82,7 +84,7 @@ typedef struct ZpEnergies {
 
 /* Lost by one modelled part over a span. */
 typedef struct ZpLosses {
-  double drag, internal; /* J */
+  double drag, internal, viscous; /* J */
 } ZpLosses;
 
 /* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */

@@ -16,6 +16,7 @@
 #include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/plates_step.h"
+#include "liquid/film.h"
 #include "paper/massspring.h"
 #include "paper/surface.h"
 #include "paper/zip.h"
@@ -58,6 +59,9 @@ struct ZpModel {
   ZpRodParams rod;          /* of mass_spring its axial springs only */
   ZpPlatesParams plates;
   ZpFacesParams faces;     /* of unilateral contact */
+  bool has_film;           /* of liquid between the faces */
+  ZpFilmParams film;
+  size_t own;              /* unknowns of the laws at each station, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
@@ -103,6 +107,7 @@ typedef struct ZpState {
   ZpRamp voltage_input;    /* V; counts where by_hand */
   ZpRamp load_input;       /* N, down on the lower platform (one ribbon: the right end) of the whole actuator */
   double load_work;        /* per part: of that force so far, J */
+  double viscous_loss;     /* per part, J */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
@@ -177,6 +182,11 @@ static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
 /* The coordinates at which it was found. */
 static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
   return state->data + 6 * model->stride;
+}
+
+/* Unknowns of the laws, [own N] station by station. */
+static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
+  return state->data + 12 * model->stride;
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

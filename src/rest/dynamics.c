@@ -5,7 +5,7 @@
 
 static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
-  size_t stride = model->stride, all = 2 * model->count + 1; /* with the voltage */
+  size_t stride = model->stride, all = 2 * model->count + model->own * model->nodes + 1; /* with the voltage */
   ZpCarver carver = {block, 0};
   zp_implicit_carve(&d->stepper, &d->system, &carver);
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
@@ -18,6 +18,7 @@ static size_t carve(ZpDynamics *d, void *block) {
   d->by_voltage.charge = zp_carve(&carver, 2 * stride);
   d->scale = zp_carve(&carver, all);
   d->kind = (ZpUnknown *)zp_carve(&carver, all); /* room for doubles is more than enough */
+  d->own = zp_carve(&carver, model->own * model->nodes);
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
   return carver.used;
@@ -51,6 +52,8 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .U0 = d->U0,
                   .U1 = d->U1,
                   .load = mean_load(d),
+                  .own = d->own,
+                  .w = d->state->last_step > 0 ? d->mean_v : NULL,
                   .share = 1,
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
@@ -84,10 +87,14 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   d->h = h;
   d->U1 = d->source ? q1[d->assembly.n] : end_voltage(d);
   zp_assembly_scatter(&d->assembly, q1, d->end);
+  for (size_t c = 0; c < model->own * model->nodes; c++)
+    d->own[c] = q1[d->assembly.own_equation[c]];
   ZpSpan span = span_of(d);
   zp_system_force(model, &span, &d->eval, d->force);
   if (model->field) memcpy(d->gap, d->eval.plates.gap, model->nodes * sizeof *d->gap);
   zp_assembly_sum(&d->assembly, d->force, f);
+  for (size_t c = 0; c < model->own * model->nodes; c++)
+    f[d->assembly.own_equation[c]] = d->eval.own_residual[c];
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
   return ZP_END_FOUND;
 }
@@ -222,15 +229,24 @@ static double impact(ZpDynamics *d) {
 
 /* -- creation and step ---------------------------------------------------------------------------- */
 
+/* Pressures are unknowns of one step, without memory. */
+static void add_own(ZpDynamics *d) {
+  static const double pressure = 1e9; /* Pa: what counts as much as 1 m of a position: 1 kPa as 1 um */
+  for (size_t i = 0; i < d->assembly.n; i++)
+    d->scale[i] = 1;
+  for (size_t c = 0; c < d->model->own * d->model->nodes; c++) {
+    d->kind[d->assembly.own_equation[c]] = ZP_ALGEBRAIC;
+    d->scale[d->assembly.own_equation[c]] = pressure;
+  }
+  d->system.kind = d->kind;
+  d->system.scale = d->scale;
+}
+
 /* The voltage behind a source has a rate and no inertia. */
 static void add_voltage(ZpDynamics *d) {
   size_t u = d->assembly.n;
-  for (size_t i = 0; i < u; i++)
-    d->scale[i] = 1;
   d->kind[u] = ZP_FIRST_ORDER;
   d->scale[u] = d->source->scale / d->model->L;
-  d->system.kind = d->kind;
-  d->system.scale = d->scale;
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
@@ -238,7 +254,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   d->model = model;
   d->source = source;
   if (!zp_system_create(model, false, &d->eval)) return false;
-  if (!zp_assembly_create(model, true, &d->assembly)) return false;
+  if (!zp_assembly_create(model, model->own, true, &d->assembly)) return false;
   size_t border = source ? 1 : 0;
   d->system = (ZpImplicitSystem){.n = d->assembly.n + border,
                                  .border = border,
@@ -255,6 +271,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   carve(d, d->memory);
   d->system.mass = d->mass;
   zp_assembly_masses(&d->assembly, model->mass, d->mass);
+  if (source || model->own) add_own(d);
   if (source) add_voltage(d);
   const ZpActuatorDef *def = &model->def;
   d->stepper.accuracy = 0.08 * def->solver.tolerance * model->L;
@@ -297,6 +314,13 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   zp_assembly_gather(&d->assembly, v, d->v);
   zp_assembly_gather(&d->assembly, w, d->history.w);
   zp_assembly_gather(&d->assembly, a, d->history.a);
+  const double *own = zp_state_own(model, state);
+  for (size_t c = 0; c < model->own * model->nodes; c++) {
+    size_t i = (size_t)d->assembly.own_equation[c];
+    d->own[c] = d->q[i] = own[c];
+    d->v[i] = d->history.w[i] = d->history.a[i] = 0;
+  }
+  d->mean_v = w;
   if (d->source) {
     size_t u = d->assembly.n;
     d->q[u] = state->U;
@@ -330,5 +354,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, d->eval.plates.gap);
   state->drag_loss += losses.drag;
   state->internal_loss += losses.internal;
+  state->viscous_loss += losses.viscous;
+  memcpy(zp_state_own(model, state), d->own, model->own * model->nodes * sizeof *d->own);
   return taken;
 }

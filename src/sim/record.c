@@ -56,6 +56,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
+  row[SIGNAL_viscous_loss] = parts * state->viscous_loss;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
 }
 
@@ -101,7 +102,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   fill_state(sim, row);
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
-  double lost = state->drag_loss + state->internal_loss + state->contact_loss;
+  double lost = state->drag_loss + state->internal_loss + state->contact_loss + state->viscous_loss;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 

@@ -15,6 +15,8 @@ typedef struct ZpSpan {
   double load;               /* N, mean of the load input, down on the lower platform (one ribbon: the right end) */
   double share;              /* of all weight that acts: 1, less on the way to an equilibrium */
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
+  const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
+  const double *w;           /* of a step: mean velocities over the last one [2 stride]; NULL: there was none */
   const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; else NULL */
   ZpHeld beyond;             /* what a solved field has beyond plates; all 0: nothing */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
