@@ -3,7 +3,8 @@
 #include <math.h>
 
 void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
-  static const double lowest = 0.81056946913870217, pi2 = 9.8696044010893586, others = 157.14; /* 8 / pi^2 */
+  static const double lowest = 0.81056946913870217, pi2 = 9.8696044010893586,
+                      others = 157.141777614258; /* 8 / pi^2; a_1 / (1/12 - a_0 / pi^2) */
   double w2 = p->w * p->w;
   p->share[0] = lateral_flow ? lowest : 1;
   p->share[1] = 1 - p->share[0];
@@ -13,7 +14,7 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
 }
 
 void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
-  double **arrays[] = {&e->H, &e->rate, &e->secant, &e->force};
+  double **arrays[] = {&e->H, &e->rate, &e->secant, &e->force, &e->mean, &e->rise};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_carve(carver, p->nodes);
   e->r = zp_carve(carver, ZP_FILM_MODES * p->nodes);
@@ -55,6 +56,14 @@ static double outflow(const ZpFilmParams *p, const double *pressure, const ZpFil
   return sum;
 }
 
+/* The integral of what is linear between stations over the cell of station i: half of each element beside it. */
+static double over_cells(const ZpFilmParams *p, const double *x, size_t i) {
+  double sum = zp_film_cell(p, i, i) * x[i];
+  if (i > 0) sum += zp_film_cell(p, i, i - 1) * x[i - 1];
+  if (i + 1 < p->nodes) sum += zp_film_cell(p, i, i + 1) * x[i + 1];
+  return sum;
+}
+
 void zp_film_step(const ZpFilmParams *p, const double *g0, const double *g1, double h, const double *pressure,
                   const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
@@ -62,16 +71,18 @@ void zp_film_step(const ZpFilmParams *p, const double *g0, const double *g1, dou
     e->H[i] = middle(p, g0[i], e->rate[i], h);
     e->secant[i] = both > 0 ? 0.5 * (1 + (g0[i] + g1[i]) / both) : 0.5;
   }
-  for (size_t i = 0; i < p->nodes; i++) {
-    double area = p->w * zp_film_length(p, i) * e->secant[i], sum = 0;
+  for (size_t i = 0; i < p->nodes; i++)
+    e->mean[i] = p->share[0] * pressure[ZP_FILM_MODES * i] + p->share[1] * pressure[ZP_FILM_MODES * i + 1];
+  for (size_t i = 0; i < p->nodes; i++)
+    e->force[i] = p->w * e->secant[i] * over_cells(p, e->mean, i);
+  for (size_t i = 0; i < p->nodes; i++)
+    e->rise[i] = e->secant[i] * (g1[i] - g0[i]);
+  for (size_t i = 0; i < p->nodes; i++)
     for (int k = 0; k < ZP_FILM_MODES; k++) {
-      double at = pressure[ZP_FILM_MODES * i + (size_t)k], flows = outflow(p, pressure, e, i, k);
-      sum += p->share[k] * at;
-      e->r[ZP_FILM_MODES * i + (size_t)k] =
-          is_free(p, i, k) ? p->share[k] * (area * (g1[i] - g0[i]) + h * p->w / (12 * p->mu) * flows) : -at;
+      double grown = over_cells(p, e->rise, i), flows = outflow(p, pressure, e, i, k);
+      e->r[ZP_FILM_MODES * i + (size_t)k] = is_free(p, i, k) ? p->share[k] * p->w * (grown + h / (12 * p->mu) * flows)
+                                                             : -pressure[ZP_FILM_MODES * i + (size_t)k];
     }
-    e->force[i] = area * sum;
-  }
 }
 
 double zp_film_loss(const ZpFilmParams *p, double h, const double *pressure, const ZpFilmEval *e) {
@@ -96,6 +107,6 @@ double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t
   return p->share[k] * h * p->w / (12 * p->mu) * mobility(e, i) / p->l;
 }
 
-double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
-  return is_free(p, i, k) ? p->share[k] * p->w * zp_film_length(p, i) * e->secant[i] : 0;
+double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
+  return is_free(p, i, k) ? p->share[k] * p->w * zp_film_cell(p, i, j) * e->secant[j] : 0;
 }

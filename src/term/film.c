@@ -29,12 +29,14 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   for (size_t i = 0; i < model->nodes; i++)
     for (int k = 0; k < ZP_FILM_MODES; k++) {
       size_t p = ZP_FILM_MODES * i + (size_t)k;
-      double by_gap = zp_film_by_gap(film, &e->film, i, k);
       zp_assemble_own(assembly, p, p, zp_film_own(film, span->h, &e->film, i, k), K);
       if (i + 1 < model->nodes)
         zp_assemble_own(assembly, p, p + ZP_FILM_MODES, zp_film_next(film, span->h, &e->film, i, k), K);
-      zp_assemble_own_by(assembly, p, 2 * zp_upper(&model->topology, i) + 1, -by_gap, K);
-      zp_assemble_own_by(assembly, p, 2 * zp_lower(&model->topology, i) + 1, by_gap, K);
+      for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++) {
+        double by_gap = zp_film_by_gap(film, &e->film, i, j, k);
+        zp_assemble_own_by(assembly, p, 2 * zp_upper(&model->topology, j) + 1, -by_gap, K);
+        zp_assemble_own_by(assembly, p, 2 * zp_lower(&model->topology, j) + 1, by_gap, K);
+      }
     }
 }
 
