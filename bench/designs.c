@@ -1,12 +1,17 @@
-/* Are limits found, and are they those of the curve? Random sensible designs, each by study limits, which finds its
- * limits as such, and by study equilibrium, which follows the curve. `designs [COUNT [SEED [PART]]]`: a summary, and
- * every design on which the two do not agree to PART (1e-3) as options of the command. */
+/* Are equilibria lost, and is what is found possible? Random sensible designs, drawn from a seed.
+ *
+ *   designs STUDY|all [COUNT [SEED]]     each study: how many designs end with an answer that violates no bound; every
+ *                                        other one as a command that can be pasted. Status 1 if there is one
+ *   designs agree [COUNT [SEED [PART]]]  do `limits`, which finds its limits as such, and `equilibrium`, which follows
+ *                                        the curve, agree to PART (1e-3)? */
 #include <zipact/zipact.h>
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
 /* -- drawing ------------------------------------------------------------------------------------------ */
 
@@ -54,6 +59,17 @@ static ZpActuatorDef design(uint64_t *state) {
   return def;
 }
 
+/* What a study asks besides: the platform is held at up to 0.3 of the length (a part of its own stream, so that a
+ * design does not depend on the study); frequencies are asked for at half the drive's voltage. */
+static ZpActuatorDef design_for(ZpStudy study, uint64_t *state) {
+  uint64_t own = *state ^ 0x5851f42d4c957f2du;
+  ZpActuatorDef def = design(state);
+  if (study == ZP_STUDY_ISOMETRIC || study == ZP_STUDY_PROFILE)
+    def.isometric.separation = def.ribbon.length * log_uniform(&own, 3e-3, 0.3);
+  if (study == ZP_STUDY_MODES) def.modes.voltage = 0.5 * def.drive.voltage;
+  return def;
+}
+
 /* As options of the command; keys that are as by default are left out. */
 static void print_design(const ZpActuatorDef *def) {
   const ZpActuatorDef plain = zp_actuator_def_default();
@@ -69,12 +85,132 @@ static void print_design(const ZpActuatorDef *def) {
   printf("\n");
 }
 
-/* -- both studies ------------------------------------------------------------------------------------- */
+/* -- bounds ------------------------------------------------------------------------------------------- */
+
+/* Liquid that stands for both insulators, m. */
+static double insulators(const ZpActuatorDef *def) {
+  return 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
+}
+
+/* How far faces may overlap, m: 1 um, 1 % of the insulators, or three times what the attraction of closed faces makes
+ * of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press
+ * on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
+static double deepest(const ZpActuatorDef *def) {
+  static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
+  double d = insulators(def), depth = fmax(fmin(0.5e-6, d / 150), 1e-8);
+  double at_breakdown = 2 * def->insulator.thickness * def->insulator.breakdown_field;
+  double over = def->electro.breakdown_cap ? 1 : pow(def->drive.voltage / at_breakdown, 2);
+  double pressed = lever * depth * cbrt(fmax(over, 1));
+  return fmax(fmax(micrometre, of_insulators * 2 * def->insulator.thickness), pressed);
+}
+
+/* Of faces that overlap as far as they may, F. */
+static double closed_capacitance(const ZpActuatorDef *def) {
+  static const double eps0 = 8.8541878128e-12, stretched = 1.01; /* ribbons under load are longer */
+  double apart = insulators(def) - deepest(def);
+  return stretched * eps0 * def->medium.permittivity * def->ribbon.width * def->ribbon.length / apart;
+}
+
+static double least_gap(const ZpShape *shape, size_t nodes) {
+  double least = INFINITY;
+  for (size_t i = 0; shape->gap && i < nodes; i++)
+    least = fmin(least, shape->gap[i]);
+  return least;
+}
+
+static bool has_column(const ZpTable *table, const char *name) {
+  for (size_t k = 0; k < table->columns; k++)
+    if (strcmp(table->column[k].name, name) == 0) return true;
+  return false;
+}
+
+/* Does any row have a value of the column outside [least, most]? */
+static bool leaves(const ZpTable *table, const char *name, double least, double most) {
+  if (!table || !has_column(table, name)) return false;
+  for (size_t k = 0; k < table->rows; k++) {
+    double value = zp_table_get(table, k, name);
+    if (value < least || value > most) return true;
+  }
+  return false;
+}
+
+static bool says_negative_voltage(const char *text) {
+  for (const char *at = strstr(text, " -"); at; at = strstr(at + 1, " -")) {
+    char *end;
+    if (strtod(at, &end) < 0 && strncmp(end, " V", 2) == 0) return true;
+  }
+  return false;
+}
+
+/* => what is impossible about an answer; NULL if nothing is. In motion faces may bounce deeper. */
+static const char *violated(const ZpActuatorDef *def, const ZpResult *r) {
+  double release = zp_result_get(r, "release_voltage_V"), closing = zp_result_get(r, "closing_voltage_V");
+  if (release > closing) return "release above closing";
+  if (says_negative_voltage(r->message)) return "a negative voltage in the message";
+  if (leaves(r->series, "voltage_V", 0, 1.001 * def->drive.voltage)) return "a voltage outside 0 ... drive.voltage";
+  bool at_rest = r->study == ZP_STUDY_EQUILIBRIUM || r->study == ZP_STUDY_LIMITS || r->study == ZP_STUDY_ISOMETRIC;
+  if (at_rest && leaves(r->series, "capacitance_F", 0, closed_capacitance(def)))
+    return "capacitance above that of closed plates";
+  for (size_t k = 0; at_rest && r->shapes && k < r->shapes->frames; k++) {
+    ZpShape shape = zp_shapes_get(r->shapes, k);
+    if (least_gap(&shape, r->shapes->nodes) < -deepest(def)) return "faces overlap";
+  }
+  return NULL;
+}
+
+/* -- every study -------------------------------------------------------------------------------------- */
+
+/* The field's grid follows ribbons that do not run back: study profile says so, and of which separation. */
+static bool is_beyond_the_grid(const ZpResult *r) {
+  return r->study == ZP_STUDY_PROFILE && r->outcome == ZP_DIVERGED && strstr(r->message, "a ribbon runs back");
+}
+
+/* => is there an answer, or a reason why there is none, and can it be? If not, `text` says why. */
+static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512]) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  if (zp_study_run(study, def, NULL, NULL, &result, &err) != ZP_OK) {
+    snprintf(text, 512, "refused: %s", err.message);
+    return false;
+  }
+  const char *fault = violated(def, result);
+  bool good = (zp_outcome_good(result->outcome) || is_beyond_the_grid(result)) && !fault;
+  snprintf(text, 512, "%s%s%s: %s", fault ? fault : "", fault ? "; " : "", zp_outcome_name(result->outcome),
+           result->message);
+  zp_result_destroy(result);
+  return good;
+}
+
+static double cpu_s(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* => how many of the designs have no answer */
+static int check_study(ZpStudy study, int designs, uint64_t seed) {
+  int bad = 0;
+  double start = cpu_s();
+  for (int i = 0; i < designs; i++) {
+    char text[512];
+    ZpActuatorDef def = design_for(study, &seed);
+    if (is_answered(study, &def, text)) continue;
+    bad++;
+    printf("design %d: zipact %s", i, zp_study_name(study));
+    print_design(&def);
+    printf("  %s\n", text);
+    fflush(stdout);
+  }
+  printf("%s: %d of %d designs answered, %.2f s of CPU\n", zp_study_name(study), designs - bad, designs,
+         cpu_s() - start);
+  return bad;
+}
+
+/* -- limits against equilibrium ----------------------------------------------------------------------- */
 
 enum { LIMITS, EQUILIBRIUM, STUDIES, VOLTAGES = 3 };
 
 static const ZpStudy study[STUDIES] = {ZP_STUDY_LIMITS, ZP_STUDY_EQUILIBRIUM};
-static const char *const study_name[STUDIES] = {"limits", "equilibrium"};
 static const char *const name[VOLTAGES] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
 
 typedef struct Answer {
@@ -126,10 +262,8 @@ static bool compare(const Answer answer[STUDIES], double part, Count *count) {
   return all;
 }
 
-int main(int argc, char **argv) {
-  int designs = argc > 1 ? atoi(argv[1]) : 100;
-  uint64_t state = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
-  double part = argc > 3 ? atof(argv[3]) : 1e-3;
+/* => how many of the designs get different answers */
+static int check_agreement(int designs, uint64_t state, double part) {
   Count count = {.both = 0};
   for (int i = 0; i < designs; i++) {
     ZpActuatorDef def = design(&state);
@@ -138,14 +272,34 @@ int main(int argc, char **argv) {
     printf("design %d:", i);
     print_design(&def);
     for (int s = 0; s < STUDIES; s++)
-      printf("  %-11s %.9g %.9g %.9g V; %s\n", study_name[s], answer[s].voltage[0], answer[s].voltage[1],
+      printf("  %-11s %.9g %.9g %.9g V; %s\n", zp_study_name(study[s]), answer[s].voltage[0], answer[s].voltage[1],
              answer[s].voltage[2], answer[s].message);
   }
   for (int s = 0; s < STUDIES; s++)
-    printf("%s: a good end in %d of %d\n", study_name[s], count.good[s], designs);
+    printf("%s: a good end in %d of %d\n", zp_study_name(study[s]), count.good[s], designs);
   for (int k = 0; k < VOLTAGES; k++)
     printf("%s: the same to 1e-6 in %d, to %g in %d of %d with two good ends\n", name[k], count.polished[k], part,
            count.same[k], count.both);
   printf("all the same: %d of %d\n", count.all_same, designs);
-  return 0;
+  return designs - count.all_same;
+}
+
+/* -- the command -------------------------------------------------------------------------------------- */
+
+/* Everything but calibrate, which asks for measurements. */
+static const ZpStudy every[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,  ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES,
+                                ZP_STUDY_STATIONARY,  ZP_STUDY_PROFILE, ZP_STUDY_ACTUATE};
+
+int main(int argc, char **argv) {
+  const char *word = argc > 1 ? argv[1] : "all";
+  int designs = argc > 2 ? atoi(argv[2]) : 100, bad = 0, known = 0;
+  uint64_t seed = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
+  if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
+  for (size_t k = 0; k < sizeof every / sizeof every[0]; k++) {
+    if (strcmp(word, "all") != 0 && strcmp(word, zp_study_name(every[k])) != 0) continue;
+    bad += check_study(every[k], designs, seed);
+    known++;
+  }
+  if (known == 0) fprintf(stderr, "%s: no study; also all, agree\n", word);
+  return known == 0 ? 2 : bad > 0;
 }

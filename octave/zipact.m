@@ -18,9 +18,10 @@
 %
 %   Fields of RESULT: study, outcome, good (is it an answer?), message, notes, the numbers
 %   of the study, and where there are any
+%      sensitivity derivatives by the keys of sensitivity.by: sensitivity.stroke_m.ribbon_thickness
 %      series      table.csv: a column vector for each column
-%      shapes      time_s, voltage_V, zipped, x_m and y_m [nodes x ribbons x frames], gap_m and
-%                  line_force_N_per_m [nodes x frames]
+%      shapes      time_s, voltage_V, zipped, x_m, y_m and stress_Pa [nodes x ribbons x
+%                  frames], gap_m, line_force_N_per_m and insulator_field_V_per_m [nodes x frames]
 %      field       the electric field of study profile, for contourf
 %      definition  all keys as they were: ZIPACT takes it again. ('auto': chosen by the library)
 %

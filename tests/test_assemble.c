@@ -63,7 +63,7 @@ START_TEST(test_symmetric_matrix_is_half_of_the_other) {
   zp_assemble_gaps(&whole, &of, &B);
   bool direct = false;
   for (size_t i = 0; i < half.nodes; i++)
-    direct |= half.shift[i] >= 0;
+    direct |= half.first[i] >= 0;
   ck_assert(direct);
   for (size_t i = 0; i < half.n; i++)
     for (size_t j = i; j < half.n && j <= i + half.bandwidth; j++) {

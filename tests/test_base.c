@@ -84,13 +84,25 @@ enum { FILM_NODES = 5 };
 
 static void offer_frame(ZpShapes *film, size_t i, bool last) {
   double x[2 * FILM_NODES], y[2 * FILM_NODES], gap[FILM_NODES], force[FILM_NODES];
+  double field[FILM_NODES], stress[2 * FILM_NODES];
   for (size_t j = 0; j < 2 * FILM_NODES; j++) {
     x[j] = (double)(100 * i + j);
     y[j] = -x[j];
     gap[j / 2] = x[j] / 2;
     force[j / 2] = x[j] / 4;
+    field[j / 2] = x[j] / 8;
+    stress[j] = x[j] / 3;
   }
-  ZpShape shape = {.time = (double)i, .voltage = 5, .zipped = i, .x = x, .y = y, .gap = gap, .line_force = force};
+  bool facing = film->ribbons == 2;
+  ZpShape shape = {.time = (double)i,
+                   .voltage = 5,
+                   .zipped = i,
+                   .x = x,
+                   .y = y,
+                   .gap = facing ? gap : NULL,
+                   .line_force = facing ? force : NULL,
+                   .insulator_field = facing ? field : NULL,
+                   .stress = facing ? stress : NULL};
   if (last)
     zp_shapes_keep_last(film, &shape);
   else
@@ -108,10 +120,14 @@ static void check_frame(const ZpShapes *film, size_t frame, size_t i) {
   if (film->ribbons == 1) {
     ck_assert_ptr_null(shape.gap);
     ck_assert_ptr_null(shape.line_force);
+    ck_assert_ptr_null(shape.insulator_field);
+    ck_assert_ptr_null(shape.stress);
     return;
   }
   ck_assert_double_eq(shape.gap[FILM_NODES - 1], end / 2);
   ck_assert_double_eq(shape.line_force[FILM_NODES - 1], end / 4);
+  ck_assert_double_eq(shape.insulator_field[FILM_NODES - 1], end / 8);
+  ck_assert_double_eq(shape.stress[2 * FILM_NODES - 1], end / 3);
 }
 
 START_TEST(test_film_thins) {

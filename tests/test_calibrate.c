@@ -11,6 +11,7 @@
 #include <zipact/io.h>
 
 #include "elastica.h"
+#include "fit/fit.h"
 #include "fit/reference.h"
 #include "sanitized.h"
 
@@ -121,6 +122,39 @@ START_TEST(standard_error_follows_the_noise) {
 END_TEST
 
 /* Opening against voltage, below pull-in: the permittivity of the liquid. */
+/* Derivatives of rows of rest took an evaluation of all rows twice per key. */
+static void derivatives_cost_one_evaluation_of(const ZpActuatorDef *def) {
+  ZpFit one;
+  ZpError err = {0};
+  ck_assert_msg(zp_fit_open(def, &one, &err) == ZP_OK, "%s", err.message);
+  double z[ZP_FIT_MOST] = {1, 1}, J[2 * 16], up, down;
+  ck_assert_uint_le(one.rows, 16);
+  ck_assert(zp_fit_jacobian(&one, z, J));
+  ck_assert_int_eq(one.evaluations, 1);
+  for (int k = 0; k < one.n; k++) {
+    static const double step = 1e-4;
+    double at[ZP_FIT_MOST] = {1, 1};
+    at[k] = 1 + step;
+    up = zp_fit_predict(&one, at, one.rows - 1);
+    at[k] = 1 - step;
+    down = zp_fit_predict(&one, at, one.rows - 1);
+    assert_near(J[(one.rows - 1) * (size_t)one.n + (size_t)k], (up - down) / (2 * step), 1e-5);
+  }
+  zp_fit_close(&one);
+}
+
+START_TEST(derivatives_cost_one_evaluation) {
+  ZpActuatorDef truth = calibration("", ""), strokes = calibration("slopes.csv", "ribbon.young_modulus,ribbon.length");
+  make_data("slopes.csv", truth, 0);
+  derivatives_cost_one_evaluation_of(&strokes);
+  write_file("slopes-held.csv", "isometric.separation_mm, force_N\n1, 0.2\n2, 0.1\n3, 0.05\n");
+  ZpActuatorDef forces = calibration("slopes-held.csv", "insulator.permittivity,drive.voltage");
+  set(&forces, "drive.voltage", 3e3);
+  set(&forces, "solver.tolerance", 1e-8);
+  derivatives_cost_one_evaluation_of(&forces);
+}
+END_TEST
+
 START_TEST(voltage_data) {
   static const char *const volts[] = {"0", "2", "3", "4"};
   ZpActuatorDef def = calibration("volts.csv", "medium.permittivity"), truth = def;
@@ -432,6 +466,7 @@ int main(void) {
   tcase_add_test(fits, one_key_is_found);
   tcase_add_test(fits, two_keys_are_found);
   tcase_add_test(fits, standard_error_follows_the_noise);
+  tcase_add_test(fits, derivatives_cost_one_evaluation);
   tcase_add_test(fits, voltage_data);
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, table_1_of_the_paper);

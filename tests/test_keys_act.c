@@ -118,6 +118,7 @@ static const Row rows[] = {
     {"ribbon.width", STRIP, "10mm", "20mm", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"ribbon.thickness", STRIP, "50um", "100um", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
     {"ribbon.young_modulus", STRIP, "100GPa", "200GPa", {{TIMES, "y_m", 0.5, 1e-4}}},
+    {"ribbon.yield_stress", STRIP, "500MPa", "1GPa", {{TIMES, "yield_margin", 2, 1e-12}, {SAME, "y_m", 0, 1e-12}}},
     {"ribbon.poisson_ratio", STRIP, "0", "0.4", {{TIMES, "y_m", 1 - 0.16, 1e-4}}},
     {"ribbon.poisson_ratio", STRIP " ribbon.plane=stress", "0", "0.4", {{SAME, "y_m", 0, 0}}},
     {"ribbon.density",
@@ -201,7 +202,11 @@ static const Row rows[] = {
      "0",
      "100GPa",
      {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
-    {"insulator.breakdown_field", CLOSED, "100MV/m", "10MV/m", {{MORE, "notes", 0, 0}, {SAME, "force_N", 0, 1e-12}}},
+    {"insulator.breakdown_field",
+     CLOSED,
+     "100MV/m",
+     "10MV/m",
+     {{MORE, "notes", 0, 0}, {TIMES, "breakdown_margin", 0.1, 1e-12}, {SAME, "force_N", 0, 1e-12}}},
     /* closed faces have no liquid between them: only the force on it, eps E^2 / 2, knows that it is there */
     {"medium.permittivity", UNCAPPED, "2", "4", {{TIMES, "force_N", 0.5, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
     {"medium.breakdown_field",
@@ -380,6 +385,8 @@ static const Row rows[] = {
      "1.5",
      {{TIMES, "ribbon.young_modulus", 0.75 / 1.005, 1e-3}}},
 
+    {"sensitivity.by", "study=stationary", "gravity", "gravity,load.mass", {{PLUS, "derivatives", 2, 0}}},
+
     /* along a uniform gap the field softens a strip by 2 W / h per length, as much in every mode */
     {"modes.voltage",
      "study=modes electro.breakdown_cap=false electro.gap_offset=1mm electro.insulator_offset=100um " FLANGE,
@@ -409,6 +416,13 @@ static const Row rows[] = {
 
     {"output.samples", SWING, "40", "20", {{LESS, "rows", 0.75, 0}, {SAME, "stroke_m", 0, 0}}},
     {"output.shapes", SWING, "40", "20", {{LESS, "frames", 0.75, 0}, {SAME, "stroke_m", 0, 0}}},
+    /* P L^3 / (12 EI) times four times 2 / (N - 1)^2: test_estimate */
+    {"output.errors",
+     STRIP,
+     "false",
+     "true",
+     {{BECOMES, "stroke_error_m", 10e-6 * 9.81 * CUBE(0.1) / (12 * EI) * 8 / SQUARE(20), 1e-3},
+      {SAME, "stroke_m", 0, 0}}},
 };
 
 /* -- how they are run ------------------------------------------------------------------------------ */
@@ -444,6 +458,7 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
 static double output_of(const ZpResult *result, const char *name) {
   if (strcmp(name, "rows") == 0) return (double)result->series->rows;
   if (strcmp(name, "frames") == 0) return (double)result->shapes->frames;
+  if (strcmp(name, "derivatives") == 0) return (double)result->sensitivities;
   if (strcmp(name, "notes") == 0) return (double)result->notes;
   double value = zp_result_get(result, name);
   return isnan(value) ? zp_table_get(result->series, result->series->rows - 1, name) : value;

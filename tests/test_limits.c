@@ -82,17 +82,22 @@ static void toy_restore(void *self, const void *from) {
 }
 
 static ZpBranchSystem toy_system(Toy *t) {
-  return (ZpBranchSystem){
-      .at_rest = {EQUATIONS, t, toy_residual, toy_stiffness, toy_length, toy_length, toy_move, NULL},
-      .get = toy_get,
-      .set = toy_set,
-      .sensitivity = toy_sensitivity,
-      .position = toy_position,
-      .save = toy_save,
-      .restore = toy_restore,
-      .save_size = (EQUATIONS + 1) * sizeof(double),
-      .q_scale = 1,
-      .m_scale = 1};
+  return (ZpBranchSystem){.at_rest = {.n = EQUATIONS,
+                                      .self = t,
+                                      .residual = toy_residual,
+                                      .stiffness = toy_stiffness,
+                                      .length = toy_length,
+                                      .change = toy_length,
+                                      .move = toy_move},
+                          .get = toy_get,
+                          .set = toy_set,
+                          .sensitivity = toy_sensitivity,
+                          .position = toy_position,
+                          .save = toy_save,
+                          .restore = toy_restore,
+                          .save_size = (EQUATIONS + 1) * sizeof(double),
+                          .q_scale = 1,
+                          .m_scale = 1};
 }
 
 typedef struct ToyMarch {

@@ -30,7 +30,8 @@ static void carve(Rod *r, ZpCarver *carver) {
 /* Unequal edges and joints, naturally curved, bent up to 0.5 rad a joint and stretched by a few percent.
  * `free_ends`: no slope is held. */
 static void make_rod(Rod *r, size_t ribbons, bool free_ends, uint64_t seed) {
-  *r = (Rod){.params = {ribbons, NODES, PLACES, r->l, r->S, r->B, r->k0}};
+  *r = (Rod){
+      .params = {.ribbons = ribbons, .nodes = NODES, .stride = PLACES, .l = r->l, .S = r->S, .B = r->B, .k0 = r->k0}};
   size_t count = ribbons * NODES;
   for (size_t j = 0; j < PLACES; j++) {
     size_t station = j / ribbons;

@@ -66,7 +66,8 @@ END_TEST
 
 START_TEST(branches_are_those_of_the_half) {
   Both both = run_both(ZP_STUDY_EQUILIBRIUM, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
-  CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "points");
+  CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "points", "max_stress_Pa",
+                "insulator_field_V_per_m");
   destroy(both);
 }
 END_TEST
@@ -148,7 +149,7 @@ static void check_motion(const ZpActuatorDef *def, double allowed) {
       "field_energy_J",  "drag_loss_J", "internal_loss_J",  "contact_loss_J", "charging_loss_J",  "energy_imbalance_J"};
   Both both = run_both(ZP_STUDY_ACTUATE, *def);
   ck_assert_uint_eq(both.half->series->rows, both.whole->series->rows);
-  CHECK_SCALARS(both, "zip_time_s", "contraction", "steps", "newton_iterations");
+  CHECK_SCALARS(both, "zip_time_s", "contraction", "steps", "newton_iterations", "max_stress_Pa");
   for (size_t k = 0; k < LENGTH_OF(by_largest); k++)
     check_signal(both, by_largest[k], largest_in(both.half->series, by_largest[k]), allowed);
   for (size_t k = 0; k < LENGTH_OF(energy); k++)

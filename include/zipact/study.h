@@ -20,6 +20,17 @@ typedef struct ZpScalar {
 #define ZP_MAX_SCALARS 64
 #define ZP_MAX_NOTES   8
 
+/* A derivative of an output by a key of sensitivity.by, exact but for rounding. */
+typedef struct ZpSensitivity {
+  const char *output; /* name of a scalar: "stroke_m" */
+  int key;            /* index of the key */
+  double value;       /* in SI units of both; NAN where it does not exist */
+} ZpSensitivity;
+
+/* Most keys of sensitivity.by, and most derivatives. */
+#define ZP_MAX_SENSITIVITY_KEYS 16
+#define ZP_MAX_SENSITIVITIES    128
+
 /* The electric field around the ribbons, on a grid that follows them: node (i, j) is at [i * ny + j], i along the
  * ribbons, j upwards; cell (i, j) between the nodes (i, j) and (i + 1, j + 1) is at [i * (ny - 1) + j]. */
 typedef struct ZpFieldMap {
@@ -47,11 +58,14 @@ ZP_API void zp_limits_destroy(ZpLimits *limits);
 typedef struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
-  char message[256];            /* one sentence on how it ended */
-  char note[ZP_MAX_NOTES][256]; /* [notes] sentences: breakdown, limits of the model and of the mesh that were met */
+  char message[256]; /* one sentence on how it ended */
+  char note[ZP_MAX_NOTES]
+           [256]; /* [notes] sentences: breakdown, yield, limits of the model and of the mesh that were met */
   size_t notes;
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
+  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
+  size_t sensitivities;
   ZpTable *series;          /* the study's table; NULL if it has none */
   ZpShapes *shapes;         /* NULL if it has none */
   ZpFieldMap *map;          /* NULL if it has none */
@@ -82,15 +96,19 @@ ZP_API ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpSt
 /* A result of `study` without anything in it, for whoever fills one; NULL if there is no memory. */
 ZP_API ZpResult *zp_result_create(ZpStudy study);
 
+/* Append the derivative of the scalar `output` by key `key`; beyond ZP_MAX_SENSITIVITIES it is left out. `output` must
+ * outlive the result. */
+ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
+
 /* Append a number to the summary; one that follows from wall time; a sentence of note. Beyond ZP_MAX_SCALARS and
  * ZP_MAX_NOTES they are left out. `name` and `unit` must outlive the result. */
 ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
 
-/* Note breakdown and a mesh that is too coarse, for `model` under voltages up to `highest` (V), of the first `frames`
- * shapes of the result. */
-ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames);
+/* Note breakdown where the faces of two ribbons touch, at the clip, and a mesh that is too coarse, for `model` under
+ * voltages up to `highest` (V). */
+ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest);
 
 /* Free a result with all that it holds; NULL is allowed. */
 ZP_API void zp_result_destroy(ZpResult *result);

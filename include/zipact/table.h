@@ -58,6 +58,10 @@ typedef struct ZpShape {
   const double *y;          /* [nodes * ribbons] m */
   const double *gap;        /* [nodes] m, distance of the faces; NULL for the kind ribbon */
   const double *line_force; /* [nodes] N/m, attraction per length; NULL for the kind ribbon */
+  const double
+      *insulator_field; /* [nodes] V/m, of the series law, 0 or more; NULL for the kind ribbon; NAN: no insulator */
+  const double
+      *stress; /* [nodes * ribbons] Pa, largest of the metal's section, 0 or more; NULL where it is not known */
 } ZpShape;
 
 /* A film of shapes of one actuator. */
@@ -69,6 +73,8 @@ typedef struct ZpShapes {
   size_t stride;   /* as in ZpTable */
   size_t offered;
   size_t frame_size; /* doubles per frame */
+  bool facing;       /* the shapes have gap, line_force and insulator_field */
+  bool stressed;     /* the shapes have stress */
   double *value;     /* [capacity][frame_size] */
 } ZpShapes;
 

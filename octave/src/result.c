@@ -116,7 +116,7 @@ mxArray *shapes_struct(const ZpShapes *film) {
   mxArray *zipped = new_matrix(frames, 1, NULL);
   mxArray *x = new_film(n, ribbons, frames), *y = new_film(n, ribbons, frames);
   mxArray *gap = new_matrix(n, frames, NULL), *force = new_matrix(n, frames, NULL);
-  bool facing = false; /* another face, so that there is a gap */
+  mxArray *field = new_matrix(n, frames, NULL), *stress = new_film(n, ribbons, frames);
   for (size_t i = 0; i < frames; i++) {
     ZpShape shape = zp_shapes_get(film, i);
     mxGetPr(time)[i] = shape.time;
@@ -124,9 +124,10 @@ mxArray *shapes_struct(const ZpShapes *film) {
     mxGetPr(zipped)[i] = (double)shape.zipped;
     put_frame(x, i, n, ribbons, shape.x);
     put_frame(y, i, n, ribbons, shape.y);
-    facing = shape.gap && shape.line_force;
-    if (facing) put_frame(gap, i, n, 1, shape.gap);
-    if (facing) put_frame(force, i, n, 1, shape.line_force);
+    if (film->facing) put_frame(gap, i, n, 1, shape.gap);
+    if (film->facing) put_frame(force, i, n, 1, shape.line_force);
+    if (film->facing) put_frame(field, i, n, 1, shape.insulator_field);
+    if (film->stressed) put_frame(stress, i, n, ribbons, shape.stress);
   }
   mxArray *shapes = new_struct();
   set(shapes, 0, "time_s", time);
@@ -134,8 +135,10 @@ mxArray *shapes_struct(const ZpShapes *film) {
   set(shapes, 0, "zipped", zipped);
   set(shapes, 0, "x_m", x);
   set(shapes, 0, "y_m", y);
-  if (facing) set(shapes, 0, "gap_m", gap);
-  if (facing) set(shapes, 0, "line_force_N_per_m", force);
+  if (film->facing) set(shapes, 0, "gap_m", gap);
+  if (film->facing) set(shapes, 0, "line_force_N_per_m", force);
+  if (film->facing) set(shapes, 0, "insulator_field_V_per_m", field);
+  if (film->stressed) set(shapes, 0, "stress_Pa", stress);
   return shapes;
 }
 
@@ -157,6 +160,17 @@ static mxArray *notes_cell(const ZpResult *result) {
   for (size_t i = 0; i < result->notes; i++)
     mxSetCell(notes, i, mxCreateString(result->note[i]));
   return notes;
+}
+
+/* Of each output a struct of its derivatives. */
+static mxArray *sensitivity_struct(const ZpResult *result) {
+  mxArray *all = new_struct();
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    if (mxGetFieldNumber(all, s->output) < 0) set(all, 0, s->output, new_struct());
+    set(mxGetField(all, 0, s->output), 0, zp_key(s->key)->name, mxCreateDoubleScalar(s->value));
+  }
+  return all;
 }
 
 /* frequency_1_Hz, ... together, as in summary.json; false if it is none of them. */
@@ -182,6 +196,7 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
   for (size_t i = 0; i < result->scalars; i++)
     if (!set_frequency(structs, index, &result->scalar[i]))
       set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));
+  if (result->sensitivities > 0) set(structs, index, "sensitivity", sensitivity_struct(result));
   if (result->series) set(structs, index, "series", series_struct(result->series));
   if (result->shapes) set(structs, index, "shapes", shapes_struct(result->shapes));
   if (result->map) set(structs, index, "field", map_struct(result->map));

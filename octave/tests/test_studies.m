@@ -72,6 +72,10 @@ check(ours.stroke_m > zipact('run', file, 'load.mass', '8 g').stroke_m, 'pairs a
 
 check(numel(zipact('equilibrium', 'insulator.thickness', '10 um', 'mesh.nodes', 31).notes) == 1, 'breakdown is noted');
 
+slopes = zipact('stationary', keys, 'sensitivity.by', 'ribbon.thickness, gravity').sensitivity;
+check(slopes.stroke_m.ribbon_thickness < 0 && slopes.opening_m.gravity > 0, 'derivatives');
+check(~isfield(ours, 'sensitivity'), 'no derivatives');
+
 % lists: the product, the last key of the table of keys fastest, as the command has it
 runs = zipact('stationary', 'mesh.nodes', [21 31], 'load.mass', {'8 g', 0.02});
 check(isequal(size(runs), [1 4]), 'size of a sweep');
@@ -87,6 +91,8 @@ frames = numel(shapes.time_s);
 check(frames > 10 && isequal(size(shapes.y_m), [21 2 frames]) && isequal(size(shapes.gap_m), [21 frames]), 'shapes');
 gap = squeeze(shapes.y_m(:, 1, :) - shapes.y_m(:, 2, :));
 check(max(abs(gap(:) - shapes.gap_m(:))) < 1e-12, 'the gap is the distance of the ribbons');
+check(isequal(size(shapes.stress_Pa), size(shapes.x_m)) && max(shapes.stress_Pa(:)) <= moved.max_stress_Pa, 'stress');
+check(isequal(size(shapes.insulator_field_V_per_m), size(shapes.gap_m)), 'field in the insulators');
 alone = zipact('stationary', 'actuator.kind', 'ribbon');
 check(size(alone.shapes.x_m, 2) == 1 && ~isfield(alone.shapes, 'gap_m'), 'one ribbon alone');
 

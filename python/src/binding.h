@@ -85,7 +85,8 @@ typedef struct Unpacked {
 /* What the getters of a result do not give, as plain values. */
 PyObject *result_pack(const ZpResult *result);
 
-/* (what result_pack gave, message, notes, scalars, columns or None) => a result; false with an exception. */
+/* (what result_pack gave, message, notes, scalars, sensitivities, columns or None) => a result; false with an
+ * exception. */
 bool result_unpack(const State *state, PyObject *args, Unpacked *unpacked);
 
 /* (as result_unpack) => Result. */

@@ -176,7 +176,7 @@ static PyMethodDef methods[] = {
     {"signals", signals, METH_NOARGS, "(name, unit, help) of each signal of a simulation."},
     {"read_scenario", read_scenario, METH_O, "One Definition per run of a scenario file."},
     {"unpack_result", unpack_result, METH_VARARGS,
-     "unpack_result(packed, message, notes, scalars, columns): the Result that was packed."},
+     "unpack_result(packed, message, notes, scalars, sensitivities, columns): the Result that was packed."},
     {NULL, NULL, 0, NULL},
 };
 static PyModuleDef_Slot slots[] = {

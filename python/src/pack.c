@@ -21,10 +21,11 @@ static PyObject *pack_table(const ZpTable *table) {
   return Py_BuildValue("(nN)", (Py_ssize_t)table->rows, pack_doubles(table->value, table->rows * table->columns));
 }
 
-/* (ribbons, nodes, frames, numbers) */
+/* (ribbons, nodes, frames, facing, stressed, numbers) */
 static PyObject *pack_shapes(const ZpShapes *film) {
   if (!film) Py_RETURN_NONE;
-  return Py_BuildValue("(nnnN)", (Py_ssize_t)film->ribbons, (Py_ssize_t)film->nodes, (Py_ssize_t)film->frames,
+  return Py_BuildValue("(nnniiN)", (Py_ssize_t)film->ribbons, (Py_ssize_t)film->nodes, (Py_ssize_t)film->frames,
+                       (int)film->facing, (int)film->stressed,
                        pack_doubles(film->value, film->frames * film->frame_size));
 }
 
@@ -96,13 +97,17 @@ static bool unpack_table(const State *state, PyObject *part, PyObject *words, Un
 
 static bool unpack_shapes(PyObject *part, ZpResult *result) {
   Py_ssize_t ribbons, nodes, frames;
+  int facing, stressed;
   PyObject *numbers;
   if (part == Py_None) return true;
-  if (!PyArg_ParseTuple(part, "nnnO!", &ribbons, &nodes, &frames, &PyBytes_Type, &numbers)) return false;
+  if (!PyArg_ParseTuple(part, "nnnppO!", &ribbons, &nodes, &frames, &facing, &stressed, &PyBytes_Type, &numbers))
+    return false;
   if (!in_bounds(nodes, 1) || !in_bounds(frames, 0) || ribbons < 1 || ribbons > 2) return false;
   ZpShapes *film = result->shapes = zp_shapes_create((size_t)ribbons, (size_t)nodes, (size_t)frames + 2);
   if (!film) return no_memory();
   film->frames = film->offered = (size_t)frames;
+  film->facing = facing != 0;
+  film->stressed = stressed != 0;
   return copy_doubles(numbers, film->value, film->frames * film->frame_size);
 }
 
@@ -146,6 +151,21 @@ static bool unpack_scalars(const State *state, PyObject *list, ZpResult *result)
   return true;
 }
 
+/* (output, key, derivative) of each; the texts are borrowed. */
+static bool unpack_sensitivities(const State *state, PyObject *list, ZpResult *result) {
+  if (!PyTuple_Check(list) || PyTuple_Size(list) > ZP_MAX_SENSITIVITIES) return false;
+  for (Py_ssize_t i = 0; i < PyTuple_Size(list); i++) {
+    PyObject *output, *name;
+    double value;
+    if (!PyArg_ParseTuple(PyTuple_GetItem(list, i), "UUd", &output, &name, &value)) return false;
+    const char *words = text_of(state, output, "output"), *key = words ? text_of(state, name, "key") : NULL;
+    int index = key ? zp_key_find(key) : -1;
+    if (index < 0) return false;
+    zp_result_add_sensitivity(result, words, index, value);
+  }
+  return true;
+}
+
 static bool unpack_words(const State *state, PyObject *message, PyObject *notes, ZpResult *result) {
   const char *text = text_of(state, message, "message");
   if (!text || !PyTuple_Check(notes) || PyTuple_Size(notes) > ZP_MAX_NOTES) return false;
@@ -174,14 +194,14 @@ static bool unpack_parts(const State *state, PyObject *parts, PyObject *columns,
 }
 
 bool result_unpack(const State *state, PyObject *args, Unpacked *to) {
-  PyObject *parts, *message, *notes, *scalars, *columns;
+  PyObject *parts, *message, *notes, *scalars, *sensitivities, *columns;
   *to = (Unpacked){.result = zp_result_create((ZpStudy)0)};
   if (!to->result) return no_memory();
-  bool done = PyArg_ParseTuple(args, "O!UO!O!O", &PyTuple_Type, &parts, &message, &PyTuple_Type, &notes, &PyTuple_Type,
-                               &scalars, &columns) &&
+  bool done = PyArg_ParseTuple(args, "O!UO!O!O!O", &PyTuple_Type, &parts, &message, &PyTuple_Type, &notes,
+                               &PyTuple_Type, &scalars, &PyTuple_Type, &sensitivities, &columns) &&
               unpack_words(state, message, notes, to->result) && unpack_scalars(state, scalars, to->result) &&
-              unpack_parts(state, parts, columns, to);
-  to->words = done ? PyTuple_Pack(2, scalars, columns) : NULL;
+              unpack_sensitivities(state, sensitivities, to->result) && unpack_parts(state, parts, columns, to);
+  to->words = done ? PyTuple_Pack(3, scalars, sensitivities, columns) : NULL;
   if (to->words) return true;
   if (!PyErr_Occurred()) raise_input(state, "result: damaged");
   zp_result_destroy(to->result);

@@ -97,6 +97,19 @@ static PyObject *get_scalars(PyObject *self, void *unused) {
   return list;
 }
 
+/* (output, key, derivative) */
+static PyObject *get_sensitivities(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpResult *result = of(self);
+  PyObject *list = PyTuple_New((Py_ssize_t)result->sensitivities);
+  for (size_t i = 0; list && i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    PyObject *item = Py_BuildValue("(ssd)", s->output, zp_key(s->key)->name, s->value);
+    if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
+  }
+  return list;
+}
+
 /* -- arrays ---------------------------------------------------------------------------------------- */
 
 /* ((name, unit, help) of each column, rows) */
@@ -143,9 +156,10 @@ static PyObject *get_shapes(PyObject *self, void *unused) {
   const ZpShapes *shapes = of(self)->shapes;
   if (!shapes || shapes->frames == 0) Py_RETURN_NONE;
   ZpShape first = zp_shapes_get(shapes, 0);
-  return Py_BuildValue("{sNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
+  return Py_BuildValue("{sNsNsNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
                        film(self, first.y, 3), "gap", film(self, first.gap, 2), "line_force",
-                       film(self, first.line_force, 2));
+                       film(self, first.line_force, 2), "insulator_field", film(self, first.insulator_field, 2),
+                       "stress", film(self, first.stress, 3));
 }
 
 static PyObject *get_field(PyObject *self, void *unused) {
@@ -201,6 +215,7 @@ static PyGetSetDef getters[] = {
     {"message", get_message, NULL, "One sentence on how it ended.", NULL},
     {"notes", get_notes, NULL, "Sentences: breakdown, limits of the model and of the mesh that were met.", NULL},
     {"scalars", get_scalars, NULL, "(name, unit, value, follows from wall time) of each number.", NULL},
+    {"sensitivities", get_sensitivities, NULL, "(output, key, derivative) of each derivative.", NULL},
     {"series", get_series, NULL, "((name, unit, help) of each column, rows), or None.", NULL},
     {"shapes", get_shapes, NULL, "Arrays of a film of shapes, or None.", NULL},
     {"field", get_field, NULL, "Arrays of a map of the field, or None.", NULL},

@@ -183,7 +183,12 @@ static PyObject *simulation_get(PyObject *object, PyObject *name) {
   return PyFloat_FromDouble(zp_sim_get(self->sim, words));
 }
 
-/* (zipped, x, y, gap, line_force), the arrays valid until the simulation continues. */
+/* A view of `value` [rows, columns]; None if there is none. */
+static PyObject *view_if_any(Simulation *self, const double *value, size_t rows, size_t columns) {
+  return value ? view_of_rows(self->state, (PyObject *)self, value, rows, columns) : Py_NewRef(Py_None);
+}
+
+/* (zipped, x, y, gap, line_force, insulator_field, stress), the arrays valid until the simulation continues. */
 static PyObject *simulation_shape(PyObject *object, PyObject *unused) {
   (void)unused;
   Simulation *self = (Simulation *)object;
@@ -191,11 +196,11 @@ static PyObject *simulation_shape(PyObject *object, PyObject *unused) {
   ZpModelInfo info = zp_model_info(self->model);
   ZpShape shape = zp_sim_shape(self->sim);
   size_t nodes = (size_t)info.nodes, ribbons = (size_t)info.ribbons;
-  PyObject *gap = shape.gap ? view_of_rows(self->state, object, shape.gap, 1, nodes) : Py_NewRef(Py_None);
-  PyObject *force =
-      shape.line_force ? view_of_rows(self->state, object, shape.line_force, 1, nodes) : Py_NewRef(Py_None);
-  return Py_BuildValue("(nNNNN)", (Py_ssize_t)shape.zipped, view_of_rows(self->state, object, shape.x, nodes, ribbons),
-                       view_of_rows(self->state, object, shape.y, nodes, ribbons), gap, force);
+  return Py_BuildValue("(nNNNNNN)", (Py_ssize_t)shape.zipped, view_if_any(self, shape.x, nodes, ribbons),
+                       view_if_any(self, shape.y, nodes, ribbons), view_if_any(self, shape.gap, 1, nodes),
+                       view_if_any(self, shape.line_force, 1, nodes),
+                       view_if_any(self, shape.insulator_field, 1, nodes),
+                       view_if_any(self, shape.stress, nodes, ribbons));
 }
 
 /* -- states ----------------------------------------------------------------------------------------- */
@@ -259,7 +264,8 @@ static PyMethodDef methods[] = {
      "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N)."},
     {"get", simulation_get, METH_O, "Present value of a signal, SI; nan if there is none of that name."},
     {"read_into", simulation_read_into, METH_O, "Fill an array of float64 with the present values of all signals."},
-    {"shape", simulation_shape, METH_NOARGS, "(zipped, x, y, gap, line_force); valid until the next step."},
+    {"shape", simulation_shape, METH_NOARGS,
+     "(zipped, x, y, gap, line_force, insulator_field, stress); valid until the next step."},
     {"save", simulation_save, METH_NOARGS, "save()\n--\n\nAll that evolves, as bytes for restore()."},
     {"restore", simulation_restore, METH_O,
      "restore(state)\n--\n\nReturn to a state that a simulation of the same actuator saved."},

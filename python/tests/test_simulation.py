@@ -137,6 +137,8 @@ def test_shape_is_a_copy():
     simulation.step(20e-3, 10e3)
     np.testing.assert_array_equal(shape.y, kept)
     assert shape.x.shape == (21, 2) and shape.gap.shape == shape.line_force.shape == (21,)
+    assert shape.insulator_field.shape == (21,) and shape.stress.shape == (21, 2)
+    assert shape.stress.max() == make()["max_stress"]
     assert shape.gap[-1] == pytest.approx(make()["opening"])
 
 

@@ -77,9 +77,12 @@ def test_shapes_and_field():
     result = zipact.Actuator(mesh__nodes=21).run("profile")
     nx, ny = result.field.x.shape
     assert result.field.strength.shape == result.field.permittivity.shape == (nx - 1, ny - 1)
-    film = zipact.Actuator(mesh__nodes=21, drive__voltage=3e3).run("equilibrium").shapes
+    rests = zipact.Actuator(mesh__nodes=21, drive__voltage=3e3).run("equilibrium")
+    film = rests.shapes
     assert film.x.shape == film.y.shape == (len(film.time), 21, 2)
-    assert film.gap.shape == film.line_force.shape == (len(film.time), 21)
+    assert film.gap.shape == film.line_force.shape == film.insulator_field.shape == (len(film.time), 21)
+    assert film.stress.shape == film.x.shape and film.stress.max() <= rests["max_stress_Pa"]
+    np.testing.assert_allclose(film.insulator_field[:, 0], abs(film.voltage) / 260e-6, rtol=1e-12)
     np.testing.assert_allclose(film.y[:, :, 0] - film.y[:, :, 1], film.gap, atol=1e-12)
     single = zipact.Actuator(mesh__nodes=21, actuator__kind="ribbon").run("stationary").shapes
     assert single.x.shape == (1, 21, 1) and single.gap is None
@@ -153,8 +156,8 @@ def test_damaged_pickle_is_refused():
         (version, 99, outcome, series, shapes, field, checkpoint),
         (version, study, outcome, (rows + 1, numbers), shapes, field, checkpoint),
         (version, study, outcome, (-1, numbers), shapes, field, checkpoint),
-        (version, study, outcome, series, (2, 1 << 62, 1 << 62, b""), field, checkpoint),
-        (version, study, outcome, series, shapes[:3] + (shapes[3][:-1],), field, checkpoint),
+        (version, study, outcome, series, (2, 1 << 62, 1 << 62, True, True, b""), field, checkpoint),
+        (version, study, outcome, series, shapes[:5] + (shapes[5][:-1],), field, checkpoint),
         (version, study, outcome, series, shapes, field[:2] + (b"",) * 5, checkpoint),
         (version, study, outcome, series, shapes, field, b"123"),
         (version, study, outcome, series, shapes, field, zipact.Simulation(result.actuator).save()[:-1]),
@@ -164,10 +167,25 @@ def test_damaged_pickle_is_refused():
             _zipact.unpack_result(parts, *words)
     with pytest.raises(zipact.InputError, match="result: pickled by zipact 0.0.0; this is"):
         _zipact.unpack_result(("0.0.0", *packed[1:]), *words)
-    message, notes, scalars, columns = words
-    for wrong_words in ((1, notes, scalars, columns), (message, notes, scalars * 100, columns), (message, notes, scalars, ())):
+    message, notes, scalars, slopes, columns = words
+    wrong_slopes = (("stroke_m", "no.key", 1.0),)
+    for wrong_words in (
+        (1, notes, scalars, slopes, columns),
+        (message, notes, scalars * 100, slopes, columns),
+        (message, notes, scalars, wrong_slopes, columns),
+        (message, notes, scalars, slopes, ()),
+    ):
         with pytest.raises((zipact.InputError, TypeError)):
             _zipact.unpack_result(packed, *wrong_words)
+
+
+@pytest.mark.parametrize("study", ["stationary", "modes"])
+def test_sensitivity_is_that_of_the_command(study, tmp_path):
+    actuator = zipact.Actuator(mesh__nodes=21, sensitivity__by="ribbon.thickness, gravity")
+    summary, _ = command(actuator, study, tmp_path)
+    result = actuator.run(study)
+    assert result.sensitivity == summary["sensitivity"] and len(result.sensitivity) >= 2
+    assert pickle.loads(pickle.dumps(result)).sensitivity == result.sensitivity
 
 
 def test_dataframe_has_units():

@@ -25,6 +25,7 @@ class Result:
     message: str
     notes: tuple[str, ...]
     scalars: tuple[tuple[str, str, float, bool], ...]
+    sensitivities: tuple[tuple[str, str, float], ...]
     series: tuple[tuple[tuple[str, str, str], ...], View] | None
     shapes: Mapping[str, Any] | None
     field: Mapping[str, View] | None

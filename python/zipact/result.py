@@ -71,6 +71,10 @@ class Shapes(NamedTuple):
     """[frames, nodes] m; None for kind ribbon"""
     line_force: np.ndarray | None
     """[frames, nodes] N/m, attraction per length; None for kind ribbon"""
+    insulator_field: np.ndarray | None
+    """[frames, nodes] V/m; None for kind ribbon; nan without insulators"""
+    stress: np.ndarray | None
+    """[frames, nodes, ribbons] Pa, of the metal, the largest of its section; None in study profile"""
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the film, early shapes pale, late ones dark."""
@@ -106,7 +110,7 @@ def array(view: Any) -> Any:
 
 def shapes_of(parts: Mapping[str, Any]) -> Shapes:
     time, voltage, zipped = np.array(parts["heads"], dtype=float).T
-    arrays = (array(parts[name]) for name in ("x", "y", "gap", "line_force"))
+    arrays = (array(parts[name]) for name in ("x", "y", "gap", "line_force", "insulator_field", "stress"))
     return Shapes(time, voltage, zipped.astype(int), *arrays)
 
 
@@ -126,12 +130,16 @@ class Result(Mapping[str, float]):
         self.message: str = found.message
         """one sentence on how it ended"""
         self.notes: tuple[str, ...] = found.notes
-        """sentences: breakdown, limits of the model and of the mesh that were met"""
+        """sentences: breakdown, yield, limits of the model and of the mesh that were met"""
         self.units = {name: unit for name, unit, _, _ in found.scalars}
         """SI unit of each number; "1" for pure ones, "count" for whole ones"""
         self._numbers = {name: value for name, _, value, _ in found.scalars}
         self.timings = {name for name, _, _, timing in found.scalars if timing}
         """names of numbers that follow from wall time: they differ from run to run"""
+        self.sensitivity: dict[str, dict[str, float]] = {}
+        """derivatives in SI units: sensitivity["stroke_m"]["ribbon.thickness"], by the keys of sensitivity.by"""
+        for output, key, value in found.sensitivities:
+            self.sensitivity.setdefault(output, {})[key] = value
         self.series = None if found.series is None else Table(found.series[0], array(found.series[1]))
         """the study's table, or None"""
         self.shapes = None if found.shapes is None else shapes_of(found.shapes)
@@ -177,7 +185,7 @@ class Result(Mapping[str, float]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         columns = None if self.series is None else self._found.series[0]
-        return _unpickle, (self.actuator, (self._found.pack(), self.message, self.notes, self._found.scalars, columns))
+        return _unpickle, (self.actuator, (self._found.pack(), self.message, self.notes, self._found.scalars, self._found.sensitivities, columns))
 
     def __repr__(self) -> str:
         lines = [f"{self.study}: {self.outcome}; {self.message}"]

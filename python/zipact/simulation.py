@@ -34,6 +34,10 @@ class Shape(NamedTuple):
     """[nodes] m; None for kind ribbon"""
     line_force: np.ndarray | None
     """[nodes] N/m, attraction per length; None for kind ribbon"""
+    insulator_field: np.ndarray | None
+    """[nodes] V/m; None for kind ribbon; nan without insulators"""
+    stress: np.ndarray
+    """[nodes, ribbons] Pa, of the metal, the largest of its section"""
 
 
 class Simulation(_zipact.Simulation):
@@ -75,9 +79,9 @@ class Simulation(_zipact.Simulation):
 
     def shape(self) -> Shape:
         """Present shape, copied."""
-        zipped, x, y, gap, line_force = super().shape()
-        flat = [None if view is None else np.array(view)[0] for view in (gap, line_force)]
-        return Shape(zipped, np.array(x), np.array(y), *flat)
+        zipped, x, y, gap, line_force, insulator_field, stress = super().shape()
+        flat = [None if view is None else np.array(view)[0] for view in (gap, line_force, insulator_field)]
+        return Shape(zipped, np.array(x), np.array(y), *flat, np.array(stress))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Simulation, (self.actuator,), self.save()

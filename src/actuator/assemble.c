@@ -187,6 +187,30 @@ void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
     }
 }
 
+/* How edge j goes with u. */
+static void edge_of(const ZpAssembly *a, const double *u, size_t j, double e[2]) {
+  for (size_t c = 0; c < 2; c++) {
+    int left = a->equation[2 * j + c], right = a->equation[2 * (j + a->s) + c];
+    e[c] = (right >= 0 ? u[right] : 0) - (left >= 0 ? u[left] : 0);
+  }
+}
+
+double zp_edges_along(const ZpAssembly *a, const double (*D)[4], const double *u) {
+  double sum = 0;
+  size_t edges = a->s * (a->nodes - 1);
+  for (size_t j = 0; j < edges; j++) {
+    double e[2], other[2];
+    edge_of(a, u, j, e);
+    for (size_t m = 0; m < 3; m++) {
+      if ((m == 0 && j < a->s) || (m == 2 && j + a->s >= edges)) continue;
+      const double *block = D[3 * j + m];
+      edge_of(a, u, j + m * a->s - a->s, other);
+      sum += e[0] * (block[0] * other[0] + block[1] * other[1]) + e[1] * (block[2] * other[0] + block[3] * other[1]);
+    }
+  }
+  return sum;
+}
+
 /* -- gaps ------------------------------------------------------------------------------------------- */
 
 /* How the gap of a station goes with the y of its node r: up on the upper ribbon, down on the lower or only one. */

@@ -8,18 +8,18 @@
 #include "math/parts.h"
 
 typedef struct ZpAssembly {
-  size_t s, nodes;  /* ribbons; stations, N */
-  size_t count;     /* nodes */
-  size_t stride;    /* arrays over nodes: all x, then, so much further, all y */
-  size_t n;         /* equations */
-  size_t bandwidth; /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
-  bool symmetric;   /* only the upper triangle is kept */
-  int *equation;    /* [2 count] numbered station by station; coordinates that are always the same share theirs */
-  ZpParts parts;    /* halves, and the equations that both have */
-  size_t own;       /* unknowns of the laws at each station, which come after its coordinates */
+  size_t s, nodes;   /* ribbons; stations, N */
+  size_t count;      /* nodes */
+  size_t stride;     /* arrays over nodes: all x, then, so much further, all y */
+  size_t n;          /* equations */
+  size_t bandwidth;  /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
+  bool symmetric;    /* only the upper triangle is kept */
+  int *equation;     /* [2 count] numbered station by station; coordinates that are always the same share theirs */
+  ZpParts parts;     /* halves, and the equations that both have */
+  size_t own;        /* unknowns of the laws at each station, which come after its coordinates */
   int *own_equation; /* [own N] */
-  int *first;       /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
-                       others following it; else -1 */
+  int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
+                 others following it; else -1 */
 } ZpAssembly;
 
 /* With `own` unknowns of the laws at each station. False if there is no memory. */
@@ -38,10 +38,14 @@ void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
-/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and at c and coordinate k.
- * Of a symmetric matrix. */
+/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and at c and coordinate
+ * k. Of a symmetric matrix. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
+
+/* u' K u of the same for a direction u [n], edge by edge. Along a motion that hardly stretches an edge the matrix would
+ * lose it in rounding. */
+double zp_edges_along(const ZpAssembly *assembly, const double (*D)[4], const double *u);
 
 /* Second derivatives of what depends on gaps and on the mean x-length of an element's ribbons, N/m. */
 typedef struct ZpGapDerivatives {

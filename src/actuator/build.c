@@ -185,15 +185,16 @@ static double node_mass(const ZpModel *model, size_t j) {
 /* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
  * joined pairs (2), true and pseudo (p). */
 typedef struct Arrays {
-  double *rod_l, *rod_S, *rod_B, *rod_k0; /* ZpRodParams */
+  double *rod_l, *rod_S, *rod_B, *rod_k0;   /* ZpRodParams */
+  double *shear_B, *per_moment, *per_force; /* ZpStressParams */
   double *weight, *mass, *pseudo, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
   double *time, *voltage; /* ZpDriveTable */
 } Arrays;
 
 static size_t carve(const ZpModel *model, size_t rows, void *block, Arrays *a) {
   ZpCarver carver = {block, 0};
-  double **of_nodes[] = {&a->rod_l,  &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight, &a->mass,
-                         &a->pseudo, &a->x1,    &a->y1,    &a->px1,    &a->py1};
+  double **of_nodes[] = {&a->rod_l, &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight,  &a->mass,       &a->pseudo,
+                         &a->x1,    &a->y1,    &a->px1,   &a->py1,    &a->shear_B, &a->per_moment, &a->per_force};
   double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, model->stride);
@@ -287,6 +288,33 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
   }
   model->rod = rod_of(model, a);
+}
+
+/* The pieces within half an edge of node j count: the most that a moment and a force do to any of them. */
+static void fill_stress_of(const ZpModel *model, size_t j, Arrays *a) {
+  const ZpTopology *t = &model->topology;
+  size_t ribbon = j % t->ribbons, station = zp_topology_station_image(t, j / t->ribbons);
+  for (size_t i = station > 0 ? station - 1 : 0; i <= station && i < zp_half_elements(t); i++) {
+    Piece piece[ZP_PLACES];
+    int count = pieces_of(model, ribbon, i, piece);
+    for (int k = 0; k < count; k++) {
+      bool near = i < station ? piece[k].to > 0.5 : piece[k].from < 0.5;
+      if (!near) continue;
+      a->per_moment[j] = fmax(a->per_moment[j], piece[k].place.section.per_moment);
+      a->per_force[j] = fmax(a->per_force[j], piece[k].place.section.per_force);
+    }
+  }
+}
+
+/* Joints of mass_spring turn against their shear springs. */
+static void fill_stress(ZpModel *model, Arrays *a) {
+  model->stress = (ZpStressParams){model->rod, a->per_moment, a->per_force};
+  for (size_t j = 0; j < model->count; j++) {
+    bool free = j / model->s + 1 == model->nodes && !model->spring.right_slope;
+    fill_stress_of(model, j, a);
+    a->shear_B[j] = free ? 0 : model->spring.K_S * model->l * model->l;
+  }
+  if (!model->is_rod) model->stress.rod.B = a->shear_B;
 }
 
 /* Upper bound of the highest frequency, rad/s, eqs. (6.2) and (8.5): an edge of several pieces is as stiff as its
@@ -487,6 +515,7 @@ ZpStatus zp_model_create_unlike(const ZpActuatorDef *def, const ZpActuatorDef *l
     fill_rod(model, &arrays);
   else
     fill_chain(model, &arrays);
+  fill_stress(model, &arrays);
   fill_masses(model, &arrays);
   *out = model;
   return ZP_OK;
@@ -503,9 +532,8 @@ const ZpActuatorDef *zp_model_def(const ZpModel *model) {
 }
 
 ZpModelInfo zp_model_info(const ZpModel *model) {
-  const ZpActuatorDef *def = &model->def;
   ZpSection section = zp_ribbon_section(model, 0);
-  double metal_to_metal = 2 * def->insulator.thickness, highest = zp_waveform_largest(&model->waveform);
+  double highest = zp_waveform_largest(&model->waveform);
   return (ZpModelInfo){.ribbons = (int)model->s,
                        .nodes = (int)model->nodes,
                        .flexible_length = model->L,
@@ -518,7 +546,6 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
                        .insulator_offset = model->plates.d,
                        .internal_damping = model->internal_damping,
                        .closed_line_force = zp_plates_law(&model->plates, highest, 0).W,
-                       .closed_insulator_field = metal_to_metal > 0 ? highest / metal_to_metal : 0,
                        .stable_time_step = model->stable_step};
 }
 

@@ -22,6 +22,7 @@
 #include "paper/zip.h"
 #include "ribbon/rod_step.h"
 #include "ribbon/section.h"
+#include "ribbon/stress.h"
 
 /* 1 / mass of nodes and of joined pairs along x and y, 0 where held. For true and for pseudo-masses. */
 typedef struct ZpMasses {
@@ -57,6 +58,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
+  ZpStressParams stress;
   ZpPlatesParams plates;
   ZpFacesParams faces;     /* of unilateral contact */
   bool has_film;           /* of liquid between the faces */

@@ -83,13 +83,13 @@ double zp_table_get(const ZpTable *table, size_t row, const char *name) {
   return NAN;
 }
 
-/* A frame: time, voltage, zipped, x, y, and for two ribbons gap and line force. */
-enum { FRAME_HEAD = 3 };
+/* A frame: time, voltage, zipped; x, y, stress of all nodes; gap, line force and insulator's field of the stations. */
+enum { FRAME_HEAD = 3, OF_NODES = 3, OF_STATIONS = 3 };
 
 ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity) {
   ZpShapes *shapes = zp_calloc(1, sizeof *shapes);
   if (!shapes) return NULL;
-  size_t frame_size = FRAME_HEAD + 2 * ribbons * nodes + (ribbons == 2 ? 2 * nodes : 0);
+  size_t frame_size = FRAME_HEAD + (OF_NODES * ribbons + OF_STATIONS) * nodes;
   *shapes = (ZpShapes){.ribbons = ribbons, .nodes = nodes, .capacity = capacity, .stride = 1, .frame_size = frame_size};
   shapes->value = zp_calloc(capacity, frame_size * sizeof(double));
   if (shapes->value) return shapes;
@@ -103,16 +103,26 @@ void zp_shapes_destroy(ZpShapes *shapes) {
   zp_free(shapes);
 }
 
-static void fill_frame(const ZpShapes *shapes, double *frame, const ZpShape *shape) {
+/* Copy what is there. => the place behind it */
+static double *put_numbers(double *to, const double *from, size_t count) {
+  if (from) memcpy(to, from, count * sizeof(double));
+  return to + count;
+}
+
+static void fill_frame(ZpShapes *shapes, double *frame, const ZpShape *shape) {
   size_t all = shapes->ribbons * shapes->nodes;
   frame[0] = shape->time;
   frame[1] = shape->voltage;
   frame[2] = (double)shape->zipped;
-  memcpy(frame + FRAME_HEAD, shape->x, all * sizeof(double));
-  memcpy(frame + FRAME_HEAD + all, shape->y, all * sizeof(double));
-  if (shapes->ribbons < 2) return;
-  memcpy(frame + FRAME_HEAD + 2 * all, shape->gap, shapes->nodes * sizeof(double));
-  memcpy(frame + FRAME_HEAD + 2 * all + shapes->nodes, shape->line_force, shapes->nodes * sizeof(double));
+  const double *const of_nodes[OF_NODES] = {shape->x, shape->y, shape->stress};
+  const double *const of_stations[OF_STATIONS] = {shape->gap, shape->line_force, shape->insulator_field};
+  double *to = frame + FRAME_HEAD;
+  for (size_t k = 0; k < OF_NODES; k++)
+    to = put_numbers(to, of_nodes[k], all);
+  for (size_t k = 0; k < OF_STATIONS; k++)
+    to = put_numbers(to, of_stations[k], shapes->nodes);
+  shapes->facing = shape->gap != NULL;
+  shapes->stressed = shape->stress != NULL;
 }
 
 bool zp_shapes_offer(ZpShapes *shapes, const ZpShape *shape) {
@@ -129,14 +139,16 @@ void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape) {
 }
 
 ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame) {
-  const double *f = shapes->value + frame * shapes->frame_size;
-  size_t all = shapes->ribbons * shapes->nodes;
-  bool two = shapes->ribbons == 2;
+  const double *f = shapes->value + frame * shapes->frame_size, *x = f + FRAME_HEAD;
+  size_t nodes = shapes->nodes, all = shapes->ribbons * nodes;
+  const double *of_stations = shapes->facing ? x + OF_NODES * all : NULL;
   return (ZpShape){.time = f[0],
                    .voltage = f[1],
                    .zipped = (size_t)f[2],
-                   .x = f + FRAME_HEAD,
-                   .y = f + FRAME_HEAD + all,
-                   .gap = two ? f + FRAME_HEAD + 2 * all : NULL,
-                   .line_force = two ? f + FRAME_HEAD + 2 * all + shapes->nodes : NULL};
+                   .x = x,
+                   .y = x + all,
+                   .gap = of_stations,
+                   .line_force = of_stations ? of_stations + nodes : NULL,
+                   .insulator_field = of_stations ? of_stations + 2 * nodes : NULL,
+                   .stress = shapes->stressed ? x + 2 * all : NULL};
 }

@@ -123,7 +123,7 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   }
   ZpModel *model;
   if (zp_model_create(&def, &model, err) == ZP_MACHINE) return ZP_MACHINE;
-  if (model) zp_result_note_model(result, model, fmax(highest, 0), 0);
+  if (model) zp_result_note_model(result, model, fmax(highest, 0));
   zp_model_destroy(model);
   return ZP_OK;
 }

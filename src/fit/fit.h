@@ -38,6 +38,9 @@ void zp_fit_close(ZpFit *fit);
  * value is out of its key's range. */
 bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage);
 
+/* What the model gives for row `row`, m or N, where rows are states of rest; NAN where it finds none. */
+double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
+
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
 

@@ -1,6 +1,8 @@
 /* The least squares themselves: NLopt's COBYLA finds the way within the bounds, without derivatives, so that a
- * try without a state of rest only costs; Gauss-Newton with finite differences makes the end sharp. */
+ * try without a state of rest only costs; Gauss-Newton makes the end sharp, with exact derivatives of states of rest
+ * where they are known, else with finite differences. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,20 +54,26 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
   return set;
 }
 
-/* The force of study isometric, N; NAN where it finds none. */
-static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
+/* Study isometric; NULL where it cannot be run. */
+static ZpResult *isometric(ZpFit *fit, ZpActuatorDef *def) {
   ZpResult *result = NULL;
   def->output.samples = 10; /* of the way there only the end is asked for */
   def->output.shapes = 2;
+  def->output.errors = false;
   ZpStatus status = zp_study_run(ZP_STUDY_ISOMETRIC, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  return result;
+}
+
+/* Its force, N; NAN where it finds none. */
+static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
+  ZpResult *result = isometric(fit, def);
   double value = result ? zp_result_get(result, "force_N") : NAN;
   zp_result_destroy(result);
   return value;
 }
 
-/* What the model gives for row `row`, m or N; NAN where it finds no state of rest. */
-static double predict_rest(ZpFit *fit, const double *z, size_t row) {
+double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
   double voltage;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
@@ -106,7 +114,7 @@ static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
   fit->evaluations++;
   if (fit->x_key < 0 && !ask(fit)) predict_run(fit, z, fitted);
   for (size_t i = 0; i < fit->rows; i++) {
-    if (fit->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : predict_rest(fit, z, i);
+    if (fit->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, i);
     all &= isfinite(fitted[i]) != 0;
   }
   return all;
@@ -139,6 +147,11 @@ static double objective(unsigned n, const double *z, double *gradient, void *use
   return log(squares(search->fit, search->fitted) + 1e-30);
 }
 
+/* As near as Gauss-Newton starts from: with exact derivatives that costs one evaluation a step. */
+static double near_enough(const ZpFit *fit) {
+  return fit->x_key < 0 ? 1e-3 : 3e-2;
+}
+
 static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
   Search search = {fit, fitted, nlopt_create(NLOPT_LN_COBYLA, (unsigned)fit->n)};
   double best;
@@ -146,7 +159,7 @@ static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
   nlopt_set_lower_bounds(search.opt, fit->lower);
   nlopt_set_upper_bounds(search.opt, fit->upper);
   nlopt_set_min_objective(search.opt, objective, &search);
-  nlopt_set_xtol_rel(search.opt, 1e-3);
+  nlopt_set_xtol_rel(search.opt, near_enough(fit));
   nlopt_set_maxeval(search.opt, 60 * fit->n);
   nlopt_set_initial_step1(search.opt, 0.1);
   nlopt_result end = nlopt_optimize(search.opt, z, &best);
@@ -154,7 +167,64 @@ static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
   return end != NLOPT_OUT_OF_MEMORY && end != NLOPT_INVALID_ARGS;
 }
 
-bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
+/* -- derivatives ---------------------------------------------------------------------------------- */
+
+/* Derivatives of a stroke or an opening by the values of the fitted keys => row [n]. */
+static bool slopes_of_rest(ZpFit *fit, const ZpActuatorDef *def, double voltage, double *row) {
+  ZpModel *model = build(fit, def);
+  ZpRest *rest = NULL;
+  if (model && zp_rest_create(model, &rest, fit->err) != ZP_OK) fit->status = ZP_MACHINE;
+  bool good = rest && zp_rest_hang(rest, voltage);
+  for (int k = 0; k < fit->n && good; k++) {
+    double stroke, opening;
+    ZpStatus status = zp_rest_sensitivity(rest, fit->key[k], &stroke, &opening, NULL);
+    if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+    row[k] = fit->opening ? opening : stroke;
+    good = status == ZP_OK && isfinite(row[k]);
+  }
+  zp_rest_destroy(rest);
+  zp_model_destroy(model);
+  return good;
+}
+
+static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
+  char *text = def->sensitivity.by;
+  size_t size = sizeof def->sensitivity.by, used = 0;
+  for (int k = 0; k < fit->n && used < size; k++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
+}
+
+/* The same of the force of study isometric. */
+static bool slopes_of_force(ZpFit *fit, ZpActuatorDef *def, double *row) {
+  int found = 0;
+  name_keys(fit, def);
+  ZpResult *result = isometric(fit, def);
+  for (size_t i = 0; result && i < result->sensitivities && found < fit->n; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    if (strcmp(s->output, "force_N") == 0) row[found++] = s->value;
+  }
+  zp_result_destroy(result);
+  for (int k = 0; k < found; k++)
+    if (!isfinite(row[k])) return false;
+  return found == fit->n;
+}
+
+/* Exact, where the rows are states of rest whose derivatives by all these keys are known. */
+static bool differentiate(ZpFit *fit, const double *z, double *J) {
+  bool good = fit->x_key >= 0;
+  fit->evaluations += good;
+  for (size_t i = 0; i < fit->rows && good; i++) {
+    ZpActuatorDef def;
+    double voltage, *row = J + i * (size_t)fit->n;
+    good = !ask(fit) && zp_fit_row(fit, z, i, &def, &voltage);
+    good = good && (fit->held ? slopes_of_force(fit, &def, row) : slopes_of_rest(fit, &def, voltage, row));
+    for (int k = 0; k < fit->n && good; k++)
+      row[k] *= fit->start[k];
+  }
+  return good;
+}
+
+static bool difference_all(ZpFit *fit, const double *z, double *J) {
   double *up = calloc(2 * fit->rows, sizeof *up), *down = up ? up + fit->rows : NULL;
   bool good = up != NULL;
   for (int k = 0; k < fit->n && good; k++) {
@@ -170,6 +240,10 @@ bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
   }
   free(up);
   return good;
+}
+
+bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
+  return differentiate(fit, z, J) || difference_all(fit, z, J);
 }
 
 /* Solve A x = b, n at most ZP_FIT_MOST, by elimination with pivoting; false if A is singular. */

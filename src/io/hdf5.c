@@ -143,29 +143,48 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStud
   free(zipped);
 }
 
-/* Which numbers of a shape: those of every node, or of every pair. */
-typedef enum Field { FIELD_X, FIELD_Y, FIELD_GAP, FIELD_LINE_FORCE } Field;
+/* Numbers of a shape: of every node of each ribbon, or of every station. */
+typedef struct Field {
+  Meaning meaning;
+  bool of_nodes;
+  const double *(*of)(const ZpShape *shape);
+} Field;
 
-static const double *field_of(const ZpShape *shape, Field field) {
-  const double *const pointer[] = {shape->x, shape->y, shape->gap, shape->line_force};
-  return pointer[field];
-}
+#define ZP_FIELD(name)                                                                                                 \
+  static const double *name##_of(const ZpShape *shape) {                                                               \
+    return shape->name;                                                                                                \
+  }
+ZP_FIELD(x)
+ZP_FIELD(y)
+ZP_FIELD(gap)
+ZP_FIELD(line_force)
+ZP_FIELD(insulator_field)
+ZP_FIELD(stress)
+
+static const Field fields[] = {
+    {{"x", "m", "place of a node, to the right; [frame][ribbon][node]"}, true, x_of},
+    {{"y", "m", "place of a node, upwards; [frame][ribbon][node]"}, true, y_of},
+    {{"gap", "m", "distance of the faces; [frame][node]"}, false, gap_of},
+    {{"line_force", "N/m", "attraction per length; [frame][node]"}, false, line_force_of},
+    {{"insulator_field", "V/m", "field in the insulators; [frame][node]"}, false, insulator_field_of},
+    {{"stress", "Pa", "of the metal, largest of its section; [frame][ribbon][node]"}, true, stress_of},
+};
 
 /* One field of all frames, ribbon after ribbon; nothing if the shapes do not have it. */
-static void put_field(Store *store, hid_t group, const ZpShapes *shapes, Field field, const Meaning *meaning) {
-  const bool pairs = field == FIELD_GAP || field == FIELD_LINE_FORCE;
-  const size_t ribbons = pairs ? 1 : shapes->ribbons, nodes = shapes->nodes;
+static void put_field(Store *store, hid_t group, const ZpShapes *shapes, const Field *field) {
+  const size_t ribbons = field->of_nodes ? shapes->ribbons : 1, nodes = shapes->nodes;
   const hsize_t with_ribbons[] = {shapes->frames, ribbons, nodes}, without[] = {shapes->frames, nodes};
-  if (pairs && shapes->ribbons < 2) return;
+  const ZpShape first = zp_shapes_get(shapes, 0);
+  if (!field->of(&first)) return;
   double *value = numbers(store, shapes->frames * ribbons * nodes), *next = value;
   for (size_t i = 0; i < shapes->frames && !store->bad; i++) {
     const ZpShape shape = zp_shapes_get(shapes, i);
-    const double *from = field_of(&shape, field);
+    const double *from = field->of(&shape);
     for (size_t r = 0; r < ribbons; r++)
       for (size_t n = 0; n < nodes; n++)
-        *next++ = from ? clean(from[n * ribbons + r]) : (double)NAN;
+        *next++ = clean(from[n * ribbons + r]);
   }
-  put_reals(store, group, meaning, pairs ? 2 : 3, pairs ? without : with_ribbons, value);
+  put_reals(store, group, &field->meaning, field->of_nodes ? 3 : 2, field->of_nodes ? with_ribbons : without, value);
   free(value);
 }
 
@@ -173,12 +192,8 @@ static void put_shapes(Store *store, hid_t parent, const ZpShapes *shapes, ZpStu
   if (!shapes) return;
   hid_t group = open_group(store, parent, "shapes");
   put_frames(store, group, shapes, study);
-  put_field(store, group, shapes, FIELD_X,
-            &(Meaning){"x", "m", "place of a node, to the right; [frame][ribbon][node]"});
-  put_field(store, group, shapes, FIELD_Y, &(Meaning){"y", "m", "place of a node, upwards; [frame][ribbon][node]"});
-  put_field(store, group, shapes, FIELD_GAP, &(Meaning){"gap", "m", "distance of the faces; [frame][node]"});
-  put_field(store, group, shapes, FIELD_LINE_FORCE,
-            &(Meaning){"line_force", "N/m", "attraction per length; [frame][node]"});
+  for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
+    put_field(store, group, shapes, &fields[k]);
   H5Gclose(group);
 }
 

@@ -10,7 +10,13 @@
 
 ZpPlotUnit zp_plot_unit(double largest, const char *unit) {
   static const char *const prefix[] = {"f", "p", "n", "µ", "m", "", "k", "M", "G", "T"};
+  static const double gram = 1e-3;
   int step = 0;
+  if (strcmp(unit, "kg") == 0) { /* has a prefix already */
+    ZpPlotUnit shown = zp_plot_unit(largest / gram, "g");
+    shown.factor /= gram;
+    return shown;
+  }
   if (isfinite(largest) && largest > 0) step = (int)floor((log10(largest) + 1e-9) / 3);
   step = step < -5 ? -5 : step > 4 ? 4 : step;
   ZpPlotUnit shown = {.factor = pow(10, -3.0 * step)};

@@ -51,10 +51,12 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 extern const ZpPicture zp_series_pictures[];
 extern const ZpPicture zp_shape_pictures[];
 extern const ZpPicture zp_sweep_pictures[];
+extern const ZpPicture zp_map_pictures[];
 extern const ZpPicture zp_path_pictures[];
 extern const ZpPicture zp_rest_pictures[];
 extern const ZpPicture zp_fit_pictures[];
 extern const ZpPicture zp_field_pictures[];
+extern const ZpPicture zp_sensitivity_pictures[];
 
 /* A unit with an SI prefix in which a quantity has one to three digits before the point. */
 typedef struct ZpPlotUnit {

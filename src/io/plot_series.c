@@ -1,4 +1,4 @@
-/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, energies.svg, electric.svg. */
+/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, energies.svg, electric.svg, stress.svg. */
 #include <math.h>
 #include <string.h>
 
@@ -192,11 +192,38 @@ static void script_electric(const ZpPlot *plot, FILE *file) {
   fputs("unset multiplot\n", file);
 }
 
+static bool has_stress(const ZpPlot *plot) {
+  return is_film(plot) && zp_plot_has(series(plot), "max_stress_Pa");
+}
+
+/* With the yield stress where it is not far above. */
+static void script_stress(const ZpPlot *plot, FILE *file) {
+  static const double near = 2;
+  const char *const curve[][2] = {{"max_stress_Pa", "stress"}};
+  double yields = plot->def.ribbon.yield_stress, margin = zp_result_get(plot->single, "yield_margin");
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit stress = zp_plot_table_unit(series(plot), (const char *const[]){"max_stress_Pa", NULL}, "Pa");
+  zp_plot_head(plot, file, "stress", "Largest stress of the metal over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  mark_zip(plot, file, time);
+  name_zip(plot, file, time);
+  fputs("set yrange [0:*]\n", file);
+  if (margin < near)
+    fprintf(file,
+            "set arrow 3 from graph 0, first %.17g to graph 1, first %.17g nohead dt 4 lw 1.5 lc rgb '#d55e00' front\n"
+            "set label 6 'yield stress' at graph 1, first %.17g left offset 0.5,0 font ',12' tc rgb '#d55e00'\n"
+            "set yrange [0:%.17g<*]\n",
+            yields * stress.factor, yields * stress.factor, yields * stress.factor, 1.1 * yields * stress.factor);
+  plot_columns(plot, file, time, stress, "stress", curve, 1);
+}
+
 const ZpPicture zp_series_pictures[] = {
     {"stroke", "svg", has_stroke, script_stroke, NULL},
     {"zipped_length", "svg", has_zipped_length, script_zipped_length, NULL},
     {"voltage", "svg", has_voltage, script_voltage, NULL},
     {"energies", "svg", has_energies, script_energies, NULL},
     {"electric", "svg", has_electric, script_electric, NULL},
+    {"stress", "svg", has_stress, script_stress, NULL},
     {0},
 };

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "io/plot.h"
+#include "io/sweep.h"
 #include "io/units.h"
 
 /* Curves that the legend names, and rows that all curves together may have: a picture of more is slow to
@@ -131,11 +131,15 @@ static void script_contraction(const ZpPlot *plot, FILE *file) {
   fputc('\n', file);
 }
 
-/* The list key that varies fastest, against which numbers are drawn; -1 if there is none. */
-static int x_key(const ZpPlot *plot) {
+int zp_sweep_key(const ZpPlot *plot, size_t back) {
   size_t keys;
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);
-  return keys > 0 ? key[keys - 1] : -1;
+  return back < keys ? key[keys - 1 - back] : -1;
+}
+
+/* The list key against which numbers are drawn. */
+static int x_key(const ZpPlot *plot) {
+  return zp_sweep_key(plot, 0);
 }
 
 /* Does another curve begin at this run: has any other list key changed? */
@@ -150,36 +154,30 @@ static bool begins_curve(const ZpPlot *plot, size_t run) {
   return false;
 }
 
-/* Value of the list key in a run, SI; NAN for auto. */
-static double key_value(const ZpPlot *plot, size_t run) {
+double zp_sweep_value(const ZpPlot *plot, size_t run, int key) {
   ZpActuatorDef def;
   if (zp_scenario_def(plot->report->scenario, run, &def, NULL) != ZP_OK) return NAN;
-  return zp_def_get(&def, x_key(plot));
+  return zp_def_get(&def, key);
 }
 
-/* What is drawn against the key: one or two numbers of the summary. */
-typedef struct Answer {
-  ZpStudy study;
-  const char *picture, *title, *axis, *unit; /* no unit: a pure number */
-  const char *scalar[2], *legend[2];         /* the second may be NULL */
-  const char *count;                         /* how many points there are, after "3 of 5 runs " */
-} Answer;
+static double key_value(const ZpPlot *plot, size_t run) {
+  return zp_sweep_value(plot, run, x_key(plot));
+}
 
-static const Answer answers[] = {
+static const ZpAnswer answers[] = {
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
   {enumerator, #picture, title, axis, unit, {scalar, scalar2}, {legend, legend2}, count},
 #include <zipact/studies.def>
 };
 
-/* The answer of the study of this sweep; NULL if it has none. */
-static const Answer *answer_of(const ZpPlot *plot) {
+const ZpAnswer *zp_sweep_answer(const ZpPlot *plot) {
   for (size_t i = 0; i < sizeof answers / sizeof answers[0]; i++)
     if (answers[i].study == plot->study) return &answers[i];
   return NULL;
 }
 
 static double answer(const ZpPlot *plot, size_t run, size_t curve) {
-  const char *name = answer_of(plot)->scalar[curve];
+  const char *name = zp_sweep_answer(plot)->scalar[curve];
   return name ? zp_result_get(plot->report->result[run], name) : (double)NAN;
 }
 
@@ -193,7 +191,7 @@ static size_t points_of(const ZpPlot *plot, const char *name) {
 
 /* How many runs have a point on the curve. */
 static size_t points(const ZpPlot *plot, size_t curve) {
-  return points_of(plot, answer_of(plot)->scalar[curve]);
+  return points_of(plot, zp_sweep_answer(plot)->scalar[curve]);
 }
 
 /* Are there runs to draw against a key? */
@@ -213,71 +211,6 @@ static bool has_answer(const ZpPlot *plot, ZpStudy study) {
   }
 #include <zipact/studies.def>
 
-static void data_answer(const ZpPlot *plot, FILE *file) {
-  const Answer *a = answer_of(plot);
-  fprintf(file, "# %s %s%s%s\n", zp_key(x_key(plot))->name, a->scalar[0], a->scalar[1] ? " " : "",
-          a->scalar[1] ? a->scalar[1] : "");
-  for (size_t run = 0; run < plot->report->count; run++) {
-    if (begins_curve(plot, run)) fprintf(file, "NaN NaN%s\n", a->scalar[1] ? " NaN" : "");
-    const bool none = !isfinite(answer(plot, run, 0)) && !isfinite(answer(plot, run, 1));
-    if (none || !isfinite(key_value(plot, run))) continue;
-    zp_plot_put(file, key_value(plot, run), ' ');
-    zp_plot_put(file, answer(plot, run, 0), a->scalar[1] ? ' ' : '\n');
-    if (a->scalar[1]) zp_plot_put(file, answer(plot, run, 1), '\n');
-  }
-}
-
-/* What a number of the key in SI is to be multiplied with for its usual unit. */
-static double key_factor(const ZpKey *key) {
-  ZpUnitScale scale;
-  if (!*key->shown || zp_unit_scale(key->shown, key->unit, &scale, NULL) != ZP_OK) return 1;
-  return scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor;
-}
-
-/* The curves, each with a point per run. */
-static void plot_answer(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
-  const Answer *a = answer_of(plot);
-  const double factor = key_factor(zp_key(x_key(plot)));
-  bool first = true;
-  for (size_t i = 0; i < 2; i++) {
-    if (points(plot, i) == 0) continue;
-    fprintf(file, "%s'%s.dat' using ($1*%g):($%zu*%g) with linespoints lw 2 pt %d ps 0.8 lc rgb '%s' ",
-            first ? "plot " : ", \\\n     ", a->picture, factor, i + 2, unit.factor, i ? 5 : 7, zp_plot_colour(i));
-    if (a->legend[i])
-      fprintf(file, "title \"%s\"", a->legend[i]);
-    else
-      fputs("notitle", file);
-    first = false;
-  }
-  fputc('\n', file);
-}
-
-static void script_answer(const ZpPlot *plot, FILE *file) {
-  const Answer *a = answer_of(plot);
-  const ZpKey *key = zp_key(x_key(plot));
-  char more[64], label[128];
-  double largest = 0;
-  for (size_t i = 0; i < 2 * plot->report->count; i++)
-    largest = fmax(largest, fabs(answer(plot, i / 2, i % 2)));
-  ZpPlotUnit unit = a->unit ? zp_plot_unit(largest, a->unit) : (ZpPlotUnit){.factor = 1};
-  snprintf(more, sizeof more, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
-  snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
-  zp_plot_head(plot, file, a->picture, a->title, a->scalar[1] ? 0.82 : 0.96);
-  if (plot->shows == ZP_SHOWS_motion)
-    zp_plot_foot(plot, file, more);
-  else
-    zp_plot_remark(file, more);
-  fputs("set xlabel ", file);
-  zp_plot_text(file, label);
-  fprintf(file,
-          "\nset ylabel '%s%s%s' offset 0.5\nset autoscale x noextend\nset yrange [0:*]\n"
-          "set offsets graph 0.03, graph 0.03, graph 0.05, 0\n",
-          a->axis, a->unit ? " / " : "", unit.text);
-  plot_answer(plot, file, unit);
-}
-
-/* -- forces --------------------------------------------------------------------------------------- */
-
 /* Runs that begin a curve, at most LEGEND evenly chosen. => how many */
 static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
   size_t curves = 0, kept = 0, at = 0;
@@ -290,6 +223,116 @@ static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
   }
   return kept;
 }
+
+/* Runs of the curve that begins at `run`: up to this one. */
+static size_t end_of_curve(const ZpPlot *plot, size_t run) {
+  do
+    run++;
+  while (run < plot->report->count && !begins_curve(plot, run));
+  return run;
+}
+
+/* An index per curve. */
+static void data_answer(const ZpPlot *plot, FILE *file) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  fprintf(file, "# %s %s%s%s; an index per curve\n", zp_key(x_key(plot))->name, a->scalar[0], a->scalar[1] ? " " : "",
+          a->scalar[1] ? a->scalar[1] : "");
+  for (size_t k = 0; k < curves; k++) {
+    for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
+      zp_plot_put(file, key_value(plot, run), ' ');
+      zp_plot_put(file, answer(plot, run, 0), a->scalar[1] ? ' ' : '\n');
+      if (a->scalar[1]) zp_plot_put(file, answer(plot, run, 1), '\n');
+    }
+    fputs("\n\n", file);
+  }
+}
+
+double zp_sweep_factor(int index) {
+  const ZpKey *key = zp_key(index);
+  ZpUnitScale scale;
+  if (!*key->shown || zp_unit_scale(key->shown, key->unit, &scale, NULL) != ZP_OK) return 1;
+  return scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor;
+}
+
+void zp_sweep_label(FILE *file, int index) {
+  const ZpKey *key = zp_key(index);
+  char label[128];
+  snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
+  zp_plot_text(file, label);
+}
+
+/* One number along a curve. Of several curves colours tell the curve, marks and dashes the number. */
+static void plot_curve(const ZpPlot *plot, FILE *file, ZpPlotUnit unit, size_t k, size_t number, unsigned colour) {
+  fprintf(file,
+          "'%s.dat' index %zu using ($1*%g):($%zu*%g) with linespoints lw 2 dt %zu pt %d ps 0.8 lc rgb '#%06x' title ",
+          zp_sweep_answer(plot)->picture, k, zp_sweep_factor(x_key(plot)), number + 2, unit.factor, number + 1,
+          number ? 5 : 7, colour);
+}
+
+/* A single curve for each number, which the legend names. */
+static void plot_alone(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  bool first = true;
+  for (size_t i = 0; i < 2; i++) {
+    unsigned colour = 0;
+    if (points(plot, i) == 0) continue;
+    sscanf(zp_plot_colour(i), "#%x", &colour);
+    fputs(first ? "plot " : ", \\\n     ", file);
+    plot_curve(plot, file, unit, 0, i, colour);
+    zp_plot_text(file, a->legend[i] ? a->legend[i] : "");
+    first = false;
+  }
+  fputc('\n', file);
+}
+
+/* Curves for each value of the other keys: the legend names them, then the numbers. */
+static void plot_many(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  const size_t named = points(plot, 0) ? 0 : 1;
+  for (size_t k = 0; k < curves; k++)
+    for (size_t i = named; i < 2; i++) {
+      char name[256];
+      if (points(plot, i) == 0) continue;
+      run_name(plot, chosen[k], 1, name, sizeof name);
+      fputs(k || i > named ? ", \\\n     " : "plot ", file);
+      plot_curve(plot, file, unit, k, i, zp_plot_shade(curves > 1 ? (double)k / (double)(curves - 1) : 0.3));
+      zp_plot_text(file, i == named ? name : "");
+    }
+  for (size_t i = named; i < 2; i++) {
+    if (!a->legend[i] || points(plot, i) == 0) continue;
+    fprintf(file, ", \\\n     NaN with linespoints lw 2 dt %zu pt %d ps 0.8 lc rgb '#555555' title ", i + 1, i ? 5 : 7);
+    zp_plot_text(file, a->legend[i]);
+  }
+  fputc('\n', file);
+}
+
+static void script_answer(const ZpPlot *plot, FILE *file) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  char more[64];
+  double largest = 0;
+  bool many = zp_sweep_key(plot, 1) >= 0;
+  for (size_t i = 0; i < 2 * plot->report->count; i++)
+    largest = fmax(largest, fabs(answer(plot, i / 2, i % 2)));
+  ZpPlotUnit unit = a->unit ? zp_plot_unit(largest, a->unit) : (ZpPlotUnit){.factor = 1};
+  snprintf(more, sizeof more, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
+  zp_plot_head(plot, file, a->picture, a->title, many ? RIGHT : a->scalar[1] ? 0.82 : 0.96);
+  if (plot->shows == ZP_SHOWS_motion)
+    zp_plot_foot(plot, file, more);
+  else
+    zp_plot_remark(file, more);
+  if (many) legend_title(plot, file, 1);
+  fputs("set xlabel ", file);
+  zp_sweep_label(file, x_key(plot));
+  fprintf(file,
+          "\nset ylabel '%s%s%s' offset 0.5\nset autoscale x noextend\nset yrange [0:*]\n"
+          "set offsets graph 0.03, graph 0.03, graph 0.05, 0\n",
+          a->axis, a->unit ? " / " : "", unit.text);
+  (many ? plot_many : plot_alone)(plot, file, unit);
+}
+
+/* -- forces --------------------------------------------------------------------------------------- */
 
 static bool has_forces(const ZpPlot *plot) {
   if (plot->shows == ZP_SHOWS_held_branch) return has_axis(plot) && points_of(plot, "force_N") >= 2;
@@ -305,7 +348,7 @@ static void data_forces(const ZpPlot *plot, FILE *file) {
   size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
   fprintf(file, "# %s force_N; an index per curve\n", zp_key(x_key(plot))->name);
   for (size_t k = 0; k < curves; k++) {
-    for (size_t run = chosen[k]; run < plot->report->count && (run == chosen[k] || !begins_curve(plot, run)); run++) {
+    for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
       zp_plot_put(file, key_value(plot, run), ' ');
       zp_plot_put(file, force(plot, run), '\n');
     }
@@ -334,7 +377,7 @@ static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
     fprintf(file,
             "%s'forces.dat' index %zu using ($1*%g):($2*%g) with linespoints lw 2 dt %zu pt %d ps 0.6 lc rgb '#%06x' "
             "title ",
-            k ? ", \\\n     " : "plot ", k, key_factor(zp_key(x_key(plot))), unit.factor, k / alike % 5 + 1,
+            k ? ", \\\n     " : "plot ", k, zp_sweep_factor(x_key(plot)), unit.factor, k / alike % 5 + 1,
             k / alike % 2 ? 6 : 7, zp_plot_shade(shade));
     zp_plot_text(file, name);
   }
@@ -342,21 +385,18 @@ static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
 }
 
 static void script_forces(const ZpPlot *plot, FILE *file) {
-  const ZpKey *key = zp_key(x_key(plot));
   size_t keys;
   double largest = 0;
   zp_scenario_lists(plot->report->scenario, &keys);
   for (size_t i = 0; i < plot->report->count; i++)
     if (isfinite(force(plot, i))) largest = fmax(largest, fabs(force(plot, i)));
   ZpPlotUnit unit = zp_plot_unit(largest, "N");
-  char label[128];
-  snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
   zp_plot_head(plot, file, "forces",
                plot->shows == ZP_SHOWS_field ? "Electric force on a ribbon of one half" : "Force on the held platform",
                keys > 1 ? RIGHT : 0.96);
   if (keys > 1) legend_title(plot, file, 1);
   fputs("set xlabel ", file);
-  zp_plot_text(file, label);
+  zp_sweep_label(file, x_key(plot));
   fprintf(file,
           "\nset ylabel 'force / %s' offset 0.5\nset xrange [0:*]\nset yrange [*<0:*]\n"
           "set offsets 0, graph 0.03, graph 0.05, 0\n",

@@ -11,32 +11,63 @@
 #include "io/report.h"
 #include "io/shows.h"
 
-/* frequency_1_Hz, frequency_2_Hz, ...: scalars so that a sweep has columns, but an array in JSON. */
-static bool is_frequency(const ZpResult *result, const ZpScalar *scalar) {
+/* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars so that a sweep has columns, but arrays in JSON. */
+typedef struct List {
+  const char *name, *pattern; /* of its scalars, for sscanf */
+} List;
+
+static const List lists[] = {{"frequencies_Hz", "frequency_%d_Hz%n"},
+                             {"frequencies_error_Hz", "frequency_%d_error_Hz%n"}};
+enum { LISTS = sizeof lists / sizeof lists[0] };
+
+static bool is_of(const List *list, const ZpScalar *scalar) {
   int mode, end = 0;
-  if (zp_study_shows(result->study) != ZP_SHOWS_modes) return false;
-  return sscanf(scalar->name, "frequency_%d_Hz%n", &mode, &end) == 1 && end > 0 && !scalar->name[end];
+  return sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 && !scalar->name[end];
 }
 
-static bool set_frequencies(json_t *object, const ZpResult *result) {
+static bool is_listed(const ZpResult *result, const ZpScalar *scalar) {
+  bool any = false;
+  for (size_t k = 0; k < LISTS && zp_study_shows(result->study) == ZP_SHOWS_modes; k++)
+    any |= is_of(&lists[k], scalar);
+  return any;
+}
+
+static bool set_list(json_t *object, const ZpResult *result, const List *list) {
   json_t *array = json_array();
   bool done = true;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (is_frequency(result, scalar))
+    if (is_of(list, scalar))
       done = json_array_append_new(array, zp_json_number(scalar->value, scalar->unit)) == 0 && done;
   }
-  return zp_json_set(object, "frequencies_Hz", array) && done;
+  return zp_json_set(object, list->name, array) && done;
+}
+
+/* {output: {key: derivative}} where there are any. */
+static bool set_sensitivity(json_t *object, const ZpResult *result) {
+  json_t *all = json_object();
+  bool done = all != NULL;
+  for (size_t i = 0; i < result->sensitivities && done; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    json_t *by = json_object_get(all, s->output);
+    if (!by) done = zp_json_set(all, s->output, by = json_object());
+    done = done && zp_json_set(by, zp_key(s->key)->name, zp_json_number(s->value, "1"));
+  }
+  if (result->sensitivities > 0) return zp_json_set(object, "sensitivity", all) && done;
+  json_decref(all);
+  return done;
 }
 
 static bool set_scalars(json_t *object, const ZpResult *result) {
-  bool done = zp_study_shows(result->study) != ZP_SHOWS_modes || set_frequencies(object, result);
+  bool done = true;
+  for (size_t k = 0; k < LISTS && zp_study_shows(result->study) == ZP_SHOWS_modes; k++)
+    done = set_list(object, result, &lists[k]) && done;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (!is_frequency(result, scalar))
+    if (!is_listed(result, scalar))
       done = zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit)) && done;
   }
-  return done;
+  return set_sensitivity(object, result) && done;
 }
 
 /* Add the notes of a run that are not in the array yet. */

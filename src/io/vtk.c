@@ -1,6 +1,6 @@
 /* For ParaView: shapes.pvd and shapes/shape_NNNN.vtp, the film of one run; field.vts, its electric field.
  *
- * Each .vtp is the PolyData of one frame: a polyline per ribbon, the gap and the attraction at its nodes.
+ * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes.
  * Numbers follow the XML as raw bytes, each array after its length, so nothing is rounded. */
 #include <dirent.h>
 #include <errno.h>
@@ -47,6 +47,8 @@ static void write_head(FILE *file, const ZpShape *shape, Layout *l) {
   declare(file, l, "Int64", "ribbon", 1, l->points * sizeof(int64_t));
   if (shape->gap) declare(file, l, "Float64", "gap", 1, l->points * sizeof(double));
   if (shape->line_force) declare(file, l, "Float64", "line_force", 1, l->points * sizeof(double));
+  if (shape->insulator_field) declare(file, l, "Float64", "insulator_field", 1, l->points * sizeof(double));
+  if (shape->stress) declare(file, l, "Float64", "stress", 1, l->points * sizeof(double));
   fputs("      </PointData>\n      <Points>\n", file);
   declare(file, l, "Float64", "Points", 3, 3 * l->points * sizeof(double));
   fputs("      </Points>\n      <Lines>\n", file);
@@ -73,6 +75,15 @@ static void put_pairs(FILE *file, const Layout *l, const double *value) {
     fwrite(value, sizeof *value, l->nodes, file);
 }
 
+/* A value of each node, ribbon after ribbon. */
+static void put_nodes(FILE *file, const Layout *l, const double *value) {
+  if (!value) return;
+  put_length(file, l->points * sizeof(double));
+  for (size_t r = 0; r < l->ribbons; r++)
+    for (size_t i = 0; i < l->nodes; i++)
+      fwrite(&value[i * l->ribbons + r], sizeof *value, 1, file);
+}
+
 /* Points go ribbon after ribbon, so that each polyline is a run of numbers. */
 static void put_points(FILE *file, const Layout *l, const ZpShape *shape) {
   put_length(file, 3 * l->points * sizeof(double));
@@ -91,6 +102,8 @@ static void write_frame(FILE *file, const ZpShape *shape, size_t ribbons, size_t
     put_int(file, i / nodes);
   put_pairs(file, &l, shape->gap);
   put_pairs(file, &l, shape->line_force);
+  put_pairs(file, &l, shape->insulator_field);
+  put_nodes(file, &l, shape->stress);
   put_points(file, &l, shape);
   put_length(file, l.points * sizeof(int64_t));
   for (size_t i = 0; i < l.points; i++)

@@ -17,7 +17,7 @@ static size_t carve(ZpDynamics *d, void *block) {
   d->by_voltage.force = zp_carve(&carver, 2 * stride);
   d->by_voltage.charge = zp_carve(&carver, 2 * stride);
   d->scale = zp_carve(&carver, all);
-  d->kind = (ZpUnknown *)zp_carve(&carver, all); /* room for doubles is more than enough */
+  d->kind = (ZpUnknown *)(void *)zp_carve(&carver, all); /* room for doubles is more than enough */
   d->own = zp_carve(&carver, model->own * model->nodes);
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
@@ -274,7 +274,6 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (source || model->own) add_own(d);
   if (source) add_voltage(d);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.accuracy = 0.08 * def->solver.tolerance * model->L;
   d->stepper.balance = 1e-5 * def->solver.tolerance;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
@@ -302,6 +301,14 @@ static void book_work(const ZpDynamics *d, ZpState *state) {
   state->base_U = state->U = U1;
 }
 
+/* What counts as far, m: a part of the length, or of the hanging opening where that is small, since to close is then a
+ * small motion; not below the depth of contact. */
+static double far(const ZpModel *model, const ZpState *state) {
+  static const double of_length = 0.08, of_opening = 0.2;
+  double length = of_length * model->L;
+  return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
+}
+
 double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   const ZpModel *model = d->model;
   double *q = zp_state_q(model, state), *v = zp_state_v(model, state), *w = zp_state_mean_v(model, state),
@@ -309,6 +316,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   d->state = state;
   d->latest = latest;
   d->U0 = state->U;
+  d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
   memcpy(d->start, q, 2 * model->stride * sizeof *q);
   zp_assembly_gather(&d->assembly, q, d->q);
   zp_assembly_gather(&d->assembly, v, d->v);

@@ -1,6 +1,9 @@
 #include "rest/rest.h"
 
+#include <math.h>
+
 #include "base/fail.h"
+#include "rest/slope.h"
 
 /* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
 static const double first_step = 0.01, longest_step = 0.1;
@@ -18,7 +21,7 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
     }
     zp_branch_carve(&rest->branch, &rest->system, rest->statics.assembly.bandwidth, rest->statics.assembly.symmetric,
                     &carver);
-    rest->line_force = zp_carve(&carver, model->nodes);
+    zp_shape_carve(model, &rest->shape_room, &carver);
     if (carve) carve(user, &carver);
   }
   return true;
@@ -77,4 +80,18 @@ double zp_rest_stroke(const ZpRest *rest) {
 
 double zp_rest_opening(const ZpRest *rest) {
   return zp_statics_opening(&rest->statics);
+}
+
+ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err) {
+  ZpSlope slope;
+  *stroke = *opening = NAN;
+  ZpStatus status = zp_slope_check(&rest->statics.model->def, key, err);
+  if (status != ZP_OK) return status;
+  status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, key, err);
+  if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {
+    *stroke = zp_slope_of(&slope, zp_pose_load, zp_output_stroke, NULL);
+    *opening = zp_slope_of(&slope, zp_pose_load, zp_output_opening, NULL);
+  }
+  zp_slope_close(&slope);
+  return status;
 }

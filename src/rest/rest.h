@@ -9,9 +9,9 @@
 
 struct ZpRest {
   ZpStatics statics;
-  ZpBranch branch;       /* along the voltage; its `newton` also serves without a branch */
-  ZpBranchSystem system; /* of the branch */
-  double *line_force;    /* [nodes] for zp_statics_shape */
+  ZpBranch branch;        /* along the voltage; its `newton` also serves without a branch */
+  ZpBranchSystem system;  /* of the branch */
+  ZpShapeRoom shape_room; /* for zp_statics_shape */
   void *memory;
 };
 

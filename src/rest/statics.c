@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "math/elementary.h"
 #include "solve/descend.h"
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
@@ -80,10 +81,10 @@ double zp_statics_tolerance(const ZpStatics *s) {
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
 /* From straight while what is put on grows to `whole`, by the share `step` at first, for what is too far to reach at
- * once. */
+ * once. A load 1e5 times that at which a ribbon bends by its length takes a first share that small. */
 static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step,
                                  ZpNewtonWork *work) {
-  static const double shortest = 1e-4;
+  static const double shortest = 1e-8;
   ZpStaticSystem system = zp_statics_system(s);
   size_t bytes = 2 * s->model->stride * sizeof *s->q;
   double reached = 0;
@@ -140,16 +141,24 @@ static void open_to(ZpStatics *s, double opening) {
   s->opening = opening;
 }
 
+/* The same while weight is put on, too: ribbons that sag by more than the opening have no straight shape to start from.
+ */
+static void open_and_put_on(ZpStatics *s, double opening) {
+  s->opening = opening;
+  put_on(s, opening / s->held_at);
+}
+
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   s->U = 0;
   s->load = 0;
-  s->opening = opening;
+  s->opening = s->held_at = opening;
   s->contact_acts = false;
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   bool folded = zp_newton_good(info.end) && !zp_statics_stable(s, work);
   if (folded || !zp_newton_good(info.end)) info = step_by_step(s, open_to, opening, 0.05, work);
+  if (!zp_newton_good(info.end)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
   return let_faces_push(s, info, work);
 }
 
@@ -251,10 +260,19 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
+/* The overlap that a state may have, m. By (9.1) attraction as strong as at the breakdown of the insulators makes it
+ * the contact depth, stronger attraction more, and at a front the bent ribbons press on closed faces like a lever. */
+static double deepest_overlap(const ZpStatics *s) {
+  static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
+  const ZpFacesParams *faces = &s->model->faces;
+  double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
+  double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
+  return fmax(fmax(micrometre, of_insulators * 2 * s->model->def.insulator.thickness), lever * balanced);
+}
+
 const char *zp_statics_fault(const ZpStatics *s) {
   static const double beyond_plates = 1.1; /* what fields round the ends add to plates is below that */
-  static const double micrometre = 1e-6;
-  double least = INFINITY, most = fmax(micrometre, 0.01 * 2 * s->model->def.insulator.thickness);
+  double least = INFINITY, most = deepest_overlap(s);
   for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
   if (s->contact_acts && least < -most) return "the insulators' faces overlap";
@@ -263,14 +281,11 @@ const char *zp_statics_fault(const ZpStatics *s) {
   return NULL;
 }
 
-ZpShape zp_statics_shape(const ZpStatics *s, double time, double *line_force) {
-  const ZpModel *model = s->model;
-  ZpShape shape = {.time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + model->stride};
-  if (!model->field) return shape;
-  for (size_t i = 0; i < model->nodes; i++)
-    line_force[i] = zp_plates_law(&model->plates, s->U, s->eval.plates.gap[i]).W;
-  shape.gap = s->eval.plates.gap;
-  shape.line_force = line_force;
+ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *room) {
+  ZpShape shape = {
+      .time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + s->model->stride};
+  if (s->model->field) shape.gap = s->eval.plates.gap;
+  zp_shape_fill(s->model, room, &shape);
   return shape;
 }
 
@@ -282,7 +297,7 @@ static bool is_held(const ZpStatics *s) {
   return !isnan(s->opening);
 }
 
-static size_t platform_row(const ZpStatics *s) {
+size_t zp_statics_platform(const ZpStatics *s) {
   return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
 }
 
@@ -294,14 +309,14 @@ static double holding(const ZpStatics *s) {
 }
 
 static void hold_platform(ZpStatics *s, double *r) {
-  size_t row = platform_row(s);
+  size_t row = zp_statics_platform(s);
   s->reaction = r[row];
   r[row] = holding(s) * (zp_statics_opening(s) - s->opening);
 }
 
 /* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
 static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
-  size_t row = platform_row(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
+  size_t row = zp_statics_platform(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
   double move = r ? r[row] / holding(s) : 0;
   for (size_t i = row > K->upper ? row - K->upper : 0; i <= last; i++) {
     if (i == row) continue;
@@ -363,6 +378,19 @@ static void stiffness(void *self, ZpBand *K, double *r) {
   ZpSpan here = span_of(s);
   zp_system_stiffness(s->model, &here, &s->assembly, &s->eval, K);
   if (is_held(s)) hold_equation(s, K, r);
+}
+
+double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
+  residual(s, r, NULL);
+  stiffness(s, K, NULL);
+  double sum = zp_edges_along(&s->assembly, (const double(*)[4])s->eval.D, u);
+  if (!s->model->field) return sum;
+  zp_band_clear(K);
+  zp_assemble_gaps(&s->assembly, &s->eval.gaps, K);
+  zp_band_multiply(K, u, r);
+  for (size_t i = 0; i < s->assembly.n; i++)
+    sum += u[i] * r[i];
+  return sum;
 }
 
 /* -- moving --------------------------------------------------------------------------------------- */
@@ -489,16 +517,17 @@ static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
 static void lay_two(ZpStatics *s) {
   const ZpTopology *t = &s->model->topology;
   const Loop loops[2] = {{t->platform.first, 0}, {t->platform.last, t->stations - 1}};
+  const size_t halves = t->halves > 1 ? 2 : 1;
   double *x = s->q, *y = x + s->model->stride, sum = 0;
-  for (size_t h = 0; h < t->halves; h++) {
+  for (size_t h = 0; h < halves; h++) {
     size_t upper = zp_upper(t, loops[h].platform), lower = zp_lower(t, loops[h].platform);
     lay_loop(t, loops[h], s->moved, x);
     lay_loop(t, loops[h], s->moved + s->model->stride, y);
     spread(t, loops[h], x[lower] - x[upper], x);
     sum += y[lower];
   }
-  double mean = sum / (double)t->halves;
-  for (size_t h = 0; t->halves > 1 && h < t->halves; h++)
+  double mean = sum / (double)halves;
+  for (size_t h = 0; halves > 1 && h < halves; h++)
     spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
 }
 

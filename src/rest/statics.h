@@ -4,10 +4,9 @@
 #define ZP_REST_STATICS_H
 
 #include "actuator/assemble.h"
+#include "actuator/shape.h"
 #include "solve/continuation.h"
 #include "system/system.h"
-
-#include <zipact/table.h>
 
 typedef struct ZpStatics {
   const ZpModel *model; /* the one given, with natural turns as far as they are put on, and overlapping faces closed */
@@ -19,6 +18,7 @@ typedef struct ZpStatics {
   const double *k0;  /* [stride] natural 2 tan(phi / 2) of joints, of all natural curvature */
   double *k0_now;    /* and of what acts */
   double opening;    /* at which the lower platform is held, m; NAN: it hangs free */
+  double held_at;    /* that opening in the end, on the way there, m */
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
@@ -47,6 +47,10 @@ ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
  * factored. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
+/* u' K u at the present point, of a direction u [n], edge by edge (zp_edges_along); the tensions are those foreseen. K
+ * and r [n] are work space. */
+double zp_statics_stiffness_along(ZpStatics *statics, const double *u, ZpBand *K, double *r);
+
 /* Residual that is asked for: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */
 double zp_statics_tolerance(const ZpStatics *statics);
 
@@ -61,6 +65,9 @@ bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 /* Hold the lower platform of two ribbons at `opening` (below 2 L), without load and voltage, ever after; from the
  * straight shape to the equilibrium there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
+
+/* The equation of the lower platform's height. */
+size_t zp_statics_platform(const ZpStatics *statics);
 
 /* From the straight shape, which of two ribbons has all faces closed, to a stable equilibrium at `voltage`. */
 ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
@@ -84,16 +91,16 @@ bool zp_statics_shorted(const ZpStatics *statics);
 /* Why the field could not be solved where it was tried last; NULL if it was, or is not asked for. */
 const char *zp_statics_trouble(const ZpStatics *statics);
 
-/* Why the present point cannot be: faces overlap by more than 1 um and 1 % of their
- * insulators, or the capacitance exceeds that of
- * closed faces. NULL if nothing speaks against it. Of the last residual. */
+/* Why the present point cannot be: faces overlap by more than 1 um, 1 % of their insulators and three times what their
+ * attraction alone makes of it, or the capacitance exceeds that of closed faces. NULL if nothing speaks against it. Of
+ * the last residual. */
 const char *zp_statics_fault(const ZpStatics *statics);
 
 /* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */
 double zp_statics_charge(const ZpStatics *statics);
 double zp_statics_capacitance(const ZpStatics *statics);
 
-/* The present shape, `time` being any mark; valid until the point moves. `line_force` [N] is filled. */
-ZpShape zp_statics_shape(const ZpStatics *statics, double time, double *line_force);
+/* The present shape, `time` being any mark; valid until the point moves; `room` is filled. */
+ZpShape zp_statics_shape(const ZpStatics *statics, double time, const ZpShapeRoom *room);
 
 #endif

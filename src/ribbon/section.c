@@ -3,13 +3,15 @@
  */
 #include "ribbon/section.h"
 
+#include <math.h>
+
 static double bending_modulus(const ZpLayer *layer, int plane_strain) {
   double nu = layer->poisson_ratio;
   return plane_strain ? layer->young_modulus / (1 - nu * nu) : layer->young_modulus;
 }
 
 ZpSection zp_section(const ZpLayer *layer, int count, double width, int plane_strain) {
-  ZpSection section = {0, 0, 0};
+  ZpSection section = {0, 0, 0, 0, 0};
   double stiffness = 0, moment = 0, z = 0; /* of E' over the height */
   for (int i = 0; i < count; i++) {
     double h = layer[i].thickness, E = bending_modulus(&layer[i], plane_strain);
@@ -26,5 +28,8 @@ ZpSection zp_section(const ZpLayer *layer, int count, double width, int plane_st
     section.EI += bending_modulus(&layer[i], plane_strain) * width * (h * h * h / 12 + h * arm * arm);
     z += h;
   }
+  double outermost = fmax(z_n, fabs(layer[0].thickness - z_n));
+  if (section.EI > 0) section.per_moment = bending_modulus(&layer[0], plane_strain) * outermost / section.EI;
+  if (section.EA > 0) section.per_force = layer[0].young_modulus / section.EA;
   return section;
 }

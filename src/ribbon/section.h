@@ -14,9 +14,12 @@ typedef struct ZpSection {
   double EA; /* axial stiffness, N */
   double EI; /* bending stiffness about the neutral axis, N m^2 */
   double mu; /* mass per length, kg/m */
+
+  double per_moment; /* stress of the first layer's outer fibre by a moment about the neutral axis, Pa/(N m) */
+  double per_force;  /* and by a force along the ribbon, Pa/N */
 } ZpSection;
 
-/* (layers, width m, plane strain?) => section; theory eqs. (2.1)-(2.3). EA takes Young's modulus as it
+/* (layers, width m, plane strain?) => section; theory eqs. (2.1)-(2.4). EA takes Young's modulus as it
  * is, as eq. (2) of the paper does; plane strain stiffens bending only. */
 ZpSection zp_section(const ZpLayer *layer, int count, double width, int plane_strain);
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "sim/margins.h"
 #include "sim/sim_internal.h"
 
 /* Places of the signals in a row. */
@@ -87,13 +88,21 @@ static double fill_electric(ZpSim *sim, double *row) {
   return account.work - (field - state->base_field) - account.charging_loss;
 }
 
+static void fill_margins(ZpSim *sim, double *row) {
+  ZpShape shape = zp_sim_shape(sim);
+  sim->now = zp_margins_of(sim->model, &shape);
+  row[SIGNAL_insulator_field] = sim->now.insulator;
+  row[SIGNAL_max_stress] = sim->now.stress;
+}
+
 /* Which of these a signal takes, what they cost being far more than that of the state. */
-enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, ALL = MECHANICS | ELECTRIC };
+enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, MARGINS = 4, ENERGY = MECHANICS | ELECTRIC, ALL = ENERGY | MARGINS };
 static const unsigned char takes[SIGNAL_COUNT] = {
     [SIGNAL_force] = ELECTRIC,           [SIGNAL_charge] = ELECTRIC,          [SIGNAL_capacitance] = ELECTRIC,
     [SIGNAL_current] = ELECTRIC,         [SIGNAL_electric_work] = ELECTRIC,   [SIGNAL_charging_loss] = ELECTRIC,
     [SIGNAL_field_energy] = ELECTRIC,    [SIGNAL_kinetic_energy] = MECHANICS, [SIGNAL_axial_energy] = MECHANICS,
-    [SIGNAL_bending_energy] = MECHANICS, [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ALL};
+    [SIGNAL_bending_energy] = MECHANICS, [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ENERGY,
+    [SIGNAL_insulator_field] = MARGINS,  [SIGNAL_max_stress] = MARGINS};
 
 /* Signals that take no more than `what` => sim->row. */
 static void fill_row(ZpSim *sim, unsigned what) {
@@ -102,6 +111,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   fill_state(sim, row);
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
+  if (what & MARGINS) fill_margins(sim, row);
   double lost = state->drag_loss + state->internal_loss + state->contact_loss + state->viscous_loss;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
@@ -135,18 +145,26 @@ ZpShape zp_sim_shape(ZpSim *sim) {
   const ZpState *state = sim->state;
   ZpMotion motion = zp_state_motion(model, state);
   ZpShape shape = {.time = state->t, .voltage = state->U, .zipped = state->zip.front, .x = motion.x, .y = motion.y};
-  if (!model->field) return shape;
-  ZpPlatesEval plates = sim->eval.plates;
-  zp_plates_gaps(&model->plates, shape.x, shape.y, &plates);
-  for (size_t i = 0; i < model->nodes; i++)
-    sim->line_force[i] = zp_plates_law(&model->plates, state->U, plates.gap[i]).W;
-  shape.gap = plates.gap;
-  shape.line_force = sim->line_force;
+  if (model->field) {
+    zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);
+    shape.gap = sim->eval.plates.gap;
+  }
+  zp_shape_fill(model, &sim->shape_room, &shape);
   return shape;
 }
 
+const ZpMargins *zp_sim_margins(const ZpSim *sim) {
+  return &sim->margins;
+}
+
+/* The present row, which counts as what the materials have seen, thinned out or not. */
+static void look(ZpSim *sim) {
+  make_row(sim);
+  zp_margins_join(&sim->margins, sim->now);
+}
+
 void zp_sim_offer_record(ZpSim *sim) {
-  if (sim->series || sim->shapes) make_row(sim);
+  if (sim->series || sim->shapes) look(sim);
   if (sim->series) zp_table_offer(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);
@@ -154,7 +172,7 @@ void zp_sim_offer_record(ZpSim *sim) {
 }
 
 void zp_sim_close_record(ZpSim *sim) {
-  if (sim->series || sim->shapes) make_row(sim);
+  if (sim->series || sim->shapes) look(sim);
   if (sim->series) zp_table_keep_last(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);

@@ -29,6 +29,15 @@ const char *zp_step_limit_name(ZpStepLimit limit) {
 
 /* -- creation ------------------------------------------------------------------------------------- */
 
+static bool make_shape_room(ZpSim *sim) {
+  ZpCarver carver = {NULL, 0};
+  zp_shape_carve(sim->model, &sim->shape_room, &carver);
+  sim->shape_memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){sim->shape_memory, 0};
+  if (sim->shape_memory) zp_shape_carve(sim->model, &sim->shape_room, &carver);
+  return sim->shape_memory != NULL;
+}
+
 static bool allocate(ZpSim *sim) {
   const ZpModel *model = sim->model;
   size_t signals;
@@ -37,10 +46,10 @@ static bool allocate(ZpSim *sim) {
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
-  sim->line_force = zp_calloc(model->nodes, sizeof(double));
+  sim->margins = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
   return zp_system_create(model, true, &sim->eval) && sim->stepping->create(sim) && sim->state && sim->kept &&
-         sim->relax_work && sim->row && sim->line_force;
+         sim->relax_work && sim->row && make_shape_room(sim);
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -110,7 +119,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->kept);
   zp_free(sim->relax_work);
   zp_free(sim->row);
-  zp_free(sim->line_force);
+  zp_free(sim->shape_memory);
   zp_free(sim);
 }
 
@@ -200,19 +209,32 @@ static bool shorted(const ZpModel *model, const ZpState *state) {
   return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
 }
 
-/* When within the step that has just been taken the opening fell to 1 %: on the straight line between its ends. */
-static double zipped_at(const ZpModel *model, const ZpState *state, double before, double taken) {
-  double now = opening(model, state), limit = 0.01 * state->opening0;
-  return before > limit ? state->t - taken * (limit - now) / (before - now) : state->t;
+/* The platform where a step begins. */
+typedef struct Start {
+  double t, opening, rate; /* s, m, m/s */
+} Start;
+
+static Start start_of(const ZpModel *model, const ZpState *state) {
+  ZpMotion motion = zp_state_motion(model, state);
+  return (Start){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
 }
 
-/* Has the step from `start` on, which began at the opening `before`, closed the actuator? */
-static void note_closing(ZpSim *sim, double start, double before) {
+/* When within the step that has just been taken the opening fell to 1 %: on the parabola of the midpoint rule, which
+ * has the start's opening and rate and the end's opening. A platform that touches at more than 1 % is closed there. */
+static double zipped_at(const ZpModel *model, const ZpState *state, Start start) {
+  double now = opening(model, state), limit = 0.01 * state->opening0, left = start.opening - limit;
+  if (left <= 0 || now > limit) return state->t;
+  double taken = state->t - start.t, bend = ((now - start.opening) / taken - start.rate) / taken;
+  return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
+}
+
+/* Has the step from `start` on closed the actuator? */
+static void note_closing(ZpSim *sim, Start start) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   state->was_open |= is_open(model, state);
   if (!isnan(state->zip_time) || state->U == 0 || !reached_zip(model, state)) return;
-  state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, before, state->t - start);
+  state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, start);
 }
 
 static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, double end_time) {
@@ -226,7 +248,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   bool two = zp_is_pair(&model->topology);
   double corner = next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
-  double start = state->t, before = two ? opening(model, state) : 0;
+  Start start = two ? start_of(model, state) : (Start){0, 0, 0};
   if (!prepare_step(sim)) return;
   ZpStepLimit limit;
   sim->stuck = !sim->stepping->step(sim, latest, &limit);
@@ -234,7 +256,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->steps++;
   info->limited[limit_of(sim, limit, corner, end_time)]++;
   follow_voltage(sim);
-  if (two) note_closing(sim, start, before);
+  if (two) note_closing(sim, start);
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */

@@ -4,6 +4,7 @@
 
 #include <zipact/sim.h>
 
+#include "actuator/shape.h"
 #include "paper/motion/motion.h"
 #include "rest/dynamics.h"
 #include "system/held.h"
@@ -38,7 +39,9 @@ struct ZpSim {
   ZpTable *series;             /* the caller's; NULL: no record */
   ZpShapes *shapes;            /* the caller's; NULL: no record */
   double *row;                 /* one value per signal */
-  double *line_force;          /* [nodes] of the shape handed out */
+  ZpShapeRoom shape_room;      /* of the shape handed out, */
+  void *shape_memory;          /* and where it is */
+  ZpMargins now, margins;      /* the worst that materials see in the row, and saw in all that were recorded */
   double row_time, row_charge; /* of the last row before the present time, for the mean current */
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;

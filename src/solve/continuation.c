@@ -7,11 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double shortest_step = 1e-9;
+static const double shortest_step = 1e-8;
 static const double sharpest_turn = 0.7; /* cosine: a step that turns by more would lose its way */
-static const double surest_step = 1e-5;  /* too short to cross a sharp fold onto the way back */
 static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
-enum { MOST_CORRECTIONS = 12, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
+enum { MOST_CORRECTIONS = 25, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
 void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
@@ -35,30 +34,45 @@ static size_t negative_of_part(const ZpParts *parts, size_t negative) {
   return (negative + parts->more) / (1 + parts->more);
 }
 
-/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
- * the way back; the determinant of the stiffness tells, eq. (10.2). => cosine of the angle by which it has turned; 0 if
- * there is no direction. */
-static double find_direction(ZpBranch *b) {
+/* Tangent of the branch at the present point, of length 1 and towards growing m => direction. => is the determinant of
+ * the stiffness negative? Not 0 or 1: there is no tangent. */
+static int find_tangent(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
-  if (rest->residual(rest->self, b->newton.r, NULL) != ZP_END_FOUND) return 0;
+  if (rest->residual(rest->self, b->newton.r, NULL) != ZP_END_FOUND) return -1;
   rest->stiffness(rest->self, &b->newton.K, NULL);
   sys->sensitivity(rest->self, b->a);
-  if (!zp_band_factor(&b->newton.K)) return 0;
+  if (!zp_band_factor(&b->newton.K)) return -1;
   zp_band_solve(&b->newton.K, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
     b->a[i] *= to_scaled;
-  double length = sqrt(zp_static_dot(rest, b->a, b->a) + 1), m = 1 / length;
-  double cosine = m * (zp_static_dot(rest, b->a, b->direction) + b->direction_m);
-  if (cosine < 0) m = -m;
+  double length = sqrt(zp_static_dot(rest, b->a, b->a) + 1);
+  b->a_m = 1 / length;
   for (size_t i = 0; i < n; i++)
-    b->direction[i] = b->a[i] * m;
-  b->direction_m = m;
-  bool negative = negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2 == 1; /* the determinant */
-  b->reversed = b->along != ((m > 0) != negative);
-  return isfinite(length) ? fabs(cosine) : 0;
+    b->a[i] *= b->a_m;
+  return isfinite(length) ? (int)(negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2) : -1;
+}
+
+/* The tangent => direction, on this side. */
+static void face(ZpBranch *b, bool growing) {
+  double sign = growing ? 1 : -1;
+  for (size_t i = 0; i < b->system->at_rest.n; i++)
+    b->direction[i] = sign * b->a[i];
+  b->direction_m = sign * b->a_m;
+}
+
+/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
+ * the way back; the determinant of the stiffness tells, eq. (10.2). => cosine of the angle by which it has turned; 0 if
+ * there is no direction. */
+static double find_direction(ZpBranch *b) {
+  int negative = find_tangent(b);
+  if (negative < 0) return 0;
+  double cosine = zp_static_dot(&b->system->at_rest, b->a, b->direction) + b->a_m * b->direction_m;
+  face(b, cosine >= 0);
+  b->reversed = b->along != ((cosine >= 0) != (negative == 1));
+  return fabs(cosine);
 }
 
 bool zp_branch_start(ZpBranch *b, bool growing, double first, double longest, double tolerance) {
@@ -89,14 +103,28 @@ static double arc_length(const ZpBranch *b, double m_start) {
   return gone + common / sys->q_scale;
 }
 
+/* Corrections that go to and fro over a corner at which the branch turns by more than a right angle, so that there is
+ * no solution at that arc length: det(K, -dr/dm; t) has another sign on the other side. */
+typedef struct Sides {
+  bool first, last; /* is it negative? at the first correction, at the last */
+  bool both;        /* it was either */
+} Sides;
+
+static void look_at_side(Sides *sides, bool negative, int corrections) {
+  if (corrections == 0) *sides = (Sides){negative, negative, false};
+  sides->both = sides->both || negative != sides->first;
+  sides->last = negative;
+}
+
 /* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, the most between
- * two refreshes; -1: failed. */
+ * two refreshes; -1: failed. If that is for a corner, the present point is beyond it. */
 static int correct(ZpBranch *b, double s, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
   bool fresh = refresh(rest);
   int refreshes = 1, effort = 0;
+  Sides sides = {false, false, false};
   ZpClosing closing;
   zp_closing_start(&closing);
   if (!fresh) return -1;
@@ -105,7 +133,9 @@ static int correct(ZpBranch *b, double s, double m_start) {
     if (rest->residual(rest->self, b->newton.r, &left) != ZP_END_FOUND) return -1;
     sys->position(rest->self, b->q);
     double gone = arc_length(b, m_start);
-    bool close = zp_closing_done(&closing, left, b->tolerance) || zp_closing_stalled(&closing, left, b->tolerance);
+    bool close = zp_closing_done(&closing, left, b->tolerance), to_and_fro = sides.both && closing.stalled >= 3;
+    if (to_and_fro && sides.last == sides.first) return -1;
+    close = close || (!to_and_fro && zp_closing_stalled(&closing, left, b->tolerance));
     if (close && fabs(s - gone) < 1e-3 * s) {
       effort = k > effort ? k : effort;
       if (fresh) return effort;
@@ -123,7 +153,8 @@ static int correct(ZpBranch *b, double s, double m_start) {
     zp_band_solve(&b->newton.K, b->b);
     double ta = zp_static_dot(rest, b->direction, b->a) / sys->q_scale,
            tb = zp_static_dot(rest, b->direction, b->b) / sys->q_scale;
-    double dm = (s - gone - ta) / (tb + b->direction_m / sys->m_scale);
+    double across = tb + b->direction_m / sys->m_scale, dm = (s - gone - ta) / across;
+    look_at_side(&sides, (across < 0) != (negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2 == 1), k);
     for (size_t i = 0; i < n; i++)
       b->a[i] += b->b[i] * dm;
     zp_closing_correct(&closing, rest, b->a);
@@ -137,19 +168,24 @@ static int correct(ZpBranch *b, double s, double m_start) {
   return -1;
 }
 
-/* Predict along the direction, then correct. */
-static int try_step(ZpBranch *b, double s) {
+/* Move by arc length `s` along the direction. False if that is too far. */
+static bool predict(ZpBranch *b, double s) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
-  double m_start = sys->get(rest->self);
   rest->residual(rest->self, b->newton.r, NULL); /* the edges that a move turns are those of the last residual */
   sys->position(rest->self, b->q_start);
   for (size_t i = 0; i < rest->n; i++)
     b->a[i] = b->direction[i] * s * sys->q_scale;
-  if (!(rest->length(rest->self, b->a) < 1)) return -1;
+  if (!(rest->length(rest->self, b->a) < 1)) return false;
   rest->move(rest->self, b->a, 1);
-  sys->set(rest->self, m_start + b->direction_m * s * sys->m_scale);
-  return correct(b, s, m_start);
+  sys->set(rest->self, sys->get(rest->self) + b->direction_m * s * sys->m_scale);
+  return true;
+}
+
+/* Predict along the direction, then correct. */
+static int try_step(ZpBranch *b, double s) {
+  double m_start = b->system->get(b->system->at_rest.self);
+  return predict(b, s) ? correct(b, s, m_start) : -1;
 }
 
 /* Has m turned twice on a step by s from m_start, along which `before` was its direction? Both ends go the same way
@@ -158,6 +194,46 @@ static bool turned_twice(const ZpBranch *b, double s, double m_start, double bef
   double after = b->direction_m, gone = (b->system->get(b->system->at_rest.self) - m_start) / b->system->m_scale;
   double middle = 1.5 * gone / s - 0.25 * (before + after);
   return before * after > 0 && before * middle < 0;
+}
+
+/* Back to the last good point. */
+static void go_back(ZpBranch *b, double direction_m) {
+  const ZpBranchSystem *sys = b->system;
+  sys->restore(sys->at_rest.self, b->saved_before);
+  memcpy(b->direction, b->direction_saved, sys->at_rest.n * sizeof *b->direction);
+  b->direction_m = direction_m;
+}
+
+/* The tangent at the present point => direction, on the side that eq. (10.2) says. => cosine of the angle by which it
+ * has turned; 2: there is no tangent. */
+static double face_on(ZpBranch *b) {
+  int negative = find_tangent(b);
+  if (negative < 0) return 2;
+  double before = b->direction_m;
+  face(b, b->along != (negative == 1));
+  return zp_static_dot(&b->system->at_rest, b->direction, b->direction_saved) + b->direction_m * before;
+}
+
+/* Over a corner, where the stiffness jumps and the branch turns by any angle: not further ahead than `ahead`, or no
+ * step would have failed. Eq. (10.2) holds across it, so the tangent beyond it says where the branch goes on. Where
+ * the branch meets the corner at a grazing angle, corrections find what is beyond. */
+static bool turn_corner(ZpBranch *b, double ahead) {
+  static const double farthest = 1e-4;
+  double m = b->direction_m;
+  for (double s = ahead; s < farthest; s *= 4) {
+    go_back(b, m);
+    if (!predict(b, s)) return false;
+    double cosine = face_on(b);
+    if (cosine > sharpest_turn) {
+      go_back(b, m);
+      try_step(b, s);
+      cosine = face_on(b);
+    }
+    if (cosine > 1 || try_step(b, 4 * s) < 0 || find_direction(b) < sharpest_turn || b->reversed) continue;
+    b->step = b->taken = 4 * s;
+    return true;
+  }
+  return false;
 }
 
 bool zp_branch_advance(ZpBranch *b) {
@@ -170,19 +246,18 @@ bool zp_branch_advance(ZpBranch *b) {
   while (b->step > shortest_step) {
     double s = fmin(b->step, b->longest_m_step / fabs(b->direction_m));
     int corrections = try_step(b, s);
-    bool stayed = corrections >= 0 && find_direction(b) > (s < corner_step ? 0 : sharpest_turn);
-    if (stayed && (s < surest_step || !(b->reversed || turned_twice(b, s, m_start, m)))) {
-      b->along = b->along != b->reversed;
+    bool stayed = corrections >= 0 && find_direction(b) > (s < corner_step ? 0 : sharpest_turn) && !b->reversed;
+    if (stayed && (s < corner_step || !turned_twice(b, s, m_start, m))) {
       b->step = b->taken = s;
       if (corrections <= EASY_CORRECTIONS) b->step = fmin(1.5 * s, b->longest_step);
       if (corrections > 2 * EASY_CORRECTIONS) b->step = 0.5 * s;
       return true;
     }
-    sys->restore(self, b->saved_before);
-    memcpy(b->direction, b->direction_saved, bytes);
-    b->direction_m = m;
+    go_back(b, m);
     b->step = 0.5 * s;
   }
+  if (turn_corner(b, shortest_step)) return true;
+  go_back(b, m);
   return false;
 }
 

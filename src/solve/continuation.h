@@ -22,6 +22,7 @@ typedef struct ZpBranch {
   const ZpBranchSystem *system;
   ZpNewtonWork newton;
   double *a, *b, *q, *q_start, *direction, *direction_saved, *direction_after; /* [n] */
+  double a_m;         /* of the tangent found last, which is in `a`, along m */
   double direction_m; /* part of the direction along m: its sign changes at a limit point */
   bool along;         /* it has the sign of the stiffness's determinant, which changes there, too */
   bool reversed;      /* last looked at, it was the other way round: a turn into the way back, or a bifurcation */

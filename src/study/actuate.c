@@ -6,7 +6,9 @@
 
 #include "actuator/model.h"
 #include "base/fail.h"
+#include "sim/margins.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 /* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
@@ -38,7 +40,7 @@ static double widest_opening(const ZpTable *series) {
   return widest;
 }
 
-static void summarize_actuator(ZpSim *sim, const ZpModel *model, ZpResult *result) {
+static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "contraction", "1", at_end(sim, result, "contraction"));
   zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
   zp_result_add(result, "zipped_length_m", "m", at_end(sim, result, "zipped_length"));
@@ -46,7 +48,6 @@ static void summarize_actuator(ZpSim *sim, const ZpModel *model, ZpResult *resul
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
-  zp_result_add(result, "closed_insulator_field_V_per_m", "V/m", zp_model_info(model).closed_insulator_field);
 }
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
@@ -87,10 +88,14 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
                    remedy(def));
 }
 
-static void note(const ZpModel *model, ZpResult *result) {
+static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double highest = zp_waveform_largest(&model->waveform);
   note_imbalance(zp_model_def(model), result);
-  zp_result_note_model(result, model, highest, result->shapes->frames);
+  if (model->field)
+    zp_add_margins(result, model, zp_sim_margins(sim));
+  else
+    zp_add_stress(result, model, zp_sim_margins(sim));
+  zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_note(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
@@ -99,7 +104,7 @@ static void note(const ZpModel *model, ZpResult *result) {
 static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
-  if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, model, result);
+  if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   summarize_steps(info, result);
@@ -125,7 +130,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpRunInfo info;
   zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
   summarize(sim, model, &info, result);
-  note(model, result);
+  note(sim, model, result);
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 
@@ -159,6 +164,7 @@ ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (status == ZP_OK) status = zp_model_create_driven(task->def, task->input.table, &model, err);
   if (status != ZP_OK) return status;
   status = run(model, task->input.start, task->hooks, result, err);
+  zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;
 }

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "rest/slow.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -21,8 +22,9 @@ static const ZpColumn columns[] = {
     {"capacitance_F", "F", "capacitance of the electrodes"},
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
+    ZP_MARGIN_COLUMNS,
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000 };
 
 /* Hanging: the faces that close last are within this part of where they hang without voltage. */
 static const double hanging_part = 0.01;
@@ -37,8 +39,12 @@ typedef struct Follower {
   int points;
   double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
   void *start;    /* of the branch under way */
+  void *hung;     /* the state that hangs without voltage */
   double hanging; /* distance of the faces that close last, without voltage, m */
-  bool ran_back;  /* the branch that hangs turned back into itself */
+  ZpMargins margins;
+  bool ran_back; /* the branch that hangs turned back into itself */
+  int turns;     /* limit points on the branch under way */
+  double left;   /* voltage at which a branch was left beyond a limit point, V; NAN: none was */
   ZpOutcome outcome;
 } Follower;
 
@@ -50,6 +56,7 @@ static void carve(void *user, ZpCarver *carver) {
   zp_limit_carve(&f->closing, save, equations, carver);
   zp_limit_carve(&f->release, save, equations, carver);
   f->start = zp_carve(carver, save);
+  f->hung = zp_carve(carver, save);
 }
 
 static double opening(Follower *f) {
@@ -60,6 +67,8 @@ static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
   ZpStatics *s = &f->rest.statics;
   bool stable = zp_statics_stable(s, &f->rest.branch.newton);
+  ZpShape shape = zp_statics_shape(s, f->points, &f->rest.shape_room);
+  ZpMargins margins = zp_margins_of(model, &shape);
   double row[COLUMNS] = {s->U,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
@@ -67,9 +76,11 @@ static void record(Follower *f, int branch) {
                          zp_statics_charge(s),
                          zp_statics_capacitance(s),
                          stable,
-                         branch};
+                         branch,
+                         ZP_MARGIN_VALUES(margins)};
   bool last = s->U == model->def.drive.voltage && f->points > 0;
-  ZpShape shape = zp_statics_shape(s, f->points++, f->rest.line_force);
+  f->points++;
+  zp_margins_join(&f->margins, margins);
   zp_table_offer(f->result->series, row);
   zp_shapes_offer(f->result->shapes, &shape);
   if (!last) return;
@@ -115,7 +126,9 @@ static bool follow(Follower *f, bool growing, int mark) {
   record(f, mark);
   if (!zp_rest_follow(&f->rest, growing)) return false;
   for (int k = 0; k < MOST_POINTS; k++) {
-    if (!zp_branch_advance(&f->rest.branch)) return false;
+    double direction = f->rest.branch.direction_m;
+    if (!zp_branch_advance(&f->rest.branch) || zp_statics_fault(&f->rest.statics)) return false;
+    f->turns += direction * f->rest.branch.direction_m < 0;
     if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
     if (f->rest.statics.U < 0) return !f->ran_back;
     if (zp_statics_shorted(&f->rest.statics)) {
@@ -136,8 +149,14 @@ static bool follow(Follower *f, bool growing, int mark) {
   return false;
 }
 
+/* Beyond its first limit point a branch may be left: the voltages do not depend on what is there. */
 static void follow_whole(Follower *f, bool growing, int mark) {
-  if (!follow(f, growing, mark)) f->outcome = ZP_BRANCH_LOST;
+  f->turns = 0;
+  if (follow(f, growing, mark)) return;
+  if (f->turns > 0 && !f->ran_back)
+    f->left = f->rest.statics.U;
+  else
+    f->outcome = ZP_BRANCH_LOST;
 }
 
 /* -- the study ------------------------------------------------------------------------------------ */
@@ -147,6 +166,7 @@ static bool hang(Follower *f) {
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", info.residual);
   f->rest.system.save(&f->rest.statics, f->start);
+  f->rest.system.save(&f->rest.statics, f->hung);
   f->hanging = f->model->field ? opening(f) : 0;
   zp_slow_start(&f->slow, f->hanging);
   return zp_newton_good(info.end);
@@ -185,7 +205,7 @@ static void find(Follower *f) {
     return;
   }
   follow_whole(f, true, 0);
-  bool whole = f->outcome == ZP_FOLLOWED && f->model->field && zp_slow_is_closed(&f->slow);
+  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->model->field && zp_slow_is_closed(&f->slow);
   if (f->outcome == ZP_INTERRUPTED) return;
   zp_slow_go_to(&f->slow, f->start);
   if (!find_voltages(f) || whole) return;
@@ -195,8 +215,16 @@ static void find(Follower *f) {
 
 static void note(Follower *f) {
   ZpResult *r = f->result;
-  zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
+  zp_add_margins(r, f->model, &f->margins);
+  zp_note_mesh(r, f->model, f->model->def.drive.voltage);
   if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
+  if (!isnan(f->left))
+    zp_result_note(
+        r,
+        "a branch was left at %.4g V, beyond its first limit point: other states of rest there are not in the "
+        "table; pull-in, closing and release do not depend on them",
+        f->left);
   if (!isnan(f->shorted))
     zp_result_note(r, "at %.4g V electrodes without an insulator touch, a short circuit: the branch ends there",
                    f->shorted);
@@ -234,6 +262,17 @@ static ZpOutcome outcome_of(const Follower *f) {
   return lost && f->outcome == ZP_FOLLOWED ? ZP_BRANCH_LOST : f->outcome;
 }
 
+static ZpStatus derive(Follower *f, ZpError *err) {
+  ZpLimitList list = {&f->slow,
+                      f->hung,
+                      {{"pull_in_voltage_V", &f->pull_in, false},
+                       {"release_voltage_V", &f->release, false},
+                       {"closing_voltage_V", &f->closing, false}},
+                      3};
+  if (f->outcome == ZP_NOT_SETTLED) return ZP_OK;
+  return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, f->result, err);
+}
+
 static ZpStatus run(Follower *f, ZpError *err) {
   const ZpActuatorDef *def = &f->model->def;
   f->result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
@@ -252,18 +291,25 @@ static ZpStatus run(Follower *f, ZpError *err) {
   f->result->outcome = outcome_of(f);
   describe(f);
   note(f);
-  return ZP_OK;
+  return derive(f, err);
 }
 
 ZpStatus zp_check_equilibrium(const ZpActuatorDef *def, ZpError *err) {
-  return zp_def_check_voltage(def, def->drive.voltage, err);
+  ZpStatus status = zp_check_sensitivity(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
 ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {.model = model, .hooks = task->hooks, .result = result, .shorted = NAN, .outcome = ZP_FOLLOWED};
+  Follower f = {.model = model,
+                .hooks = task->hooks,
+                .result = result,
+                .shorted = NAN,
+                .left = NAN,
+                .margins = zp_margins_none(),
+                .outcome = ZP_FOLLOWED};
   f.slow.stop = must_stop;
   f.slow.caller = &f;
   status = run(&f, err);

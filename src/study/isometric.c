@@ -15,6 +15,7 @@
 #include "rest/rest.h"
 #include "study/held.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -25,8 +26,9 @@ static const ZpColumn columns[] = {
     {"capacitance_F", "F", "capacitance of the electrodes"},
     {"stable", "1", "1: comes back when pushed, 0: does not"},
     {"passed", "1", "1: a rising voltage leads through it, 0: it is jumped over"},
+    ZP_MARGIN_COLUMNS,
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 20000, MOST_BEYOND = 2000 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
 
 /* Other states at drive.voltage are looked for where the branch comes back from up to this times it. */
 static const double look_beyond = 1.25;
@@ -39,20 +41,22 @@ typedef struct Holder {
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
-  double unpowered;    /* holds the platform without voltage, N, whole actuator */
-  double highest;      /* voltage that the branch has come to, V */
-  double force;        /* at the last state that was passed, N */
-  double leap;         /* the largest change of force in a jump, N */
+  void *unpowered_state;
+  double unpowered; /* holds the platform without voltage, N, whole actuator */
+  double highest;   /* voltage that the branch has come to, V */
+  double force;     /* at the last state that was passed, N */
+  double leap;      /* the largest change of force in a jump, N */
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
+  ZpMargins margins;
   const char *fault; /* why the state found cannot be; NULL: nothing speaks against it */
   ZpOutcome outcome;
 } Holder;
 
 static void carve(void *user, ZpCarver *carver) {
   Holder *h = user;
-  void **const point[] = {&h->before, &h->edge, &h->near};
+  void **const point[] = {&h->before, &h->edge, &h->near, &h->unpowered_state};
   for (size_t k = 0; k < sizeof point / sizeof point[0]; k++)
     *point[k] = zp_carve(carver, zp_rest_save_size(&h->rest));
 }
@@ -73,9 +77,11 @@ static bool is_stable(Holder *h) {
 static void record(Holder *h, bool passed, bool last) {
   ZpStatics *s = &h->rest.statics;
   bool stable = is_stable(h);
-  double row[COLUMNS] = {s->U,   force(h), zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s),
-                         stable, passed};
-  ZpShape shape = zp_statics_shape(s, h->points++, h->rest.line_force);
+  ZpShape shape = zp_statics_shape(s, h->points++, &h->rest.shape_room);
+  ZpMargins margins = zp_margins_of(h->model, &shape);
+  double row[COLUMNS] = {s->U,   force(h), zipped_length(h),         zp_statics_charge(s), zp_statics_capacitance(s),
+                         stable, passed,   ZP_MARGIN_VALUES(margins)};
+  zp_margins_join(&h->margins, margins);
   zp_table_offer(h->result->series, row);
   zp_shapes_offer(h->result->shapes, &shape);
   if (!last) return;
@@ -134,8 +140,8 @@ static End follow(Holder *h) {
     double direction = h->rest.branch.direction_m;
     h->rising = direction > 0;
     h->rest.system.save(s, h->before);
-    if (!zp_branch_advance(&h->rest.branch) || s->U < 0) return turned ? TURNED_FOR_GOOD : LOST;
-    if (!is_possible(h)) return LOST;
+    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h);
+    if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
       h->rest.system.save(s, h->near);
@@ -146,7 +152,7 @@ static End follow(Holder *h) {
     record(h, s->U == h->highest, false);
     if (asked_to_stop(h)) return INTERRUPTED;
   }
-  return LOST;
+  return turned ? TURNED_FOR_GOOD : LOST;
 }
 
 /* Release at the last turn, just above its voltage. */
@@ -226,7 +232,9 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 
 static void note(Holder *h) {
   ZpResult *r = h->result;
-  zp_result_note_model(r, h->model, h->model->def.drive.voltage, r->shapes->frames);
+  zp_margins_join(&h->margins, zp_margins_at_clip(h->model, h->model->def.drive.voltage));
+  zp_add_margins(r, h->model, &h->margins);
+  zp_note_mesh(r, h->model, h->model->def.drive.voltage);
   if (h->jumps > 0)
     zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
@@ -251,8 +259,11 @@ static void describe(Holder *h) {
   else if (h->outcome == ZP_INTERRUPTED)
     snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
   else if (h->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size, "lost the branch at %.4g V, drive.voltage = %g V%s%s; what was found is kept",
-             h->rest.statics.U, top, trouble ? ": " : "", trouble ? trouble : "");
+    snprintf(
+        r->message, size,
+        "a rising voltage was followed to %.4g V of drive.voltage = %g V%s%s: set more mesh.nodes; what was found is "
+        "kept",
+        h->highest, top, trouble ? "; there " : "", trouble ? trouble : "");
   else
     snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
 }
@@ -271,11 +282,52 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
     h->outcome = ZP_BRANCH_LOST;
 }
 
+/* -- derivatives ---------------------------------------------------------------------------------- */
+
+static void pose_unpowered(const ZpActuatorDef *def, ZpStatics *s) {
+  s->opening = def->isometric.separation;
+}
+
+static void pose_powered(const ZpActuatorDef *def, ZpStatics *s) {
+  s->opening = def->isometric.separation;
+  s->U = def->drive.voltage;
+}
+
+static double charge(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_charge(s);
+}
+
+static double capacitance(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_capacitance(s);
+}
+
+/* From the state at drive.voltage, `near` being a copy of it. */
+static void derive(void *user, ZpSlope *slope, ZpResult *r) {
+  static const struct {
+    const char *name;
+    ZpOutput output;
+  } others[] = {{"opening_m", zp_output_opening}, {"charge_C", charge}, {"capacitance_F", capacitance}};
+  Holder *h = user;
+  ZpStatics *s = &h->rest.statics;
+  h->rest.system.restore(s, h->unpowered_state);
+  double unpowered = zp_slope_solve(slope, pose_unpowered) ? h->model->parts * slope->reaction : NAN;
+  h->rest.system.restore(s, h->near);
+  bool found = zp_slope_solve(slope, pose_powered);
+  zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->model->parts * slope->reaction - unpowered : NAN);
+  zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
+  for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
+    zp_result_add_sensitivity(r, others[k].name, slope->key,
+                              found ? zp_slope_of(slope, pose_powered, others[k].output, NULL) : NAN);
+}
+
 static void run(Holder *h) {
   ZpStatics *s = &h->rest.statics;
   ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
   if (zp_newton_good(info.end)) {
     h->unpowered = h->model->parts * s->reaction;
+    h->rest.system.save(s, h->unpowered_state);
     record(h, true, false);
     if (h->model->def.drive.voltage > 0) raise_voltage(h, &info);
   } else {
@@ -285,6 +337,7 @@ static void run(Holder *h) {
   describe(h);
   note(h);
   h->result->outcome = h->outcome;
+  h->rest.system.save(s, h->near);
 }
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
@@ -303,6 +356,7 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err
 
 ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_check_held(def, "isometric", err);
+  if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
@@ -313,13 +367,15 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Holder h = {.model = model, .hooks = task->hooks, .result = result, .outcome = ZP_CONVERGED};
+  Holder h = {
+      .model = model, .hooks = task->hooks, .result = result, .margins = zp_margins_none(), .outcome = ZP_CONVERGED};
   result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
   result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)bare.output.shapes);
   if (result->series && result->shapes && zp_rest_open(&h.rest, model, carve, &h))
     run(&h);
   else
     status = zp_fail_memory(err);
+  if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = zp_sensitivity_of(&h.rest, derive, &h, result, err);
   zp_rest_close(&h.rest);
   zp_model_destroy(model);
   return status;

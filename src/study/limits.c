@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -19,6 +20,7 @@ static const ZpColumn columns[] = {
     {"zipped_length_m", "m", "closed length from the clip, one half"},
     {"charge_C", "C", "charge on the electrodes"},
     {"capacitance_F", "F", "capacitance of the electrodes"},
+    ZP_MARGIN_COLUMNS,
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
@@ -37,6 +39,8 @@ typedef struct Finder {
   ZpLimits *limits;
   const ZpLimits *near; /* of a neighbour; NULL: none */
   void *top;            /* the state at drive.voltage under the own load, where it hangs there */
+  bool arrived;         /* that state is known */
+  ZpMargins margins;
   bool interrupted;
 } Finder;
 
@@ -125,17 +129,35 @@ static ZpSlowEnd raise_voltage(Finder *f) {
   zp_slow_go_to(&f->slow, f->limits->start);
   ZpSlowEnd end =
       zp_slow_raise(&f->slow, f->model->def.drive.voltage, &limit[ZP_LIMIT_PULL_IN], &limit[ZP_LIMIT_CLOSING]);
-  if (end == ZP_SLOW_ARRIVED) f->slow.square.save(&f->rest.statics, f->top);
+  f->arrived = end == ZP_SLOW_ARRIVED;
+  if (f->arrived) f->slow.square.save(&f->rest.statics, f->top);
   return end;
+}
+
+/* The closed state at drive.voltage, from the neighbour's or from the straight shape. False if there is none. */
+static bool find_closed(Finder *f) {
+  ZpStatics *s = &f->rest.statics;
+  double top = f->model->def.drive.voltage;
+  ZpLimits *limits = f->limits;
+  if (f->near && f->near->closes) {
+    take(f, f->near->closed);
+    limits->closes = zp_newton_good(zp_rest_settle(&f->rest, top).end) && zp_slow_is_closed(&f->slow) &&
+                     !zp_statics_fault(s) && zp_statics_stable(s, &f->rest.branch.newton);
+  }
+  if (!limits->closes) limits->closes = zp_slow_close(&f->slow, top);
+  if (limits->closes) f->slow.square.save(s, limits->closed);
+  return limits->closes;
 }
 
 /* From closed at drive.voltage down to 0. */
 static void lower_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
+  bool closes = find_closed(f);
   if (from_neighbour(f, ZP_LIMIT_RELEASE)) return;
   zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
-  if (zp_slow_close(&f->slow, f->model->def.drive.voltage))
-    zp_slow_lower(&f->slow, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
+  if (!closes) return;
+  zp_slow_go_to(&f->slow, f->limits->closed);
+  zp_slow_lower(&f->slow, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
 }
 
 /* Hang at drive.voltage under a load so large that it does not close. False if none was found. */
@@ -213,6 +235,7 @@ void zp_limits_destroy(ZpLimits *limits) {
 static size_t carve_limits(ZpLimits *limits, size_t save, size_t equations, void *block) {
   ZpCarver carver = {block, 0};
   limits->start = zp_carve(&carver, save);
+  limits->closed = zp_carve(&carver, save);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_carve(&limits->limit[k], save, equations, &carver);
   return carver.used;
@@ -235,10 +258,27 @@ static ZpLimits *create(const Finder *f) {
 
 /* -- the study ------------------------------------------------------------------------------------- */
 
+/* Go to a state => what the materials see there, which counts. */
+static ZpMargins look(Finder *f, const double *state) {
+  zp_slow_go_to(&f->slow, state);
+  ZpShape shape = zp_statics_shape(&f->rest.statics, 0, &f->rest.shape_room);
+  ZpMargins margins = zp_margins_of(f->model, &shape);
+  zp_margins_join(&f->margins, margins);
+  return margins;
+}
+
+/* The states between which a voltage that rises slowly to drive.voltage leads, and the field that it brings. */
+static void look_at_ends(Finder *f) {
+  if (f->limits->hangs) look(f, f->limits->start);
+  if (f->limits->closes) look(f, f->limits->closed);
+  if (f->arrived) look(f, f->top);
+  zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
+}
+
 static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
   ZpStatics *s = &f->rest.statics;
   if (isnan(f->limits->limit[kind].value)) return;
-  zp_slow_go_to(&f->slow, f->limits->limit[kind].state);
+  ZpMargins margins = look(f, f->limits->limit[kind].state);
   double row[COLUMNS] = {kind,
                          s->U,
                          s->load,
@@ -246,8 +286,9 @@ static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
                          zp_statics_opening(s),
                          (double)zp_statics_front(s) * f->model->l,
                          zp_statics_charge(s),
-                         zp_statics_capacitance(s)};
-  ZpShape shape = zp_statics_shape(s, kind, f->rest.line_force);
+                         zp_statics_capacitance(s),
+                         ZP_MARGIN_VALUES(margins)};
+  ZpShape shape = zp_statics_shape(s, kind, &f->rest.shape_room);
   zp_table_offer(table, row);
   zp_shapes_offer(shapes, &shape);
 }
@@ -284,6 +325,13 @@ static ZpOutcome outcome_of(const Finder *f) {
   return f->interrupted ? ZP_INTERRUPTED : ZP_CONVERGED;
 }
 
+static ZpStatus derive(Finder *f, ZpResult *r, ZpError *err) {
+  ZpLimitList list = {.slow = &f->slow, .hanging = f->limits->start, .count = ZP_LIMIT_KINDS};
+  for (int k = 0; k < ZP_LIMIT_KINDS; k++)
+    list.item[k] = (ZpNamedLimit){scalars[k].name, &f->limits->limit[k], k == ZP_LIMIT_LOAD};
+  return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, r, err);
+}
+
 static void run(Finder *f, ZpResult *r) {
   bool hangs = find(f);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
@@ -294,7 +342,9 @@ static void run(Finder *f, ZpResult *r) {
   if (!hangs) snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
     record(f, r->series, r->shapes, k);
-  zp_result_note_model(r, f->model, f->model->def.drive.voltage, r->shapes->frames);
+  look_at_ends(f);
+  zp_add_margins(r, f->model, &f->margins);
+  zp_note_mesh(r, f->model, f->model->def.drive.voltage);
   if (hangs) zp_note_start(r, f->model, f->limits->hanging);
 }
 
@@ -308,14 +358,15 @@ ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "actuator.kind = ribbon: study limits requires electrodes: kind electro_ribbon or flange");
-  return zp_def_check_voltage(def, def->drive.voltage, err);
+  ZpStatus status = zp_check_sensitivity(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
 ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Finder f = {.model = model, .hooks = task->hooks, .near = neighbour_of(task, model)};
+  Finder f = {.model = model, .hooks = task->hooks, .near = neighbour_of(task, model), .margins = zp_margins_none()};
   f.slow.stop = asked_to_stop;
   f.slow.caller = &f;
   result->series = zp_table_create(columns, COLUMNS, ZP_LIMIT_KINDS);
@@ -326,6 +377,7 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
     run(&f, result);
   else
     status = zp_fail_memory(err);
+  if (f.limits && f.limits->hangs) status = derive(&f, result, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
   return status;

@@ -20,6 +20,8 @@ struct ZpLimits {
   double hanging;        /* gap that closes last, without voltage, m */
   double *start;         /* state that hangs without voltage */
   bool hangs;
+  double *closed; /* closed state at drive.voltage */
+  bool closes;
   ZpLimit limit[ZP_LIMIT_KINDS];
   int warm; /* how many limits were found from the neighbour's */
   void *memory;

@@ -9,6 +9,7 @@
 #include "math/eigen.h"
 #include "rest/rest.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 enum { MODES = 8, SUBSPACE = 16, MOST_ROUNDS = 200 };
@@ -35,6 +36,7 @@ typedef struct Problem {
   double *q;        /* [2 stride] of the equilibrium */
   double reduced[SUBSPACE * SUBSPACE], turn[SUBSPACE * SUBSPACE];
   double omega2[SUBSPACE];
+  ZpMargins margins; /* of the equilibrium */
 } Problem;
 
 static void carve(void *user, ZpCarver *carver) {
@@ -127,6 +129,13 @@ static bool solve(Problem *p, size_t modes) {
   return false;
 }
 
+/* Of a vector the error is the root of that of its frequency: what follows from it to first order takes more rounds. */
+static void refine(Problem *p) {
+  enum { ROUNDS = 30 };
+  for (int round = 0; round < ROUNDS; round++)
+    iterate(p);
+}
+
 /* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
   const ZpModel *model = p->rest.statics.model;
@@ -136,7 +145,8 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
   for (size_t k = 0; k < 2 * model->stride; k++)
     q[k] = p->q[k] + amplitude * q[k];
   if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->rest.statics.eval.plates);
-  ZpShape shape = zp_statics_shape(&p->rest.statics, frame, p->rest.line_force);
+  ZpShape shape = zp_statics_shape(&p->rest.statics, frame, &p->rest.shape_room);
+  if (frame == 0) p->margins = zp_margins_of(model, &shape);
   zp_shapes_offer(shapes, &shape);
 }
 
@@ -157,6 +167,44 @@ static void report(Problem *p, size_t modes, ZpResult *result) {
     zp_result_add(result, names[j], "Hz", frequency);
     zp_table_offer(result->series, (double[COLUMNS]){(double)(j + 1), frequency, p->residual[j]});
     record_shape(p, (double)(j + 1), j, amplitude_of(p, j), result->shapes);
+  }
+}
+
+/* -- derivatives ---------------------------------------------------------------------------------- */
+
+static void pose(const ZpActuatorDef *def, ZpStatics *s) {
+  s->load = def->load.mass;
+  s->U = def->modes.voltage;
+}
+
+typedef struct Mode {
+  ZpBand *K;
+  double *work;    /* [n] */
+  const double *u; /* [n] of length 1 in the mass's measure */
+  double omega2;
+} Mode;
+
+/* u' (K - omega^2 m) u of an actuator near: its derivative is that of omega^2. */
+static double stiffness_of_mode(ZpStatics *s, void *user) {
+  const Mode *mode = user;
+  double sum = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);
+  zp_assembly_masses(&s->assembly, s->model->mass, mode->work);
+  for (size_t i = 0; i < s->assembly.n; i++)
+    sum -= mode->omega2 * mode->work[i] * mode->u[i] * mode->u[i];
+  return sum;
+}
+
+static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+  const double two_pi = 6.283185307179586;
+  Problem *p = user;
+  size_t modes = p->m < MODES ? p->m : MODES;
+  ZpStatics *s = &p->rest.statics;
+  memcpy(s->q, p->q, 2 * s->model->stride * sizeof *s->q);
+  bool found = zp_slope_solve(slope, pose);
+  for (size_t j = 0; j < modes; j++) {
+    Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->u + j * p->n, p->omega2[j]};
+    double by_key = found ? zp_slope_of(slope, pose, stiffness_of_mode, &mode) : NAN;
+    zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->omega2[j])));
   }
 }
 
@@ -183,13 +231,13 @@ static void run(Problem *p, ZpResult *result) {
              "short circuit at modes.voltage = %g V: electrodes without an insulator touch", voltage);
     return;
   }
-  p->rest.statics.contact_acts = false; /* small vibrations do not reach the other ribbon */
   if (!zp_statics_stable(&p->rest.statics, &p->rest.branch.newton)) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
     return;
   }
   prepare(p);
   bool found = solve(p, modes);
+  if (found && *p->rest.statics.model->def.sensitivity.by) refine(p);
   result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
   if (!found)
     snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged in %d rounds",
@@ -210,6 +258,7 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
         "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
         def->modes.voltage);
   ZpStatus status = zp_check_mass(def, err);
+  if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
@@ -221,8 +270,12 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   result->series = zp_table_create(columns, COLUMNS, MODES);
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
   if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
+    p->margins = zp_margins_none();
     run(p, result);
-    zp_result_note_model(result, model, task->def->modes.voltage, 1); /* the others are no shapes at rest */
+    zp_margins_join(&p->margins, zp_margins_at_clip(model, task->def->modes.voltage));
+    zp_add_margins(result, model, &p->margins);
+    zp_note_mesh(result, model, task->def->modes.voltage);
+    if (result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&p->rest, derive, p, result, err);
   } else {
     status = zp_fail_memory(err);
   }

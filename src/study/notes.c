@@ -5,39 +5,45 @@
 #include "actuator/model.h"
 #include "study/studies.h"
 
-/* -- breakdown ------------------------------------------------------------------------------------- */
+/* -- margins --------------------------------------------------------------------------------------- */
 
-ZpSeen zp_seen_at(const ZpModel *model, double voltage, double gap) {
+static void note_breakdown(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   const ZpActuatorDef *def = &model->def;
-  double U = fabs(voltage), liquid = fmax(gap, 0) / def->medium.permittivity;
-  double insulators = 2 * def->insulator.thickness / def->insulator.permittivity, both = liquid + insulators;
-  if (!(both > 0)) return (ZpSeen){0, 0};
-  return (ZpSeen){insulators > 0 ? U / both / def->insulator.permittivity : 0, U / both / def->medium.permittivity};
-}
-
-static ZpSeen stronger(ZpSeen a, ZpSeen b) {
-  return (ZpSeen){fmax(a.insulator, b.insulator), fmax(a.liquid, b.liquid)};
-}
-
-ZpSeen zp_seen_in(const ZpModel *model, double highest, const ZpShapes *film, size_t frames) {
-  ZpSeen seen = zp_is_pair(&model->topology) ? zp_seen_at(model, highest, 0) : (ZpSeen){0, 0};
-  for (size_t i = 0; model->flat && film && i < film->frames && i < frames; i++) {
-    ZpShape shape = zp_shapes_get(film, i);
-    seen = stronger(seen, zp_seen_at(model, shape.voltage, zp_plates_least_gap(&model->plates, shape.y)));
-  }
-  return seen;
-}
-
-void zp_note_breakdown(ZpResult *result, const ZpModel *model, ZpSeen seen) {
-  const ZpActuatorDef *def = &model->def;
-  if (seen.insulator > def->insulator.breakdown_field)
+  if (seen->insulator > def->insulator.breakdown_field)
     zp_result_note(result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
-                   seen.insulator / 1e6, def->insulator.breakdown_field / 1e6);
-  if (!def->electro.breakdown_cap && seen.liquid > def->medium.breakdown_field)
+                   seen->insulator / 1e6, def->insulator.breakdown_field / 1e6);
+  if (!def->electro.breakdown_cap && seen->liquid > def->medium.breakdown_field)
     zp_result_note(result,
                    "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
                    "electro.breakdown_cap is false: the force is not limited",
-                   seen.liquid / 1e6, def->medium.breakdown_field / 1e6);
+                   seen->liquid / 1e6, def->medium.breakdown_field / 1e6);
+}
+
+void zp_add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
+  const ZpActuatorDef *def = &model->def;
+  double withstands = def->insulator.breakdown_field, both = 2 * def->insulator.thickness;
+  zp_result_add(result, "insulator_field_V_per_m", "V/m", seen->insulator);
+  zp_result_add(result, "insulator_field_place_m", "m", seen->insulator_place);
+  zp_result_add(result, "breakdown_margin", "1", seen->insulator > 0 ? withstands / seen->insulator : NAN);
+  zp_result_add(result, "allowed_voltage_V", "V", model->field && both > 0 ? both * withstands : NAN);
+  note_breakdown(result, model, seen);
+}
+
+void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
+  double yields = model->def.ribbon.yield_stress;
+  zp_result_add(result, "max_stress_Pa", "Pa", seen->stress);
+  zp_result_add(result, "max_stress_place_m", "m", seen->stress_place);
+  zp_result_add(result, "yield_margin", "1", seen->stress > 0 ? yields / seen->stress : NAN);
+  if (seen->stress > yields)
+    zp_result_note(result,
+                   "the metal's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent, which "
+                   "is not modelled",
+                   seen->stress / 1e6, yields / 1e6);
+}
+
+void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
+  zp_add_fields(result, model, seen);
+  zp_add_stress(result, model, seen);
 }
 
 /* -- the mesh -------------------------------------------------------------------------------------- */
@@ -66,8 +72,9 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
                    model->def.mesh.nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
 }
 
-void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest, size_t frames) {
-  if (model->field) zp_note_breakdown(result, model, zp_seen_in(model, highest, result->shapes, frames));
+void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest) {
+  ZpMargins seen = zp_margins_at_clip(model, highest);
+  note_breakdown(result, model, &seen);
   zp_note_mesh(result, model, highest);
 }
 

@@ -1,23 +1,28 @@
-/* The notes of a result: sentences on what a study went through that its model or its mesh does not hold for. The one
- * place that makes those which several studies share; what a study alone knows it adds by zp_result_note. */
+/* Margins of a result, and its notes: sentences on what a study went through that its materials, its model or its mesh
+ * does not hold for. The one place that makes those which several studies share; what a study alone knows it adds by
+ * zp_result_note. */
 #ifndef ZP_STUDY_NOTES_H
 #define ZP_STUDY_NOTES_H
 
 #include <zipact/study.h>
 
-/* The strongest fields that a study has seen, V/m. */
-typedef struct ZpSeen {
-  double insulator, liquid;
-} ZpSeen;
+#include "actuator/shape.h"
 
-/* In a plane capacitor of both insulators and `gap` (m) of liquid at `voltage` (V, any sign). */
-ZpSeen zp_seen_at(const ZpModel *model, double voltage, double gap);
+/* Of states of rest: the end of their tables' columns, and of their rows. */
+#define ZP_MARGIN_COLUMNS                                                                                              \
+  {"insulator_field_V_per_m", "V/m", "field in the insulators where it is strongest, of the series law"}, {            \
+    "max_stress_Pa", "Pa", "stress of the metal where it is largest"                                                   \
+  }
+#define ZP_MARGIN_VALUES(margins) (margins).insulator, (margins).stress
 
-/* In the first `frames` of a film, NULL for none; and of two ribbons, which touch at the clip, at `highest` (V). */
-ZpSeen zp_seen_in(const ZpModel *model, double highest, const ZpShapes *film, size_t frames);
+/* Add to the summary what the insulators see, with a note where they or, without cap, the liquid break down. */
+void zp_add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
-/* Note breakdown of the insulator, and of the liquid where electro.breakdown_cap is false. */
-void zp_note_breakdown(ZpResult *result, const ZpModel *model, ZpSeen seen);
+/* Add the stress of the metal, with a note where it yields. */
+void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
+
+/* Both. */
+void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
 /* Note a mesh too coarse for `voltage`, the highest (V), 0 for none. */
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);

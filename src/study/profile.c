@@ -15,6 +15,7 @@
 #include "study/faces.h"
 #include "study/held.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 /* A row per column of the grid from the clip's edge on. */
@@ -59,9 +60,10 @@ typedef struct Profiler {
   ZpFieldTotals totals;
   ZpStations stations;
   ZpFaces faces;
-  Row *row;           /* [rows] */
-  size_t last, rows;  /* row of the platform's edge; rows up to the mirror plane, or to the edge of a bare platform */
-  double *gap, *line; /* [stations] for the shape */
+  ZpMargins margins; /* of the shape without voltage, then under it as the field is solved */
+  Row *row;          /* [rows] */
+  size_t last, rows; /* row of the platform's edge; rows up to the mirror plane, or to the edge of a bare platform */
+  double *gap, *line, *insulator; /* [stations] for the shape */
   void *memory;
 } Profiler;
 
@@ -83,6 +85,7 @@ static size_t carve(Profiler *p, void *block) {
   p->stations.y = zp_carve(&carver, 2 * n);
   p->gap = zp_carve(&carver, n);
   p->line = zp_carve(&carver, n);
+  p->insulator = zp_carve(&carver, n);
   p->row = (void *)zp_carve(&carver, p->field.profiles * COLUMNS);
   return carver.used;
 }
@@ -112,6 +115,8 @@ static bool hold(Profiler *p, bool *found) {
   if (opened) {
     ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation, &rest.branch.newton);
     *found = zp_newton_good(info.end);
+    ZpShape shape = zp_statics_shape(&rest.statics, 0, &rest.shape_room);
+    if (*found) p->margins = zp_margins_of(model, &shape);
     zp_faces_smooth(model->nodes, rest.statics.q, rest.statics.q + model->stride, &p->stations);
   }
   zp_rest_close(&rest);
@@ -220,9 +225,15 @@ static void record(Profiler *p) {
   for (size_t k = 0; k < STATIONS; k++) {
     p->gap[k] = p->row[k][GAP];
     p->line[k] = p->row[k][FORCE];
+    p->insulator[k] = p->row[k][INSULATOR];
   }
-  ZpShape shape = {
-      .time = 0, .voltage = p->U, .x = p->stations.x, .y = p->stations.y, .gap = p->gap, .line_force = p->line};
+  ZpShape shape = {.time = 0,
+                   .voltage = p->U,
+                   .x = p->stations.x,
+                   .y = p->stations.y,
+                   .gap = p->gap,
+                   .line_force = p->line,
+                   .insulator_field = p->insulator};
   zp_shapes_offer(p->result->shapes, &shape);
 }
 
@@ -260,7 +271,6 @@ static void summarize(const Profiler *p) {
   zp_result_add(r, "virtual_work_difference", "1", difference(p));
   zp_result_add(r, "scale_factor", "1", field_over(p, &p->free));
   zp_result_add(r, "max_field_V_per_m", "V/m", largest(p, LIQUID));
-  zp_result_add(r, "insulator_field_V_per_m", "V/m", largest(p, INSULATOR));
   zp_result_add(r, "capped_length_m", "m", capped_length(p));
   zp_result_add(r, "capacitance_F", "F", 2 * p->model->parts * p->field.energy);
   zp_result_add(r, "equations", "count", (double)p->field.grid.K.n);
@@ -278,9 +288,15 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
   return ZP_OK;
 }
 
+/* What the materials see in the solved field. */
+static void look(Profiler *p) {
+  for (size_t k = 0; k < p->rows; k++)
+    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], p->row[k][LIQUID], NAN, NAN});
+}
+
 static void note(const Profiler *p) {
   double off = difference(p), local = field_over(p, &p->right) - 1;
-  zp_note_breakdown(p->result, p->model, (ZpSeen){largest(p, INSULATOR), largest(p, LIQUID)});
+  zp_add_margins(p->result, p->model, &p->margins);
   if (p->model->def.profile.shape == ZP_PROFILE_HELD) zp_note_mesh(p->result, p->model, 0);
   if (fabs(local) > valid)
     zp_result_note(
@@ -363,6 +379,7 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   ZpResult *r = p->result;
   record(p);
   summarize(p);
+  look(p);
   note(p);
   r->outcome = ZP_CONVERGED;
   snprintf(r->message, sizeof r->message,
@@ -431,8 +448,10 @@ ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
   Profiler p = {.model = model,
                 .result = result,
                 .U = bare.drive.voltage,
-                .by_field = task->def->electro.model == ZP_ELECTRO_FIELD};
+                .by_field = task->def->electro.model == ZP_ELECTRO_FIELD,
+                .margins = zp_margins_none()};
   status = run(&p, err);
+  zp_note_no_sensitivity(result, task->def);
   zp_free(p.memory);
   zp_field_destroy(&p.field);
   zp_model_destroy(model);

@@ -73,6 +73,11 @@ void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, 
   add(result, (ZpScalar){name, unit, value, true});
 }
 
+void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value) {
+  if (result->sensitivities < ZP_MAX_SENSITIVITIES)
+    result->sensitivity[result->sensitivities++] = (ZpSensitivity){output, key, value};
+}
+
 void zp_result_note(ZpResult *result, const char *format, ...) {
   if (result->notes == ZP_MAX_NOTES) return;
   va_list args;

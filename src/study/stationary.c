@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include "rest/rest.h"
 #include "study/notes.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -14,18 +15,26 @@ static const ZpColumn columns[] = {
     {"tension_N", "N", "in the edge to the right"},
     {"upper_x_m", "m", "upper ribbon"},
     {"upper_y_m", "m", "upper ribbon"},
+    {"stress_Pa", "Pa", "of the metal of the lower or only ribbon, largest of its section"},
+    {"upper_stress_Pa", "Pa", "of the metal of the upper ribbon"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static void fill_table(const ZpStatics *s, ZpTable *table) {
+static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
   const ZpModel *model = s->model;
   const ZpTopology *t = &model->topology;
   const double *x = s->q, *y = s->q + model->stride;
   for (size_t i = 0; i < t->stations; i++) {
     size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
     bool edge = i + 1 < t->stations && (i < t->platform.first || i >= t->platform.last), two = zp_is_pair(t);
-    double row[COLUMNS] = {
-        (double)i, x[lower], y[lower], edge ? s->eval.edges.T[lower] : NAN, two ? x[upper] : NAN, two ? y[upper] : NAN};
+    double row[COLUMNS] = {(double)i,
+                           x[lower],
+                           y[lower],
+                           edge ? s->eval.edges.T[lower] : NAN,
+                           two ? x[upper] : NAN,
+                           two ? y[upper] : NAN,
+                           shape->stress[lower],
+                           two ? shape->stress[upper] : NAN};
     zp_table_offer(table, row);
   }
 }
@@ -46,6 +55,16 @@ static const char *words_of(ZpNewtonEnd end) {
   return "no equilibrium found within the largest number of iterations";
 }
 
+static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+  (void)user;
+  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->model->topology);
+  zp_result_add_sensitivity(result, "stroke_m", slope->key,
+                            found ? zp_slope_of(slope, zp_pose_load, zp_output_stroke, NULL) : NAN);
+  if (two)
+    zp_result_add_sensitivity(result, "opening_m", slope->key,
+                              found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
+}
+
 static void run(ZpRest *rest, ZpResult *result) {
   ZpStatics *s = &rest->statics;
   ZpNewtonInfo info = zp_statics_hang(s, &rest->branch.newton);
@@ -56,18 +75,18 @@ static void run(ZpRest *rest, ZpResult *result) {
   if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  zp_result_note_model(result, s->model, 0, 0);
-  if (found) {
-    fill_table(s, result->series);
-    ZpShape shape = zp_statics_shape(s, 0, rest->line_force);
-    zp_shapes_offer(result->shapes, &shape);
-  }
+  ZpShape shape = zp_statics_shape(s, 0, &rest->shape_room);
+  ZpMargins margins = found ? zp_margins_of(s->model, &shape) : zp_margins_none();
+  zp_add_stress(result, s->model, &margins);
+  zp_note_mesh(result, s->model, 0);
+  if (!found) return;
+  fill_table(s, &shape, result->series);
+  zp_shapes_offer(result->shapes, &shape);
 }
 
-/* It has no voltage and asks for nothing. */
+/* It has no voltage. */
 ZpStatus zp_check_stationary(const ZpActuatorDef *def, ZpError *err) {
-  (void)def, (void)err;
-  return ZP_OK;
+  return zp_check_sensitivity(def, err);
 }
 
 ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
@@ -81,6 +100,7 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
     run(&rest, result);
   else
     status = zp_fail_memory(err);
+  if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);
   zp_rest_close(&rest);
   zp_model_destroy(model);
   return status;

@@ -1,6 +1,6 @@
 /* Which study is run: the table of studies.def. It stands above the studies; none of them includes what is here. */
 #include "base/fail.h"
-#include "study/studies.h"
+#include "study/estimate.h"
 
 /* What a study takes from files. */
 enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
@@ -10,7 +10,7 @@ typedef struct Row {
   const char *word;
   int files;
   ZpStatus (*check)(const ZpActuatorDef *def, ZpError *err);
-  ZpStatus (*run)(const ZpTask *task, ZpResult *result, ZpError *err);
+  ZpStudyRun run;
 } Row;
 
 static const Row table[ZpStudy_COUNT] = {
@@ -44,8 +44,10 @@ ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInpu
   if (status != ZP_OK) return status;
   ZpResult *result = zp_result_create(study);
   if (!result) return zp_fail_memory(err);
+  bool moves = table[study].files == FILES_course;
   const ZpTask task = {def, input ? *input : (ZpStudyInput){0}, hooks};
   status = table[study].run(&task, result, err);
+  if (status == ZP_OK) status = zp_estimate_errors(&task, table[study].run, moves, result, err);
   if (status == ZP_OK)
     *out = result;
   else

@@ -2,7 +2,7 @@
 // single numbers by name, the shape, and what the stroke was since the frame before.
 
 const own = ['time', 'since', 'marks', 'advanced', 'nodes', 'offset', 'samples'];
-const signals = ['voltage', 'stroke', 'opening', 'contraction', 'zipped_length', 'force', 'capacitance'];
+const signals = ['voltage', 'stroke', 'opening', 'contraction', 'zipped_length', 'force', 'capacitance', 'insulator_field', 'max_stress'];
 // of the scenario that this instant belongs to, which is not always the newest
 const keys = ['ribbon.length', 'platform.length', 'platform.electrode', 'ribbon.thickness', 'insulator.thickness', 'load.mass',
               'medium.breakdown_field', 'electro.breakdown_cap', 'electro.voltage_share'];

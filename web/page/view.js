@@ -11,9 +11,15 @@ const tiles = {
   zipped: {label: 'Zipped', unit: 'mm', title: 'closed length from the clip, one half'},
   force: {label: 'Attraction', unit: 'N', title: 'electric attraction of the ribbons, vertical'},
   field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; at most its breakdown field where electro.breakdown_cap is true'},
+  inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
   capacitance: {label: 'Capacitance', unit: 'pF', title: 'of the electrodes'},
+  bent: {label: 'Stress', unit: 'MPa', title: 'of the metal where it is largest, bending and tension'},
   time: {label: 'Time', unit: 'ms', title: 'simulated, since the last button'},
   zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
+  stress: {label: 'Largest stress', unit: 'MPa', title: 'of the metal on the way from hanging to closed, at the voltage of Step', study: true},
+  yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal stays bent', study: true},
+  breaks: {label: 'Breakdown margin', unit: '', title: 'insulator.breakdown_field over the field in the insulators at the voltage of Step: below 1 they break down', study: true},
+  allowed: {label: 'Allowed voltage', unit: 'kV', title: 'at which the breakdown margin is 1', study: true},
   pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips, raised slowly', study: true},
   letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which it opens again, lowered slowly', study: true},
 };
@@ -64,7 +70,7 @@ export class View {
   }
 
   #showNotes() {
-    list($('warnings'), this.#notice ? [this.#notice, ...this.#notes] : this.#notes);
+    list($('notes'), this.#notice ? [this.#notice, ...this.#notes] : this.#notes);
   }
 
   /** The answer of study actuate, with `words` on how it ended. */
@@ -72,7 +78,12 @@ export class View {
     const columns = result?.columns;
     this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
     this.hanging = columns?.opening_m[0] ?? NaN;
-    this.tiles.show('zip', digits(1e3 * (result?.scalars.zip_time_s ?? NaN)));
+    const scalars = result?.scalars ?? {};
+    this.tiles.show('zip', digits(1e3 * (scalars.zip_time_s ?? NaN)));
+    this.tiles.show('stress', digits((scalars.max_stress_Pa ?? NaN) / 1e6));
+    this.tiles.show('yields', digits(scalars.yield_margin ?? NaN));
+    this.tiles.show('breaks', digits(scalars.breakdown_margin ?? NaN));
+    this.tiles.show('allowed', digits((scalars.allowed_voltage_V ?? NaN) / 1e3));
     $('time-note').textContent = words;
     this.#notes = result?.notes ?? [];
     this.#showNotes();
@@ -88,7 +99,7 @@ export class View {
     this.tiles.show('pullin', digits((result?.scalars.pull_in_voltage_V ?? NaN) / 1e3));
     this.tiles.show('letgo', digits(this.release / 1e3));
     $('voltage-note').textContent = words;
-    list($('voltage-warnings'), (result?.notes ?? []).map((words) => `up to ${this.#rest.highest / 1e3} kV: ${words}`));
+    list($('voltage-notes'), (result?.notes ?? []).map((words) => `up to ${this.#rest.highest / 1e3} kV: ${words}`));
   }
 
   /** The legend of the field's colours. */
@@ -142,6 +153,8 @@ export class View {
     shown.show('zipped', fixed(1e3 * frame.get('zipped_length'), 1));
     shown.show('force', fixed(frame.get('force'), 2));
     shown.show('field', fixed(largest(field) / 1e6, 1));
+    shown.show('inside', fixed(frame.get('insulator_field') / 1e6, 1));
+    shown.show('bent', fixed(frame.get('max_stress') / 1e6, 0));
     shown.show('capacitance', fixed(1e12 * frame.get('capacitance'), 0));
     shown.show('time', fixed(1e3 * frame.get('since'), 1));
   }

@@ -72,7 +72,7 @@ test('the simulation that runs along ends where the study does, with fixed steps
   core.resolve(values);
   core.start();
   for (let k = 1; k <= 200; k++) assert.equal(core.run(k * 2e-4), null);
-  for (const signal of ['stroke', 'opening', 'contraction', 'force', 'charge', 'capacitance', 'zipped_length']) {
+  for (const signal of ['stroke', 'opening', 'contraction', 'force', 'charge', 'capacitance', 'zipped_length', 'insulator_field', 'max_stress']) {
     const column = Object.keys(rows).find((head) => head === signal || head.startsWith(`${signal}_`));
     const wanted = rows[column].at(-1);
     assert.ok(Math.abs(core.signal(signal) - wanted) <= 1e-9 * Math.abs(wanted), `${signal}: ${core.signal(signal)}, ${wanted}`);

@@ -78,6 +78,10 @@ pageTest('the numbers shown are those of the command', {}, async (page) => {
   const values = scenario.beginning;
   const run = native('actuate', values), rest = native('equilibrium', new Map([...values, ['drive.voltage', '12 kV']]));
   assert.equal(await page.textContent('#n-zip'), digits(1e3 * run.zip_time_s));
+  assert.equal(await page.textContent('#n-stress'), digits(run.max_stress_Pa / 1e6));
+  assert.equal(await page.textContent('#n-yields'), digits(run.yield_margin));
+  assert.equal(await page.textContent('#n-breaks'), digits(run.breakdown_margin));
+  assert.equal(await page.textContent('#n-allowed'), digits(run.allowed_voltage_V / 1e3));
   assert.equal(await page.textContent('#n-pullin'), digits(rest.pull_in_voltage_V / 1e3));
   assert.equal(await page.textContent('#n-letgo'), digits(rest.release_voltage_V / 1e3));
   assert.equal(await page.textContent('#time-note'), run.message);
@@ -134,11 +138,11 @@ pageTest('what the core warns of is shown, for the run and for the states of res
   const values = new Map([['insulator.thickness', '10 um']]);
   const shown = (id) => page.$$eval(`#${id} li`, (items) => items.map(({textContent}) => textContent));
   await page.waitForFunction(() => document.getElementById('time-note').textContent);
-  assert.deepEqual(await shown('warnings'), native('actuate', values).notes);
-  assert.ok((await shown('warnings')).some((words) => words.includes('breakdown field')));
+  assert.deepEqual(await shown('notes'), native('actuate', values).notes);
+  assert.ok((await shown('notes')).some((words) => words.includes('breakdown field')));
   const {notes} = native('equilibrium', new Map([...values, ['drive.voltage', '12 kV']]));
   assert.ok(notes.length > 0);
-  assert.deepEqual(await shown('voltage-warnings'), notes.map((words) => `up to 12 kV: ${words}`));
+  assert.deepEqual(await shown('voltage-notes'), notes.map((words) => `up to 12 kV: ${words}`));
 });
 
 pageTest('a slider dragged with the mouse while it runs: one change; plots follow', {}, async (page) => {

@@ -90,7 +90,7 @@ test('a frame has what the core has, in an array that goes to and fro', () => {
   const {frame} = engine.answer({span: 5e-3, frame: data}), seen = new Frame(frame);
   assert.equal(frame, data, 'filled again, no other');
   for (let k = 1; k <= 5; k++) core.run(seen.get('time') * (k / 5));
-  for (const name of ['stroke', 'opening', 'contraction', 'force', 'capacitance'])
+  for (const name of ['stroke', 'opening', 'contraction', 'force', 'capacitance', 'insulator_field', 'max_stress'])
     assert.ok(Math.abs(seen.get(name) / core.signal(name) - 1) < 1e-9, `${name}: ${seen.get(name)}, ${core.signal(name)}`);
   assert.equal(seen.get('advanced'), 5e-3);
   assert.equal(seen.get('nodes'), 31);

@@ -1,0 +1,62 @@
+#include "actuator/shape.h"
+
+#include <math.h>
+
+#include "electro/series.h"
+
+void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
+  room->line_force = zp_carve(carver, model->nodes);
+  room->insulator_field = zp_carve(carver, model->nodes);
+  room->stress = zp_carve(carver, model->count);
+}
+
+void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape) {
+  zp_stress(&model->stress, shape->x, shape->y, room->stress);
+  shape->stress = room->stress;
+  if (!model->field) return;
+  for (size_t i = 0; i < model->nodes; i++) {
+    room->line_force[i] = zp_plates_law(&model->plates, shape->voltage, shape->gap[i]).W;
+    room->insulator_field[i] = zp_series_at(&model->def, shape->voltage, shape->gap[i]).insulator;
+  }
+  shape->line_force = room->line_force;
+  shape->insulator_field = room->insulator_field;
+}
+
+ZpMargins zp_margins_none(void) {
+  return (ZpMargins){NAN, NAN, 0, NAN, NAN};
+}
+
+/* Is this more than the worst so far, or the first? Of equals the first counts. */
+static bool is_worse(double value, double worst) {
+  return value > worst || (isnan(worst) && !isnan(value));
+}
+
+void zp_margins_join(ZpMargins *worst, ZpMargins other) {
+  worst->liquid = fmax(worst->liquid, other.liquid);
+  if (is_worse(other.insulator, worst->insulator)) {
+    worst->insulator = other.insulator;
+    worst->insulator_place = other.insulator_place;
+  }
+  if (is_worse(other.stress, worst->stress)) {
+    worst->stress = other.stress;
+    worst->stress_place = other.stress_place;
+  }
+}
+
+static ZpMargins fields_at(const ZpModel *model, double voltage, double gap, double place) {
+  ZpSeries seen = zp_series_at(&model->def, voltage, gap);
+  return (ZpMargins){seen.insulator, place, seen.liquid, NAN, NAN};
+}
+
+ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
+  ZpMargins worst = zp_margins_none();
+  for (size_t j = 0; j < model->count; j++)
+    zp_margins_join(&worst, (ZpMargins){NAN, NAN, 0, shape->stress[j], zp_straight_x(model, j / model->s)});
+  for (size_t i = 0; model->field && i < model->nodes; i++)
+    zp_margins_join(&worst, fields_at(model, shape->voltage, shape->gap[i], zp_straight_x(model, i)));
+  return worst;
+}
+
+ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
+  return model->s == 2 ? fields_at(model, voltage, 0, 0) : zp_margins_none();
+}

@@ -1,0 +1,40 @@
+/* What is known of the stations of a shape beyond where they are, and the worst that its materials see. */
+#ifndef ZP_ACTUATOR_SHAPE_H
+#define ZP_ACTUATOR_SHAPE_H
+
+#include <zipact/table.h>
+
+#include "actuator/model.h"
+
+/* Room for what follows from a shape. */
+typedef struct ZpShapeRoom {
+  double *line_force;      /* [nodes] */
+  double *insulator_field; /* [nodes] */
+  double *stress;          /* [count] */
+} ZpShapeRoom;
+
+void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver);
+
+/* A shape whose time, voltage, positions and, with electrodes, gaps are known => the rest of it, in `room`. */
+void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape);
+
+/* The worst that materials see; places are lengths along the ribbon from the clip or clamp. */
+typedef struct ZpMargins {
+  double insulator, insulator_place; /* V/m, m; NAN: there is no insulator between electrodes */
+  double liquid;                     /* V/m; 0 without electrodes */
+  double stress, stress_place;       /* of the metal, Pa, m; NAN: nothing was looked at */
+} ZpMargins;
+
+/* Of nothing. */
+ZpMargins zp_margins_none(void);
+
+/* In a shape that zp_shape_fill has filled. */
+ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape);
+
+/* At the clip of two ribbons, where faces touch whatever the shape is, at `voltage` (V, any sign). */
+ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage);
+
+/* The worse of both, quantity by quantity => worst. */
+void zp_margins_join(ZpMargins *worst, ZpMargins other);
+
+#endif

@@ -1,0 +1,152 @@
+/* map.svg: what a study answers over two list keys, as colours with contours. */
+#include <math.h>
+#include <string.h>
+
+#include "io/sweep.h"
+
+/* Values of each key: fewer are better drawn as curves. */
+static const size_t fewest = 3;
+
+/* The runs as a grid: x is the key that varies fastest. */
+typedef struct Grid {
+  int x, y; /* keys */
+  size_t columns, rows;
+  const char *scalar, *title, *axis, *which, *unit, *count;
+} Grid;
+
+static void choose_scalar(const ZpPlot *plot, Grid *grid) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  grid->scalar = a ? a->scalar[0] : "force_N"; /* of the held platform, whose curves are another picture */
+  grid->title = a ? a->title : "Force on the held platform";
+  grid->axis = a ? a->axis : "force";
+  grid->which = a ? a->legend[0] : NULL;
+  grid->unit = a ? a->unit : "N";
+  grid->count = a ? a->count : "are drawn";
+}
+
+static double value_of(const ZpPlot *plot, const Grid *grid, size_t run) {
+  return zp_result_get(plot->report->result[run], grid->scalar);
+}
+
+/* Are the keys numbers that grow or fall along their lists? A surface needs no less. */
+static bool is_monotonic(const ZpPlot *plot, int key, size_t count, size_t stride) {
+  double first = zp_sweep_value(plot, 0, key), sign = zp_sweep_value(plot, stride, key) - first;
+  for (size_t i = 0; i + 1 < count; i++) {
+    double step = zp_sweep_value(plot, (i + 1) * stride, key) - zp_sweep_value(plot, i * stride, key);
+    if (!(step * sign > 0)) return false;
+  }
+  return true;
+}
+
+/* False if the runs are no such grid. */
+static bool find_grid(const ZpPlot *plot, Grid *grid) {
+  size_t count = plot->report->count, found = 0;
+  bool drawn = zp_sweep_answer(plot) || plot->shows == ZP_SHOWS_held_branch;
+  if (plot->single || !drawn || zp_sweep_key(plot, 1) < 0 || zp_sweep_key(plot, 2) >= 0) return false;
+  *grid = (Grid){.x = zp_sweep_key(plot, 0), .y = zp_sweep_key(plot, 1), .columns = 1};
+  while (grid->columns < count && zp_sweep_value(plot, grid->columns, grid->y) == zp_sweep_value(plot, 0, grid->y))
+    grid->columns++;
+  grid->rows = count / grid->columns;
+  if (grid->columns < fewest || grid->rows < fewest || grid->rows * grid->columns != count) return false;
+  choose_scalar(plot, grid);
+  for (size_t run = 0; run < count; run++)
+    if (isfinite(value_of(plot, grid, run))) found++;
+  return found >= fewest * fewest && is_monotonic(plot, grid->x, grid->columns, 1) &&
+         is_monotonic(plot, grid->y, grid->rows, grid->columns);
+}
+
+static bool has_map(const ZpPlot *plot) {
+  Grid grid;
+  return find_grid(plot, &grid);
+}
+
+/* A block per row of the grid; NaN where there is no answer leaves a hole. */
+static void data_map(const ZpPlot *plot, FILE *file) {
+  Grid grid;
+  if (!find_grid(plot, &grid)) return;
+  fprintf(file, "# %s %s %s\n", zp_key(grid.x)->name, zp_key(grid.y)->name, grid.scalar);
+  for (size_t run = 0; run < plot->report->count; run++) {
+    zp_plot_put(file, zp_sweep_value(plot, run, grid.x), ' ');
+    zp_plot_put(file, zp_sweep_value(plot, run, grid.y), ' ');
+    zp_plot_put(file, value_of(plot, &grid, run), '\n');
+    if ((run + 1) % grid.columns == 0) fputc('\n', file);
+  }
+}
+
+/* An axis whose key grows by factors, over more than a decade, is logarithmic, with tics at the values. */
+static void put_scale(const ZpPlot *plot, FILE *file, char axis, int key, size_t count, size_t stride) {
+  enum { MOST_TICS = 12 };
+  double first = zp_sweep_value(plot, 0, key), last = zp_sweep_value(plot, (count - 1) * stride, key);
+  double middle = zp_sweep_value(plot, (count - 1) / 2 * stride, key), low = fmin(first, last),
+         high = fmax(first, last);
+  if (!(low > 0) || high < 10 * low || middle > 0.35 * high) return;
+  fprintf(file, "set logscale %c\n", axis);
+  for (size_t i = 0; count <= MOST_TICS && i < count; i++)
+    fprintf(file, "%s%g%s",
+            i             ? ", "
+            : axis == 'x' ? "set xtics ("
+                          : "set ytics (",
+            zp_sweep_value(plot, i * stride, key) * zp_sweep_factor(key), i + 1 < count ? "" : ")\n");
+}
+
+static void put_colours(FILE *file) {
+  enum { STEPS = 4 };
+  fputs("set palette defined (", file);
+  for (int i = 0; i <= STEPS; i++)
+    fprintf(file, "%s%d '#%06x'", i ? ", " : "", i, zp_plot_shade((double)i / STEPS));
+  fputs(")\n", file);
+}
+
+static void put_axes(const ZpPlot *plot, FILE *file, const Grid *grid, ZpPlotUnit unit) {
+  fputs("set xlabel ", file);
+  zp_sweep_label(file, grid->x);
+  fputs("\nset ylabel ", file);
+  zp_sweep_label(file, grid->y);
+  fprintf(file, " offset 0.5\nset autoscale xfix\nset autoscale yfix\nset cblabel '%s%s%s%s%s%s' offset 0.5\n",
+          grid->axis, grid->which ? " (" : "", grid->which ? grid->which : "", grid->which ? ")" : "",
+          grid->unit ? " / " : "", unit.text);
+  put_scale(plot, file, 'x', grid->x, grid->columns, 1);
+  put_scale(plot, file, 'y', grid->y, grid->rows, grid->columns);
+}
+
+/* Colours in cells so fine that they look smooth, contours and their values on them. */
+static void put_surface(FILE *file, const Grid *grid, ZpPlotUnit unit) {
+  enum { CELLS = 60 };
+  static const char *const layers[] = {"with pm3d nocontour", "with lines lw 1.2 lc rgb '#ffffff' nosurface",
+                                       "with labels tc rgb '#ffffff' nosurface"};
+  fprintf(file,
+          "unset grid\nunset key\nset view map\nset pm3d interpolate %zu,%zu\nset contour base\n"
+          "set cntrparam levels auto 8\nset cntrlabel onecolor start 2 interval -1 font ',11'\n"
+          "set colorbox user origin 0.85,0.17 size 0.03,0.69\n",
+          1 + CELLS / grid->rows, 1 + CELLS / grid->columns);
+  for (size_t i = 0; i < sizeof layers / sizeof layers[0]; i++)
+    fprintf(file, "%s'map.dat' using ($1*%g):($2*%g):($3*%g) %s", i ? ", \\\n      " : "splot ",
+            zp_sweep_factor(grid->x), zp_sweep_factor(grid->y), unit.factor, layers[i]);
+  fputc('\n', file);
+}
+
+static void script_map(const ZpPlot *plot, FILE *file) {
+  Grid grid;
+  double largest = 0;
+  size_t found = 0;
+  char more[96];
+  if (!find_grid(plot, &grid)) return;
+  for (size_t run = 0; run < plot->report->count; run++) {
+    double value = value_of(plot, &grid, run);
+    if (!isfinite(value)) continue;
+    found++;
+    largest = fmax(largest, fabs(value));
+  }
+  ZpPlotUnit unit = grid.unit ? zp_plot_unit(largest, grid.unit) : (ZpPlotUnit){.factor = 1};
+  snprintf(more, sizeof more, "%zu of %zu runs %s; straight between them", found, plot->report->count, grid.count);
+  zp_plot_head(plot, file, "map", grid.title, 0.82);
+  if (plot->shows == ZP_SHOWS_motion)
+    zp_plot_foot(plot, file, more);
+  else
+    zp_plot_remark(file, more);
+  put_axes(plot, file, &grid, unit);
+  put_colours(file);
+  put_surface(file, &grid, unit);
+}
+
+const ZpPicture zp_map_pictures[] = {{"map", "svg", has_map, script_map, data_map}, {0}};

@@ -1,0 +1,121 @@
+/* Picture of the derivatives of a run, tornado.svg: by how many percent outputs change where a key changes by one. The
+ * key that counts most is on top. */
+#include <math.h>
+#include <string.h>
+
+#include "io/plot.h"
+
+/* Outputs drawn, a colour each. */
+enum { OUTPUTS = 4 };
+
+typedef struct Tornado {
+  const char *output[OUTPUTS];
+  size_t outputs;
+  int key[ZP_MAX_SENSITIVITY_KEYS]; /* the one that counts most first */
+  size_t keys;
+} Tornado;
+
+/* Percent of an output per percent of a key; NAN where either is 0 or not there. */
+static double percent(const ZpPlot *plot, const ZpSensitivity *s) {
+  double key = zp_def_get(&plot->def, s->key), output = zp_result_get(plot->single, s->output);
+  double share = s->value * key / output;
+  return key != 0 && output != 0 && isfinite(share) ? share : (double)NAN;
+}
+
+static double percent_of(const ZpPlot *plot, const char *output, int key) {
+  for (size_t i = 0; i < plot->single->sensitivities; i++) {
+    const ZpSensitivity *s = &plot->single->sensitivity[i];
+    if (s->key == key && strcmp(s->output, output) == 0) return percent(plot, s);
+  }
+  return NAN;
+}
+
+/* The largest percentage of all outputs. */
+static double weight(const ZpPlot *plot, const Tornado *t, int key) {
+  double most = 0;
+  for (size_t k = 0; k < t->outputs; k++)
+    most = fmax(most, fabs(percent_of(plot, t->output[k], key)));
+  return most;
+}
+
+static void add_output(Tornado *t, const char *name) {
+  for (size_t k = 0; k < t->outputs; k++)
+    if (strcmp(t->output[k], name) == 0) return;
+  if (t->outputs < OUTPUTS) t->output[t->outputs++] = name;
+}
+
+/* In its place. */
+static void add_key(const ZpPlot *plot, Tornado *t, int key) {
+  for (size_t k = 0; k < t->keys; k++)
+    if (t->key[k] == key) return;
+  size_t place = t->keys++;
+  for (; place > 0 && weight(plot, t, t->key[place - 1]) < weight(plot, t, key); place--)
+    t->key[place] = t->key[place - 1];
+  t->key[place] = key;
+}
+
+static Tornado tornado(const ZpPlot *plot) {
+  Tornado t = {.outputs = 0};
+  const ZpResult *result = plot->single;
+  for (size_t i = 0; result && i < result->sensitivities; i++)
+    if (isfinite(percent(plot, &result->sensitivity[i]))) add_output(&t, result->sensitivity[i].output);
+  for (size_t i = 0; result && i < result->sensitivities; i++)
+    if (isfinite(percent(plot, &result->sensitivity[i]))) add_key(plot, &t, result->sensitivity[i].key);
+  return t;
+}
+
+static bool has_tornado(const ZpPlot *plot) {
+  return tornado(plot).keys > 0;
+}
+
+static void data_tornado(const ZpPlot *plot, FILE *file) {
+  const Tornado t = tornado(plot);
+  fputs("# row, percent per percent of the key; an index per output\n", file);
+  for (size_t k = 0; k < t.outputs; k++) {
+    fprintf(file, "# %s\n", t.output[k]);
+    for (size_t i = 0; i < t.keys; i++) {
+      fprintf(file, "%zu ", t.keys - i);
+      zp_plot_put(file, percent_of(plot, t.output[k], t.key[i]), '\n');
+    }
+    fputs("\n\n", file);
+  }
+}
+
+/* "pull_in_voltage_V" => "pull in voltage" */
+static void write_title(const char *output, FILE *file) {
+  char words[64];
+  snprintf(words, sizeof words, "%s", output);
+  char *unit = strrchr(words, '_');
+  if (unit) *unit = 0;
+  for (char *c = words; *c; c++)
+    if (*c == '_') *c = ' ';
+  zp_plot_text(file, words);
+}
+
+static void script_tornado(const ZpPlot *plot, FILE *file) {
+  const Tornado t = tornado(plot);
+  const double high = 0.8 / (double)t.outputs;
+  zp_plot_head(plot, file, "tornado", "What counts: percent of the outputs per percent of a key", 0.775);
+  fputs("set lmargin at screen 0.29\nset xlabel 'change of an output for 1 % of the key / %'\n"
+        "set yzeroaxis lt 1 lw 1 lc rgb '#555555'\nset autoscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
+        "set style fill solid noborder\nset ytics (",
+        file);
+  for (size_t i = 0; i < t.keys; i++) {
+    if (i) fputs(", ", file);
+    zp_plot_text(file, zp_key(t.key[i])->name);
+    fprintf(file, " %zu", t.keys - i);
+  }
+  fprintf(file, ") font ',12'\nset yrange [0.4:%zu.6]\n", t.keys);
+  for (size_t k = 0; k < t.outputs; k++) {
+    double top = 0.4 - high * (double)k;
+    fprintf(file, "%s'tornado.dat' index %zu using (0):1:(0):2:($1+%g):($1+%g) with boxxyerror fc rgb '%s' title ",
+            k ? ", \\\n     " : "plot ", k, top - 0.9 * high, top, zp_plot_colour(k));
+    write_title(t.output[k], file);
+  }
+  fputc('\n', file);
+}
+
+const ZpPicture zp_sensitivity_pictures[] = {
+    {"tornado", "svg", has_tornado, script_tornado, data_tornado},
+    {NULL, NULL, NULL, NULL, NULL},
+};

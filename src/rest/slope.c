@@ -1,0 +1,302 @@
+/* Letters of docs/theory.md, section 20: p the key, q coordinates, F forces, K = -dF/dq, m a branch's parameter. */
+#include "rest/slope.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+
+/* -- what can be asked ----------------------------------------------------------------------------- */
+
+/* Keys that say how is computed, not what. */
+static bool is_numerical(const char *name) {
+  static const char *const groups[] = {"solver.", "calibrate.", "electro.refresh_"};
+  for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
+    if (strncmp(name, groups[k], strlen(groups[k])) == 0) return true;
+  return false;
+}
+
+ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err) {
+  const ZpKey *k = zp_key(key);
+  if (def->electro.model == ZP_ELECTRO_FIELD)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "sensitivity.by: requires electro.model plates; the derivatives of a solved field are not known");
+  if (k->type != ZP_KEY_REAL && k->type != ZP_KEY_REAL_AUTO)
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is not a real number: it has no derivative", k->name);
+  if (is_numerical(k->name))
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
+                   k->name);
+  if (isnan(zp_def_get(def, key)))
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is auto: give it a number", k->name);
+  return ZP_OK;
+}
+
+void zp_pose_load(const ZpActuatorDef *def, ZpStatics *s) {
+  s->load = def->load.mass;
+}
+
+/* -- actuators near ------------------------------------------------------------------------------- */
+
+/* Far above what rounding leaves of forces, far below what any law changes over; of the range where the key is 0. */
+static const double part = 5e-5, part_of_range = 1e-6;
+
+/* Difference quotients of fourth order: around the value, below it, above it. */
+typedef struct Stencil {
+  int first;                      /* place of the first point, in steps */
+  double weight[ZP_SLOPE_POINTS]; /* times 12 */
+} Stencil;
+
+static const Stencil stencils[] = {{-2, {1, -8, 0, 8, -1}}, {-4, {3, -16, 36, -48, 25}}, {0, {-25, 48, -36, 16, -3}}};
+enum { STENCILS = sizeof stencils / sizeof stencils[0] };
+
+static void forget(ZpSlope *p) {
+  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
+    if (p->model[k]) zp_statics_destroy(&p->near[k]);
+    zp_model_destroy(p->model[k]);
+    p->model[k] = NULL;
+  }
+}
+
+static ZpStatus build_one(ZpSlope *p, int k, ZpError *err) {
+  ZpActuatorDef def = p->at->model->def;
+  ZpStatus status = zp_def_set(&def, p->key, zp_def_get(&def, p->key) + p->offset[k], err);
+  if (status == ZP_OK) status = zp_model_create(&def, &p->model[k], err);
+  if (status != ZP_OK) return status;
+  if (zp_statics_create(p->model[k], &p->near[k])) return ZP_OK;
+  zp_model_destroy(p->model[k]);
+  p->model[k] = NULL;
+  return zp_fail_memory(err);
+}
+
+static ZpStatus build(ZpSlope *p, const Stencil *stencil, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int k = 0; k < ZP_SLOPE_POINTS && status == ZP_OK; k++) {
+    p->offset[k] = (stencil->first + k) * p->step;
+    p->weight[k] = stencil->weight[k] / (12 * p->step);
+    if (stencil->weight[k] != 0) status = build_one(p, k, err);
+  }
+  if (status != ZP_OK) forget(p);
+  return status;
+}
+
+static size_t carve(ZpSlope *p, void *block) {
+  ZpCarver carver = {block, 0};
+  size_t stride = p->at->model->stride, n = p->at->assembly.n;
+  p->rate = zp_carve(&carver, 2 * stride);
+  p->motion = zp_carve(&carver, 2 * stride);
+  p->tension = zp_carve(&carver, stride);
+  double **vectors[] = {&p->by_key, &p->by_parameter, &p->row};
+  for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+    *vectors[k] = zp_carve(&carver, n);
+  return carver.used;
+}
+
+ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, ZpNewtonWork *work, int key, ZpError *err) {
+  *p = (ZpSlope){.at = at, .work = work, .key = key};
+  const ZpKey *row = zp_key(key);
+  double value = zp_def_get(&at->model->def, key);
+  ZpError reason = {ZP_OK, ""};
+  ZpStatus status = ZP_BAD_INPUT;
+  p->step = value != 0 ? part * fabs(value) : part_of_range * row->max;
+  p->memory = zp_calloc(1, carve(p, NULL));
+  if (!p->memory) return zp_fail_memory(err);
+  carve(p, p->memory);
+  for (int k = 0; k < STENCILS && status == ZP_BAD_INPUT; k++)
+    status = build(p, &stencils[k], &reason);
+  if (status == ZP_MACHINE) return zp_fail_memory(err);
+  if (status != ZP_OK)
+    return zp_fail(err, status, "sensitivity.by: %s = %g %s cannot be changed by 0.02 %% either way: %.200s", row->name,
+                   value, row->unit, reason.message);
+  return ZP_OK;
+}
+
+void zp_slope_close(ZpSlope *p) {
+  forget(p);
+  zp_free(p->memory);
+  p->memory = NULL;
+}
+
+/* -- states of them ------------------------------------------------------------------------------- */
+
+/* Actuator k in the present state, its coordinates stretched as its length is. */
+static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
+  const ZpStatics *at = p->at;
+  ZpStatics *near = &p->near[k];
+  memcpy(near->q, at->q, 2 * at->model->stride * sizeof *near->q);
+  if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
+  near->U = at->U;
+  near->load = at->load;
+  near->opening = at->opening;
+  near->contact_acts = at->contact_acts;
+  pose(&near->model->def, near);
+  return near;
+}
+
+/* Actuator k where the last solution leads to. */
+static ZpStatics *place_along(ZpSlope *p, int k, ZpPose pose) {
+  ZpStatics *near = place(p, k, pose);
+  size_t stride = p->at->model->stride;
+  for (size_t i = 0; i < 2 * stride; i++)
+    near->q[i] = p->at->q[i] + p->offset[k] * p->rate[i];
+  for (size_t j = 0; j < stride; j++)
+    near->tension[j] = p->at->tension[j] + p->offset[k] * p->tension[j];
+  return near;
+}
+
+static void residual(ZpStatics *s, double *r) {
+  zp_statics_system(s).residual(s, r, NULL);
+}
+
+/* Where nothing moves but by the stretching: forces by the key => by_key, coordinates => rate, tensions, reaction. */
+static void differentiate(ZpSlope *p, ZpPose pose) {
+  ZpStatics *at = p->at;
+  size_t stride = at->model->stride, n = at->assembly.n, edges = at->model->count - at->model->s;
+  memset(p->rate, 0, 2 * stride * sizeof *p->rate);
+  memset(p->tension, 0, stride * sizeof *p->tension);
+  memset(p->by_key, 0, n * sizeof *p->by_key);
+  p->reaction = 0;
+  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
+    if (!p->model[k]) continue;
+    const ZpStatics *near = place(p, k, pose);
+    residual(&p->near[k], p->row);
+    for (size_t i = 0; i < n; i++)
+      p->by_key[i] += p->weight[k] * p->row[i];
+    for (size_t i = 0; i < 2 * stride; i++)
+      p->rate[i] += p->weight[k] * (near->q[i] - at->q[i]);
+    for (size_t j = 0; j < edges; j++)
+      p->tension[j] += p->weight[k] * near->eval.edges.T[j];
+    p->reaction += p->weight[k] * near->reaction;
+  }
+}
+
+/* -- solutions ------------------------------------------------------------------------------------ */
+
+/* The exact stiffness at the present point => K; what a held platform's move does to the others, into r. */
+static void stiffness(ZpSlope *p, double *r) {
+  ZpStatics *at = p->at;
+  residual(at, p->work->r);
+  memcpy(at->tension, at->eval.edges.T, (at->model->count - at->model->s) * sizeof *at->tension);
+  zp_statics_system(at).stiffness(at, &p->work->K, r);
+}
+
+/* dq/dp beyond the stretching is in by_key. */
+static void add_motion(ZpSlope *p) {
+  const ZpModel *model = p->at->model;
+  const ZpEdges *e = &p->at->eval.edges;
+  const double *x = p->motion, *y = x + model->stride;
+  zp_assembly_scatter(&p->at->assembly, p->by_key, p->motion); /* what is held stays 0 */
+  for (size_t i = 0; i < 2 * model->stride; i++)
+    p->rate[i] += p->motion[i];
+  for (size_t j = 0; j < model->count - model->s; j++) {
+    double dx = x[j + model->s] - x[j], dy = y[j + model->s] - y[j];
+    p->tension[j] += model->rod.S[j] * (e->ux[j] * dx + e->uy[j] * dy);
+  }
+}
+
+/* What holds the platform changes as its equation does without being held. */
+static void add_reaction(ZpSlope *p) {
+  ZpStatics *at = p->at;
+  double opening = at->opening;
+  at->opening = NAN;
+  stiffness(p, NULL);
+  at->opening = opening;
+  zp_band_multiply(&p->work->K, p->by_key, p->row);
+  p->reaction -= p->row[zp_statics_platform(at)];
+}
+
+bool zp_slope_solve(ZpSlope *p, ZpPose pose) {
+  differentiate(p, pose);
+  stiffness(p, p->by_key);
+  if (!zp_band_factor(&p->work->K)) return false;
+  zp_band_solve(&p->work->K, p->by_key);
+  add_motion(p);
+  if (!isnan(p->at->opening)) add_reaction(p);
+  return true;
+}
+
+double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
+  double sum = 0;
+  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
+    if (!p->model[k]) continue;
+    ZpStatics *near = place_along(p, k, pose);
+    residual(near, p->row);
+    sum += p->weight[k] * output(near, user);
+  }
+  return sum;
+}
+
+/* -- limits --------------------------------------------------------------------------------------- */
+
+/* dF/dm at the present point => by_parameter. */
+static void differentiate_by_parameter(ZpSlope *p, const ZpBranchSystem *branch) {
+  static const double least = 1e-3; /* of the parameter's scale */
+  const Stencil *around = &stencils[0];
+  size_t n = p->at->assembly.n;
+  double m = branch->get(p->at), step = part * fmax(fabs(m), least * branch->m_scale);
+  memset(p->by_parameter, 0, n * sizeof *p->by_parameter);
+  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
+    branch->set(p->at, m + (around->first + k) * step);
+    residual(p->at, p->row);
+    for (size_t i = 0; i < n; i++)
+      p->by_parameter[i] += around->weight[k] / (12 * step) * p->row[i];
+  }
+  branch->set(p->at, m);
+}
+
+/* dF/dp and dF/dm, both over the stiffness. */
+static bool solve_both(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch) {
+  differentiate(p, pose);
+  differentiate_by_parameter(p, branch);
+  stiffness(p, NULL);
+  if (!zp_band_factor(&p->work->K)) return false;
+  zp_band_solve(&p->work->K, p->by_key);
+  zp_band_solve(&p->work->K, p->by_parameter);
+  return true;
+}
+
+static double dot(size_t n, const double *a, const double *b) {
+  double sum = 0;
+  for (size_t i = 0; i < n; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
+/* Is the stiffness singular here, as at a smooth limit point, or does the branch turn at a corner of a law? */
+static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
+  static const double least = 1e3; /* longest steps per change of the parameter by itself; a corner has about 1 */
+  return branch->at_rest.length(p->at, p->by_parameter) * fabs(branch->get(p->at)) > least;
+}
+
+/* Near a limit point K^-1 is the null vector times the left one times much: a quotient of two solutions is one of
+ * products with the left null vector. */
+double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
+  size_t n = p->at->assembly.n;
+  if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
+  return -dot(n, null, p->by_key) / dot(n, null, p->by_parameter);
+}
+
+double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate) {
+  size_t n = p->at->assembly.n;
+  if (!solve_both(p, pose, branch)) return NAN;
+  double direct = 0;
+  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
+    if (!p->model[k]) continue;
+    ZpStatics *near = place(p, k, pose);
+    residual(near, p->row);
+    direct += p->weight[k] * event(near, NULL);
+  }
+  event(p->at, p->row);
+  return (rate - direct - dot(n, p->row, p->by_key)) / dot(n, p->row, p->by_parameter);
+}
+
+/* -- outputs -------------------------------------------------------------------------------------- */
+
+double zp_output_stroke(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_stroke(s);
+}
+
+double zp_output_opening(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_opening(s);
+}

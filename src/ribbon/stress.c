@@ -1,0 +1,59 @@
+/* Letters of docs/theory.md, sections 2 and 8:
+ *   T   tension of an edge, N                        N   tension at a node, N
+ *   k   2 tan(phi / 2) of a joint                    M   its moment, dU/dphi = B (k - k_nat) (1 + k^2 / 4), N m
+ */
+#include "ribbon/stress.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* An edge: its direction and its tension. */
+typedef struct Edge {
+  double ux, uy, T;
+} Edge;
+
+static Edge edge_of(const ZpRodParams *p, const double *x, const double *y, size_t j) {
+  double dx = x[j + p->ribbons] - x[j], dy = y[j + p->ribbons] - y[j], length = sqrt(dx * dx + dy * dy);
+  return (Edge){dx / length, dy / length, p->S[j] * (length - p->l[j])};
+}
+
+static double moment_of(const ZpRodParams *p, size_t j, Edge before, Edge after) {
+  double sine = before.ux * after.uy - before.uy * after.ux, cosine = before.ux * after.ux + before.uy * after.uy;
+  double k = 2 * sine / (1 + cosine);
+  return p->B[j] * (k - p->k0[j]) * (1 + 0.25 * k * k);
+}
+
+/* At the end of a ribbon half an edge lies between the node and the middle of the edge, whose tension is known. */
+static double tension_at_end(Edge last, Edge next) {
+  return 1.5 * last.T - 0.5 * next.T;
+}
+
+static double stress_at(const ZpStressParams *p, size_t j, double moment, double tension) {
+  return p->per_moment[j] * fabs(moment) + p->per_force[j] * fabs(tension);
+}
+
+/* From node j to node `last` of a ribbon, between which no edge is rigid. */
+static void stress_between(const ZpStressParams *params, const double *x, const double *y, size_t j, size_t last,
+                           double *stress) {
+  static const Edge held = {1, 0, 0}; /* the slope beyond an end */
+  const ZpRodParams *p = &params->rod;
+  size_t s = p->ribbons;
+  Edge before = edge_of(p, x, y, j), after = edge_of(p, x, y, j + s);
+  stress[j] = stress_at(params, j, moment_of(p, j, held, before), tension_at_end(before, after));
+  for (j += s; j < last; j += s) {
+    after = edge_of(p, x, y, j);
+    stress[j] = stress_at(params, j, moment_of(p, j, before, after), 0.5 * (before.T + after.T));
+    if (j + s < last) before = after;
+  }
+  stress[last] = stress_at(params, last, moment_of(p, last, after, held), tension_at_end(after, before));
+}
+
+void zp_stress(const ZpStressParams *params, const double *x, const double *y, double *stress) {
+  const ZpRodParams *p = &params->rod;
+  bool whole = p->rigid == p->rigid_end;
+  for (size_t r = 0; r < p->ribbons; r++) {
+    size_t last = (p->nodes - 1) * p->ribbons + r;
+    stress_between(params, x, y, r, whole ? last : p->rigid * p->ribbons + r, stress);
+    if (!whole) stress_between(params, x, y, p->rigid_end * p->ribbons + r, last, stress);
+  }
+}

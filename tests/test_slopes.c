@@ -1,0 +1,286 @@
+/* Derivatives of states of rest and of limits by keys, theory section 20: against differences of the outputs, closed
+ * forms, reciprocity and scaling. */
+#include "check_util.h"
+
+static ZpResult *run(ZpStudy study, const ZpActuatorDef *def) {
+  ZpError err = {ZP_OK, ""};
+  ZpResult *result;
+  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
+  return result;
+}
+
+/* The derivative of `output` by `key` in a result; a failure if there is none. */
+static double slope_in(const ZpResult *result, const char *output, const char *key) {
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (strcmp(result->sensitivity[i].output, output) == 0 &&
+        strcmp(zp_key(result->sensitivity[i].key)->name, key) == 0)
+      return result->sensitivity[i].value;
+  ck_abort_msg("no derivative of %s by %s", output, key);
+  return NAN;
+}
+
+/* d log output / d log key. */
+static double exponent(const ZpResult *result, const ZpActuatorDef *def, const char *output, const char *key) {
+  return slope_in(result, output, key) * zp_def_get(def, zp_key_find(key)) / zp_result_get(result, output);
+}
+
+static ZpResult *run_by(ZpStudy study, ZpActuatorDef *def, const char *by) {
+  ck_assert_int_eq(zp_def_set_text(def, zp_key_find("sensitivity.by"), by, NULL), ZP_OK);
+  return run(study, def);
+}
+
+/* -- against differences of the outputs -------------------------------------------------------------- */
+
+/* An output at value + k steps of a key. */
+static double output_at(ZpStudy study, const ZpActuatorDef *def, const char *output, int key, double value) {
+  ZpActuatorDef near = *def;
+  ck_assert_int_eq(zp_def_set(&near, key, value, NULL), ZP_OK);
+  ZpResult *result = run(study, &near);
+  double found = zp_result_get(result, output);
+  zp_result_destroy(result);
+  return found;
+}
+
+/* All derivatives of a result but the smallest against differences of fourth order over steps of `part` of a key. */
+static void check_differences(ZpStudy study, const ZpActuatorDef *given, const char *by, double part, double allowed) {
+  static const double least = 0.01; /* exponents below: what is left of an output is no better known */
+  ZpActuatorDef def = *given;
+  def.solver.tolerance = 1e-9;
+  ZpResult *result = run_by(study, &def, by);
+  ck_assert_uint_gt(result->sensitivities, 0);
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    double value = zp_def_get(&def, s->key), step = part * value, at[5];
+    if (fabs(exponent(result, &def, s->output, zp_key(s->key)->name)) < least) continue;
+    for (int k = -2; k <= 2; k++)
+      at[k + 2] = k == 0 ? 0 : output_at(study, &def, s->output, s->key, value + k * step);
+    double difference = (8 * (at[3] - at[1]) - (at[4] - at[0])) / (12 * step);
+    ck_assert_msg(fabs(s->value - difference) <= allowed * fabs(difference), "%s by %s: %.9g, by differences %.9g",
+                  s->output, zp_key(s->key)->name, s->value, difference);
+    note_check(__func__, s->output, zp_key(s->key)->name, fabs(s->value / difference - 1), allowed);
+  }
+  zp_result_destroy(result);
+}
+
+START_TEST(strokes_change_as_differences_say) {
+  ZpActuatorDef two = DEF({"mesh.nodes", 31}), whole = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE});
+  ZpActuatorDef springs = DEF({"mesh.nodes", 21}, {"ribbon.model", ZP_RIBBON_MASS_SPRING});
+  ZpActuatorDef bowed = DEF({"mesh.nodes", 31}, {"segment_1.length", 0.0103}, {"segment_1.thickness", 80e-6},
+                            {"segment_1.curvature", 3}, {"insulator.young_modulus", 3e9}, {"insulator.density", 1300});
+  const char *by = "ribbon.thickness, ribbon.length, load.mass, gravity, platform.length";
+  check_differences(ZP_STUDY_STATIONARY, &two, by, 1e-3, 1e-6);
+  check_differences(ZP_STUDY_STATIONARY, &whole, by, 1e-3, 1e-6);
+  check_differences(ZP_STUDY_STATIONARY, &springs, by, 1e-3, 1e-6);
+  check_differences(ZP_STUDY_STATIONARY, &bowed,
+                    "segment_1.length, segment_1.thickness, segment_1.curvature, insulator.thickness, ribbon.length",
+                    1e-3, 1e-6);
+}
+END_TEST
+
+/* Pull-in, a jump that closes, release, largest load; the corner of the breakdown cap is somewhere along the ribbon. */
+START_TEST(limits_change_as_differences_say) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  check_differences(ZP_STUDY_LIMITS, &def,
+                    "ribbon.thickness, ribbon.length, load.mass, insulator.permittivity, medium.breakdown_field", 1e-3,
+                    1e-6);
+}
+END_TEST
+
+/* The stiffness of the paper's springs is not symmetric: left and right null vector differ. */
+START_TEST(pull_in_of_springs_changes_as_differences_say) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"ribbon.model", ZP_RIBBON_MASS_SPRING});
+  check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity", 1e-3, 1e-6);
+}
+END_TEST
+
+START_TEST(held_forces_change_as_differences_say) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"drive.voltage", 3e3});
+  check_differences(ZP_STUDY_ISOMETRIC, &def,
+                    "ribbon.thickness, insulator.permittivity, isometric.separation, drive.voltage", 1e-4, 2e-6);
+}
+END_TEST
+
+START_TEST(frequencies_change_as_differences_say) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"modes.voltage", 3e3});
+  check_differences(ZP_STUDY_MODES, &def, "ribbon.thickness, load.mass, ribbon.length", 3e-3, 2e-6);
+}
+END_TEST
+
+/* -- closed forms ----------------------------------------------------------------------------------- */
+
+/* F L^3 / (3 E I), of a weightless cantilever that bends little. */
+START_TEST(stroke_of_a_cantilever) {
+  static const struct {
+    const char *key;
+    double power;
+  } expected[] = {{"ribbon.length", 3}, {"ribbon.thickness", -3}, {"ribbon.young_modulus", -1},
+                  {"load.mass", 1},     {"gravity", 1},           {"ribbon.width", -1}};
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.density", 0},
+                          {"load.mass", 1e-6}, {"ribbon.length", 0.045}, {"ribbon.thickness", 100e-6});
+  ZpResult *result = run_by(ZP_STUDY_STATIONARY, &def,
+                            "ribbon.length, ribbon.thickness, ribbon.young_modulus, load.mass, gravity, ribbon.width");
+  for (size_t k = 0; k < LENGTH_OF(expected); k++)
+    ck_near(exponent(result, &def, "stroke_m", expected[k].key), expected[k].power, 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* t / L^2 sqrt(E / rho). */
+START_TEST(frequencies_of_a_cantilever) {
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"gravity", 0}, {"load.mass", 0});
+  ZpResult *result =
+      run_by(ZP_STUDY_MODES, &def, "ribbon.length, ribbon.thickness, ribbon.young_modulus, ribbon.density");
+  const char *const first[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
+  for (size_t k = 0; k < LENGTH_OF(first); k++) {
+    ck_near(exponent(result, &def, first[k], "ribbon.length"), -2, 1e-6);
+    ck_near(exponent(result, &def, first[k], "ribbon.thickness"), 1, 1e-6);
+    ck_near(exponent(result, &def, first[k], "ribbon.young_modulus"), 0.5, 1e-6);
+    ck_near(exponent(result, &def, first[k], "ribbon.density"), -0.5, 1e-6);
+  }
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* The co-energy has one mixed derivative: what a voltage adds to the force is what the opening takes from the charge,
+ * (20.5). Holds to rounding on any mesh. */
+START_TEST(force_and_charge_are_reciprocal) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 41}, {"drive.voltage", 4e3});
+  ZpResult *result = run_by(ZP_STUDY_ISOMETRIC, &def, "drive.voltage, isometric.separation");
+  ck_near(slope_in(result, "force_N", "drive.voltage"), -slope_in(result, "charge_C", "isometric.separation"), 1e-7);
+  ck_near(slope_in(result, "opening_m", "isometric.separation"), 1, 1e-9);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* All forces c times as large, the voltages grow as its root: pull-in and closing at a limit point, and release. A
+ * wrong sign at a limit point gives -1/2. */
+static void check_scaling(const ZpActuatorDef *given) {
+  static const char *const outputs[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
+  ZpActuatorDef def = *given;
+  ZpResult *result =
+      run_by(ZP_STUDY_LIMITS, &def, "ribbon.young_modulus, gravity, medium.breakdown_field, insulator.breakdown_field");
+  for (size_t k = 0; k < LENGTH_OF(outputs); k++) {
+    double forces =
+        exponent(result, &def, outputs[k], "ribbon.young_modulus") + exponent(result, &def, outputs[k], "gravity");
+    double fields = exponent(result, &def, outputs[k], "medium.breakdown_field") +
+                    exponent(result, &def, outputs[k], "insulator.breakdown_field");
+    ck_near(forces + 0.5 * fields, 0.5, 1e-6);
+  }
+  zp_result_destroy(result);
+}
+
+START_TEST(limits_scale_with_forces) {
+  ZpActuatorDef jumps = DEF({"mesh.nodes", 31}), free = DEF({"mesh.nodes", 31}, {"electro.breakdown_cap", false});
+  check_scaling(&jumps);
+  check_scaling(&free);
+}
+END_TEST
+
+/* -- closing gradually ------------------------------------------------------------------------------ */
+
+/* It closes after a limit point, gradually, at a share of the gap with which it hangs: that gap changes, too. */
+START_TEST(gradual_closing_changes_as_differences_say) {
+  ZpActuatorDef def = DEF({"ribbon.thickness", 200e-6});
+  ZpResult *result = run(ZP_STUDY_LIMITS, &def);
+  double closing = zp_result_get(result, "closing_voltage_V"), pull_in = zp_result_get(result, "pull_in_voltage_V");
+  zp_result_destroy(result);
+  ck_assert_msg(closing > pull_in, "closes by the jump of the pull-in, %g V", closing);
+  check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity, gravity", 1e-3, 1e-6);
+}
+END_TEST
+
+/* The closed state under 120 g opens at a corner of the breakdown cap: there is no null vector, and one note says so
+ * for all keys. */
+START_TEST(no_derivative_at_a_corner) {
+  ZpActuatorDef def = DEF({"load.mass", 120e-3}, {"drive.voltage", 12e3});
+  ZpResult *result = run_by(ZP_STUDY_LIMITS, &def, "gravity, load.mass, insulator.permittivity");
+  size_t notes = 0;
+  for (size_t i = 0; i < result->notes; i++)
+    notes += strstr(result->note[i], "release_voltage_V has no derivatives") != NULL;
+  ck_assert_uint_eq(notes, 1);
+  ck_assert_double_nan(slope_in(result, "release_voltage_V", "gravity"));
+  ck_assert_double_nan(slope_in(result, "release_voltage_V", "load.mass"));
+  ck_assert(slope_in(result, "max_load_kg", "gravity") < 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- what is asked ---------------------------------------------------------------------------------- */
+
+START_TEST(what_has_no_derivative_is_refused) {
+  static const struct {
+    const char *by, *words;
+    ZpStudy study;
+  } wrong[] = {{"ribbon.thicknes", "did you mean ribbon.thickness?", ZP_STUDY_STATIONARY},
+               {"mesh.nodes", "mesh.nodes is not a real number", ZP_STUDY_STATIONARY},
+               {"study", "study is not a real number", ZP_STUDY_STATIONARY},
+               {"ribbon.plane", "ribbon.plane is not a real number", ZP_STUDY_MODES},
+               {"gravity, gravity", "gravity is named twice", ZP_STUDY_LIMITS},
+               {"gravity,", "unknown key", ZP_STUDY_LIMITS},
+               {"solver.tolerance", "a setting of the computation", ZP_STUDY_EQUILIBRIUM},
+               {"electro.insulator_offset", "is auto: give it a number", ZP_STUDY_ISOMETRIC},
+               {",", "unknown key", ZP_STUDY_ISOMETRIC}};
+  for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
+    ZpActuatorDef def = zp_actuator_def_default();
+    ZpError err = {ZP_OK, ""};
+    ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), wrong[k].by, NULL), ZP_OK);
+    ck_assert_int_eq(zp_study_check(wrong[k].study, &def, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, "sensitivity.by") && strstr(err.message, wrong[k].words), "%s", err.message);
+  }
+  ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD});
+  ZpError err = {ZP_OK, ""};
+  zp_def_set_text(&field, zp_key_find("sensitivity.by"), "gravity", NULL);
+  ck_assert_int_eq(zp_study_check(ZP_STUDY_LIMITS, &field, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, "requires electro.model plates"), "%s", err.message);
+}
+END_TEST
+
+START_TEST(motion_notes_that_it_has_none) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"solver.end_time", 1e-3});
+  ZpResult *result = run_by(ZP_STUDY_ACTUATE, &def, "gravity");
+  size_t notes = 0;
+  for (size_t i = 0; i < result->notes; i++)
+    notes += strstr(result->note[i], "sensitivity.by is ignored: this study has no derivatives") != NULL;
+  ck_assert_uint_eq(notes, 1);
+  ck_assert_uint_eq(result->sensitivities, 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A key at the end of its range, or at 0, or as large as another key allows, has a derivative from one side. */
+START_TEST(keys_at_their_bounds) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"load.share", 1}, {"platform.length", 0.09});
+  ZpResult *result = run_by(ZP_STUDY_STATIONARY, &def, "load.share, platform.length, insulator.young_modulus");
+  ck_assert(slope_in(result, "stroke_m", "load.share") > 0);
+  ck_assert(slope_in(result, "stroke_m", "platform.length") < 0);
+  ck_assert(slope_in(result, "stroke_m", "insulator.young_modulus") < 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("slopes");
+  TCase *tests = tcase_create("slopes");
+  tcase_add_test(tests, strokes_change_as_differences_say);
+  tcase_add_test(tests, limits_change_as_differences_say);
+  tcase_add_test(tests, pull_in_of_springs_changes_as_differences_say);
+  tcase_add_test(tests, held_forces_change_as_differences_say);
+  tcase_add_test(tests, frequencies_change_as_differences_say);
+  tcase_add_test(tests, stroke_of_a_cantilever);
+  tcase_add_test(tests, frequencies_of_a_cantilever);
+  tcase_add_test(tests, force_and_charge_are_reciprocal);
+  tcase_add_test(tests, limits_scale_with_forces);
+  tcase_add_test(tests, gradual_closing_changes_as_differences_say);
+  tcase_add_test(tests, no_derivative_at_a_corner);
+  tcase_add_test(tests, what_has_no_derivative_is_refused);
+  tcase_add_test(tests, motion_notes_that_it_has_none);
+  tcase_add_test(tests, keys_at_their_bounds);
+  suite_add_tcase(suite, tests);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed > 0;
+}
