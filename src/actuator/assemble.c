@@ -90,10 +90,14 @@ void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *n
     if (a->equation[k] >= 0) nodes[place(a, k)] = equations[a->equation[k]];
 }
 
-void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
-  memset(equations, 0, a->n * sizeof *equations);
+void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) equations[a->equation[k]] += nodes[place(a, k)];
+}
+
+void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
+  memset(equations, 0, a->n * sizeof *equations);
+  zp_assembly_add(a, nodes, equations);
 }
 
 void zp_assembly_masses(const ZpAssembly *a, const double *mass, double *equations) {
@@ -283,4 +287,13 @@ void zp_assemble_own_by(const ZpAssembly *a, size_t c, size_t k, double value, Z
   if (other < 0) return;
   size_t row = (size_t)(own < other ? own : other), column = (size_t)(own < other ? other : own);
   *zp_band_at(K, row, column) += value;
+}
+
+void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
+  int row = a->equation[2 * a->s * station + 1], column = a->equation[2 * (a->s * station + a->s - 1) + 1];
+  if (row >= 0) *zp_band_at(K, (size_t)row, (size_t)row) += upper;
+  if (column >= 0) *zp_band_at(K, (size_t)column, (size_t)column) += lower;
+  if (row < 0 || column < 0) return;
+  *zp_band_at(K, (size_t)(row < column ? row : column), (size_t)(row < column ? column : row)) +=
+      row == column ? 2 * both : both;
 }

@@ -30,6 +30,9 @@ void zp_assembly_destroy(ZpAssembly *assembly);
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
 
+/* equations [n] += forces on nodes [2 stride], summed over what has the same equation. */
+void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
+
 /* (forces on nodes [2 stride], or masses [count]) => sums over what has the same equation [n]. */
 void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *equations);
@@ -42,6 +45,10 @@ void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand 
  * k. Of a symmetric matrix. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
+
+/* K += values at the heights of both nodes of a station, and between them. Of a symmetric matrix. */
+void zp_assemble_heights(const ZpAssembly *assembly, size_t station, double upper, double lower, double both,
+                         ZpBand *K);
 
 /* u' K u of the same for a direction u [n], edge by edge. Along a motion that hardly stretches an edge the matrix would
  * lose it in rounding. */

@@ -19,6 +19,7 @@ static size_t carve(ZpDynamics *d, void *block) {
   d->scale = zp_carve(&carver, all);
   d->kind = (ZpUnknown *)(void *)zp_carve(&carver, all); /* room for doubles is more than enough */
   d->own = zp_carve(&carver, model->own * model->nodes);
+  d->moved = zp_carve(&carver, 2 * stride);
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
   return carver.used;
@@ -53,6 +54,8 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .U1 = d->U1,
                   .load = mean_load(d),
                   .own = d->own,
+                  .memory = zp_state_memory(d->model, d->state),
+                  .v0 = zp_state_motion(d->model, d->state).vx,
                   .w = d->state->last_step > 0 ? d->mean_v : NULL,
                   .share = 1,
                   .beyond = zp_state_beyond(d->model, d->state)};
@@ -219,7 +222,7 @@ static double impact(ZpDynamics *d) {
     loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
     any |= d->eval.faces.stiffness[i] > 0;
   }
-  if (!any) return loss;
+  if (!any || model->has_film) return loss; /* a film has taken their speed */
   loss += kinetic_energy(d);
   zp_implicit_smooth(&d->stepper, d->h, d->v);
   for (size_t i = 1; i < model->nodes; i++)
@@ -240,6 +243,25 @@ static void add_own(ZpDynamics *d) {
   }
   d->system.kind = d->kind;
   d->system.scale = d->scale;
+}
+
+static void inertia(void *self, const double *a, double *f) {
+  ZpDynamics *d = self;
+  ZpSpan span = span_of(d);
+  zp_assembly_scatter(&d->assembly, a, d->moved);
+  zp_system_inertia(d->model, &span, &d->eval, d->moved, d->force);
+  zp_assembly_add(&d->assembly, d->force, f);
+}
+
+/* Each outer face moves its own mass of liquid up and down. */
+static void add_liquid(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  double side = zp_outer_side(&model->outer);
+  for (size_t j = 0; j < model->count; j++) {
+    int row = d->assembly.equation[2 * j + 1];
+    if (row >= 0) d->mass[row] += side * zp_film_length(&model->film, j / model->s);
+  }
+  d->system.inertia = inertia;
 }
 
 /* The voltage behind a source has a rate and no inertia. */
@@ -272,6 +294,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   d->system.mass = d->mass;
   zp_assembly_masses(&d->assembly, model->mass, d->mass);
   if (source || model->own) add_own(d);
+  if (model->has_film) add_liquid(d);
   if (source) add_voltage(d);
   const ZpActuatorDef *def = &model->def;
   d->stepper.balance = 1e-5 * def->solver.tolerance;
@@ -309,26 +332,21 @@ static double far(const ZpModel *model, const ZpState *state) {
   return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
 }
 
-double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
+/* The state where the step begins => q, v and what else evolves. */
+static void load(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
-  double *q = zp_state_q(model, state), *v = zp_state_v(model, state), *w = zp_state_mean_v(model, state),
-         *a = zp_state_mean_a(model, state);
-  d->state = state;
-  d->latest = latest;
-  d->U0 = state->U;
-  d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
-  memcpy(d->start, q, 2 * model->stride * sizeof *q);
-  zp_assembly_gather(&d->assembly, q, d->q);
-  zp_assembly_gather(&d->assembly, v, d->v);
-  zp_assembly_gather(&d->assembly, w, d->history.w);
-  zp_assembly_gather(&d->assembly, a, d->history.a);
+  d->mean_v = zp_state_mean_v(model, state);
+  memcpy(d->start, zp_state_q(model, state), 2 * model->stride * sizeof *d->start);
+  zp_assembly_gather(&d->assembly, zp_state_q(model, state), d->q);
+  zp_assembly_gather(&d->assembly, zp_state_v(model, state), d->v);
+  zp_assembly_gather(&d->assembly, d->mean_v, d->history.w);
+  zp_assembly_gather(&d->assembly, zp_state_mean_a(model, state), d->history.a);
   const double *own = zp_state_own(model, state);
   for (size_t c = 0; c < model->own * model->nodes; c++) {
     size_t i = (size_t)d->assembly.own_equation[c];
     d->own[c] = d->q[i] = own[c];
     d->v[i] = d->history.w[i] = d->history.a[i] = 0;
   }
-  d->mean_v = w;
   if (d->source) {
     size_t u = d->assembly.n;
     d->q[u] = state->U;
@@ -338,19 +356,31 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   }
   d->history.last = state->last_step;
   d->history.next = state->next_step;
-  double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
-  if (!(taken > 0)) return 0;
+}
+
+static void book_losses(ZpDynamics *d, ZpState *state) {
+  for (size_t c = 0; c < d->model->own * d->model->nodes; c++)
+    d->own[c] = d->q[d->assembly.own_equation[c]];
   ZpSpan span = span_of(d);
-  ZpLosses losses = zp_system_losses(model, &span, &d->eval);
-  if (model->field) {
-    book_work(d, state);
-    state->contact_loss += impact(d);
-  }
-  double *hangs = q + model->stride + zp_load_node(&model->topology), before = *hangs, load = mean_load(d);
-  zp_assembly_scatter(&d->assembly, d->q, q);
-  zp_assembly_scatter(&d->assembly, d->v, v);
-  zp_assembly_scatter(&d->assembly, d->history.w, w);
-  zp_assembly_scatter(&d->assembly, d->history.a, a);
+  ZpLosses losses = zp_system_losses(d->model, &span, &d->eval);
+  state->drag_loss += losses.drag;
+  state->internal_loss += losses.internal;
+  state->along_loss += losses.along;
+  state->across_loss += losses.across;
+  state->jet_loss += losses.jets;
+  state->outer_drag_loss += losses.outer;
+}
+
+/* And where it has ended, back. */
+static void store(ZpDynamics *d, ZpState *state) {
+  const ZpModel *model = d->model;
+  zp_assembly_scatter(&d->assembly, d->q, zp_state_q(model, state));
+  zp_assembly_scatter(&d->assembly, d->v, zp_state_v(model, state));
+  zp_assembly_scatter(&d->assembly, d->history.w, zp_state_mean_v(model, state));
+  zp_assembly_scatter(&d->assembly, d->history.a, zp_state_mean_a(model, state));
+  memcpy(zp_state_own(model, state), d->own, model->own * model->nodes * sizeof *d->own);
+  memcpy(zp_state_own(model, state) + model->own * model->nodes, d->eval.memory_end,
+         model->kept * model->nodes * sizeof *d->own);
   state->t = end_time(d);
   if (d->source) {
     state->U_rate = d->history.w[d->assembly.n];
@@ -358,11 +388,26 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   }
   state->last_step = d->history.last;
   state->next_step = d->history.next;
-  state->load_work += load * (before - *hangs);
+}
+
+double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
+  const ZpModel *model = d->model;
+  d->state = state;
+  d->latest = latest;
+  d->U0 = state->U;
+  d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
+  load(d, state);
+  double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
+  if (!(taken > 0)) return 0;
+  book_losses(d, state);
+  if (model->field) {
+    book_work(d, state);
+    state->contact_loss += impact(d);
+  }
+  const double *hangs = zp_state_q(model, state) + model->stride + zp_load_node(&model->topology);
+  double before = *hangs, hung = mean_load(d);
+  store(d, state);
+  state->load_work += hung * (before - *hangs);
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, d->eval.plates.gap);
-  state->drag_loss += losses.drag;
-  state->internal_loss += losses.internal;
-  state->viscous_loss += losses.viscous;
-  memcpy(zp_state_own(model, state), d->own, model->own * model->nodes * sizeof *d->own);
   return taken;
 }
