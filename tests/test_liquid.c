@@ -186,6 +186,25 @@ START_TEST(test_state_of_the_liquid_is_kept) {
 }
 END_TEST
 
+/* A simulation goes on with liquid where one without it was, and the other way round: its liquid begins at rest. */
+START_TEST(test_liquid_comes_and_goes) {
+  ZpActuatorDef def[2] = {DEF({"mesh.nodes", 31}), DEF({"mesh.nodes", 31})};
+  def[1].liquid.model = ZP_LIQUID_SUBMERGED;
+  ZpModel *models[2] = {model_of(&def[0]), model_of(&def[1])};
+  ZpSim *from = sim_of(models[_i]), *sim = sim_of(models[1 - _i]);
+  ZpError err;
+  ck_assert_int_eq(zp_sim_run(from, 0.02, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_take_over(sim, from, &err), ZP_OK);
+  ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(from, "opening"));
+  ck_assert_int_eq(zp_sim_run(sim, 0.04, false, NULL, NULL), ZP_REACHED_END);
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-6 * zp_sim_get(sim, "field_energy"));
+  zp_sim_destroy(from);
+  zp_sim_destroy(sim);
+  for (int k = 0; k < 2; k++)
+    zp_model_destroy(models[k]);
+}
+END_TEST
+
 /* -- keys ------------------------------------------------------------------------------------------ */
 
 /* What the film does not know is refused, by the name of the key. */
@@ -254,6 +273,7 @@ int main(void) {
   tcase_add_loop_test(runs, test_energy_of_zip_hold_and_release, 0, 3);
   tcase_add_test(runs, test_whole_is_two_halves);
   tcase_add_test(runs, test_state_of_the_liquid_is_kept);
+  tcase_add_loop_test(runs, test_liquid_comes_and_goes, 0, 2);
   tcase_add_test(runs, test_random_designs);
   suite_add_tcase(suite, runs);
   TCase *keys = tcase_create("keys");

@@ -49,7 +49,7 @@ static size_t front(const ZpModel *model, const ZpState *state) {
 /* At a quarter of the flexible length of a half, m. */
 static double film_thickness(const ZpModel *model, const ZpState *state) {
   const double *y = zp_state_motion(model, state).y;
-  if (!model->has_film) return NAN;
+  if (!model->has_film) return 0;
   size_t elements = zp_half_elements(&model->topology), i = elements / 4;
   double beyond = 0.25 * (double)(elements % 4);
   double here = zp_film_thickness(&model->film, zp_plates_gap(&model->plates, y, i)),
