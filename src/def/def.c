@@ -497,9 +497,10 @@ static ZpStatus check_needs(const ZpActuatorDef *def, const char *what, const Ne
 
 /* What the whole actuator asks of other keys: the paper's own numerics, and the solved field, know the half only. */
 static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
-  static const Need needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_ROD},
-                               {"electro.model", ZP_ELECTRO_PLATES},      {"electro.surface", ZP_SURFACE_POLYLINE},
-                               {"contact.model", ZP_CONTACT_UNILATERAL},  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+  static const Need needs[] = {
+      {"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_ROD},
+      {"electro.model", ZP_ELECTRO_PLATES},      {"electro.surface", ZP_SURFACE_POLYLINE},
+      {"contact.model", ZP_CONTACT_UNILATERAL},  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
   if (def->actuator.symmetry != ZP_SYMMETRY_NONE) return ZP_OK;
   return check_needs(def, "actuator.symmetry = none", needs, sizeof needs / sizeof needs[0], "actuator.symmetry half",
                      err);
