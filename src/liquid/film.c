@@ -134,7 +134,7 @@ static size_t across_at(size_t i, int k) {
 }
 
 static size_t cavity_at(size_t i) {
-  return ZP_FILM_STATE * i + 2 * ZP_FILM_MODES;
+  return ZP_FILM_STATE * i + ZP_FILM_CAVITY;
 }
 
 static void flow_along(const ZpFilmParams *p, size_t i, int k, double h, const double *start, const double *heads,

@@ -17,7 +17,7 @@
 
 #include "base/memory.h"
 
-enum { ZP_FILM_MODES = 2, ZP_FILM_STATE = 2 * ZP_FILM_MODES + 1 };
+enum { ZP_FILM_MODES = 2, ZP_FILM_CAVITY = 2 * ZP_FILM_MODES, ZP_FILM_STATE };
 
 typedef struct ZpFilmParams {
   size_t nodes;                  /* N stations */
