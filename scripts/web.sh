@@ -9,7 +9,7 @@ mkdir -p web/build
 
 # The core without what reads or writes files (web/units.c stands in for it) and without one law, the two-dimensional
 # field: its line of terms.def and its study are left out, with all that only they need.
-sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/paper src/drive src/solve src/actuator src/term src/system src/rest \
+sources=$(find src/base src/def src/math src/ribbon src/electro src/contact src/liquid src/paper src/drive src/solve src/actuator src/term src/system src/rest \
   src/sim src/study -name '*.c' | sort | grep -v -E \
   -e 'term/field\.c|electro/(edges_fit|field|grid|surplus)\.c|math/skyline\.c|study/(profile|faces|bookkeeping)\.c')
 # shellcheck disable=SC2086

@@ -39,6 +39,10 @@
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
+/* The same in a bath, and in one so viscous that nothing else counts. */
+#define BATH    "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s"
+#define VISCOUS BATH " medium.kinematic_viscosity=1000mm2/s liquid.inertia=false medium.drag_coefficient=0"
+
 /* The paper's particles, zipping one after the other. */
 #define PARTICLES                                                                                                      \
   "study=actuate mesh.nodes=11 ribbon.model=mass_spring mass_spring.axial=code solver.integrator=explicit "            \
@@ -219,6 +223,23 @@ static const Row rows[] = {
      "10MV/m",
      "20MV/m",
      {{TIMES, "force_N", 4, 1e-6}, {TIMES, "charge_C", 2, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
+
+    {"medium.kinematic_viscosity", VISCOUS, "1000mm2/s", "2000mm2/s", {{TIMES, "zip_time_s", 2, 1e-2}}},
+    {"medium.density", VISCOUS, "500kg/m3", "1000kg/m3", {{TIMES, "zip_time_s", 2, 1e-2}}},
+    {"medium.drag_coefficient",
+     BATH,
+     "1.5",
+     "0",
+     {{BECOMES, "outer_drag_loss_J", 0, 0}, {LESS, "zip_time_s", 0.97, 0}}},
+    {"liquid.model", BATH, "none", "submerged", {{MORE, "zip_time_s", 2, 0}, {MORE, "viscous_loss_J", 0, 0}}},
+    {"liquid.lateral_flow",
+     BATH,
+     "true",
+     "false",
+     {{BECOMES, "film_across_loss_J", 0, 0}, {BECOMES, "jet_loss_J", 0, 0}, {MORE, "zip_time_s", 1.05, 0}}},
+    {"liquid.inertia", BATH, "true", "false", {{BECOMES, "jet_loss_J", 0, 0}, {LESS, "zip_time_s", 0.9, 0}}},
+    /* closed from the start: what lies between faces that do not touch yet */
+    {"film.roughness", CLOSED " liquid.model=submerged", "1um", "2um", {{TIMES, "film_thickness_m", 2, 1e-3}}},
 
     {"load.mass", STRIP, "10mg", "5mg", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},

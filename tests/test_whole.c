@@ -214,7 +214,7 @@ START_TEST(equations_are_those_of_the_topology) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 4);
   ZpModel *model = model_of(&def);
   ZpAssembly a;
-  ck_assert(zp_assembly_create(model, true, &a));
+  ck_assert(zp_assembly_create(model, 0, true, &a));
   const ZpTopology *t = &model->topology;
   ck_assert_uint_eq(t->stations, 8);
   ck_assert_uint_eq(a.n, 8 * 4 - 2 * 2 - 2 * 2 - 2 - 1); /* clips, x of platforms, y of the upper, and of the lower */

@@ -6,11 +6,16 @@
 
 #include "base/kernel.h"
 
-static size_t number(const ZpTopology *t, int *equation) {
+/* Station by station: coordinates of its nodes, then unknowns of the laws. */
+static size_t number(const ZpTopology *t, ZpAssembly *a) {
   int next = 0;
-  for (size_t k = 0; k < 2 * t->nodes; k++) {
-    size_t leader = zp_topology_leader(t, k);
-    equation[k] = zp_topology_is_held(t, k) ? -1 : leader < k ? equation[leader] : next++;
+  for (size_t i = 0; i < t->stations; i++) {
+    for (size_t k = 2 * zp_upper(t, i); k < 2 * zp_upper(t, i + 1); k++) {
+      size_t leader = zp_topology_leader(t, k);
+      a->equation[k] = zp_topology_is_held(t, k) ? -1 : leader < k ? a->equation[leader] : next++;
+    }
+    for (size_t c = 0; c < a->own; c++)
+      a->own_equation[a->own * i + c] = next++;
   }
   return (size_t)next;
 }
@@ -24,39 +29,47 @@ static ZpParts parts_of(const ZpTopology *t, const int *equation) {
   return parts;
 }
 
-/* Coordinate - equation of all coordinates of stations i .. i + 2, if that is one number; else -1. */
-static int shift_of(const ZpAssembly *a, size_t i) {
-  if (i + 2 >= a->nodes) return -1;
-  size_t first = 2 * a->s * i, end = 2 * a->s * (i + 3);
-  int shift = (int)first - a->equation[first];
-  for (size_t k = first; k < end; k++)
-    if (a->equation[k] < 0 || (int)k - a->equation[k] != shift) return -1;
-  return shift;
+/* How many equations a station has whose coordinates are free. */
+static size_t per_station(const ZpAssembly *a) {
+  return 2 * a->s + a->own;
 }
 
-bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *a) {
+/* The equation of the first coordinate of station i, where those of stations i .. i + 2 all follow it; else -1. */
+static int first_of(const ZpAssembly *a, size_t i) {
+  if (i + 2 >= a->nodes) return -1;
+  int first = a->equation[2 * a->s * i];
+  for (size_t m = 0; m < 3; m++)
+    for (size_t c = 0; c < 2 * a->s; c++)
+      if (first < 0 || a->equation[2 * a->s * (i + m) + c] != first + (int)(m * per_station(a) + c)) return -1;
+  return first;
+}
+
+bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *a) {
   *a = (ZpAssembly){.s = model->s,
                     .nodes = model->nodes,
                     .count = model->count,
                     .stride = model->stride,
-                    .bandwidth = 6 * model->s - 1,
+                    .own = own,
                     .symmetric = symmetric};
+  a->bandwidth = 3 * per_station(a) - 1;
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
-  a->shift = zp_calloc(model->nodes, sizeof *a->shift);
-  if (!a->equation || !a->shift) {
+  a->first = zp_calloc(model->nodes, sizeof *a->first);
+  a->own_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->own_equation);
+  if (!a->equation || !a->first || !a->own_equation) {
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(&model->topology, a->equation);
+  a->n = number(&model->topology, a);
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
-    a->shift[i] = shift_of(a, i);
+    a->first[i] = first_of(a, i);
   return true;
 }
 
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
-  zp_free(a->shift);
+  zp_free(a->first);
+  zp_free(a->own_equation);
   *a = (ZpAssembly){0};
 }
 
@@ -77,10 +90,14 @@ void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *n
     if (a->equation[k] >= 0) nodes[place(a, k)] = equations[a->equation[k]];
 }
 
-void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
-  memset(equations, 0, a->n * sizeof *equations);
+void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) equations[a->equation[k]] += nodes[place(a, k)];
+}
+
+void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
+  memset(equations, 0, a->n * sizeof *equations);
+  zp_assembly_add(a, nodes, equations);
 }
 
 void zp_assembly_masses(const ZpAssembly *a, const double *mass, double *equations) {
@@ -114,10 +131,11 @@ static void add_block(const ZpAssembly *a, size_t row, size_t column, const doub
 /* Edge l is left of node j, edge j right of it, edge r right of that. The force R of an edge acts on its right node, -R
  * on its left, so node j with itself, the next node of its ribbon and the one after have the blocks
  *   D_ll - D_lj - D_jl + D_jj,   D_lj - D_jj + D_jr,   -D_jr */
-ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t i, size_t j, const double (*D)[4], ZpBand *K) {
+ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t per, size_t i, size_t j, const double (*D)[4],
+                                  ZpBand *K) {
   const double *ll = D[3 * (j - s) + 1], *lj = D[3 * (j - s) + 2], *jl = D[3 * j], *jj = D[3 * j + 1],
                *jr = D[3 * j + 2];
-  double *x = K->a + (2 * j - (size_t)a->shift[i]) * K->stride, *y = x + K->stride;
+  double *x = K->a + ((size_t)a->first[i] + 2 * (j - s * i)) * K->stride, *y = x + K->stride;
   double own[4], next[4];
   for (size_t k = 0; k < 4; k++) {
     own[k] = (ll[k] - lj[k]) + (jj[k] - jl[k]);
@@ -126,14 +144,14 @@ ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t i, size_
   x[0] += own[0];
   x[1] += own[1];
   y[0] += own[3];
-  x[2 * s] += next[0];
-  x[2 * s + 1] += next[1];
-  y[2 * s - 1] += next[2];
-  y[2 * s] += next[3];
-  x[4 * s] -= jr[0];
-  x[4 * s + 1] -= jr[1];
-  y[4 * s - 1] -= jr[2];
-  y[4 * s] -= jr[3];
+  x[per] += next[0];
+  x[per + 1] += next[1];
+  y[per - 1] += next[2];
+  y[per] += next[3];
+  x[2 * per] -= jr[0];
+  x[2 * per + 1] -= jr[1];
+  y[2 * per - 1] -= jr[2];
+  y[2 * per] -= jr[3];
 }
 
 /* The same for nodes near held and joined ones, and both triangles where the matrix has two. */
@@ -162,12 +180,14 @@ static void edges_of_node(const ZpAssembly *a, size_t i, size_t j, const double 
 void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
   for (size_t i = 0; i < a->nodes; i++)
     for (size_t j = a->s * i; j < a->s * (i + 1); j++) {
-      if (a->shift[i] < 0 || i == 0 || !a->symmetric)
+      if (a->first[i] < 0 || i == 0 || !a->symmetric)
         edges_of_node(a, i, j, D, K);
+      else if (a->own > 0)
+        edges_of_free_node(a, a->s, per_station(a), i, j, D, K);
       else if (a->s == 2)
-        edges_of_free_node(a, 2, i, j, D, K);
+        edges_of_free_node(a, 2, 4, i, j, D, K);
       else
-        edges_of_free_node(a, 1, i, j, D, K);
+        edges_of_free_node(a, 1, 2, i, j, D, K);
     }
 }
 
@@ -207,8 +227,9 @@ ZP_INLINE double stretch(size_t s, bool right) {
   return (right ? 1.0 : -1.0) / (double)s;
 }
 
-ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t i, const ZpGapDerivatives *of, ZpBand *K) {
-  double *first = K->a + (2 * s * i - (size_t)a->shift[i]) * K->stride; /* of row and column x of the first node */
+ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t per, size_t i, const ZpGapDerivatives *of,
+                                    ZpBand *K) {
+  double *first = K->a + (size_t)a->first[i] * K->stride; /* of row and column x of the first node */
   size_t down = K->stride - 1;
   double own = of->own[i], next = of->next[i], along[2] = {of->along0[i], of->along1[i]};
   for (size_t p = 0; p < s; p++) {
@@ -216,11 +237,12 @@ ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t i, con
     for (size_t q = p; q < s; q++)
       y[2 * q + 1] += rise(s, p) * rise(s, q) * own;
     for (size_t q = 0; q < s; q++)
-      y[2 * s + 2 * q + 1] += rise(s, p) * rise(s, q) * next;
+      y[per + 2 * q + 1] += rise(s, p) * rise(s, q) * next;
   }
   for (size_t p = 0; p < 2 * s; p++)
     for (size_t q = 0; q < 2 * s; q++) {
-      size_t x = 2 * p, y = 2 * q + 1, row = x < y ? x : y, column = x < y ? y : x;
+      size_t x = p / s * per + 2 * (p % s), y = q / s * per + 2 * (q % s) + 1;
+      size_t row = x < y ? x : y, column = x < y ? y : x;
       first[row * down + column] += stretch(s, p >= s) * rise(s, q % s) * along[q / s];
     }
 }
@@ -243,11 +265,35 @@ static void gaps_of_station(const ZpAssembly *a, size_t i, const ZpGapDerivative
 
 void zp_assemble_gaps(const ZpAssembly *a, const ZpGapDerivatives *of, ZpBand *K) {
   for (size_t i = 0; i < a->nodes; i++) {
-    if (a->shift[i] < 0 || !a->symmetric)
+    if (a->first[i] < 0 || !a->symmetric)
       gaps_of_station(a, i, of, K);
+    else if (a->own > 0)
+      gaps_of_free_station(a, a->s, per_station(a), i, of, K);
     else if (a->s == 2)
-      gaps_of_free_station(a, 2, i, of, K);
+      gaps_of_free_station(a, 2, 4, i, of, K);
     else
-      gaps_of_free_station(a, 1, i, of, K);
+      gaps_of_free_station(a, 1, 2, i, of, K);
   }
+}
+
+/* -- the laws' own unknowns ------------------------------------------------------------------------- */
+
+void zp_assemble_own(const ZpAssembly *a, size_t c, size_t d, double value, ZpBand *K) {
+  *zp_band_at(K, (size_t)a->own_equation[c], (size_t)a->own_equation[d]) += value;
+}
+
+void zp_assemble_own_by(const ZpAssembly *a, size_t c, size_t k, double value, ZpBand *K) {
+  int own = a->own_equation[c], other = a->equation[k];
+  if (other < 0) return;
+  size_t row = (size_t)(own < other ? own : other), column = (size_t)(own < other ? other : own);
+  *zp_band_at(K, row, column) += value;
+}
+
+void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
+  int row = a->equation[2 * a->s * station + 1], column = a->equation[2 * (a->s * station + a->s - 1) + 1];
+  if (row >= 0) *zp_band_at(K, (size_t)row, (size_t)row) += upper;
+  if (column >= 0) *zp_band_at(K, (size_t)column, (size_t)column) += lower;
+  if (row < 0 || column < 0) return;
+  *zp_band_at(K, (size_t)(row < column ? row : column), (size_t)(row < column ? column : row)) +=
+      row == column ? 2 * both : both;
 }

@@ -8,24 +8,30 @@
 #include "math/parts.h"
 
 typedef struct ZpAssembly {
-  size_t s, nodes;  /* ribbons; stations, N */
-  size_t count;     /* nodes */
-  size_t stride;    /* arrays over nodes: all x, then, so much further, all y */
-  size_t n;         /* equations */
-  size_t bandwidth; /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
-  bool symmetric;   /* only the upper triangle is kept */
-  int *equation;    /* [2 count] numbered station by station; coordinates that are always the same share theirs */
-  ZpParts parts;    /* halves, and the equations that both have */
-  int *shift;       /* [N] where all coordinates of stations i .. i + 2 are free: coordinate - equation; else -1 */
+  size_t s, nodes;   /* ribbons; stations, N */
+  size_t count;      /* nodes */
+  size_t stride;     /* arrays over nodes: all x, then, so much further, all y */
+  size_t n;          /* equations */
+  size_t bandwidth;  /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
+  bool symmetric;    /* only the upper triangle is kept */
+  int *equation;     /* [2 count] numbered station by station; coordinates that are always the same share theirs */
+  ZpParts parts;     /* halves, and the equations that both have */
+  size_t own;        /* unknowns of the laws at each station, which come after its coordinates */
+  int *own_equation; /* [own N] */
+  int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
+                 others following it; else -1 */
 } ZpAssembly;
 
-/* False if there is no memory. */
-bool zp_assembly_create(const ZpModel *model, bool symmetric, ZpAssembly *assembly);
+/* With `own` unknowns of the laws at each station. False if there is no memory. */
+bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
 /* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
+
+/* equations [n] += forces on nodes [2 stride], summed over what has the same equation. */
+void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
 
 /* (forces on nodes [2 stride], or masses [count]) => sums over what has the same equation [n]. */
 void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
@@ -34,6 +40,15 @@ void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *
 /* Add the stiffness of the ribbons to K, which is n x n with `bandwidth` diagonals on each kept side: D[3 j + m] [4] =
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
+
+/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and at c and coordinate
+ * k. Of a symmetric matrix. */
+void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
+void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
+
+/* K += values at the heights of both nodes of a station, and between them. Of a symmetric matrix. */
+void zp_assemble_heights(const ZpAssembly *assembly, size_t station, double upper, double lower, double both,
+                         ZpBand *K);
 
 /* u' K u of the same for a direction u [n], edge by edge. Along a motion that hardly stretches an edge the matrix would
  * lose it in rounding. */

@@ -374,6 +374,28 @@ static ZpFacesParams faces_of(const ZpModel *model) {
                          .flat_length = platform_length(model)};
 }
 
+/* Eqs. (22.1) to (22.3). */
+static ZpFilmParams film_of(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  ZpFilmParams film = {.nodes = model->nodes,
+                       .l = model->l,
+                       .platform = model->topology.platform.first,
+                       .platform_end = model->topology.platform.last,
+                       .flat_length = platform_length(model),
+                       .w = def->ribbon.width,
+                       .mu = def->medium.kinematic_viscosity * def->medium.density,
+                       .rho = def->liquid.inertia ? def->medium.density : 0,
+                       .roughness = def->film.roughness};
+  zp_film_modes(&film, def->liquid.lateral_flow);
+  return film;
+}
+
+static ZpOuterParams outer_of(const ZpActuatorDef *def) {
+  return (ZpOuterParams){.w = def->ribbon.width,
+                         .rho = def->liquid.inertia ? def->medium.density : 0,
+                         .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};
+}
+
 /* damping.internal, or what auto stands for: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
@@ -420,6 +442,11 @@ static void derive(ZpModel *model, const ZpActuatorDef *lower) {
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
   model->faces = faces_of(model);
+  model->film = film_of(model);
+  model->has_film = model->field && def->liquid.model != ZP_LIQUID_NONE;
+  model->outer = outer_of(def);
+  model->own = model->has_film ? ZP_FILM_MODES : 0;
+  model->kept = model->has_film ? ZP_FILM_STATE : 0;
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part
@@ -536,5 +563,5 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + 12 * model->stride * sizeof(double);
+  return sizeof(ZpState) + (12 * model->stride + (model->own + model->kept) * model->nodes) * sizeof(double);
 }

@@ -24,6 +24,9 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   zp_plates_carve(&model->plates, &e->plates, &carver);
   zp_plates_step_carve(&model->plates, &e->attraction, &carver);
   zp_plates_by_voltage_carve(&model->plates, &e->by_voltage, &carver);
+  zp_film_carve(&model->film, &e->film, &carver);
+  e->own_residual = e->film.r;
+  e->memory_end = e->film.end;
   zp_faces_carve(&model->faces, &e->faces, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   double **stations[] = {&e->gaps.own, &e->gaps.next, &e->gaps.along0, &e->gaps.along1};

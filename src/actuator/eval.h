@@ -35,7 +35,10 @@ typedef struct ZpEval {
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;
-  ZpFacesEval faces;       /* of unilateral contact */
+  ZpFacesEval faces; /* of unilateral contact */
+  ZpFilmEval film;
+  double *own_residual;    /* [own N] what is left of the equations of the laws' own unknowns */
+  double *memory_end;      /* [kept N] state of the laws where the span ends */
   bool solves;             /* it can solve the field, not only hold what was found */
   ZpSurplus surplus;       /* where it does */
   const char *fault;       /* why the last attempt to find a held force has failed; NULL: it has not */
@@ -78,11 +81,14 @@ double zp_eval_imbalance(const ZpModel *model, const double *a);
 /* Energies of one modelled part without the field. */
 typedef struct ZpEnergies {
   double kinetic, axial, bending, gravity; /* J */
+  double liquid;                           /* kinetic energy of the liquid, and what its cavities hold, J */
 } ZpEnergies;
 
 /* Lost by one modelled part over a span. */
 typedef struct ZpLosses {
-  double drag, internal; /* J */
+  double drag, internal;      /* J */
+  double along, across, jets; /* in the film of liquid, J */
+  double outer;               /* to the form drag of the liquid outside, J */
 } ZpLosses;
 
 /* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */

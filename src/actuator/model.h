@@ -16,6 +16,8 @@
 #include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/plates_step.h"
+#include "liquid/film.h"
+#include "liquid/outer.h"
 #include "paper/massspring.h"
 #include "paper/surface.h"
 #include "paper/zip.h"
@@ -59,7 +61,11 @@ struct ZpModel {
   ZpRodParams rod;          /* of mass_spring its axial springs only */
   ZpStressParams stress;
   ZpPlatesParams plates;
-  ZpFacesParams faces;     /* of unilateral contact */
+  ZpFacesParams faces; /* of unilateral contact */
+  bool has_film;       /* of liquid between the faces */
+  ZpFilmParams film;
+  ZpOuterParams outer;     /* of liquid outside */
+  size_t own, kept;        /* unknowns, and numbers of state, of the laws at each station, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
@@ -112,10 +118,15 @@ typedef struct ZpState {
   double source_energy;    /* energy, J, */
   double source_loss;      /* what was lost in its resistance and at its limits, J, */
   double bleeder_loss;     /* and in the bleeder, J */
+  double along_loss;       /* per part: to viscosity, along the film, J, */
+  double across_loss;      /* and across it */
+  double jet_loss;         /* per part: to jets from the film and its cavities, J */
+  double outer_drag_loss;  /* per part: to the form drag of the liquid outside, J */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
-                    mean velocity and acceleration of the last implicit step [4 stride] */
+                    mean velocity and acceleration of the last implicit step [4 stride], the laws' own unknowns [own N]
+                    and state [kept N] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -186,6 +197,16 @@ static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
 /* The coordinates at which it was found. */
 static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
   return state->data + 6 * model->stride;
+}
+
+/* Unknowns of the laws, [own N] station by station. */
+static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
+  return state->data + 12 * model->stride;
+}
+
+/* State of the laws, [kept N] station by station. */
+static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
+  return state->data + 12 * model->stride + model->own * model->nodes;
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

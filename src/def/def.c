@@ -533,22 +533,44 @@ static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* What the whole actuator asks of other keys: the paper's own numerics, and the solved field, know the half only. */
-static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
-  static const struct {
-    const char *key;
-    int needed;
-  } needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_ROD},
-               {"electro.model", ZP_ELECTRO_PLATES},      {"electro.surface", ZP_SURFACE_POLYLINE},
-               {"contact.model", ZP_CONTACT_UNILATERAL},  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
-  for (size_t i = 0; def->actuator.symmetry == ZP_SYMMETRY_NONE && i < sizeof needs / sizeof needs[0]; i++) {
+/* A choice that another key must have. */
+typedef struct Need {
+  const char *key;
+  int word;
+} Need;
+
+/* `what` is what asks for it, `instead` what does without. */
+static ZpStatus check_needs(const ZpActuatorDef *def, const char *what, const Need *needs, size_t count,
+                            const char *instead, ZpError *err) {
+  for (size_t i = 0; i < count; i++) {
     int given = (int)zp_def_get(def, zp_key_find(needs[i].key));
-    if (given != needs[i].needed)
-      return zp_fail(err, ZP_BAD_INPUT,
-                     "actuator.symmetry = none: requires %s %s, but it is %s; use actuator.symmetry half", needs[i].key,
-                     zp_word_of(needs[i].key, needs[i].needed), zp_word_of(needs[i].key, given));
+    if (given != needs[i].word)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s %s, but it is %s; use %s", what, needs[i].key,
+                     zp_word_of(needs[i].key, needs[i].word), zp_word_of(needs[i].key, given), instead);
   }
   return ZP_OK;
+}
+
+/* What the whole actuator asks of other keys: the paper's own numerics, and the solved field, know the half only. */
+static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
+  static const Need needs[] = {
+      {"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_ROD},
+      {"electro.model", ZP_ELECTRO_PLATES},      {"electro.surface", ZP_SURFACE_POLYLINE},
+      {"contact.model", ZP_CONTACT_UNILATERAL},  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+  if (def->actuator.symmetry != ZP_SYMMETRY_NONE) return ZP_OK;
+  return check_needs(def, "actuator.symmetry = none", needs, sizeof needs / sizeof needs[0], "actuator.symmetry half",
+                     err);
+}
+
+/* The film lies between two ribbons, and its heads are unknowns of implicit steps. */
+static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
+  static const Need needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
+                               {"ribbon.model", ZP_RIBBON_ROD},
+                               {"electro.surface", ZP_SURFACE_POLYLINE},
+                               {"contact.model", ZP_CONTACT_UNILATERAL},
+                               {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+  if (def->liquid.model == ZP_LIQUID_NONE) return ZP_OK;
+  return check_needs(def, "liquid.model = submerged", needs, sizeof needs / sizeof needs[0], "liquid.model none", err);
 }
 
 /* What is asked of the model of the field. */
@@ -599,5 +621,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = check_source(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
   if (status == ZP_OK) status = check_symmetry(def, err);
+  if (status == ZP_OK) status = check_liquid(def, err);
   return status == ZP_OK ? check_electro(def, err) : status;
 }

@@ -20,7 +20,7 @@ typedef struct ZpBand {
   bool odd;            /* an odd number of rows was exchanged */
 } ZpBand;
 
-enum { ZP_BAND_MOST = 15 };
+enum { ZP_BAND_MOST = 23 };
 
 /* Cut the arrays from `carver`. */
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver);

@@ -5,7 +5,7 @@
 
 static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
-  size_t stride = model->stride, all = 2 * model->count + 1; /* with the voltage */
+  size_t stride = model->stride, all = 2 * model->count + model->own * model->nodes + 1; /* with the voltage */
   ZpCarver carver = {block, 0};
   zp_implicit_carve(&d->stepper, &d->system, &carver);
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
@@ -18,6 +18,8 @@ static size_t carve(ZpDynamics *d, void *block) {
   d->by_voltage.charge = zp_carve(&carver, 2 * stride);
   d->scale = zp_carve(&carver, all);
   d->kind = (ZpUnknown *)(void *)zp_carve(&carver, all); /* room for doubles is more than enough */
+  d->own = zp_carve(&carver, model->own * model->nodes);
+  d->moved = zp_carve(&carver, 2 * stride);
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
   return carver.used;
@@ -51,6 +53,10 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .U0 = d->U0,
                   .U1 = d->U1,
                   .load = mean_load(d),
+                  .own = d->own,
+                  .memory = zp_state_memory(d->model, d->state),
+                  .v0 = zp_state_motion(d->model, d->state).vx,
+                  .w = d->state->last_step > 0 ? d->mean_v : NULL,
                   .share = 1,
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
@@ -93,10 +99,14 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   d->h = h;
   d->U1 = d->source ? q1[d->assembly.n] : end_voltage(d);
   zp_assembly_scatter(&d->assembly, q1, d->end);
+  for (size_t c = 0; c < model->own * model->nodes; c++)
+    d->own[c] = q1[d->assembly.own_equation[c]];
   ZpSpan span = span_of(d);
   zp_system_force(model, &span, &d->eval, d->force);
   if (model->field) memcpy(d->gap, d->eval.plates.gap, model->nodes * sizeof *d->gap);
   zp_assembly_sum(&d->assembly, d->force, f);
+  for (size_t c = 0; c < model->own * model->nodes; c++)
+    f[d->assembly.own_equation[c]] = d->eval.own_residual[c];
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
   return ZP_END_FOUND;
 }
@@ -227,7 +237,7 @@ static double impact(ZpDynamics *d) {
     loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
     any |= d->eval.faces.stiffness[i] > 0;
   }
-  if (!any) return loss;
+  if (!any || model->has_film) return loss; /* a film has taken their speed */
   loss += kinetic_energy(d);
   zp_implicit_smooth(&d->stepper, d->h, d->v);
   for (size_t i = 1; i < model->nodes; i++)
@@ -237,15 +247,43 @@ static double impact(ZpDynamics *d) {
 
 /* -- creation and step ---------------------------------------------------------------------------- */
 
+/* Pressures are unknowns of one step, without memory. */
+static void add_own(ZpDynamics *d) {
+  static const double pressure = 1e9; /* Pa: what counts as much as 1 m of a position: 1 kPa as 1 um */
+  for (size_t i = 0; i < d->assembly.n; i++)
+    d->scale[i] = 1;
+  for (size_t c = 0; c < d->model->own * d->model->nodes; c++) {
+    d->kind[d->assembly.own_equation[c]] = ZP_ALGEBRAIC;
+    d->scale[d->assembly.own_equation[c]] = pressure;
+  }
+  d->system.kind = d->kind;
+  d->system.scale = d->scale;
+}
+
+static void inertia(void *self, const double *a, double *f) {
+  ZpDynamics *d = self;
+  ZpSpan span = span_of(d);
+  zp_assembly_scatter(&d->assembly, a, d->moved);
+  zp_system_inertia(d->model, &span, &d->eval, d->moved, d->force);
+  zp_assembly_add(&d->assembly, d->force, f);
+}
+
+/* Each outer face moves its own mass of liquid up and down. */
+static void add_liquid(ZpDynamics *d) {
+  const ZpModel *model = d->model;
+  double side = zp_outer_side(&model->outer);
+  for (size_t j = 0; j < model->count; j++) {
+    int row = d->assembly.equation[2 * j + 1];
+    if (row >= 0) d->mass[row] += side * zp_film_length(&model->film, j / model->s);
+  }
+  d->system.inertia = inertia;
+}
+
 /* The voltage behind a source has a rate and no inertia. */
 static void add_voltage(ZpDynamics *d) {
   size_t u = d->assembly.n;
-  for (size_t i = 0; i < u; i++)
-    d->scale[i] = 1;
   d->kind[u] = ZP_FIRST_ORDER;
   d->scale[u] = d->source->scale / d->model->L;
-  d->system.kind = d->kind;
-  d->system.scale = d->scale;
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
@@ -253,7 +291,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   d->model = model;
   d->source = source;
   if (!zp_system_create(model, false, &d->eval)) return false;
-  if (!zp_assembly_create(model, true, &d->assembly)) return false;
+  if (!zp_assembly_create(model, model->own, true, &d->assembly)) return false;
   size_t border = source ? 1 : 0;
   d->system = (ZpImplicitSystem){.n = d->assembly.n + border,
                                  .border = border,
@@ -270,6 +308,8 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   carve(d, d->memory);
   d->system.mass = d->mass;
   zp_assembly_masses(&d->assembly, model->mass, d->mass);
+  if (source || model->own) add_own(d);
+  if (model->has_film) add_liquid(d);
   if (source) add_voltage(d);
   const ZpActuatorDef *def = &model->def;
   d->stepper.balance = 1e-5 * def->solver.tolerance;
@@ -307,23 +347,25 @@ static double far(const ZpModel *model, const ZpState *state) {
   return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
 }
 
-double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
+/* The state where the step begins => q, v and what else evolves. */
+static void load(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
-  double *q = zp_state_q(model, state), *v = zp_state_v(model, state), *w = zp_state_mean_v(model, state),
-         *a = zp_state_mean_a(model, state);
-  d->state = state;
-  d->latest = latest;
-  d->U0 = state->U;
-  d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
-  memcpy(d->start, q, 2 * model->stride * sizeof *q);
-  zp_assembly_gather(&d->assembly, q, d->q);
-  zp_assembly_gather(&d->assembly, v, d->v);
-  zp_assembly_gather(&d->assembly, w, d->history.w);
-  zp_assembly_gather(&d->assembly, a, d->history.a);
+  d->mean_v = zp_state_mean_v(model, state);
+  memcpy(d->start, zp_state_q(model, state), 2 * model->stride * sizeof *d->start);
+  zp_assembly_gather(&d->assembly, zp_state_q(model, state), d->q);
+  zp_assembly_gather(&d->assembly, zp_state_v(model, state), d->v);
+  zp_assembly_gather(&d->assembly, d->mean_v, d->history.w);
+  zp_assembly_gather(&d->assembly, zp_state_mean_a(model, state), d->history.a);
+  const double *own = zp_state_own(model, state);
+  for (size_t c = 0; c < model->own * model->nodes; c++) {
+    size_t i = (size_t)d->assembly.own_equation[c];
+    d->own[c] = d->q[i] = own[c];
+    d->v[i] = d->history.w[i] = d->history.a[i] = 0;
+  }
   if (d->source) {
     size_t u = d->assembly.n;
     double held;
-    d->h = latest - state->t;
+    d->h = d->latest - state->t;
     d->kind[u] = is_held(d, &held) ? ZP_ALGEBRAIC : ZP_FIRST_ORDER;
     d->q[u] = state->U;
     d->v[u] = 0;
@@ -332,30 +374,64 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   }
   d->history.last = state->last_step;
   d->history.next = state->next_step;
-  double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
-  if (!(taken > 0)) return 0;
+}
+
+static double charge_at_end(ZpDynamics *d) {
   ZpSpan span = span_of(d);
-  ZpLosses losses = zp_system_losses(model, &span, &d->eval);
-  if (model->field) {
-    book_work(d, state);
-    state->contact_loss += impact(d);
-  }
-  double *hangs = q + model->stride + zp_load_node(&model->topology), before = *hangs, load = mean_load(d);
-  zp_assembly_scatter(&d->assembly, d->q, q);
-  zp_assembly_scatter(&d->assembly, d->v, v);
-  zp_assembly_scatter(&d->assembly, d->history.w, w);
-  zp_assembly_scatter(&d->assembly, d->history.a, a);
+  return zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, d->U1).charge;
+}
+
+static void book_losses(ZpDynamics *d, ZpState *state) {
+  for (size_t c = 0; c < d->model->own * d->model->nodes; c++)
+    d->own[c] = d->q[d->assembly.own_equation[c]];
+  ZpSpan span = span_of(d);
+  ZpLosses losses = zp_system_losses(d->model, &span, &d->eval);
+  state->drag_loss += losses.drag;
+  state->internal_loss += losses.internal;
+  state->along_loss += losses.along;
+  state->across_loss += losses.across;
+  state->jet_loss += losses.jets;
+  state->outer_drag_loss += losses.outer;
+}
+
+/* And where it has ended, back. */
+static void store(ZpDynamics *d, ZpState *state) {
+  const ZpModel *model = d->model;
+  zp_assembly_scatter(&d->assembly, d->q, zp_state_q(model, state));
+  zp_assembly_scatter(&d->assembly, d->v, zp_state_v(model, state));
+  zp_assembly_scatter(&d->assembly, d->history.w, zp_state_mean_v(model, state));
+  zp_assembly_scatter(&d->assembly, d->history.a, zp_state_mean_a(model, state));
+  memcpy(zp_state_own(model, state), d->own, model->own * model->nodes * sizeof *d->own);
+  memcpy(zp_state_own(model, state) + model->own * model->nodes, d->eval.memory_end,
+         model->kept * model->nodes * sizeof *d->own);
   state->t = end_time(d);
   if (d->source) {
-    d->charge1 = zp_system_electric(model, &span, &d->eval, ZP_SPAN_END, state->U).charge;
     state->U_rate = d->history.w[d->assembly.n];
     state->U_change = d->history.a[d->assembly.n];
   }
   state->last_step = d->history.last;
   state->next_step = d->history.next;
-  state->load_work += load * (before - *hangs);
+}
+
+double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
+  const ZpModel *model = d->model;
+  d->state = state;
+  d->latest = latest;
+  d->U0 = state->U;
+  d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
+  load(d, state);
+  double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
+  if (!(taken > 0)) return 0;
+  book_losses(d, state);
+  if (d->source) d->charge1 = charge_at_end(d);
+  if (model->field) {
+    book_work(d, state);
+    state->contact_loss += impact(d);
+  }
+  const double *hangs = zp_state_q(model, state) + model->stride + zp_load_node(&model->topology);
+  double before = *hangs, hung = mean_load(d);
+  store(d, state);
+  state->load_work += hung * (before - *hangs);
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, d->eval.plates.gap);
-  state->drag_loss += losses.drag;
-  state->internal_loss += losses.internal;
   return taken;
 }

@@ -15,6 +15,9 @@ typedef struct ZpDynamics {
   ZpEval eval;
   ZpImplicitHistory history;
   ZpAssembly assembly;
+  double *moved;          /* [2 stride] work space */
+  double *own;            /* [own N] the laws' own unknowns in the step under way */
+  const double *mean_v;   /* [2 stride] mean velocity over the last step, m/s */
   const ZpSource *source; /* NULL: the voltage is given */
   ZpUnknown *kind;        /* [n] with a source: the last is the voltage */
   double *scale;          /* [n] */

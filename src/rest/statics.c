@@ -54,7 +54,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   if (s->memory) carve(model, s, s->memory);
   if (s->memory) fill_model(model, s);
   if (!s->memory || !zp_system_create(s->model, true, &s->eval) ||
-      !zp_assembly_create(s->model, model->is_rod, &s->assembly)) {
+      !zp_assembly_create(s->model, 0, model->is_rod, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }

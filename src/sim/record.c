@@ -31,7 +31,30 @@ const ZpColumn *zp_signal_columns(size_t *count) {
 }
 
 double zp_energy_without_field(const ZpEnergies *e) {
-  return e->kinetic + e->axial + e->bending + e->gravity;
+  return e->kinetic + e->axial + e->bending + e->gravity + e->liquid;
+}
+
+/* Stations from the clip on that are closed: faces that touch, or whose film is thinner than the liquid that stands for
+ * their insulators. */
+static size_t front(const ZpModel *model, const ZpState *state) {
+  const double *y = zp_state_motion(model, state).y;
+  size_t i = 0;
+  if (!model->has_film) return state->zip.front;
+  while (i < model->topology.platform.first &&
+         zp_plates_gap(&model->plates, y, i + 1) < fmax(ZP_CLOSED_GAP, model->plates.d))
+    i++;
+  return i;
+}
+
+/* At a quarter of the flexible length of a half, m. */
+static double film_thickness(const ZpModel *model, const ZpState *state) {
+  const double *y = zp_state_motion(model, state).y;
+  if (!model->has_film) return 0;
+  size_t elements = zp_half_elements(&model->topology), i = elements / 4;
+  double beyond = 0.25 * (double)(elements % 4);
+  double here = zp_film_thickness(&model->film, zp_plates_gap(&model->plates, y, i)),
+         next = zp_film_thickness(&model->film, zp_plates_gap(&model->plates, y, i + 1));
+  return here + beyond * (next - here);
 }
 
 /* Lengths: of the lower ribbon and between the platforms, or of the one ribbon. */
@@ -42,7 +65,8 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   const ZpTopology *t = &model->topology;
   row[SIGNAL_stroke] = zp_stroke(t, motion.y);
   row[SIGNAL_end_velocity] = motion.vy[zp_load_node(t)];
-  row[SIGNAL_zipped_length] = (double)state->zip.front * model->l;
+  row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
+  row[SIGNAL_film_thickness] = film_thickness(model, state);
   row[SIGNAL_opening] = zp_opening(t, motion.y);
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
@@ -62,6 +86,11 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
+  row[SIGNAL_film_along_loss] = parts * state->along_loss;
+  row[SIGNAL_film_across_loss] = parts * state->across_loss;
+  row[SIGNAL_viscous_loss] = parts * (state->along_loss + state->across_loss);
+  row[SIGNAL_jet_loss] = parts * state->jet_loss;
+  row[SIGNAL_outer_drag_loss] = parts * state->outer_drag_loss;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
 }
 
@@ -70,6 +99,7 @@ static double fill_mechanics(ZpSim *sim, double *row) {
   double parts = sim->model->parts;
   ZpEnergies e = zp_system_energies(sim->model, sim->state, &sim->eval);
   row[SIGNAL_kinetic_energy] = parts * e.kinetic;
+  row[SIGNAL_liquid_energy] = parts * e.liquid;
   row[SIGNAL_axial_energy] = parts * e.axial;
   row[SIGNAL_bending_energy] = parts * e.bending;
   row[SIGNAL_gravity_energy] = parts * e.gravity;
@@ -111,7 +141,7 @@ static const unsigned char takes[SIGNAL_COUNT] = {
     [SIGNAL_field_energy] = ELECTRIC,    [SIGNAL_source_energy] = ELECTRIC,  [SIGNAL_power] = ELECTRIC,
     [SIGNAL_kinetic_energy] = MECHANICS, [SIGNAL_axial_energy] = MECHANICS,  [SIGNAL_bending_energy] = MECHANICS,
     [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ENERGY, [SIGNAL_insulator_field] = MARGINS,
-    [SIGNAL_max_stress] = MARGINS};
+    [SIGNAL_liquid_energy] = MECHANICS,  [SIGNAL_max_stress] = MARGINS};
 
 /* Signals that take no more than `what` => sim->row. */
 static void fill_row(ZpSim *sim, unsigned what) {
@@ -121,7 +151,8 @@ static void fill_row(ZpSim *sim, unsigned what) {
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
   if (what & MARGINS) fill_margins(sim, row);
-  double lost = state->drag_loss + state->internal_loss + state->contact_loss;
+  double in_liquid = state->along_loss + state->across_loss + state->jet_loss + state->outer_drag_loss;
+  double lost = state->drag_loss + state->internal_loss + state->contact_loss + in_liquid;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 

@@ -199,10 +199,11 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
   return state->opening0 > 0 && (state->zip.platform || (state->was_open && !is_open(model, state)));
 }
 
-/* Closed for good: with a margin as soon as it is zipped, else when the platform has arrived or turns back. */
+/* Closed for good: with a margin or in a liquid, out of which it creeps for seconds, as soon as it is zipped, else when
+ * the platform has arrived or turns back. */
 static bool closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
-  if (model->def.contact.complete_margin) return true;
+  if (model->def.contact.complete_margin || model->has_film) return true;
   return state->zip.platform || zp_state_motion(model, state).vy[zp_load_node(&model->topology)] <= 0;
 }
 

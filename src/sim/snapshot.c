@@ -14,6 +14,7 @@
  *   state.names     the numbers of the state, one a line
  *   state.values    these numbers
  *   position ...    its arrays, each all x, then all y
+ *   liquid          what the liquid has, station by station: heads, then flows and cavities; empty without liquid
  *
  * A number that comes, goes or means something else raises the version. */
 #include "sim/snapshot.h"
@@ -61,6 +62,10 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, drag_loss),
                                 NUMBER(REAL, contact_loss),
                                 NUMBER(REAL, internal_loss),
+                                NUMBER(REAL, along_loss),
+                                NUMBER(REAL, across_loss),
+                                NUMBER(REAL, jet_loss),
+                                NUMBER(REAL, outer_drag_loss),
                                 NUMBER(REAL, last_step),
                                 NUMBER(REAL, next_step),
                                 NUMBER(REAL, refreshed),
@@ -87,11 +92,17 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, load_work)};
 #undef NUMBER
 
-static const char *const array[] = {"position", "velocity", "held force", "held at", "mean velocity", "mean accel."};
+static const char *const array[] = {"position",      "velocity",    "held force", "held at",
+                                    "mean velocity", "mean accel.", "liquid"};
 
 enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0, VOLTAGE = 1 };
 
 _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == NUMBERS * sizeof(double), "a snapshot holds all of a state");
+
+/* Of array k, of nodes all but the last. */
+static size_t length_of(const ZpModel *model, size_t k) {
+  return k + 1 < ARRAYS ? 2 * model->stride : (model->own + model->kept) * model->nodes;
+}
 
 static double number_of(const ZpState *state, size_t k) {
   const char *place = (const char *)state + number[k].offset;
@@ -242,7 +253,7 @@ static void write_state(Writer *writer, const ZpModel *model, const ZpState *sta
     write_real(writer, number_of(state, k));
   close_block(writer, values, 8);
   for (size_t k = 0; k < ARRAYS; k++)
-    write_array(writer, array[k], state->data + 2 * k * model->stride, 2 * model->stride);
+    write_array(writer, array[k], state->data + 2 * k * model->stride, length_of(model, k));
 }
 
 static size_t head_size(const ZpModel *model) {
@@ -256,7 +267,9 @@ size_t zp_snapshot_size(const ZpModel *model) {
   size_t size = head_size(model) + 2 * (size_t)BLOCK;
   for (size_t k = 0; k < NUMBERS; k++)
     size += strlen(number[k].name) + 1 + sizeof(double);
-  return size + ARRAYS * (BLOCK + 2 * model->stride * sizeof(double));
+  for (size_t k = 0; k < ARRAYS; k++)
+    size += BLOCK + length_of(model, k) * sizeof(double);
+  return size;
 }
 
 void zp_snapshot_write(const ZpModel *model, const ZpState *state, void *bytes) {
@@ -445,13 +458,13 @@ ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, 
   ZpStatus status = take_fitting(&model->def, bytes, size, &parts, err);
   if (status != ZP_OK) return status;
   for (size_t k = 0; k < ARRAYS; k++)
-    if (parts.array[k].count != 2 * stride)
+    if (parts.array[k].count != length_of(model, k))
       return zp_fail(err, ZP_BAD_INPUT, "%zu numbers for %s: a state of this model has %zu", parts.array[k].count,
-                     array[k], 2 * stride);
+                     array[k], length_of(model, k));
   for (size_t k = 0; k < NUMBERS; k++)
     set_number(state, k, real_at(parts.number.item, k));
   for (size_t k = 0; k < ARRAYS; k++)
-    for (size_t j = 0; j < 2 * stride; j++)
+    for (size_t j = 0; j < length_of(model, k); j++)
       state->data[2 * k * stride + j] = real_at(parts.array[k].item, j);
   return ZP_OK;
 }

@@ -13,7 +13,9 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
                    model->nodes, other->nodes, other->s);
   ZpState *state = sim->state;
   double opening0 = state->opening0, stretch = model->L / other->L;
-  memcpy(state, from->state, zp_state_size(model));
+  size_t size = zp_state_size(model), known = zp_state_size(other);
+  memcpy(state, from->state, size < known ? size : known);
+  if (known < size) memset((char *)state + known, 0, size - known); /* a liquid that comes is at rest */
   double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
   zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)

@@ -119,13 +119,26 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   if (isfinite(zp_result_get(result, "zip_time_s")))
-    zp_result_note(result, "the zip time is not a prediction: the drag of the liquid is not modelled");
+    zp_result_note(result, model->has_film
+                               ? "the zip time has not been compared with a measured one"
+                               : "the zip time is not a prediction: the drag of the liquid is not modelled");
+}
+
+/* What the liquid has done. */
+static void summarize_liquid(ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "film_thickness_m", "m", at_end(sim, result, "film_thickness"));
+  zp_result_add(result, "viscous_loss_J", "J", at_end(sim, result, "viscous_loss"));
+  zp_result_add(result, "film_along_loss_J", "J", at_end(sim, result, "film_along_loss"));
+  zp_result_add(result, "film_across_loss_J", "J", at_end(sim, result, "film_across_loss"));
+  zp_result_add(result, "jet_loss_J", "J", at_end(sim, result, "jet_loss"));
+  zp_result_add(result, "outer_drag_loss_J", "J", at_end(sim, result, "outer_drag_loss"));
 }
 
 static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
+  if (model->has_film) summarize_liquid(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   if (model->field) summarize_source(sim, model, info, result);

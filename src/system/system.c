@@ -39,6 +39,7 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
   span.U0 = span.U1 = state->U;
   span.load = zp_state_load(model, state, state->t);
   span.faces_pass = def->contact.model != ZP_CONTACT_UNILATERAL;
+  span.memory = zp_state_memory(model, state);
   span.beyond = zp_state_beyond(model, state);
   span.paper = def->electro.surface == ZP_SURFACE_POLYLINE ? NULL : state;
   return span;
@@ -86,11 +87,12 @@ void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpM
 
 ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
   ZpMotion m = zp_state_motion(model, state);
+  ZpSpan now = zp_span_of(model, state, m.x, m.vx);
   ZpEnergies sum = {0};
   for (size_t j = 0; j < model->count; j++)
     sum.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
   for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->energy) e->term[k]->energy(model, m.x, e, &sum);
+    if (e->term[k]->energy) e->term[k]->energy(model, &now, e, &sum);
   return sum;
 }
 
@@ -99,6 +101,12 @@ ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   for (size_t k = 0; k < e->terms; k++)
     if (e->term[k]->loss) e->term[k]->loss(model, span, e, &sum);
   return sum;
+}
+
+void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
+  memset(F, 0, 2 * model->stride * sizeof *F);
+  for (size_t k = 0; k < e->terms; k++)
+    if (e->term[k]->inertia) e->term[k]->inertia(model, span, e, a, F);
 }
 
 ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U) {

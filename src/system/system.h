@@ -35,6 +35,9 @@ ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval
 /* What the terms have lost over a span, at its last force. */
 ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
+/* (span, accelerations a [2 stride]) => F [2 stride], N: the inertia of all terms beyond the masses of nodes. */
+void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
+
 /* Electric totals at the start or the end of a span, where gaps were found last, at voltage U. */
 ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U);
 

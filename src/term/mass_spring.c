@@ -52,8 +52,8 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   add_shear_stiffness(model, assembly, e, K);
 }
 
-static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {
-  zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+  zp_massspring_eval(&model->spring, now->end, now->end + model->stride, &e->spring);
   sum->axial += zp_massspring_axial_energy(&model->spring, &e->spring);
   sum->bending += zp_massspring_shear_energy(&model->spring, &e->spring);
 }

@@ -28,8 +28,8 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
 }
 
-static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {
-  zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+  zp_rod_eval(&model->rod, now->end, now->end + model->stride, &e->rod);
   sum->axial += zp_rod_stretching_energy(&model->rod, &e->rod);
   sum->bending += zp_rod_bending_energy(&model->rod, &e->rod);
 }

@@ -15,6 +15,10 @@ typedef struct ZpSpan {
   double load;               /* N, mean of the load input, down on the lower platform (one ribbon: the right end) */
   double share;              /* of all weight that acts: 1, less on the way to an equilibrium */
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
+  const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
+  const double *memory;      /* of a step, at its start, or of an instant: [kept N] the laws' own state */
+  const double *v0;          /* of a step: velocities at its start [2 stride] */
+  const double *w;           /* of a step: mean velocities over the last one [2 stride]; NULL: there was none */
   const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; else NULL */
   ZpHeld beyond;             /* what a solved field has beyond plates; all 0: nothing */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
@@ -54,8 +58,11 @@ typedef struct ZpTerm {
   /* At the last force: minus its derivative by the end's coordinates, added to K, or to eval->gaps where it depends on
    * gaps. NULL: there is none, or it is left out. */
   void (*stiffness)(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
-  /* At coordinates q: sum += the energy that it stores, J. NULL: none. */
-  void (*energy)(const ZpModel *model, const double *q, ZpEval *eval, ZpEnergies *sum);
+  /* F [2 stride] += its inertia, beyond the masses of nodes, where the span ends, times accelerations a [2 stride].
+   * NULL: none. */
+  void (*inertia)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
+  /* At an instant: sum += the energy that it stores, J. NULL: none. */
+  void (*energy)(const ZpModel *model, const ZpSpan *now, ZpEval *eval, ZpEnergies *sum);
   /* Of a span that is not still, at the last force: sum += what it has lost over it, J. NULL: nothing. */
   void (*loss)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpLosses *sum);
   /* At the start or the end of the span, where gaps were found last, and at voltage U: sum += its electric totals.

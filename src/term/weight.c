@@ -16,10 +16,10 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
     F[model->stride + zp_lower(t, i)] -= span->load / (double)zp_load_ends(t);
 }
 
-static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
   (void)e;
   for (size_t j = 0; j < model->count; j++)
-    sum->gravity += model->weight[j] * q[model->stride + j];
+    sum->gravity += model->weight[j] * now->end[model->stride + j];
 }
 
 const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};

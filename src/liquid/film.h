@@ -1,0 +1,95 @@
+/* The film of liquid between two faces: lubrication with the inertia of the liquid. docs/theory.md, section 22.
+ *
+ * Letters: g gap of a station, m; H thickness of the film, g with a floor of the roughness, m; s length along the
+ * ribbon, m; mu viscosity, Pa s; rho density, kg/m^3; w width, m. Across the width the flow has two modes k,
+ *   dH/dt + d_s(H u_k) + E b_k = 0,   rho du_k/dt + 12 mu u_k / H^2 = -d_s p_k,
+ *   (rho db_k/dt + 12 mu E b_k / H^3) / kappa_k^2 = p_k - D,
+ * u mean velocity along, m/s; b gradient of the velocity across, 1/s; E depth that counts across, m; p total head, Pa,
+ * whose mean is a_0 p_0 + a_1 p_1; D that of the jets at the long edges. The first mode is the exact lowest one, the
+ * second all others. Heads are unknowns of a step; u, b and the thickness of cavities are a state. Over a step
+ * viscosity resists with the thickness of its middle, foreseen, so that the film is linear in what it resists and can
+ * only dissipate. */
+#ifndef ZP_LIQUID_FILM_H
+#define ZP_LIQUID_FILM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/memory.h"
+
+enum { ZP_FILM_MODES = 2, ZP_FILM_CAVITY = 2 * ZP_FILM_MODES, ZP_FILM_STATE };
+
+typedef struct ZpFilmParams {
+  size_t nodes;                  /* N stations */
+  double l;                      /* element length, m */
+  size_t platform, platform_end; /* its first and last station: nothing flows between them */
+  double flat_length;            /* of its flat faces, at the gap of each of these, m */
+  double w, mu, rho;             /* width, m; viscosity, Pa s; density, kg/m^3, 0: without inertia */
+  double roughness;              /* thickness where g is 0, m; 0: none */
+  double share[ZP_FILM_MODES];   /* a_k */
+  double kappa2[ZP_FILM_MODES];  /* kappa_k^2, 1/m^2; 0: nothing flows out at the long edges */
+  bool outlet;                   /* the head at the platform is 0 */
+} ZpFilmParams;
+
+/* Both modes of a strip of that width; without lateral flow one mode, and an outlet at the platform. */
+void zp_film_modes(ZpFilmParams *params, bool lateral_flow);
+
+/* Of a step; [2 i + k] is mode k at station i, of what is along in the element from i to i + 1. A state [5 N] has for
+ * each station u_0, u_1, m/s, b_0, b_1, 1/s, and the thickness of its cavity, m. */
+typedef struct ZpFilmEval {
+  double *rate;                    /* [N] at which the gaps changed over the last step, m/s */
+  double *middle;                  /* [N] thickness in the middle of the step, foreseen, m */
+  double *H0, *H1, *secant;        /* [N] thickness at its ends, m; (H1 - H0) / (g1 - g0) */
+  double *depth0, *depth1;         /* [N] E there, m */
+  double *flow, *conductance;      /* [2 N] H u, m^2/s; minus its derivative by the drop of the head, m^2/(s Pa) */
+  double *leak, *leak_conductance; /* [2 N] E c, m/s; its derivative by the head less D, m/(s Pa) */
+  double *jet;                     /* [N] speed of the jets, outwards, m/s */
+  double *coupling;                /* [N] how D couples the modes, Pa s/m */
+  double *head;                    /* [N] mean head across the width, Pa */
+  double *force;                   /* [N] on each station, N, positive opens */
+  double *r;                       /* [2 N] what is left of the volume's balance, times its share of the width, m^3 */
+  double *end;                     /* [5 N] state at the end */
+} ZpFilmEval;
+
+void zp_film_carve(const ZpFilmParams *params, ZpFilmEval *eval, ZpCarver *carver);
+
+/* Thickness at a gap, which may be below 0 by rounding and contact, m. */
+double zp_film_thickness(const ZpFilmParams *params, double gap);
+
+/* Depth that counts across at a thickness, m: as much less as the liquid beyond the edges has to move, too. */
+double zp_film_depth(const ZpFilmParams *params, double thickness);
+
+/* (gaps at both ends of a step of h, state at its start, heads) => all of eval, with eval->rate as it is. */
+void zp_film_step(const ZpFilmParams *params, const double *g0, const double *g1, double h, const double *start,
+                  const double *heads, const ZpFilmEval *eval);
+
+/* What the film loses over that step, J: each is 0 or more. */
+typedef struct ZpFilmLoss {
+  double along, across; /* to viscosity */
+  double jets;          /* to jets at the long edges, and to cavities that collapse */
+} ZpFilmLoss;
+ZpFilmLoss zp_film_loss(const ZpFilmParams *params, double h, const double *start, const ZpFilmEval *eval);
+
+/* Mass by which the film at station i resists to a change of its gap over a step of h, inertia and viscosity together,
+ * if all flows across, kg. */
+double zp_film_inertia(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i);
+
+/* Kinetic energy of the film at gaps [N] and a state, and what its cavities hold, J. */
+double zp_film_energy(const ZpFilmParams *params, const double *gap, const double *state);
+
+/* Length of the film at station i, m. */
+double zp_film_length(const ZpFilmParams *params, size_t i);
+
+/* What the thickness at station j, i - 1 .. i + 1, counts in the cell of station i, m: half of each element beside it.
+ */
+double zp_film_cell(const ZpFilmParams *params, size_t i, size_t j);
+
+/* Derivative of r of mode k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
+ * the head's force; m^2. */
+double zp_film_by_gap(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, size_t j, int k);
+
+/* Derivatives of -r of mode k at station i: by the head of mode m there, and by its own at the next one, m^3/Pa. */
+double zp_film_own(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k, int m);
+double zp_film_next(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k);
+
+#endif

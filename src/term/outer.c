@@ -1,0 +1,95 @@
+/* The liquid outside the gap of submerged ribbons. What each outer face moves is in the masses of the nodes (along y
+ * only); here is what the pair moves beyond that, and the form drag. Eqs. (22.12) to (22.15). */
+#include <math.h>
+
+#include "term/term.h"
+
+static bool acts(const ZpModel *model) {
+  return model->has_film && (model->outer.rho > 0 || model->outer.drag > 0);
+}
+
+/* One station over a step: mean velocities of its upper and lower node, and of both together at start and end, m/s. */
+typedef struct Pair {
+  size_t upper, lower;
+  double rate[2], Y0, Y1;
+  double length; /* m */
+} Pair;
+
+static Pair pair_of(const ZpModel *model, const ZpSpan *span, size_t i) {
+  Pair pair = {.upper = zp_upper(&model->topology, i) + model->stride,
+               .lower = zp_lower(&model->topology, i) + model->stride,
+               .length = zp_film_length(&model->film, i)};
+  pair.rate[0] = (span->end[pair.upper] - span->start[pair.upper]) / span->h;
+  pair.rate[1] = (span->end[pair.lower] - span->start[pair.lower]) / span->h;
+  pair.Y0 = 0.5 * (span->v0[pair.upper] + span->v0[pair.lower]);
+  pair.Y1 = pair.rate[0] + pair.rate[1] - pair.Y0;
+  return pair;
+}
+
+static double drag(const ZpModel *model, double length, double v) {
+  return -model->outer.drag * model->film.w * length * fabs(v) * v;
+}
+
+/* The pair has the momentum M(g) Y'; its kinetic energy pushes the gap, too: together their work is its change. */
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  if (zp_span_is_still(span)) return;
+  const double *g0 = e->plates_start.gap, *g1 = e->plates.gap;
+  for (size_t i = 0; i < model->nodes; i++) {
+    Pair pair = pair_of(model, span, i);
+    double before = zp_outer_pair(&model->outer, g0[i]) * pair.Y0,
+           after = zp_outer_pair(&model->outer, g1[i]) * pair.Y1;
+    double on_both = -0.5 * pair.length * (after - before) / span->h;
+    double on_gap = 0.5 * pair.length * zp_outer_pair_slope(&model->outer, g0[i], g1[i]) * pair.Y0 * pair.Y1;
+    F[pair.upper] += on_both + on_gap + drag(model, pair.length, pair.rate[0]);
+    F[pair.lower] += on_both - on_gap + drag(model, pair.length, pair.rate[1]);
+  }
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  if (zp_span_is_still(span)) return;
+  for (size_t i = 0; i < model->nodes; i++) {
+    Pair pair = pair_of(model, span, i);
+    double mass = 0.5 * pair.length * zp_outer_pair(&model->outer, e->plates.gap[i]) / (span->h * span->h);
+    double per_speed = 2 * model->outer.drag * model->film.w * pair.length / span->h;
+    zp_assemble_heights(assembly, i, mass + per_speed * fabs(pair.rate[0]), mass + per_speed * fabs(pair.rate[1]), mass,
+                        K);
+  }
+}
+
+static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
+  (void)span;
+  for (size_t i = 0; i < model->nodes; i++) {
+    size_t upper = zp_upper(&model->topology, i) + model->stride, lower = zp_lower(&model->topology, i) + model->stride;
+    double mass = zp_film_length(&model->film, i) * zp_outer_pair(&model->outer, e->plates.gap[i]);
+    F[upper] += 0.25 * mass * (a[upper] + a[lower]);
+    F[lower] += 0.25 * mass * (a[upper] + a[lower]);
+  }
+}
+
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+  zp_plates_gaps(&model->plates, now->end, now->end + model->stride, &e->plates);
+  for (size_t i = 0; i < model->nodes; i++) {
+    double upper = now->v[model->stride + zp_upper(&model->topology, i)],
+           lower = now->v[model->stride + zp_lower(&model->topology, i)], Y = 0.5 * (upper + lower);
+    double sides = zp_outer_side(&model->outer) * (upper * upper + lower * lower);
+    sum->liquid +=
+        0.5 * zp_film_length(&model->film, i) * (sides + zp_outer_pair(&model->outer, e->plates.gap[i]) * Y * Y);
+  }
+}
+
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+  (void)e;
+  for (size_t i = 0; i < model->nodes; i++) {
+    Pair pair = pair_of(model, span, i);
+    for (int k = 0; k < 2; k++)
+      sum->outer -= span->h * pair.rate[k] * drag(model, pair.length, pair.rate[k]);
+  }
+}
+
+const ZpTerm zp_term_outer = {.name = "outer",
+                              .acts = acts,
+                              .force = force,
+                              .stiffness = stiffness,
+                              .inertia = inertia,
+                              .energy = energy,
+                              .loss = loss};

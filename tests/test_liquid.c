@@ -1,0 +1,284 @@
+/* The default actuator in a bath of liquid: limits in closed form, what the energy does, meshes, steps and keys; docs/
+ * theory.md, section 22. */
+#include "check_util.h"
+
+#include "actuator/model.h"
+
+typedef struct Run {
+  ZpOutcome outcome;
+  double zip_time, energy_error, steps, film, zipped, viscous, jets, outer;
+} Run;
+
+static Run run_of(const ZpActuatorDef *def) {
+  ZpResult *result;
+  ZpError err;
+  ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  Run run = {result->outcome,
+             zp_result_get(result, "zip_time_s"),
+             zp_result_get(result, "energy_error"),
+             zp_result_get(result, "steps"),
+             zp_result_get(result, "film_thickness_m"),
+             zp_result_get(result, "zipped_length_m"),
+             zp_result_get(result, "viscous_loss_J"),
+             zp_result_get(result, "jet_loss_J"),
+             zp_result_get(result, "outer_drag_loss_J")};
+  zp_result_destroy(result);
+  return run;
+}
+
+static Run run_with(const Setting *list, size_t count) {
+  ZpActuatorDef def = def_with(list, count);
+  def.output.errors = false;
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  return run_of(&def);
+}
+#define RUN(...) run_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
+
+/* Viscosity alone, no mass of the liquid: no second code knows more of it than 131.4 ms on an endless mesh. */
+#define FILM_ONLY                                                                                                      \
+  {"liquid.inertia", 0}, {                                                                                             \
+    "medium.drag_coefficient", 0                                                                                       \
+  }
+
+START_TEST(test_film_alone) {
+  Run film = RUN(FILM_ONLY);
+  printf("film only: %.2f ms\n", 1e3 * film.zip_time);
+  ck_near(film.zip_time, 131.4e-3, 5e-3);
+  ck_below(film.energy_error, 1e-6);
+  ck_assert_double_eq(film.jets, 0);
+  ck_assert_double_eq(film.outer, 0);
+}
+END_TEST
+
+/* In a bath of 50 mm2/s closing takes more than twice as long as without it; every part of that is a loss above 0. */
+START_TEST(test_submerged) {
+  Run run = RUN({"mesh.nodes", 121}, {"solver.tolerance", 1e-5});
+  printf("submerged: %.2f ms, film %.1f um\n", 1e3 * run.zip_time, 1e6 * run.film);
+  ck_assert_int_eq(run.outcome, ZP_ZIPPED);
+  ck_near(run.zip_time, 191e-3, 0.03); /* of an independent code */
+  ck_near(run.film, 60e-6, 0.05);
+  ck_below(run.energy_error, 1e-6);
+  ck_assert_double_gt(run.viscous, 1e-3);
+  ck_assert_double_gt(run.jets, 1e-4);
+  ck_assert_double_gt(run.outer, 1e-4);
+}
+END_TEST
+
+/* Without viscosity, mass and drag the liquid does nothing. */
+START_TEST(test_nothing_of_the_liquid_is_dry) {
+  ZpActuatorDef dry = DEF({"output.errors", 0}, {"drive.voltage", 7e3});
+  Run none = run_of(&dry), thin = RUN(FILM_ONLY, {"drive.voltage", 7e3}, {"medium.kinematic_viscosity", 1e-8});
+  printf("dry: %.3f ms, as good as dry: %.3f ms\n", 1e3 * none.zip_time, 1e3 * thin.zip_time);
+  ck_near(thin.zip_time, none.zip_time, 0.01);
+}
+END_TEST
+
+/* Where viscosity rules, twice of it takes twice the time: what is left of the rest is 1.5 % of it, and half each time.
+ */
+START_TEST(test_time_is_linear_in_viscosity) {
+  double time[3], nu = 500e-6;
+  for (int k = 0; k < 3; k++, nu *= 2)
+    time[k] = RUN({"mesh.nodes", 31}, {"medium.kinematic_viscosity", nu}, {"solver.end_time", 10}, FILM_ONLY).zip_time;
+  printf("per doubling of the viscosity: %.4f, %.4f\n", time[1] / time[0], time[2] / time[1]);
+  ck_near(time[1] / time[0], 2, 0.02);
+  ck_near(time[2] / time[1], 2, 0.006);
+}
+END_TEST
+
+/* Closing does not know how rough the faces are. */
+START_TEST(test_time_does_not_depend_on_roughness) {
+  double fine = RUN({"film.roughness", 0.5e-6}).zip_time, rough = RUN({"film.roughness", 10e-6}).zip_time;
+  ck_near(rough, fine, 0.015);
+}
+END_TEST
+
+/* Nor, by more than a hundredth, the mesh. */
+START_TEST(test_time_does_not_depend_on_the_mesh) {
+  double coarse = RUN({"mesh.nodes", 61}, {"solver.tolerance", 1e-5}).zip_time,
+         fine = RUN({"mesh.nodes", 241}, {"solver.tolerance", 1e-5}).zip_time;
+  printf("N = 61: %.2f ms, 241: %.2f ms\n", 1e3 * coarse, 1e3 * fine);
+  ck_near(coarse, fine, 0.011);
+}
+END_TEST
+
+/* Fixed steps, halved: of second order. */
+START_TEST(test_second_order_in_time) {
+  double time[3], step = 4e-4;
+  for (int k = 0; k < 3; k++, step *= 0.5)
+    time[k] = RUN({"mesh.nodes", 31}, {"solver.time_step", step}).zip_time;
+  double order = (time[0] - time[1]) / (time[1] - time[2]);
+  printf("steps of 400, 200, 100 us: %.4f %.4f %.4f ms\n", 1e3 * time[0], 1e3 * time[1], 1e3 * time[2]);
+  ck_near(order, 4, 0.25);
+}
+END_TEST
+
+/* -- zip, hold, release ---------------------------------------------------------------------------- */
+
+static ZpSim *zip_hold_release(ZpModel **model, double viscosity, const char *symmetry) {
+  ZpActuatorDef def = DEF({"medium.kinematic_viscosity", viscosity}, {"mesh.nodes", 31});
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  def.actuator.symmetry = strcmp(symmetry, "none") == 0 ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF;
+  def.drive.waveform = ZP_WAVEFORM_TABLE;
+  snprintf(def.drive.table, sizeof def.drive.table, "0 s = 10 kV, 0.3 s = 10 kV, 0.3 s = 0 kV");
+  static const double time[] = {0, 0.3, 0.3}, voltage[] = {10e3, 10e3, 0};
+  ZpDriveTable table = {3, time, voltage};
+  ZpError err;
+  ck_assert_msg(zp_model_create_driven(&def, &table, model, &err) == ZP_OK, "%s", err.message);
+  return sim_of(*model);
+}
+
+/* Energy closes over closing, holding and opening, in thin and thick liquids, and no film is gone. A film that has been
+ * pressed out holds the platform for seconds before it opens. */
+START_TEST(test_energy_of_zip_hold_and_release) {
+  static const double viscosity[] = {1e-6, 50e-6, 1000e-6};
+  ZpModel *model;
+  ZpSim *sim = zip_hold_release(&model, viscosity[_i], "half");
+  double worst = 0;
+  for (int k = 1; k <= 40; k++) {
+    ck_assert_int_eq(zp_sim_run(sim, 0.2 * k, false, NULL, NULL), ZP_REACHED_END);
+    worst = fmax(worst, fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work"));
+    ck_assert_double_gt(zp_sim_get(sim, "film_thickness"), 0);
+  }
+  printf("%g mm2/s: energy off by %.1e of the work at most, opening %.2f mm\n", 1e6 * viscosity[_i], worst,
+         1e3 * zp_sim_get(sim, "opening"));
+  ck_below(worst, 1e-6);
+  ck_assert_double_gt(zp_sim_get(sim, "opening"), 15e-3);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The whole actuator is two halves in the liquid, too. */
+START_TEST(test_whole_is_two_halves) {
+  ZpModel *models[2];
+  ZpSim *sims[2] = {zip_hold_release(&models[0], 50e-6, "half"), zip_hold_release(&models[1], 50e-6, "none")};
+  static const char *const signals[] = {"opening", "film_across_loss", "jet_loss", "liquid_energy", "outer_drag_loss"};
+  for (int k = 0; k < 2; k++)
+    ck_assert_int_eq(zp_sim_run(sims[k], 0.5, false, NULL, NULL), ZP_REACHED_END);
+  for (size_t k = 0; k < LENGTH_OF(signals); k++)
+    ck_near(zp_sim_get(sims[1], signals[k]), zp_sim_get(sims[0], signals[k]), 1e-4);
+  for (int k = 0; k < 2; k++) {
+    zp_sim_destroy(sims[k]);
+    zp_model_destroy(models[k]);
+  }
+}
+END_TEST
+
+/* A run that is saved and restored on the way takes the very steps of one that is not: what the liquid has is a state.
+ */
+START_TEST(test_state_of_the_liquid_is_kept) {
+  ZpModel *model;
+  ZpSim *sim = zip_hold_release(&model, 50e-6, "half"), *other = sim_of(model);
+  size_t size = zp_sim_state_size(sim);
+  void *bytes = malloc(size);
+  ck_assert_int_eq(zp_sim_run(sim, 0.12, false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_save(sim, bytes);
+  ck_assert_int_eq(zp_sim_restore(other, bytes, size, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(sim, 0.16, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_run(other, 0.16, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(other, "opening"));
+  ck_assert_double_eq(zp_sim_get(sim, "liquid_energy"), zp_sim_get(other, "liquid_energy"));
+  ck_assert_double_eq(zp_sim_get(sim, "film_along_loss"), zp_sim_get(other, "film_along_loss"));
+  free(bytes);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A simulation goes on with liquid where one without it was, and the other way round: its liquid begins at rest. */
+START_TEST(test_liquid_comes_and_goes) {
+  ZpActuatorDef def[2] = {DEF({"mesh.nodes", 31}), DEF({"mesh.nodes", 31})};
+  def[1].liquid.model = ZP_LIQUID_SUBMERGED;
+  ZpModel *models[2] = {model_of(&def[0]), model_of(&def[1])};
+  ZpSim *from = sim_of(models[_i]), *sim = sim_of(models[1 - _i]);
+  ZpError err;
+  ck_assert_int_eq(zp_sim_run(from, 0.02, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_take_over(sim, from, &err), ZP_OK);
+  ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(from, "opening"));
+  ck_assert_int_eq(zp_sim_run(sim, 0.04, false, NULL, NULL), ZP_REACHED_END);
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-6 * zp_sim_get(sim, "field_energy"));
+  zp_sim_destroy(from);
+  zp_sim_destroy(sim);
+  for (int k = 0; k < 2; k++)
+    zp_model_destroy(models[k]);
+}
+END_TEST
+
+/* -- keys ------------------------------------------------------------------------------------------ */
+
+/* What the film does not know is refused, by the name of the key. */
+START_TEST(test_what_is_refused) {
+  static const struct {
+    const char *key;
+    double value;
+  } other[] = {{"ribbon.model", ZP_RIBBON_MASS_SPRING},
+               {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
+               {"contact.model", ZP_CONTACT_SEQUENTIAL},
+               {"actuator.kind", ZP_KIND_FLANGE}};
+  ZpActuatorDef def = DEF({other[_i].key, other[_i].value});
+  ZpError err;
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "liquid.model = submerged"));
+  ck_assert_ptr_nonnull(strstr(err.message, other[_i].key));
+}
+END_TEST
+
+START_TEST(test_modes_are_refused) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpError err;
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  ck_assert_int_eq(zp_study_check(ZP_STUDY_MODES, &def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "liquid.model"));
+}
+END_TEST
+
+/* Random liquids and voltages: every run ends with an answer, and its energy closes. */
+START_TEST(test_random_designs) {
+  enum { DESIGNS = 40 };
+  uint64_t seed = 17;
+  double worst = 0;
+  int ended = 0;
+  for (int k = 0; k < DESIGNS; k++) {
+    Run run = RUN({"mesh.nodes", 31}, {"solver.end_time", 0.5},
+                  {"medium.kinematic_viscosity", 5e-5 * exp(4.6 * noise(&seed))},
+                  {"medium.density", 1000 + 300 * noise(&seed)}, {"drive.voltage", 8500 + 6500 * noise(&seed)},
+                  {"ribbon.width", 13e-3 * exp(noise(&seed))}, {"ribbon.thickness", 60e-6 * exp(0.7 * noise(&seed))},
+                  {"load.mass", 8e-3 * exp(noise(&seed))}, {"film.roughness", 2e-6 * exp(1.5 * noise(&seed))});
+    if (run.outcome == ZP_ZIPPED || run.outcome == ZP_REACHED_END) ended++;
+    if (run.energy_error > 1e-6) printf("design %d: energy off by %.1e\n", k, run.energy_error);
+    worst = fmax(worst, run.energy_error);
+  }
+  printf("%d of %d end with an answer; energy off by %.1e at most\n", ended, DESIGNS, worst);
+  ck_assert_int_eq(ended, DESIGNS);
+  ck_below(worst, 1e-5);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("liquid");
+  TCase *zips = tcase_create("zips");
+
+  tcase_add_test(zips, test_film_alone);
+  tcase_add_test(zips, test_submerged);
+  tcase_add_test(zips, test_nothing_of_the_liquid_is_dry);
+  tcase_add_test(zips, test_time_is_linear_in_viscosity);
+  tcase_add_test(zips, test_time_does_not_depend_on_roughness);
+  tcase_add_test(zips, test_time_does_not_depend_on_the_mesh);
+  tcase_add_test(zips, test_second_order_in_time);
+  suite_add_tcase(suite, zips);
+  TCase *runs = tcase_create("runs");
+
+  tcase_add_loop_test(runs, test_energy_of_zip_hold_and_release, 0, 3);
+  tcase_add_test(runs, test_whole_is_two_halves);
+  tcase_add_test(runs, test_state_of_the_liquid_is_kept);
+  tcase_add_loop_test(runs, test_liquid_comes_and_goes, 0, 2);
+  tcase_add_test(runs, test_random_designs);
+  suite_add_tcase(suite, runs);
+  TCase *keys = tcase_create("keys");
+  tcase_add_loop_test(keys, test_what_is_refused, 0, 4);
+  tcase_add_test(keys, test_modes_are_refused);
+  suite_add_tcase(suite, keys);
+  return run_suite(suite);
+}
