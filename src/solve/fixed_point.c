@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/vector.h"
+
 enum { DEPTH = ZP_FIXED_POINT_DEPTH };
 static const double dependent = 1e-10; /* what is left of a column, as a share of it, that is rounding */
 
@@ -22,13 +24,6 @@ void zp_fixed_point_carve(ZpFixedPoint *f, size_t n, ZpCarver *carver) {
 
 void zp_fixed_point_forget(ZpFixedPoint *f) {
   f->pairs = -1;
-}
-
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
 }
 
 static void subtract(size_t n, double share, const double *b, double *a) {
@@ -57,17 +52,17 @@ static void remember(ZpFixedPoint *f, const double *x, const double *mapped) {
 
 /* R = Q T by Gram and Schmidt, twice; column k as far as it is independent of those before. False if it is not. */
 static bool orthogonal(ZpFixedPoint *f, int k, double T[DEPTH][DEPTH]) {
-  double *q = f->q[k], size = sqrt(dot(f->n, f->changed[k], f->changed[k]));
+  double *q = f->q[k], size = sqrt(zp_dot(f->n, f->changed[k], f->changed[k]));
   memcpy(q, f->changed[k], f->n * sizeof *q);
   for (int j = 0; j < k; j++)
     T[j][k] = 0;
   for (int twice = 0; twice < 2; twice++)
     for (int j = 0; j < k; j++) {
-      double share = dot(f->n, f->q[j], q);
+      double share = zp_dot(f->n, f->q[j], q);
       T[j][k] += share;
       subtract(f->n, share, f->q[j], q);
     }
-  T[k][k] = sqrt(dot(f->n, q, q));
+  T[k][k] = sqrt(zp_dot(f->n, q, q));
   if (!(T[k][k] > dependent * size)) return false;
   for (size_t i = 0; i < f->n; i++)
     q[i] /= T[k][k];
@@ -82,7 +77,7 @@ void zp_fixed_point_next(ZpFixedPoint *f, const double *x, const double *mapped,
     used++;
   memcpy(f->rest, f->left, f->n * sizeof *f->rest);
   for (int k = 0; k < used; k++) {
-    g[k] = dot(f->n, f->q[k], f->rest);
+    g[k] = zp_dot(f->n, f->q[k], f->rest);
     subtract(f->n, g[k], f->q[k], f->rest);
   }
   memcpy(next, mapped, f->n * sizeof *next);

@@ -29,6 +29,7 @@ typedef struct Cycles {
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpTable *rows;              /* of the last cycle */
+  ZpMargins margins;          /* what materials saw in it */
   double period;              /* s */
   double far, fast;           /* what distances and rates are compared with, m, m/s */
   Mark mark[HISTORY];         /* the newest first */
@@ -41,7 +42,6 @@ typedef struct Cycles {
   int alike;                  /* how often in a row that was so */
   ZpRunInfo info;             /* of the last piece */
   int64_t steps;
-  double wall_time;
   void *memory;
 } Cycles;
 
@@ -51,17 +51,18 @@ typedef struct Cycles {
 static void keep_row(Cycles *c) {
   zp_sim_read(c->sim, c->rows->value + c->rows->rows * c->rows->columns);
   c->rows->rows++;
+  zp_margins_join(&c->margins, c->sim->now);
 }
 
 /* => false if the run ended before: c->info says how. */
 static bool run_cycle(Cycles *c) {
   c->rows->rows = 0;
+  c->margins = zp_margins_none();
   keep_row(c);
   for (int k = 1; k <= PHASES; k++) {
     double end = k == PHASES ? (c->done + 1.0) * c->period : (c->done + (double)k / PHASES) * c->period;
     zp_sim_run(c->sim, end, false, c->hooks, &c->info);
     c->steps += c->info.steps;
-    c->wall_time += c->info.wall_time;
     if (c->info.outcome != ZP_REACHED_END) return false;
     keep_row(c);
   }
@@ -330,6 +331,9 @@ static void summarize(const Cycles *c, ZpResult *result) {
   summarize_motion(c, result);
   summarize_energy(c, result);
   zp_result_add(result, "steps", "count", (double)c->steps);
+  zp_add_margins(result, c->model, &c->margins);
+  zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
+  zp_note_start(result, c->model, c->sim->state->opening0);
 }
 
 /* -- the study -------------------------------------------------------------------------------------- */
