@@ -120,14 +120,11 @@ static ZpAround climb_on(ZpSlow *f, double m, double sign) {
 /* On one side, in steps of the gap. */
 static ZpAround look(ZpSlow *f, double sign, double step) {
   enum { MOST = 12 };
-  static const double rough = 1e-7, higher = 1e-6; /* of the parameter */
+  static const double higher = 1e-6; /* of the parameter: what counts */
   const double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
   const double deep = changed(f, m, -sign * ZP_FOLD_RIPPLE);
   for (int k = 1; k <= MOST; k++) {
-    f->march.fold.small = rough;
-    bool found = zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step);
-    f->march.fold.small = ZP_FOLD_EXACT;
-    if (!found) return ZP_OUT_OF_SIGHT;
+    if (!zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step, ZP_FOLD_ROUGH)) return ZP_OUT_OF_SIGHT;
     if (sign * (parameter(f) - m) > higher * m) return climb_on(f, m, sign);
     if (sign * (parameter(f) - deep) < 0) return ZP_NOTHING_HIGHER;
   }

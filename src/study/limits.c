@@ -84,8 +84,9 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   if (load) s->load = near->value;
   if (load) s->U = f->model->def.drive.voltage;
   memcpy(f->slow.march.fold.null, near->null, s->assembly.n * sizeof *near->null);
-  if (!(fold ? zp_fold_solve(&f->slow.march.fold) : zp_fold_event(&f->slow.march.fold, zp_closing_gap, f->slow.closed)))
-    return false;
+  ZpFold *solver = &f->slow.march.fold;
+  bool found = fold ? zp_fold_solve(solver) : zp_fold_event(solver, zp_closing_gap, f->slow.closed, ZP_FOLD_EXACT);
+  if (!found) return false;
   double value = load ? s->load : s->U;
   bool sided = !fold || (near_gap <= 2 * f->slow.closed) == (zp_closing_gap(s, NULL) <= 2 * f->slow.closed);
   bool within = load ? value > 0 : value <= f->model->def.drive.voltage;
