@@ -58,9 +58,14 @@ static void toy_set(void *self, double m) {
 }
 
 /* Asked once at each iterate, so it writes down how far that is from the limit point. */
-static void toy_sensitivity(void *self, double *r_m) {
+static double toy_change(void *self, const double *step) {
   Toy *t = self;
   if (t->visits < MOST) t->seen[t->visits++] = fmax(fabs(t->m - 1), fmax(fabs(t->q[0]), fabs(t->q[1])));
+  return toy_length(self, step);
+}
+
+static void toy_sensitivity(void *self, double *r_m) {
+  (void)self;
   r_m[0] = 1;
   r_m[1] = r_m[2] = 0;
 }
@@ -87,7 +92,7 @@ static ZpBranchSystem toy_system(Toy *t) {
                                       .residual = toy_residual,
                                       .stiffness = toy_stiffness,
                                       .length = toy_length,
-                                      .change = toy_length,
+                                      .change = toy_change,
                                       .move = toy_move},
                           .get = toy_get,
                           .set = toy_set,
