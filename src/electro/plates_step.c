@@ -91,8 +91,9 @@ typedef struct Parts {
   double A, B, P, own_A, own_B, next, along0, along1;
 } Parts;
 
-static inline void add_point(Parts *of, Between law, double dx, int q) {
-  double r = gauss_at[q], l = 1 - r, w = gauss_weight[q];
+/* r: the share of the right station in what is sampled at point q. */
+static inline void add_point(Parts *of, Between law, double dx, double r, int q) {
+  double l = 1 - r, w = gauss_weight[q];
   of->A += w * l * law.W * dx;
   of->B += w * r * law.W * dx;
   of->P += w * law.P;
@@ -127,7 +128,7 @@ ZP_INLINE void element_parts(size_t count, int laws, bool still, const Laws *law
     for (int q = 0; q < GAUSS; q++) {
       double r = gauss_at[q], l = 1 - r, h0 = l * g0[i] + r * g0[i + 1] + d, h1 = l * g1[i] + r * g1[i + 1] + d;
       for (int k = 0; k < laws; k++)
-        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, q);
+        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, r, q);
     }
     put(&out, i, parts);
   }
@@ -148,18 +149,31 @@ ZP_KERNEL static void elements_at_rest(size_t count, const Laws *law, double d, 
   element_parts(count, 1, true, law, d, e, e, s);
 }
 
+/* Any element, with edges or not. */
+static void element(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1, size_t i,
+                    const ZpPlatesStep *s) {
+  const double *at = zp_gauss_shares(&p->level, i);
+  double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
+  Parts parts = {0};
+  for (int q = 0; q < GAUSS; q++) {
+    double r = at[q], l = 1 - r;
+    double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
+    add_point(&parts, mean_between(p, laws, g0, g1), dx, r, q);
+  }
+  put(s, i, parts);
+}
+
 static void elements_with_edges(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0,
                                 const ZpPlatesEval *e1, const ZpPlatesStep *s) {
-  for (size_t i = 0; i + 1 < p->nodes; i++) {
-    double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
-    Parts parts = {0};
-    for (int q = 0; q < GAUSS; q++) {
-      double r = gauss_at[q], l = 1 - r;
-      double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
-      add_point(&parts, mean_between(p, laws, g0, g1), dx, q);
-    }
-    put(s, i, parts);
-  }
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    element(p, laws, e0, e1, i, s);
+}
+
+/* Where the kernels over all elements have sampled straight pieces. */
+static void level_elements(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
+                           const ZpPlatesStep *s) {
+  for (size_t k = 0; k < p->level.count; k++)
+    element(p, laws, e0, e1, p->level.of[k].element, s);
 }
 
 /* Forces on both nodes of station i, or on the one below a flat electrode. */
@@ -219,6 +233,7 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
     elements_at_one(last, &laws, p->d, e0, e1, s);
   else
     elements_at_two(last, &laws, p->d, e0, e1, s);
+  if (!p->edges) level_elements(p, &laws, e0, e1, s);
   stations(p, s);
   add_platform(p, &laws, e0, e1, s);
 }
@@ -272,9 +287,10 @@ static double capacitance_at(const ZpPlatesParams *p, double U, double g) {
 static void parts_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
                              double share, ZpPlatesStep *s) {
   for (size_t i = 0; i + 1 < p->nodes; i++) {
+    const double *shares = zp_gauss_shares(&p->level, i);
     double dx = 0.5 * (e0->dx[i] + e1->dx[i]), A = 0, B = 0, P = 0;
     for (int q = 0; q < GAUSS; q++) {
-      double r = gauss_at[q], l = 1 - r;
+      double r = shares[q], l = 1 - r;
       double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
       Charges at = charges_between(p, U, g0, g1);
       A += gauss_weight[q] * l * at.W * dx;
@@ -323,9 +339,11 @@ static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, c
 
 static double capacitance(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
   double sum = 0;
-  for (size_t i = 0; i + 1 < p->nodes; i++)
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    const double *at = zp_gauss_shares(&p->level, i);
     for (int q = 0; q < GAUSS; q++)
-      sum += gauss_weight[q] * e->dx[i] * capacitance_at(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * gauss_at[q]);
+      sum += gauss_weight[q] * e->dx[i] * capacitance_at(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * at[q]);
+  }
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
     sum += p->flat_length * capacitance_at(p, U, e->gap[i]);
   return sum;
