@@ -147,6 +147,8 @@ START_TEST(test_charging_behind_a_resistance) {
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
   ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4);
   ck_near(zp_sim_get(c.sim, "cable_energy"), 0.5 * CABLE * V * V, 1e-4);
+  ck_near(zp_sim_currents(c.sim, 1).peak, V / 1e8, 1e-9);
+  ck_near(zp_sim_currents(c.sim, 1).rms, sqrt(0.5 * c.C * V * V / 1e8), 1e-3); /* of squared means over steps */
   end_charging(&c);
 }
 END_TEST

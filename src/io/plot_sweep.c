@@ -446,7 +446,7 @@ static void script_bode(const ZpPlot *plot, FILE *file) {
     largest = fmax(largest, zp_result_get(plot->report->result[run], "stroke_amplitude_m"));
   ZpPlotUnit length = zp_plot_unit(largest, "m");
   snprintf(amplitude, sizeof amplitude, "$2*%g", length.factor);
-  zp_plot_head(plot, file, "bode", "Amplitude of the stroke, and phase behind the squared voltage", RIGHT);
+  zp_plot_head(plot, file, "bode", "Amplitude and phase of the stroke", RIGHT);
   zp_plot_foot(plot, file, NULL);
   fputs("set logscale x\nset autoscale x noextend\n", file);
   zp_plot_upper_panel(file);
