@@ -84,6 +84,9 @@ static void print_studies(void) {
   def.drive.frequency = 77;
   print_study("sine", ZP_STUDY_ACTUATE, &def);
   def = default_def();
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  print_study("bath", ZP_STUDY_ACTUATE, &def);
+  def = default_def();
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.drive.voltage = 0;
   print_study("straight", ZP_STUDY_ACTUATE, &def);
