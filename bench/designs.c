@@ -313,9 +313,13 @@ static double period_of(const ZpActuatorDef *def) {
   return 1 / frequency;
 }
 
-/* Go to this voltage in `periods`. => that at which the actuator first is open, or closed, on the way; NAN if it is not
- * before the end */
-static double go(Ramp *r, double to, double periods, bool until_closed) {
+static bool is_closed(const Ramp *r) {
+  return zp_sim_get(r->sim, "opening") <= r->closed;
+}
+
+/* Go to this voltage in `periods`. => that at which the actuator first is open, or closed, where it stops; NAN if it is
+ * not on the way */
+static double go(Ramp *r, double to, double periods, bool closes) {
   enum { STEPS = 400 };
   ZpError err;
   double from = r->volts, found = NAN;
@@ -323,16 +327,27 @@ static double go(Ramp *r, double to, double periods, bool until_closed) {
   for (int k = 1; k <= STEPS && isnan(found); k++) {
     if (!zp_outcome_good(zp_sim_step(r->sim, periods * r->period / STEPS, NULL, NULL))) break;
     r->volts = from + (to - from) * k / STEPS;
-    if ((zp_sim_get(r->sim, "opening") <= r->closed) == until_closed) found = r->volts;
+    if (is_closed(r) == closes) found = r->volts;
   }
   zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, r->volts, 0, &err);
   return found;
 }
 
+/* The same without a look, and wait there until what that excites has died away. */
+static void go_and_wait(Ramp *r, double to) {
+  static const double quick = 10; /* periods */
+  ZpError err;
+  zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, r->volts, (to - r->volts) / (quick * r->period), &err);
+  zp_sim_step(r->sim, quick * r->period, NULL, NULL);
+  r->volts = to;
+  zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, to, 0, &err);
+  zp_sim_step(r->sim, quick * r->period, NULL, NULL);
+}
+
 /* The voltage at which it closes, or opens, on a ramp past `near` from the present state, the rate halved until the
  * answer moves by less than 0.2 %. The simulation is where it was on the last ramp. */
 static double by_ramp(Ramp *r, double near, bool closes) {
-  enum { HALVINGS = 8 };
+  enum { HALVINGS = 11 };
   static const double beyond = 0.2, enough = 2e-3;
   double from = r->volts, to = near * (closes ? 1 + beyond : 1 - beyond), periods = 20, before = NAN;
   ZpError err;
@@ -349,13 +364,13 @@ static double by_ramp(Ramp *r, double near, bool closes) {
 
 /* Up past `closing` and down past `release` (NAN: there is none) => both by the ramp. */
 static void ramp(Ramp *r, double top, double closing, double release, double found[2]) {
-  static const double near = 0.1, quick = 10; /* periods */
-  go(r, (1 - near) * closing, quick, true);
+  static const double near = 0.1;
+  go_and_wait(r, (1 - near) * closing);
   found[0] = by_ramp(r, closing, true);
   found[1] = NAN;
   if (isnan(found[0]) || isnan(release)) return;
-  go(r, top, quick, false);
-  go(r, (1 + near) * release, quick, false);
+  go_and_wait(r, top);
+  go_and_wait(r, fmin((1 + near) * release, top));
   found[1] = by_ramp(r, release, false);
 }
 
