@@ -450,20 +450,20 @@ START_TEST(test_limits_from_a_neighbour) {
   static const char *const keys[] = {"load.mass", "ribbon.thickness", "ribbon.length", "drive.voltage"};
   ZpActuatorDef def = zp_actuator_def_default();
   ZpResult *near = limits_of(&def);
-  double warm = 0;
+  double starts = 0;
   for (int k = 0; k < 6; k++) {
     int key = zp_key_find(keys[_i]);
     ck_assert_int_eq(zp_def_set(&def, key, zp_def_get(&def, key) * 1.01, NULL), ZP_OK);
-    ZpResult *from = run(ZP_STUDY_LIMITS, &def, near), *anew = limits_of(&def);
-    warm += zp_result_get(from, "warm_starts");
+    ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+    starts += zp_result_get(warm, "warm_starts");
     for (size_t i = 0; i < LENGTH_OF(names); i++)
-      same(from, anew, names[i], strcmp(names[i], "max_load_kg") == 0 ? of_ripples : 1e-6);
+      same(warm, cold, names[i], strcmp(names[i], "max_load_kg") == 0 ? of_ripples : 1e-6);
     zp_result_destroy(near);
-    zp_result_destroy(anew);
-    near = from;
+    zp_result_destroy(cold);
+    near = warm;
   }
-  printf("%s: %g of 18 limits from the neighbour\n", keys[_i], warm);
-  ck_assert_double_ge(warm, 9);
+  printf("%s: %g of 18 limits from the neighbour\n", keys[_i], starts);
+  ck_assert_double_ge(starts, 9);
   zp_result_destroy(near);
 }
 END_TEST
@@ -471,13 +471,13 @@ END_TEST
 /* One of another mesh, or another kind, is no neighbour. */
 START_TEST(test_no_neighbour) {
   ZpActuatorDef def = DEF({"mesh.nodes", 41}), other = DEF({"mesh.nodes", 31});
-  ZpResult *near = limits_of(&other), *from = run(ZP_STUDY_LIMITS, &def, near), *anew = limits_of(&def);
-  ck_assert_double_eq(zp_result_get(from, "warm_starts"), 0);
+  ZpResult *near = limits_of(&other), *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+  ck_assert_double_eq(zp_result_get(warm, "warm_starts"), 0);
   for (size_t i = 0; i < LENGTH_OF(names); i++)
-    ck_assert_double_eq(zp_result_get(from, names[i]), zp_result_get(anew, names[i]));
+    ck_assert_double_eq(zp_result_get(warm, names[i]), zp_result_get(cold, names[i]));
   zp_result_destroy(near);
-  zp_result_destroy(from);
-  zp_result_destroy(anew);
+  zp_result_destroy(warm);
+  zp_result_destroy(cold);
 }
 END_TEST
 

@@ -62,6 +62,8 @@ typedef struct ZpResult {
   char note[ZP_MAX_NOTES]
            [256]; /* [notes] sentences: breakdown, yield, limits of the model and of the mesh that were met */
   size_t notes;
+  double resolution; /* elements on the shortest length over which a ribbon bends, of the zip front or where it hangs
+                      * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
   ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */

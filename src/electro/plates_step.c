@@ -205,13 +205,18 @@ static void stations(const ZpPlatesParams *p, ZpPlatesStep *s) {
   s->own[last] = s->own_B[last - 1];
 }
 
+/* The platform's electrode at station i pulls the ribbons together. */
+static void attract(double *Fy, size_t i, double W) {
+  Fy[2 * i] -= W;
+  Fy[2 * i + 1] += W;
+}
+
 /* The platform's electrode, at both its ends where it has two. */
 static void add_platform(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
                          ZpPlatesStep *s) {
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
     Between law = mean_between(p, laws, e0->gap[i], e1->gap[i]);
-    s->Fy[2 * i] -= p->flat_length * law.W;
-    s->Fy[2 * i + 1] += p->flat_length * law.W;
+    attract(s->Fy, i, p->flat_length * law.W);
     s->own[i] += p->flat_length * law.slope;
   }
 }
@@ -298,9 +303,7 @@ static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, c
   }
   act_all(p, s);
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
-    double W = share * p->flat_length * charges_between(p, U, e0->gap[i], e1->gap[i]).W;
-    s->Fy[2 * i] -= W;
-    s->Fy[2 * i + 1] += W;
+    attract(s->Fy, i, share * p->flat_length * charges_between(p, U, e0->gap[i], e1->gap[i]).W);
   }
 }
 

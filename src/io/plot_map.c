@@ -60,7 +60,7 @@ static bool has_map(const ZpPlot *plot) {
   return find_grid(plot, &grid);
 }
 
-/* A block per row of the grid; NaN where there is no answer leaves a hole. */
+/* One block for each row of the grid. A NaN marks a run without an answer and leaves a hole. */
 static void data_map(const ZpPlot *plot, FILE *file) {
   Grid grid;
   if (!find_grid(plot, &grid)) return;

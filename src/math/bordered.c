@@ -1,6 +1,8 @@
 /* x = A^-1 f - V z with V = A^-1 B and S z = g - C A^-1 f, S = D - C V. */
 #include "math/bordered.h"
 
+#include "math/vector.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -28,13 +30,6 @@ void zp_bordered_clear(ZpBordered *m) {
   memset(m->D, 0, m->border * m->border * sizeof *m->D);
 }
 
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* y -= a x */
 static void take(size_t n, double a, const double *x, double *y) {
   for (size_t i = 0; i < n; i++)
@@ -46,7 +41,7 @@ void zp_bordered_multiply(const ZpBordered *m, const double *x, double *y) {
   zp_band_multiply(&m->A, x, y);
   for (size_t k = 0; k < m->border; k++) {
     take(inner, -x[inner + k], m->B + k * inner, y);
-    y[inner + k] = dot(inner, m->C + k * inner, x) + dot(m->border, m->D + k * m->border, x + inner);
+    y[inner + k] = zp_dot(inner, m->C + k * inner, x) + zp_dot(m->border, m->D + k * m->border, x + inner);
   }
 }
 
@@ -83,7 +78,7 @@ bool zp_bordered_factor(ZpBordered *m) {
   zp_band_clear(&m->S);
   for (size_t i = 0; i < k; i++)
     for (size_t j = 0; j < k; j++)
-      *zp_band_at(&m->S, i, j) = m->D[i * k + j] - dot(inner, m->C + i * inner, m->V + j * inner);
+      *zp_band_at(&m->S, i, j) = m->D[i * k + j] - zp_dot(inner, m->C + i * inner, m->V + j * inner);
   return zp_band_factor(&m->S);
 }
 
@@ -94,7 +89,7 @@ static void eliminate(const ZpBordered *m, double *b) {
   double *g = b + inner;
   zp_band_solve(&m->LU, b);
   for (size_t k = 0; k < m->border; k++)
-    g[k] -= dot(inner, m->C + k * inner, b);
+    g[k] -= zp_dot(inner, m->C + k * inner, b);
   zp_band_solve(&m->S, g);
   for (size_t k = 0; k < m->border; k++)
     take(inner, g[k], m->V + k * inner, b);

@@ -1,10 +1,11 @@
 /* Letters of docs/theory.md, section 20: p the key, q coordinates, F forces, K = -dF/dq, m a branch's parameter. */
 #include "rest/slope.h"
 
+#include "base/fail.h"
+#include "math/vector.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/fail.h"
 
 /* -- what can be asked ----------------------------------------------------------------------------- */
 
@@ -254,13 +255,6 @@ static bool solve_both(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch) {
   return true;
 }
 
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* Is the stiffness singular here, as at a smooth limit point, or does the branch turn at a corner of a law? */
 static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
   static const double least = 1e3; /* longest steps per change of the parameter by itself; a corner has about 1 */
@@ -272,7 +266,7 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->assembly.n;
   if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
-  return -dot(n, null, p->by_key) / dot(n, null, p->by_parameter);
+  return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 
 double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate) {
@@ -286,7 +280,7 @@ double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, 
     direct += p->weight[k] * event(near, NULL);
   }
   event(p->at, p->row);
-  return (rate - direct - dot(n, p->row, p->by_key)) / dot(n, p->row, p->by_parameter);
+  return (rate - direct - zp_dot(n, p->row, p->by_key)) / zp_dot(n, p->row, p->by_parameter);
 }
 
 /* -- outputs -------------------------------------------------------------------------------------- */

@@ -576,14 +576,9 @@ ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), voi
   return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, work);
 }
 
-static bool at_rest_only(void *user) {
-  (void)user;
-  return false;
-}
-
 ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage, ZpNewtonWork *work) {
   s->U = voltage;
-  return zp_statics_fall_until(s, at_rest_only, NULL, work);
+  return zp_statics_fall_until(s, NULL, NULL, work);
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */

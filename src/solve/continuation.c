@@ -214,24 +214,30 @@ static double face_on(ZpBranch *b) {
   return zp_static_dot(&b->system->at_rest, b->direction, b->direction_saved) + b->direction_m * before;
 }
 
+/* A step of length `s`, then one four times as long, over a corner; direction_m was `m` before it. */
+static bool step_over(ZpBranch *b, double m, double s) {
+  go_back(b, m);
+  if (!predict(b, s)) return false;
+  double cosine = face_on(b);
+  if (cosine > sharpest_turn) {
+    go_back(b, m);
+    try_step(b, s);
+    cosine = face_on(b);
+  }
+  if (cosine > 1 || try_step(b, 4 * s) < 0 || find_direction(b) < sharpest_turn || b->reversed) return false;
+  b->step = b->taken = 4 * s;
+  return true;
+}
+
 /* Over a corner, where the stiffness jumps and the branch turns by any angle: not further ahead than `ahead`, or no
  * step would have failed. Eq. (10.2) holds across it, so the tangent beyond it says where the branch goes on. Where
  * the branch meets the corner at a grazing angle, corrections find what is beyond. */
 static bool turn_corner(ZpBranch *b, double ahead) {
   static const double farthest = 1e-4;
-  double m = b->direction_m;
-  for (double s = ahead; s < farthest; s *= 4) {
-    go_back(b, m);
-    if (!predict(b, s)) return false;
-    double cosine = face_on(b);
-    if (cosine > sharpest_turn) {
-      go_back(b, m);
-      try_step(b, s);
-      cosine = face_on(b);
-    }
-    if (cosine > 1 || try_step(b, 4 * s) < 0 || find_direction(b) < sharpest_turn || b->reversed) continue;
-    b->step = b->taken = 4 * s;
-    return true;
+  double m = b->direction_m, s = ahead;
+  while (s < farthest) {
+    if (step_over(b, m, s)) return true;
+    s *= 4;
   }
   return false;
 }

@@ -35,7 +35,7 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
   for (; info.iterations < most; info.iterations++) {
     if (system->residual(system->self, work->r, &info.residual) != ZP_END_FOUND)
       return (ZpNewtonInfo){ZP_NEWTON_DIVERGED, info.iterations, INFINITY};
-    if (enough(user)) return (ZpNewtonInfo){ZP_NEWTON_CONVERGED, info.iterations, info.residual};
+    if (enough && enough(user)) return (ZpNewtonInfo){ZP_NEWTON_CONVERGED, info.iterations, info.residual};
     bool close = zp_closing_done(&closing, info.residual, tolerance);
     bool floor = !close && zp_closing_stalled(&closing, info.residual, tolerance);
     if (info.iterations == 0) {

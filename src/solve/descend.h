@@ -7,8 +7,8 @@
 #include "solve/newton.h"
 
 /* From the present point in at most `most` steps, none longer than `longest` of the system's length, until rest or
- * until `enough` (of `user`, who knows the present point) is true; the present point is then no equilibrium. At rest a
- * good end is a stable one: no pivot of the stiffness is negative. */
+ * until `enough` (of `user`, who knows the present point; NULL: only rest will do) is true; the present point is then
+ * no equilibrium. At rest a good end is a stable one: no pivot of the stiffness is negative. */
 ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, double tolerance, int most,
                               bool (*enough)(void *user), void *user, ZpNewtonWork *work);
 

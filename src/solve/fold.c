@@ -6,6 +6,8 @@
  */
 #include "solve/fold.h"
 
+#include "math/vector.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -22,15 +24,7 @@ void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bo
   f->saved = zp_carve(carver, saved);
 }
 
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
-/* Forces and factored stiffness at the present point; => dr/dm over the stiffness in `along`. */
-static bool linearise(ZpFold *f) {
+bool zp_fold_tangent(ZpFold *f) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   ZpBand *K = &f->newton->K;
   if (rest->residual(rest->self, f->newton->r, NULL) != ZP_END_FOUND) return false;
@@ -42,13 +36,9 @@ static bool linearise(ZpFold *f) {
   return true;
 }
 
-bool zp_fold_tangent(ZpFold *f) {
-  return linearise(f);
-}
-
 void zp_fold_guess(ZpFold *f) {
   size_t n = f->system->at_rest.n;
-  double length = sqrt(dot(n, f->along, f->along));
+  double length = sqrt(zp_dot(n, f->along, f->along));
   for (size_t i = 0; i < n; i++)
     f->null[i] = f->along[i] / length;
 }
@@ -60,7 +50,7 @@ static void test(ZpFold *f) {
   size_t n = f->system->at_rest.n;
   memcpy(f->x, f->null, n * sizeof *f->x);
   zp_band_solve(&f->newton->K, f->x);
-  double cx = dot(n, f->null, f->x);
+  double cx = zp_dot(n, f->null, f->x);
   f->test = -1 / cx;
   f->negative += cx > 0; /* of the bordered matrix, one of which is the border's */
   f->negative--;
@@ -95,7 +85,7 @@ static double change_of_test(ZpFold *f, const double *d, double dm) {
     y[i] = (y[i] - f->at[i]) / (2 * h);
   bool symmetric = f->beside.lower == 0;
   if (!symmetric) zp_band_solve(&f->newton->K, y);
-  double through = dot(n, symmetric ? f->x : f->null, y);
+  double through = zp_dot(n, symmetric ? f->x : f->null, y);
   return -through * f->test * f->test;
 }
 
@@ -130,7 +120,7 @@ static double *balance(ZpFold *f) {
  * dm. Both are bounded where K is singular. */
 static void split_step(ZpFold *f, double *dm_a, double *dm_n) {
   size_t n = f->system->at_rest.n;
-  double cx = -1 / f->test, left = dot(n, f->null, f->a) / cx, by_m = dot(n, f->null, f->along) / cx;
+  double cx = -1 / f->test, left = zp_dot(n, f->null, f->a) / cx, by_m = zp_dot(n, f->null, f->along) / cx;
   *dm_a = -left / by_m;
   *dm_n = -f->test / by_m;
   for (size_t i = 0; i < n; i++) {
@@ -145,13 +135,13 @@ static void split_step(ZpFold *f, double *dm_a, double *dm_n) {
 static bool step_to_fold(ZpFold *f, bool *small) {
   static const double falls = 0.3;
   size_t n = f->system->at_rest.n;
-  if (!linearise(f)) return false;
+  if (!zp_fold_tangent(f)) return false;
   balance(f);
   double before = f->test, dm_a, dm_n;
   test(f);
   split_step(f, &dm_a, &dm_n);
   double by_a = change_of_test(f, f->a, dm_a), by_n = change_of_test(f, f->along, dm_n);
-  double length = sqrt(dot(n, f->x, f->x)), xi = -(f->test + by_a) / by_n;
+  double length = sqrt(zp_dot(n, f->x, f->x)), xi = -(f->test + by_a) / by_n;
   for (size_t i = 0; i < n; i++)
     f->null[i] = f->x[i] / length;
   if (!isfinite(xi)) return false;
@@ -161,10 +151,10 @@ static bool step_to_fold(ZpFold *f, bool *small) {
 
 static bool step_to_event(ZpFold *f, ZpEvent event, double wanted, bool *small) {
   const ZpStaticSystem *rest = &f->system->at_rest;
-  if (!linearise(f)) return false;
+  if (!zp_fold_tangent(f)) return false;
   balance(f);
   double off = event(rest->self, f->x) - wanted;
-  double dm = -(off + dot(rest->n, f->x, f->a)) / dot(rest->n, f->x, f->along);
+  double dm = -(off + zp_dot(rest->n, f->x, f->a)) / zp_dot(rest->n, f->x, f->along);
   if (!isfinite(dm)) return false;
   *small = step(f, dm, dm);
   return true;

@@ -36,7 +36,8 @@ typedef struct ZpFold {
 void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
                    ZpCarver *carver);
 
-/* dq/dm at the present equilibrium => along, negative. False if the stiffness is singular. */
+/* At the present point: forces left => newton->r, factored stiffness => newton->K, its negative pivots => negative,
+ * dq/dm = K^-1 dr/dm => along. False if there are no forces or the stiffness is singular. */
 bool zp_fold_tangent(ZpFold *fold);
 
 /* A guess of the null vector near a limit point: the direction of `along`. */

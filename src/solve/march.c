@@ -1,5 +1,7 @@
 #include "solve/march.h"
 
+#include "math/vector.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -13,13 +15,6 @@ void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwid
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_carve(carver, n);
   march->good = zp_carve(carver, saved);
-}
-
-static double dot(size_t n, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
 }
 
 /* -- points ---------------------------------------------------------------------------------------- */
@@ -51,7 +46,7 @@ static void keep(ZpMarch *m, bool first) {
   sys->save(rest->self, m->good);
   if (!m->event) return;
   m->value = m->event(rest->self, m->guess);
-  m->slope = dot(rest->n, m->guess, m->before);
+  m->slope = zp_dot(rest->n, m->guess, m->before);
 }
 
 static void go_back(ZpMarch *m) {
@@ -94,7 +89,7 @@ static bool value_agrees(ZpMarch *m, double dm) {
   static const double part = 0.25, least = 1e-3; /* of its change; of its limit */
   if (!m->event) return true;
   double change = m->event(m->fold.system->at_rest.self, m->guess) - m->value;
-  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
+  double slope = zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
   return fabs(change - 0.5 * dm * (m->slope + slope)) <= fmax(part * fabs(change), least * fabs(m->limit));
 }
 
@@ -139,7 +134,7 @@ static bool solve_at(ZpMarch *m, double value) {
 /* dm/d(value) at the present point. */
 static double turn_of(ZpMarch *m) {
   m->event(m->fold.system->at_rest.self, m->guess);
-  return 1 / dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
+  return 1 / zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
 }
 
 /* Where the branch is as it was at the last good point: stable, m going the same way. */
@@ -201,7 +196,7 @@ static Step step_along_value(ZpMarch *m, double sign, double value) {
   if (m->fold.negative > 0 || sign * gone < 0) return find_fold(m, sign, value, gone) ? STEP_FOLD : STEP_TOO_LONG;
   if (!is_stable(m)) return STEP_TOO_LONG;
   m->event(m->fold.system->at_rest.self, m->guess);
-  double slope = dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
+  double slope = zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
   bool straight = fabs(gone - from - to) <= off * fabs(gone) && agrees(m, from, to);
   if (!straight && fabs(gone) > tiny * fabs(m->m)) return STEP_TOO_LONG;
   return value == m->limit ? STEP_EVENT : STEP_GOOD;

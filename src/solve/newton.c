@@ -1,5 +1,7 @@
 #include "solve/newton.h"
 
+#include "math/vector.h"
+
 #include <math.h>
 
 void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, bool symmetric, ZpCarver *carver) {
@@ -12,10 +14,7 @@ bool zp_newton_good(ZpNewtonEnd end) {
 }
 
 double zp_static_dot(const ZpStaticSystem *system, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < system->n; i++)
-    sum += a[i] * b[i];
-  return sum + zp_parts_dot(&system->parts, a, b);
+  return zp_dot(system->n, a, b) + zp_parts_dot(&system->parts, a, b);
 }
 
 /* -- closing in ----------------------------------------------------------------------------------- */

@@ -178,8 +178,8 @@ static void none(Follower *f, const char *reason) {
   zp_limit_none(&f->release, reason);
 }
 
-/* The voltages, from the hanging state. => does the actuator hang closed state at drive.voltage, now the present one?
- */
+/* The limit voltages, from the hanging state. True: a closed state at drive.voltage has been found, and the release was
+ * looked for from there. */
 static bool find_voltages(Follower *f) {
   double top = f->model->def.drive.voltage;
   none(f, "without a voltage there is none");

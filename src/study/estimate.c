@@ -2,10 +2,10 @@
  * ones, each with half as many elements as the one before. */
 #include "study/estimate.h"
 
+#include "base/fail.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "base/fail.h"
 
 enum { MESHES = 3, FEWEST_NODES = 4 };
 
@@ -91,6 +91,17 @@ static void forget_all(Findings *findings) {
   }
 }
 
+/* Where elements are longer than what bends, no mesh of longer ones shows by how much this one is wrong. */
+static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
+  if (result->resolution >= 1) return true;
+  double enough = 1 + ceil((def->mesh.nodes - 1) / result->resolution);
+  zp_result_note(result,
+                 "mesh.nodes = %d: no errors are estimated, since elements are longer than the length over which the "
+                 "ribbon bends; mesh.nodes = %.0f would do",
+                 def->mesh.nodes, enough);
+  return false;
+}
+
 /* Is there a number to estimate? What an actuator does not do, coarser ones need not show. */
 static bool any_found(const Findings *findings) {
   for (int k = 0; k < COUNT; k++)
@@ -106,7 +117,7 @@ ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpRe
   take(result, study, 0, task->def, &findings);
   ZpActuatorDef def = *task->def;
   ZpStatus status = ZP_OK;
-  bool wanted = zp_outcome_good(result->outcome) && any_found(&findings);
+  bool wanted = zp_outcome_good(result->outcome) && any_found(&findings) && is_resolved(task->def, result);
   for (int mesh = 1; mesh < MESHES && status == ZP_OK && wanted; mesh++) {
     def = coarser(def, moves);
     if (def.mesh.nodes < FEWEST_NODES) break;

@@ -59,9 +59,19 @@ static double front_length(const ZpModel *model, double voltage) {
   return closed.W > 0 ? sqrt(sqrt(bend * -closed.P)) / sqrt(closed.W) : INFINITY;
 }
 
+/* Length over which a ribbon turns from a clamp into the direction in which it hangs, m, eq. (9.5). */
+static double hanging_length(const ZpModel *model) {
+  double hangs = 0;
+  for (size_t j = 0; j < model->count; j++)
+    hangs += model->weight[j];
+  double EI = fmin(zp_ribbon_section(model, 0).EI, zp_ribbon_section(model, 1).EI);
+  return hangs > 0 ? sqrt(EI * (double)model->topology.halves / hangs) : INFINITY;
+}
+
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   static const double fewest = 6; /* elements: docs/theory.md, section 9, has what this and the other bound leave */
   double front = front_length(model, voltage), elements = model->L / model->l;
+  result->resolution = fmin(front, hanging_length(model)) / model->l;
   if (elements < fewest)
     zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements a shape at rest is off by some 5 %% or more",
                    model->def.mesh.nodes, fewest);

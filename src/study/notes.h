@@ -24,7 +24,7 @@ void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen
 /* Both. */
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
-/* Note a mesh too coarse for `voltage`, the highest (V), 0 for none. */
+/* The mesh for `voltage`, the highest (V), 0 for none => result->resolution, with a note where it is too coarse. */
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);
 
 /* Note a start that is nearly closed: opening of the platforms (m; NAN: there are none). */

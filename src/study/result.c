@@ -12,6 +12,7 @@
 ZpResult *zp_result_create(ZpStudy study) {
   ZpResult *result = zp_calloc(1, sizeof *result);
   if (result) result->study = study;
+  if (result) result->resolution = INFINITY;
   return result;
 }
 

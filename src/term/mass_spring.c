@@ -58,14 +58,10 @@ static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies 
   sum->bending += zp_massspring_shear_energy(&model->spring, &e->spring);
 }
 
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
-  sum->internal += zp_term_edges_loss(model, span, e);
-}
-
 const ZpTerm zp_term_mass_spring = {.name = "mass_spring",
                                     .acts = acts,
                                     .begin = begin,
                                     .force = force,
                                     .stiffness = stiffness,
                                     .energy = energy,
-                                    .loss = loss};
+                                    .loss = zp_term_edges_loss};

@@ -34,14 +34,10 @@ static void energy(const ZpModel *model, const double *q, ZpEval *e, ZpEnergies 
   sum->bending += zp_rod_bending_energy(&model->rod, &e->rod);
 }
 
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
-  sum->internal += zp_term_edges_loss(model, span, e);
-}
-
 const ZpTerm zp_term_rod = {.name = "rod",
                             .acts = acts,
                             .begin = begin,
                             .force = force,
                             .stiffness = stiffness,
                             .energy = energy,
-                            .loss = loss};
+                            .loss = zp_term_edges_loss};

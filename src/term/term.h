@@ -77,9 +77,9 @@ typedef struct ZpTerm {
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);
 
-/* Internal damping of the edges over a span => J, eq. (18.2). The edges are those where the span has ended, a last
- * correction beyond the last force. */
-double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
+/* The `loss` of terms of edges: their internal damping over a span, eq. (18.2). The edges are those where the span has
+ * ended, a last correction beyond the last force. */
+void zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpLosses *sum);
 
 /* F [2 stride] += forces of edges on their nodes: R [-s .. stride) on the right ones, the opposite on the left. */
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F);
