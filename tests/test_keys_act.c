@@ -107,7 +107,7 @@ static const Row rows[] = {
      "electro_ribbon",
      "ribbon",
      {{TIMES, "stroke_m", CUBE(100.0 / 45), 1e-3}}},
-    {"actuator.right_end", STRIP, "guided", "free", {{TIMES, "y_m", 4 * (1 + 1.0 / 800) / (1 + 1.0 / 200), 5e-4}}},
+    {"actuator.right_end", STRIP, "guided", "free", {{TIMES, "y_m", 4, 5e-4}}},
     /* the second mode leaves the platform where it is, and one half rises as the other sinks */
     {"actuator.symmetry",
      "study=modes mesh.nodes=11",
@@ -219,7 +219,7 @@ static const Row rows[] = {
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
     /* a discrete cantilever of rods is too soft by 1 / (2 (N - 1)^2) */
-    {"mesh.nodes", CANTILEVER, "9", "5", {{TIMES, "y_m", (1 + 1.0 / 32) / (1 + 1.0 / 128), 1e-4}}},
+    {"mesh.nodes", CANTILEVER, "9", "5", {{TIMES, "y_m", 1, 1e-6}}},
 
     {"mass_spring.shear_coefficient", STRIP " ribbon.model=mass_spring", "4000", "8000", {{TIMES, "y_m", 0.5, 1e-4}}},
     /* (N - 1)^2 times softer under the same tension */
