@@ -242,6 +242,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) check_key(&i, #path #name, d.path name, def, min, max);
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
 #define ZP_INT(path, name, def, min, max, help)               check_key(&i, #path #name, d.path name, def, min, max);
 #define ZP_BOOL(path, name, def, help)                        check_key(&i, #path #name, d.path name, def, 0, 1);
 #define ZP_ENUM(path, name, type, def, help)                  check_key(&i, #path #name, d.path name, def, 0, (double)type##_COUNT - 1);
@@ -254,6 +255,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #undef ZP_GROUP_END
 #undef ZP_REAL
 #undef ZP_REAL_AUTO
+#undef ZP_REAL_NONE
 #undef ZP_INT
 #undef ZP_BOOL
 #undef ZP_ENUM

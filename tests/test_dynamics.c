@@ -48,6 +48,11 @@ static void set_params(Step *s, Kind kind, uint64_t *seed) {
     s->B[j] = j < count && !is_free ? 2 + noise(seed) : 0;
     s->k0[j] = 0.3 * noise(seed);
   }
+  for (size_t j = 0, last = count - kind.ribbons; j < kind.ribbons; j++, last++) {
+    size_t r = kind.ribbons;
+    if (kind.left) s->params.end[s->params.ends++] = (ZpRodEnd){j, j + r, j, j + r, -0.7};
+    if (kind.right) s->params.end[s->params.ends++] = (ZpRodEnd){last, last - r, last - r, last - 2 * r, -0.4};
+  }
 }
 
 static void eval_end(Step *s, size_t end) {
@@ -563,8 +568,8 @@ static Zip zip(ZpActuatorDef def) {
 static void check_zip(const char *name, const Zip *zip) {
   printf("%s: %.3f ms, energy off by %.1e, faces overlap by %.2g um, %.3f of the work lost where they meet\n", name,
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
-  ck_below(zip->energy_error, 1e-5);     /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
-  ck_below(zip->overlap, 0.02 * 260e-6); /* of both insulators, where the platform lands */
+  ck_below(zip->energy_error, 1e-5); /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
+  ck_below(zip->overlap, 0.025 * 260e-6);       /* of both insulators, where the platform lands */
   ck_assert_double_gt(zip->contact_loss, 0.05); /* 0.09 undamped: what bounces on loses it later */
   ck_assert_double_gt(zip->contraction, 0.99);
 }
@@ -714,11 +719,11 @@ static double contraction_at(double voltage, double rise_time, double end_time) 
   return contraction;
 }
 
-/* Statics say 5625 V (test_statics). A ramp of 20 s stays open to 0.25 % below it and closes 0.1 % above; a sudden step
+/* Statics say 5662 V (test_statics). A ramp of 20 s stays open to 0.25 % below it and closes 0.1 % above; a sudden step
  * swings over the barrier from some 5325 V on, 5 % earlier. */
 START_TEST(test_pull_in_in_motion) {
-  ck_below(contraction_at(5611, 20, 24), 0.3);
-  ck_assert_double_gt(contraction_at(5631, 20, 24), 0.99);
+  ck_below(contraction_at(5648, 20, 24), 0.3);
+  ck_assert_double_gt(contraction_at(5668, 20, 24), 0.99);
   ck_below(contraction_at(5300, 0, 2), 0.3);
   ck_assert_double_gt(contraction_at(5350, 0, 2), 0.99);
 }

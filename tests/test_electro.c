@@ -275,18 +275,21 @@ static double fine_force(const Pair *pair, double U) {
   double sum = 0;
   for (size_t i = 0; i + 1 < model->nodes; i++) {
     double g0 = pair->y[2 * i] - pair->y[2 * i + 1], g1 = pair->y[2 * i + 2] - pair->y[2 * i + 3];
-    for (int k = 0; k < POINTS; k++)
-      sum += zp_plates_law(&model->plates, U, g0 + (g1 - g0) * (k + 0.5) / POINTS).W * model->l / POINTS;
+    for (int k = 0; k < POINTS; k++) {
+      double at = (k + 0.5) / POINTS; /* parabolas beside clip and platform, (8.10) */
+      double share = i == 0 ? 1.2 * at * at : i + 2 == model->nodes ? 1 - 1.2 * (1 - at) * (1 - at) : at;
+      sum += zp_plates_law(&model->plates, U, g0 + (g1 - g0) * share).W * model->l / POINTS;
+    }
   }
   return sum + model->plates.flat_length * zp_plates_law(&model->plates, U, pair->y[2 * model->nodes - 2] * 2).W;
 }
 
 /* Three Gauss points against fine quadrature of the same polyline, 1 to 17 mm at 6 kV. Measured, largest over
- * the openings: without cap 2e-4 (N = 21, 17 mm: one element spans a tenfold force), 4e-7, 1e-8; with the kink
+ * the openings: without cap 6e-4 (N = 21, 17 mm: one element spans a tenfold force), 4e-7, 1e-8; with the kink
  * of the cap inside an element 2.7e-3, 7.4e-4, 3.3e-5. */
 START_TEST(test_quadrature) {
   static const int nodes[] = {21, 61, 130};
-  static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, limit[2][3] = {{4e-4, 1e-6, 1e-7}, {5e-3, 1.5e-3, 1e-4}};
+  static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, limit[2][3] = {{8e-4, 1e-6, 1e-7}, {5e-3, 1.5e-3, 1e-4}};
   for (int cap = 0; cap < 2; cap++)
     for (size_t n = 0; n < LENGTH_OF(nodes); n++) {
       double worst = 0;
@@ -526,7 +529,9 @@ END_TEST
 
 /* Bezier over polyline, less one, on the shape of `sim`. */
 static double difference_on(ZpSim *sim, int nodes, bool cap, double U) {
-  Pair pair = make_pair(default_model(nodes, cap, true));
+  ZpActuatorDef def =
+      DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", nodes}, {"electro.breakdown_cap", cap});
+  Pair pair = make_pair(model_of(&def));
   ZpShape shape = zp_sim_shape(sim);
   memcpy(pair.x, shape.x, pair.model->count * sizeof(double));
   memcpy(pair.y, shape.y, pair.model->count * sizeof(double));

@@ -1,4 +1,4 @@
-/* Estimated errors of results. Against: the closed form of a guided beam, whose discretisation error is known; what
+/* Estimated errors of results. Against: the closed form of a cantilever, whose discretisation error is known; what
  * much finer meshes and shorter steps give. */
 #include "check_util.h"
 
@@ -22,17 +22,16 @@ static bool has(const ZpResult *result, const char *name) {
   return false;
 }
 
-/* A guided strip under a small end load sags by P L^3 / (12 EI) (1 + 2 / n^2) with n elements, by the trapezoidal rule
- * over its squared moments, so (21.1) gives four times that second term, whatever the meshes. */
-START_TEST(guided_strip_in_closed_form) {
-  static const int nodes[] = {21, 40, 61};
+/* A cantilever that bends little under its own weight sags by q L^4 / (8 EI) (1 + 1 / (3 n^3)) with n elements, by what
+ * weight the clamped one hands on, so (21.1) gives four times that second term, whatever the meshes. */
+START_TEST(cantilever_in_closed_form) {
+  static const int nodes[] = {21, 41, 61};
   int n = nodes[_i] - 1;
-  ZpActuatorDef def =
-      DEF({"output.errors", 1}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_GUIDED},
-          {"ribbon.density", 0}, {"load.mass", 10e-6}, {"mesh.nodes", nodes[_i]});
+  ZpActuatorDef def = DEF({"output.errors", 1}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
+                          {"gravity", 1e-3}, {"load.mass", 0}, {"ribbon.length", 50e-3}, {"mesh.nodes", nodes[_i]});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
-  double exact = zp_result_get(result, "stroke_m") / (1 + 2.0 / (n * n));
-  ck_near(zp_result_get(result, "stroke_error_m"), exact * 8 / (n * n), 1e-3);
+  double cube = pow(n, 3), exact = zp_result_get(result, "stroke_m") / (1 + 1 / (3 * cube));
+  ck_near(zp_result_get(result, "stroke_error_m"), exact * 4 / (3 * cube), 1e-3);
   ck_assert(!has(result, "opening_error_m"));
   zp_result_destroy(result);
 }
@@ -45,9 +44,9 @@ typedef struct Number {
 } Number;
 
 static const Number numbers[] = {
-    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 5},
-    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 5},
-    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 5},
+    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 40},
+    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 40},
+    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 15},
     {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 5},
     {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 15},
     {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 5},
@@ -55,8 +54,8 @@ static const Number numbers[] = {
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
- * covers the error. Measured: 1.8 (zip time) to 4.5 times as large; of the held force, whose error depends on where
- * among the nodes the front is, 12.5 times. */
+ * covers the error. Measured: 1.5 (zip time) to 4.2 times as large; of the held force, whose error depends on where
+ * among the nodes the front is, 7 times; of limits, whose error falls faster than the third power, 9 to 32 times. */
 START_TEST(estimate_covers_the_error) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});
@@ -134,7 +133,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("estimate");
   TCase *c = tcase_create("estimate");
-  tcase_add_loop_test(c, guided_strip_in_closed_form, 0, 3);
+  tcase_add_loop_test(c, cantilever_in_closed_form, 0, 3);
   if (!SANITIZED) tcase_add_loop_test(c, estimate_covers_the_error, 0, LENGTH_OF(numbers));
   tcase_add_test(c, equilibrium_has_the_estimates_of_limits);
   tcase_add_loop_test(c, estimates_leave_the_numbers_alone, 0, LENGTH_OF(numbers));

@@ -31,6 +31,11 @@
 /* What the source does is looked at; nothing much moves. */
 #define DRIVEN "study=actuate initial.state=straight mesh.nodes=5 drive.voltage=2kV"
 
+/* A closed actuator without weight, a capacitor of 199.8 pF, behind an amplifier. */
+#define FED                                                                                                            \
+  "study=actuate initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 electro.breakdown_cap=false "              \
+  "drive.voltage=50V solver.tolerance=1e-6 source.model=amplifier solver.end_time=1ms"
+
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
@@ -357,6 +362,30 @@ static const Row rows[] = {
      "slow.csv",
      {{TIMES, "voltage_V", 0.5, 1e-9}}},
 
+    {"source.model",
+     HANGING " drive.voltage=10kV solver.end_time=0.2s",
+     "ideal",
+     "amplifier",
+     {{MORE, "simulated_time_s", 2, 0}, {SAME, "zip_time_s", 0, 0}}},
+    {"source.supply", DRIVEN " solver.end_time=0.1ms", "none", "open_5kv", {{TIMES, "voltage_V", 0.75, 1e-9}}},
+    {"source.slew_rate", FED, "10V/ms", "20V/ms", {{TIMES, "voltage_V", 2, 1e-9}}},
+    {"source.current_limit", FED, "1uA", "2uA", {{TIMES, "voltage_V", 2, 1e-4}}},
+    {"source.sink_limit",
+     FED " drive.waveform=table drive.table=0ms=50V,1ms=50V,1ms=0V solver.end_time=2ms",
+     "1uA",
+     "2uA",
+     {{PLUS, "voltage_V", -5.005, 1e-3}}},
+    /* x = t / (R C) = 0.05005: (1 - exp(-x / 2)) / (1 - exp(-x)) */
+    {"source.resistance", FED, "100Mohm", "200Mohm", {{TIMES, "voltage_V", 0.50626, 1e-4}}},
+    {"source.capacitance", FED " source.current_limit=1uA", "0", "199.8pF", {{TIMES, "voltage_V", 0.5, 1e-3}}},
+    {"source.bleeder",
+     FED " source.resistance=100Mohm solver.end_time=1s",
+     "none",
+     "100Mohm",
+     {{TIMES, "voltage_V", 0.5, 1e-6}}},
+    /* 1 / (1 + exp(-2 pi 0.05)) */
+    {"source.bandwidth", FED, "100Hz", "50Hz", {{TIMES, "voltage_V", 0.57790, 1e-4}}},
+
     /* at v = g t each of the 20 free particles loses c v^3 a second */
     {"damping.drag", STRAND, "0", "1e-5", {{PLUS, "drag_loss_J", 20e-5 * CUBE(9.81) * 625e-12 / 4, 1e-2}}},
     /* auto is 10 us of an electro_ribbon of rods, none of a ribbon */
@@ -374,6 +403,11 @@ static const Row rows[] = {
     /* the local error is of third order */
     {"solver.tolerance", SWING, "1e-4", "1e-6", {{TIMES, "steps", 4.64, 0.25}}},
     {"solver.time_step", SWING " solver.end_time=2ms", "20us", "10us", {{TIMES, "steps", 2, 2e-2}}},
+    {"solver.stop_when_zipped",
+     HANGING " drive.voltage=10kV solver.end_time=0.2s",
+     "auto",
+     "false",
+     {{MORE, "simulated_time_s", 2, 0}, {SAME, "zip_time_s", 0, 0}}},
     {"solver.max_steps", SWING, "20", "7", {{BECOMES, "steps", 7, 0}}},
 
     {"initial.state",
@@ -405,6 +439,17 @@ static const Row rows[] = {
      "5",
      "1.5",
      {{TIMES, "ribbon.young_modulus", 0.75 / 1.005, 1e-3}}},
+
+    {"cycle.tolerance",
+     "study=cycle mesh.nodes=7 drive.voltage=3kV drive.waveform=sine",
+     "0.1",
+     "1e-6",
+     {{MORE, "cycles", 1.3, 0}, {TIMES, "opening_max_m", 1, 1e-2}}},
+    {"cycle.most_cycles",
+     "study=cycle mesh.nodes=7 drive.voltage=10kV drive.waveform=sine",
+     "3",
+     "5",
+     {{BECOMES, "cycles", 5, 0}}},
 
     {"sensitivity.by", "study=stationary", "gravity", "gravity,load.mass", {{PLUS, "derivatives", 2, 0}}},
 

@@ -58,9 +58,14 @@ static void toy_set(void *self, double m) {
 }
 
 /* Asked once at each iterate, so it writes down how far that is from the limit point. */
-static void toy_sensitivity(void *self, double *r_m) {
+static double toy_change(void *self, const double *step) {
   Toy *t = self;
   if (t->visits < MOST) t->seen[t->visits++] = fmax(fabs(t->m - 1), fmax(fabs(t->q[0]), fabs(t->q[1])));
+  return toy_length(self, step);
+}
+
+static void toy_sensitivity(void *self, double *r_m) {
+  (void)self;
   r_m[0] = 1;
   r_m[1] = r_m[2] = 0;
 }
@@ -87,7 +92,7 @@ static ZpBranchSystem toy_system(Toy *t) {
                                       .residual = toy_residual,
                                       .stiffness = toy_stiffness,
                                       .length = toy_length,
-                                      .change = toy_length,
+                                      .change = toy_change,
                                       .move = toy_move},
                           .get = toy_get,
                           .set = toy_set,
@@ -259,11 +264,25 @@ START_TEST(test_limits_are_those_of_the_curve) {
 }
 END_TEST
 
+/* With half-cell clamps and straight pieces beside them the pull-in with 61 nodes was 0.65 % below that of the
+ * continuum, which an independent boundary-value code has found; without the breakdown cap 0.93 %. */
+START_TEST(pull_in_hardly_depends_on_the_mesh) {
+  static const int nodes[] = {41, 61, 121};
+  static const double continuum[] = {5107.7, 5661.4};
+  for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
+    ZpActuatorDef def = DEF({"mesh.nodes", nodes[i]}, {"electro.breakdown_cap", _i});
+    ZpResult *result = limits_of(&def);
+    ck_near(zp_result_get(result, "pull_in_voltage_V"), continuum[_i], 5e-4);
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
 /* A few nodes snap long before it closes. A long step along the voltage once passed this limit point. */
 START_TEST(snap_of_a_few_nodes_is_the_pull_in) {
   ZpActuatorDef def =
       DEF({"ribbon.thickness", 25e-6}, {"ribbon.length", 150e-3}, {"load.mass", 5e-3}, {"drive.voltage", 12e3});
-  ck_near(agrees_with_the_curve(&def), 9547, 1e-3);
+  ck_near(agrees_with_the_curve(&def), 9922, 1e-3);
 }
 END_TEST
 
@@ -428,7 +447,10 @@ END_TEST
 
 /* -- from a neighbour -------------------------------------------------------------------------------- */
 
-/* Where a search begins does not change what it finds. */
+/* Where a search begins does not change what it finds; of the largest load only on which of two crests of the mesh's
+ * ripples, which differ by less than this part, it ends. */
+static const double of_ripples = 5e-5;
+
 START_TEST(test_limits_from_a_neighbour) {
   static const char *const keys[] = {"load.mass", "ribbon.thickness", "ribbon.length", "drive.voltage"};
   ZpActuatorDef def = zp_actuator_def_default();
@@ -440,7 +462,7 @@ START_TEST(test_limits_from_a_neighbour) {
     ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
     starts += zp_result_get(warm, "warm_starts");
     for (size_t i = 0; i < LENGTH_OF(names); i++)
-      same(warm, cold, names[i], 1e-6);
+      same(warm, cold, names[i], strcmp(names[i], "max_load_kg") == 0 ? of_ripples : 1e-6);
     zp_result_destroy(near);
     zp_result_destroy(cold);
     near = warm;
@@ -495,6 +517,7 @@ int main(void) {
   suite_add_tcase(suite, fold);
   TCase *study = tcase_create("study");
   tcase_add_loop_test(study, test_limits_are_those_of_the_curve, 0, DESIGNS);
+  tcase_add_loop_test(study, pull_in_hardly_depends_on_the_mesh, 0, 2);
   tcase_add_test(study, snap_of_a_few_nodes_is_the_pull_in);
   tcase_add_test(study, curve_meets_both_limit_points_of_a_small_snap);
   tcase_add_loop_test(study, closing_is_that_of_a_staircase, 0, 2);

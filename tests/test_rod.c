@@ -17,7 +17,7 @@ typedef struct Rod {
   ZpRodParams params;
   ZpRodEval eval;
   ZpRodStep forces; /* at rest */
-  double l[PLACES], S[PLACES], B[PLACES], k0[PLACES];
+  double l[PLACES], S[PLACES], B[PLACES], k0[PLACES], turn[PLACES];
   double x[PLACES], y[PLACES];
   void *memory;
 } Rod;
@@ -39,11 +39,17 @@ static void make_rod(Rod *r, size_t ribbons, bool free_ends, uint64_t seed) {
     r->l[j] = 1 + 0.3 * noise(&seed);
     r->S[j] = j < count - ribbons ? 5 + 2 * noise(&seed) : 0;
     r->B[j] = j < count && !(end && free_ends) ? 2 + noise(&seed) : 0;
-    r->k0[j] = 0.3 * noise(&seed);
+    r->turn[j] = 0.3 * noise(&seed);
+    r->k0[j] = zp_rod_curvature(tan(0.5 * r->turn[j]));
     double angle = 0.4 * noise(&seed), length = r->l[j] * (1 + 0.05 * noise(&seed));
     if (j + ribbons >= PLACES) continue;
     r->x[j + ribbons] = r->x[j] + length * cos(angle);
     r->y[j + ribbons] = r->y[j] + length * sin(angle);
+  }
+  for (size_t j = 0; j < ribbons && !free_ends; j++) {
+    size_t last = count - ribbons + j;
+    r->params.end[r->params.ends++] = (ZpRodEnd){j, j + ribbons, j, j + ribbons, -0.7};
+    r->params.end[r->params.ends++] = (ZpRodEnd){last, last - ribbons, last - ribbons, last - 2 * ribbons, -0.4};
   }
   ZpCarver carver = {NULL, 0};
   carve(r, &carver);
@@ -193,7 +199,7 @@ START_TEST(test_natural_shape) {
   make_rod(&r, 1, true, 7);
   double angle = 0.2, force[2 * MOST];
   for (size_t j = 0; j + 1 < PLACES; j++) {
-    angle += j > 0 ? 2 * atan(0.5 * r.k0[j]) : 0;
+    angle += j > 0 ? r.turn[j] : 0;
     r.x[j + 1] = r.x[j] + r.l[j] * cos(angle);
     r.y[j + 1] = r.y[j] + r.l[j] * sin(angle);
   }

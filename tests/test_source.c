@@ -129,7 +129,7 @@ static ZpSim *sim_behind(const ZpSource *source, ZpActuatorDef *def, ZpModel **m
 /* A closed actuator without weight is a capacitor: U = V (1 - exp(-t / (R C))). Measured 5e-6. */
 START_TEST(test_charging_of_a_closed_actuator) {
   Supply supply = {50, 1e8}; /* V: little enough that the layers are not pressed */
-  ZpSource source = {&supply, flow, slope, supply.V};
+  ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", 1e-6});
   ZpModel *model;
@@ -150,7 +150,7 @@ END_TEST
 /* The opening after 20 ms, before ribbons have met in many places; behind a resistance, 0: the ideal source. */
 static double opening_behind(double R) {
   Supply supply = {10e3, R};
-  ZpSource source = {&supply, flow, slope, supply.V};
+  ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.tolerance", 1e-6});
   ZpModel *model;
   ZpSim *sim;

@@ -170,7 +170,7 @@ START_TEST(motion_of_others_is_that_of_the_half) {
       DEF({"mesh.nodes", 21}, {"platform.length", 0}, {"load.share", 0.3}),
       DEF({"mesh.nodes", 21}, {"platform.electrode", 0}, {"electro.edges", 1}, {"drive.voltage", 8e3}),
       DEF({"mesh.nodes", 31}, {"segment_1.length", 7e-3}, {"segment_1.curvature", 2}, {"segment_1.thickness", 100e-6},
-          {"drive.waveform", ZP_WAVEFORM_SINE}, {"solver.end_time", 0.2}),
+          {"drive.waveform", ZP_WAVEFORM_SINE}, {"solver.end_time", 0.1}),
   };
   check_motion(&def[_i], after_impacts);
 }

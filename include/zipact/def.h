@@ -7,7 +7,7 @@
  * A Def may be filled in three ways that give the same thing: by assigning its fields
  * (def.load.mass = 0.008), by key (zp_def_set), or from a list of assignments (zp_def_resolve), which
  * also applies presets. Nothing is checked until zp_def_check, which every user of a Def calls.
- * All numbers are SI. A key that may be `auto` is then NAN.
+ * All numbers are SI. A key that is `auto` or `none` is NAN.
  */
 #ifndef ZIPACT_DEF_H
 #define ZIPACT_DEF_H
@@ -48,6 +48,7 @@ extern "C" {
   group;
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) double name;
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) double name;
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) double name;
 #define ZP_INT(path, name, def, min, max, help)               int name;
 #define ZP_BOOL(path, name, def, help)                        bool name;
 #define ZP_ENUM(path, name, type, def, help)                  type name;
@@ -61,6 +62,7 @@ typedef struct ZpActuatorDef {
 #undef ZP_GROUP_END
 #undef ZP_REAL
 #undef ZP_REAL_AUTO
+#undef ZP_REAL_NONE
 #undef ZP_INT
 #undef ZP_BOOL
 #undef ZP_ENUM
@@ -70,7 +72,7 @@ typedef struct ZpActuatorDef {
 /* Kind of value that a key takes. */
 typedef enum ZpKeyType {
   ZP_KEY_REAL,      /* a number with a unit */
-  ZP_KEY_REAL_AUTO, /* a number with a unit, or auto (NAN), which is its default */
+  ZP_KEY_REAL_AUTO, /* a number with a unit, or a word (auto or none; NAN), which is its default */
   ZP_KEY_INT,       /* a whole number */
   ZP_KEY_BOOL,      /* 0 or 1; written true, false */
   ZP_KEY_ENUM,      /* one of `choices`, by its place in the list */
@@ -92,19 +94,19 @@ typedef struct ZpKey {
   ZpKeyType type;          /* kind of value */
   const char *unit;        /* SI unit that UDUNITS reads; "1" for a pure number or a word */
   const char *shown;       /* unit in which people write it, e.g. "mm"; "" for a pure number */
-  double def;              /* default, SI; NAN for auto */
+  double def;              /* default, SI; NAN for auto and none */
   double min;              /* smallest value allowed */
   double max;              /* largest value allowed */
   const char *help;        /* one line */
   const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
   size_t offset;           /* of its field in ZpActuatorDef, bytes; ZP_NO_FIELD: a key of the scenario */
-  const char *text;        /* ZP_KEY_TEXT: default; else NULL */
+  const char *text;        /* ZP_KEY_TEXT: default; ZP_KEY_REAL_AUTO: the word of NAN, auto or none; else NULL */
 } ZpKey;
 
 /* A value for a key, on its way into a Def. */
 typedef struct ZpAssignment {
   int key;      /* index of the key, see zp_key_find */
-  double value; /* SI; NAN for auto; the place of a word in its list; 0 or 1 */
+  double value; /* SI; NAN for auto and none; the place of a word in its list; 0 or 1 */
 } ZpAssignment;
 
 /* Number of keys. */

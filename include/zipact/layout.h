@@ -28,6 +28,7 @@ static inline uint64_t zp_def_layout(void) {
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) ZP_KEY_TERM(path name, #path #name, 1)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) ZP_KEY_TERM(path name, #path #name, 2)
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) ZP_KEY_TERM(path name, #path #name, 2)
 #define ZP_INT(path, name, def, min, max, help)               ZP_KEY_TERM(path name, #path #name, 3)
 #define ZP_BOOL(path, name, def, help)                        ZP_KEY_TERM(path name, #path #name, 4)
 #define ZP_ENUM(path, name, type, def, help)                  ZP_KEY_TERM(path name, #path #name, 5 + (uint64_t)type##_COUNT)
@@ -43,6 +44,7 @@ static inline uint64_t zp_def_layout(void) {
 #undef ZP_GROUP_END
 #undef ZP_REAL
 #undef ZP_REAL_AUTO
+#undef ZP_REAL_NONE
 #undef ZP_INT
 #undef ZP_BOOL
 #undef ZP_ENUM

@@ -37,7 +37,7 @@ static mxArray *key_value(const ZpKey *key, double value, const char *text) {
   if (key->type == ZP_KEY_TEXT) return mxCreateString(text);
   if (key->type == ZP_KEY_ENUM) return mxCreateString(key->choices[(int)value].word);
   if (key->type == ZP_KEY_BOOL) return mxCreateLogicalScalar(value != 0);
-  if (isnan(value)) return mxCreateString("auto");
+  if (isnan(value)) return mxCreateString(key->text);
   return mxCreateDoubleScalar(value);
 }
 

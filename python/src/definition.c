@@ -251,7 +251,7 @@ static PyObject *definition_get(PyObject *object, PyObject *name) {
   case ZP_KEY_REAL:
     break;
   }
-  return isnan(value) ? text_from("auto") : PyFloat_FromDouble(value);
+  return isnan(value) ? text_from(zp_key(key)->text) : PyFloat_FromDouble(value);
 }
 
 static PyObject *definition_run(PyObject *object, PyObject *progress) {

@@ -92,6 +92,30 @@ static Share node_share(const ZpModel *model, size_t j) {
   return (Share){left.compliance + right.compliance, left.turn + right.turn, left.mass + right.mass};
 }
 
+/* What the edge beside a held slope gives to the joint there, and what to that and the next one together, eq. (8.9). */
+typedef struct LevelShare {
+  double compliance, turn;   /* of the joint at the held slope: 1 / (N m), rad */
+  double across, both_turns; /* between both: 1 / (N m); what the next one has of natural turn beside its own, rad */
+} LevelShare;
+
+static LevelShare level_share(const ZpModel *model, size_t ribbon, ZpLevelEnd level) {
+  size_t station = zp_topology_element_image(&model->topology, level.element);
+  bool right = level.right != (station != level.element); /* the right half is a mirror image */
+  Piece piece[ZP_PLACES];
+  LevelShare share = {0, 0, 0, 0};
+  int count = pieces_of(model, ribbon, station, piece);
+  for (int k = 0; k < count; k++) {
+    double from = right ? 1 - piece[k].to : piece[k].from, to = right ? 1 - piece[k].from : piece[k].to;
+    double near = 1 - from, far = 1 - to, own = (near * near * near - far * far * far) * (model->l / 3);
+    double both = (to * to * (3 - 2 * to) - from * from * (3 - 2 * from)) * (model->l / 12);
+    share.compliance += own / piece[k].place.section.EI;
+    share.across += both / piece[k].place.section.EI;
+    share.turn += (own + both) * piece[k].place.curvature;
+    share.both_turns += both * piece[k].place.curvature;
+  }
+  return share;
+}
+
 /* Axial compliance of an edge of the left half, m/N. */
 static double edge_compliance(const ZpModel *model, size_t ribbon, size_t station) {
   Piece piece[ZP_PLACES];
@@ -118,6 +142,11 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
                               .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1)};
 }
 
+/* Where the faces are level. Particles of mass_spring have no slope: between them faces go straight. */
+static ZpLevelEnds level_faces(const ZpModel *model) {
+  return model->is_rod ? zp_topology_level_ends(&model->topology) : (ZpLevelEnds){0};
+}
+
 /* Length of platform at each station that it has, m. */
 static double platform_length(const ZpModel *model) {
   return zp_is_pair(&model->topology) ? model->def.platform.length / 2 : 0;
@@ -140,6 +169,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .switch_offset = def->electro.switch_offset,
                           .platform = model->topology.platform.first,
                           .platform_end = model->topology.platform.last,
+                          .level = level_faces(model),
                           .flat_length = def->platform.electrode ? platform_length(model) : 0,
                           .flat = model->flat,
                           .flat_height = def->electro.gap_offset};
@@ -210,9 +240,10 @@ static double joined(double inverse1, double inverse2) {
   return inverse1 > 0 && inverse2 > 0 ? 1 / (1 / inverse1 + 1 / inverse2) : 0;
 }
 
-/* Of stretching and bending of one edge, as its nodes feel them at most, N/m. */
+/* Of stretching and bending of one edge, as its nodes feel them at most, N/m: 16 in the middle of a ribbon, 19.4 where
+ * a clip is free to move. */
 static double edge_stiffness(const ZpModel *model, double EA, double EI) {
-  return 4 * EA / model->l + 16 * EI / (model->l * model->l * model->l);
+  return 4 * EA / model->l + 20 * EI / (model->l * model->l * model->l);
 }
 
 /* A frequency of 1.4 in unit steps, below what relaxation allows. */
@@ -273,8 +304,25 @@ static void fill_chain(ZpModel *model, Arrays *a) {
   model->rod = rod_of(model, a);
 }
 
-/* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a clamp is the held slope, over half an
- * edge, which makes it second order in l; a free end does not bend. */
+static double natural_curvature(double turn) {
+  return zp_rod_curvature(zp_tangent(0.5 * turn));
+}
+
+/* Eq. (8.9): the joint at a held slope and the next one bend together. */
+static void fill_end(ZpModel *model, size_t ribbon, ZpLevelEnd level, Arrays *a) {
+  size_t s = model->s, left = level.element * s + ribbon, right = left + s;
+  size_t held = level.right ? right : left, next = level.right ? left : right;
+  LevelShare share = level_share(model, ribbon, level);
+  double own = share.compliance, beside = 1 / a->rod_B[next], det = own * beside - share.across * share.across;
+  a->rod_B[held] = beside / det;
+  a->rod_B[next] = own / det;
+  a->rod_k0[held] = natural_curvature(share.turn);
+  a->rod_k0[next] = natural_curvature(node_share(model, next).turn + share.both_turns);
+  ZpRodEnd *end = &model->rod.end[model->rod.ends++];
+  *end = (ZpRodEnd){held, next, left, level.right ? left - s : right, -share.across / det};
+}
+
+/* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t last = model->nodes - 1;
@@ -282,12 +330,16 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
     Share share = node_share(model, j);
     a->rod_B[j] = station == last && !zp_topology_holds_slope(t, last) ? 0 : 1 / share.compliance;
-    a->rod_k0[j] = 2 * zp_tangent(0.5 * share.turn);
+    a->rod_k0[j] = natural_curvature(share.turn);
     if (station == last) continue;
     a->rod_l[j] = model->l;
     a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
   }
   model->rod = rod_of(model, a);
+  ZpLevelEnds levels = zp_topology_level_ends(t);
+  for (size_t k = 0; k < levels.count; k++)
+    for (size_t ribbon = 0; ribbon < model->s; ribbon++)
+      fill_end(model, ribbon, levels.of[k], a);
 }
 
 /* The pieces within half an edge of node j count: the most that a moment and a force do to any of them. */
@@ -308,7 +360,7 @@ static void fill_stress_of(const ZpModel *model, size_t j, Arrays *a) {
 
 /* Joints of mass_spring turn against their shear springs. */
 static void fill_stress(ZpModel *model, Arrays *a) {
-  model->stress = (ZpStressParams){model->rod, a->per_moment, a->per_force};
+  model->stress = (ZpStressParams){model->rod, !model->is_rod, a->per_moment, a->per_force};
   for (size_t j = 0; j < model->count; j++) {
     bool free = j / model->s + 1 == model->nodes && !model->spring.right_slope;
     fill_stress_of(model, j, a);
@@ -371,6 +423,7 @@ static ZpFacesParams faces_of(const ZpModel *model) {
                          .push = push,
                          .platform = model->topology.platform.first,
                          .platform_end = model->topology.platform.last,
+                         .level = level_faces(model),
                          .flat_length = platform_length(model)};
 }
 
@@ -473,6 +526,8 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
   }
   ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage};
   model->waveform = zp_waveform_of(&model->def, &copy);
+  model->supply = zp_supply_of(&model->def);
+  model->supply.acts &= model->field;
 }
 
 #ifndef ZP_WITHOUT_FIELD

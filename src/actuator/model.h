@@ -12,7 +12,7 @@
 
 #include "actuator/topology.h"
 #include "contact/faces.h"
-#include "drive/waveform.h"
+#include "drive/supply.h"
 #include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/plates_step.h"
@@ -70,6 +70,7 @@ struct ZpModel {
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
   ZpWaveform waveform;
+  ZpSupply supply;
   double field_scale;   /* force_scale * voltage_share^2 */
   ZpMasses masses;      /* true masses */
   ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */
@@ -111,6 +112,12 @@ typedef struct ZpState {
   ZpRamp voltage_input;    /* V; counts where by_hand */
   ZpRamp load_input;       /* N, down on the lower platform (one ribbon: the right end) of the whole actuator */
   double load_work;        /* per part: of that force so far, J */
+  ZpSupplyState supply;    /* behind a supply: what of it evolves, */
+  size_t supply_mode;      /* which of its limits acts (sim/feed.c), */
+  double source_charge;    /* and of the whole actuator: charge that it has given, C, */
+  double source_energy;    /* energy, J, */
+  double source_loss;      /* what was lost in its resistance and at its limits, J, */
+  double bleeder_loss;     /* and in the bleeder, J */
   double along_loss;       /* per part: to viscosity, along the film, J, */
   double across_loss;      /* and across it */
   double jet_loss;         /* per part: to jets from the film and its cavities, J */

@@ -79,6 +79,21 @@ bool zp_topology_holds_slope(const ZpTopology *t, size_t station) {
   return joint && hold_of[joint->kind].slope;
 }
 
+static void add_level(size_t element, bool right, ZpLevelEnds *ends) {
+  ends->of[ends->count++] = (ZpLevelEnd){element, right};
+}
+
+ZpLevelEnds zp_topology_level_ends(const ZpTopology *t) {
+  ZpLevelEnds ends = {0};
+  for (size_t k = 0; k < t->joints; k++) {
+    const ZpJoint *joint = &t->joint[k];
+    if (!hold_of[joint->kind].slope) continue;
+    if (joint->first > 0) add_level(joint->first - 1, true, &ends);
+    if (joint->last + 1 < t->stations) add_level(joint->last, false, &ends);
+  }
+  return ends;
+}
+
 size_t zp_topology_station_image(const ZpTopology *t, size_t station) {
   return station <= t->platform.first ? station : t->stations - 1 - station;
 }

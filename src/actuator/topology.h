@@ -10,6 +10,8 @@
 #include <math.h>
 #include <zipact/def.h>
 
+#include "math/level.h"
+
 typedef enum ZpJointKind {
   ZP_JOINT_CLIP,     /* both nodes are one; horizontal */
   ZP_JOINT_CLAMP,    /* held; horizontal */
@@ -48,6 +50,10 @@ size_t zp_topology_leader(const ZpTopology *topology, size_t coordinate);
 
 /* Does what is at this station, if anything, keep the ribbons horizontal? */
 bool zp_topology_holds_slope(const ZpTopology *topology, size_t station);
+
+/* Elements at one station of which something keeps the ribbons horizontal: beside a clip, a clamp, a guide, a platform.
+ */
+ZpLevelEnds zp_topology_level_ends(const ZpTopology *topology);
 
 /* The station, or element (by its left station), of the left half that mirrors this one; itself if it is there. */
 size_t zp_topology_station_image(const ZpTopology *topology, size_t station);

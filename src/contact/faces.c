@@ -20,8 +20,9 @@ static inline double depth(const ZpFacesParams *p, double gap) {
 }
 
 static void add_element(const ZpFacesParams *p, const double *gap, size_t i, const ZpFacesEval *e) {
+  const double *share = zp_gauss_shares(&p->level, i);
   for (int q = 0; q < GAUSS; q++) {
-    double r = gauss_at[q], l = 1 - r, s = depth(p, l * gap[i] + r * gap[i + 1]);
+    double r = share[q], l = 1 - r, s = depth(p, l * gap[i] + r * gap[i + 1]);
     double f = gauss_weight[q] * p->l * p->push * s * s, c = 3 * f / p->depth;
     e->push[i] += l * f * s;
     e->push[i + 1] += r * f * s;

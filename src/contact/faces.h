@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "math/level.h"
 
 typedef struct ZpFacesParams {
   size_t nodes;                  /* N stations; the first is the clip, which is closed by itself */
@@ -18,6 +19,7 @@ typedef struct ZpFacesParams {
   double depth;                  /* delta: overlap at which the push is p_c, m */
   double push;                   /* p_c, N/m */
   size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
+  ZpLevelEnds level;             /* elements with a level end */
   double flat_length;            /* of its faces, at the gap of each of these, m */
 } ZpFacesParams;
 

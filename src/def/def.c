@@ -25,7 +25,9 @@
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name), NULL},
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
-  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), NULL},
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), "auto"},
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)                                                          \
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), "none"},
 #define ZP_INT(path, name, def, min, max, help)                                                                        \
   {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, OFFSET(path, name), NULL},
 #define ZP_BOOL(path, name, def, help)                                                                                 \
@@ -43,6 +45,7 @@ static const ZpKey keys[] = {
 #undef ZP_GROUP_END
 #undef ZP_REAL
 #undef ZP_REAL_AUTO
+#undef ZP_REAL_NONE
 #undef ZP_INT
 #undef ZP_BOOL
 #undef ZP_ENUM
@@ -60,26 +63,36 @@ typedef struct PresetValue {
 } PresetValue;
 
 #define ZP_KIND_VALUE(kind, key, value) {kind, key, 0, value},
+#define ZP_SUPPLY_VALUE(supply, key, value)
 #define ZP_PRESET_VALUE(preset, key, value)
 #define ZP_PRESET_AT(preset, key, nodes, value)
 static const PresetValue kind_values[] = {
 #include <zipact/presets.def>
 };
 #undef ZP_KIND_VALUE
+#undef ZP_SUPPLY_VALUE
+#define ZP_KIND_VALUE(kind, key, value)
+#define ZP_SUPPLY_VALUE(supply, key, value) {supply, key, 0, value},
+static const PresetValue supply_values[] = {
+#include <zipact/presets.def>
+};
+#undef ZP_SUPPLY_VALUE
 #undef ZP_PRESET_VALUE
 #undef ZP_PRESET_AT
-#define ZP_KIND_VALUE(kind, key, value)
+#define ZP_SUPPLY_VALUE(supply, key, value)
 #define ZP_PRESET_VALUE(preset, key, value)     {preset, key, 0, value},
 #define ZP_PRESET_AT(preset, key, nodes, value) {preset, key, nodes, value},
 static const PresetValue preset_values[] = {
 #include <zipact/presets.def>
 };
 #undef ZP_KIND_VALUE
+#undef ZP_SUPPLY_VALUE
 #undef ZP_PRESET_VALUE
 #undef ZP_PRESET_AT
 
 enum {
   KIND_VALUES = sizeof kind_values / sizeof kind_values[0],
+  SUPPLY_VALUES = sizeof supply_values / sizeof supply_values[0],
   PRESET_VALUES = sizeof preset_values / sizeof preset_values[0]
 };
 
@@ -286,9 +299,10 @@ static void apply_preset(ZpActuatorDef *def, ZpPreset preset, int nodes) {
   }
 }
 
-static void apply_kind(ZpActuatorDef *def, ZpActuatorKind kind) {
-  for (int i = 0; i < KIND_VALUES; i++)
-    if (kind_values[i].selector == (int)kind) store(def, &keys[zp_key_find(kind_values[i].key)], kind_values[i].value);
+/* Those of `count` values that go with `selector`. */
+static void apply_values(ZpActuatorDef *def, const PresetValue *value, int count, int selector) {
+  for (int i = 0; i < count; i++)
+    if (value[i].selector == selector) store(def, &keys[zp_key_find(value[i].key)], value[i].value);
 }
 
 /* A key that the preset has only for certain N must be given for any other. */
@@ -321,8 +335,9 @@ ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count,
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
   *def = defaults();
-  apply_kind(def, kind);
+  apply_values(def, kind_values, KIND_VALUES, (int)kind);
   apply_preset(def, given.preset, given.mesh.nodes);
+  apply_values(def, supply_values, SUPPLY_VALUES, (int)given.source.supply);
   return apply_assignments(def, list, count, err);
 }
 
@@ -399,6 +414,47 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.rise_time = 0 s: a ramp needs a rise time above 0; or use drive.waveform step");
   return kind == ZP_WAVEFORM_SQUARE ? check_square(def, err) : ZP_OK;
+}
+
+/* Keys of a source that would do nothing. */
+static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
+  static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
+                                             "capacitance", "bleeder",       "bandwidth"};
+  for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++) {
+    char name[32];
+    snprintf(name, sizeof name, "source.%s", of_amplifier[i]);
+    int key = zp_key_find(name);
+    double value = zp_def_get(def, key);
+    bool given = !(isnan(value) && isnan(keys[key].def)) && value != keys[key].def;
+    if (given) return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", name);
+  }
+  return ZP_OK;
+}
+
+/* Values with which an amplifier never charges, or faster than any step of time. */
+static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
+  static const double fastest = 1e9; /* Hz: a thousand of the shortest steps in a time constant */
+  if (def->source.slew_rate == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "source.slew_rate = 0 V/s: the source would never leave 0 V; give a rate above 0 or none");
+  if (def->source.current_limit == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "source.current_limit = 0 A: the source could never charge the electrodes; give a current above 0 "
+                   "or none");
+  if (def->source.bandwidth > fastest)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "source.bandwidth = %g Hz: time steps resolve at most %g Hz; give none for a source that follows "
+                   "at once",
+                   def->source.bandwidth, fastest);
+  if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
+    return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires solver.integrator implicit");
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires electrodes; actuator.kind is ribbon");
+  return ZP_OK;
+}
+
+static ZpStatus check_source(const ZpActuatorDef *def, ZpError *err) {
+  return def->source.model == ZP_SOURCE_IDEAL ? check_unused_source(def, err) : check_amplifier(def, err);
 }
 
 /* What electro.edges asks of other keys. */
@@ -562,6 +618,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: requires electro.surface bezier",
                    def->electro.refresh_period);
   ZpStatus status = check_drive(def, err);
+  if (status == ZP_OK) status = check_source(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
   if (status == ZP_OK) status = check_symmetry(def, err);
   if (status == ZP_OK) status = check_liquid(def, err);

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "math/elementary.h"
+
 typedef struct Knot {
   double t, U;
 } Knot;
@@ -158,9 +160,10 @@ double zp_waveform_largest(const ZpWaveform *w) {
   return fmax(fabs(low), fabs(high));
 }
 
+static const double pi = 3.14159265358979323846;
+
 /* V/s just after t; of a sine the largest. */
 static double slope(const ZpWaveform *w, double t) {
-  static const double pi = 3.14159265358979323846;
   if (w->kind == ZP_WAVEFORM_SINE) return pi * w->frequency * (w->voltage - w->offset);
   int64_t last = knots(w) == 0 ? -1 : last_knot(w, t, true);
   if (last < 0 || last + 1 >= knots(w)) return 0;
@@ -172,6 +175,38 @@ double zp_ramp_resolution(double largest, double rate) {
   static const double fine = 1.0 / 40, coarse = 1.0 / 4, fast = 1e-3; /* s */
   double all = largest / fabs(rate);
   return rate != 0 ? fmin(coarse * all, fmax(fine * all, fast)) : INFINITY;
+}
+
+/* sin(2 pi p) and cos(2 pi p), p > -1. */
+static double cosine(double p) {
+  return 1 - 2 * sine_squared(p + 1);
+}
+
+static double sine_of(double p) {
+  return cosine(p - 0.25);
+}
+
+double zp_waveform_rate(const ZpWaveform *w, double t) {
+  double largest_rate = slope(w, t);
+  return w->kind == ZP_WAVEFORM_SINE ? largest_rate * sine_of(w->frequency * t) : largest_rate;
+}
+
+double zp_lag_line(double rate, double voltage, double slope, double h, double lagged) {
+  return lagged + slope * h + (lagged - voltage + slope / rate) * zp_decay(rate * h);
+}
+
+/* Where a lag settles on a sine, less U_0. */
+static double settled_sine(const ZpWaveform *w, double rate, double t) {
+  double ratio = 2 * pi * w->frequency / rate, p = w->frequency * t;
+  return 0.5 * (w->voltage - w->offset) * (1 - (cosine(p) + ratio * sine_of(p)) / (1 + ratio * ratio));
+}
+
+double zp_waveform_lag(const ZpWaveform *w, double rate, double from, double to, double lagged) {
+  if (isinf(rate)) return zp_waveform_voltage_before(w, to);
+  if (w->kind != ZP_WAVEFORM_SINE)
+    return zp_lag_line(rate, zp_waveform_voltage(w, from), slope(w, from), to - from, lagged);
+  double at = settled_sine(w, rate, from);
+  return lagged + (settled_sine(w, rate, to) - at) + (lagged - w->offset - at) * zp_decay(rate * (to - from));
 }
 
 double zp_waveform_resolution(const ZpWaveform *w, double t) {

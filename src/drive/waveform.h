@@ -32,6 +32,16 @@ double zp_waveform_voltage_before(const ZpWaveform *w, double t);
  * leaves out a wave. INFINITY if there is none. */
 double zp_waveform_next_corner(const ZpWaveform *w, double t);
 
+/* Its rate just after t, V/s. */
+double zp_waveform_rate(const ZpWaveform *w, double t);
+
+/* What a lag of first order with `rate` (1/s) has made of the voltage at `to` from `lagged` (V) at `from`; there is no
+ * corner between. Eq. (23.1). */
+double zp_waveform_lag(const ZpWaveform *w, double rate, double from, double to, double lagged);
+
+/* The same of a straight line that begins at `voltage` and changes by `slope` (V/s) for a time h. */
+double zp_lag_line(double rate, double voltage, double slope, double h, double lagged);
+
 /* Does the voltage stay as it is at t = 0? */
 bool zp_waveform_is_constant(const ZpWaveform *w);
 

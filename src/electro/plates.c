@@ -111,18 +111,36 @@ typedef struct Pieces {
   double W[GAUSS][ZP_LANES], P[GAUSS][ZP_LANES], q[GAUSS][ZP_LANES], inverse[GAUSS][ZP_LANES];
 } Pieces;
 
+/* `at`: shares of the right station. */
 ZP_INLINE void pieces_of(const ZpPlatesParams *p, double U, double h_c, const double *restrict gap, size_t count,
-                         Pieces *restrict out) {
+                         const double *at, Pieces *restrict out) {
   double K = p->k * U * U, per_volt = 2 * p->k * U, d = p->d, least = p->h_least;
   for (int q = 0; q < GAUSS; q++) {
     ZP_SIMD
     for (size_t l = 0; l < count; l++) {
-      double h = gap[l] + (gap[l + 1] - gap[l]) * gauss_at[q] + d;
+      double h = gap[l] + (gap[l + 1] - gap[l]) * at[q] + d;
       double inverse = 1 / (h > h_c ? h : h_c);
       out->W[q][l] = K * inverse * inverse;
       out->P[q][l] = -K * inverse * (2 - h * inverse);
       out->q[q][l] = per_volt * inverse;
       out->inverse[q][l] = 1 / (h > least ? h : least);
+    }
+  }
+}
+
+/* Pieces of elements with a level end among `count` from `block` on. */
+ZP_INLINE void level_pieces(const ZpPlatesParams *p, double U, double h_c, const double *gap, size_t block,
+                            size_t count, Pieces *out) {
+  for (size_t k = 0; k < p->level.count; k++) {
+    size_t element = p->level.of[k].element, l = element - block;
+    if (element < block || l >= count) continue;
+    Pieces one;
+    pieces_of(p, U, h_c, gap + element, 1, zp_gauss_shares(&p->level, element), &one);
+    for (int q = 0; q < GAUSS; q++) {
+      out->W[q][l] = one.W[q][0];
+      out->P[q][l] = one.P[q][0];
+      out->q[q][l] = one.q[q][0];
+      out->inverse[q][l] = one.inverse[q][0];
     }
   }
 }
@@ -134,7 +152,8 @@ ZP_KERNEL static void add_elements(const ZpPlatesParams *p, const ZpPlatesEval *
   Pieces pieces;
   for (size_t block = 0; block < elements; block += ZP_LANES) {
     size_t count = elements - block < ZP_LANES ? elements - block : ZP_LANES;
-    pieces_of(p, U, h_c, e->gap + block, count, &pieces);
+    pieces_of(p, U, h_c, e->gap + block, count, gauss_at, &pieces);
+    level_pieces(p, U, h_c, e->gap, block, count, &pieces);
     for (size_t l = 0; l < count; l++)
       for (int q = 0; q < GAUSS; q++) {
         double length = gauss_weight[q] * e->dx[block + l];
@@ -147,9 +166,11 @@ ZP_KERNEL static void add_elements(const ZpPlatesParams *p, const ZpPlatesEval *
 }
 
 static void add_elements_with_edges(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesTotals *totals) {
-  for (size_t i = 0; i + 1 < p->nodes; i++)
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    const double *at = zp_gauss_shares(&p->level, i);
     for (int q = 0; q < GAUSS; q++)
-      add_piece(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * gauss_at[q], gauss_weight[q] * e->dx[i], totals);
+      add_piece(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * at[q], gauss_weight[q] * e->dx[i], totals);
+  }
 }
 
 ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {

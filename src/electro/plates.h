@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "math/level.h"
 
 #define ZP_EPS0 8.8541878128e-12 /* electric constant, F/m, CODATA 2018 */
 
@@ -26,6 +27,7 @@ typedef struct ZpPlatesParams {
   bool flat;                     /* one ribbon below a flat electrode instead of two that face each other */
   double flat_height;            /* y of that electrode's face, m */
   size_t platform, platform_end; /* first and last station of the platform: elements between them attract nothing */
+  ZpLevelEnds level;             /* elements with a level end */
   double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
 
   const struct ZpEdgeLaw *edges; /* what lateral edges add, edges.h; NULL without */

@@ -91,8 +91,9 @@ typedef struct Parts {
   double A, B, P, own_A, own_B, next, along0, along1;
 } Parts;
 
-static inline void add_point(Parts *of, Between law, double dx, int q) {
-  double r = gauss_at[q], l = 1 - r, w = gauss_weight[q];
+/* r: the share of the right station in what is sampled at point q. */
+static inline void add_point(Parts *of, Between law, double dx, double r, int q) {
+  double l = 1 - r, w = gauss_weight[q];
   of->A += w * l * law.W * dx;
   of->B += w * r * law.W * dx;
   of->P += w * law.P;
@@ -127,7 +128,7 @@ ZP_INLINE void element_parts(size_t count, int laws, bool still, const Laws *law
     for (int q = 0; q < GAUSS; q++) {
       double r = gauss_at[q], l = 1 - r, h0 = l * g0[i] + r * g0[i + 1] + d, h1 = l * g1[i] + r * g1[i + 1] + d;
       for (int k = 0; k < laws; k++)
-        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, q);
+        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, r, q);
     }
     put(&out, i, parts);
   }
@@ -148,18 +149,31 @@ ZP_KERNEL static void elements_at_rest(size_t count, const Laws *law, double d, 
   element_parts(count, 1, true, law, d, e, e, s);
 }
 
+/* Any element, with edges or not. */
+static void element(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1, size_t i,
+                    const ZpPlatesStep *s) {
+  const double *at = zp_gauss_shares(&p->level, i);
+  double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
+  Parts parts = {0};
+  for (int q = 0; q < GAUSS; q++) {
+    double r = at[q], l = 1 - r;
+    double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
+    add_point(&parts, mean_between(p, laws, g0, g1), dx, r, q);
+  }
+  put(s, i, parts);
+}
+
 static void elements_with_edges(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0,
                                 const ZpPlatesEval *e1, const ZpPlatesStep *s) {
-  for (size_t i = 0; i + 1 < p->nodes; i++) {
-    double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
-    Parts parts = {0};
-    for (int q = 0; q < GAUSS; q++) {
-      double r = gauss_at[q], l = 1 - r;
-      double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
-      add_point(&parts, mean_between(p, laws, g0, g1), dx, q);
-    }
-    put(s, i, parts);
-  }
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    element(p, laws, e0, e1, i, s);
+}
+
+/* Where the kernels over all elements have sampled straight pieces. */
+static void level_elements(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
+                           const ZpPlatesStep *s) {
+  for (size_t k = 0; k < p->level.count; k++)
+    element(p, laws, e0, e1, p->level.of[k].element, s);
 }
 
 /* Forces on both nodes of station i, or on the one below a flat electrode. */
@@ -219,6 +233,7 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
     elements_at_one(last, &laws, p->d, e0, e1, s);
   else
     elements_at_two(last, &laws, p->d, e0, e1, s);
+  if (!p->edges) level_elements(p, &laws, e0, e1, s);
   stations(p, s);
   add_platform(p, &laws, e0, e1, s);
 }
@@ -268,13 +283,14 @@ static double capacitance_at(const ZpPlatesParams *p, double U, double g) {
   return h > h_c ? 2 * p->k / h : 0;
 }
 
-/* Forces of `share` of the charges between two ends => Fx, Fy. */
-static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
-                              double share, ZpPlatesStep *s) {
+/* Parts of each element, of `share` of the charges between two ends => A, B, P. */
+static void parts_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
+                             double share, ZpPlatesStep *s) {
   for (size_t i = 0; i + 1 < p->nodes; i++) {
+    const double *shares = zp_gauss_shares(&p->level, i);
     double dx = 0.5 * (e0->dx[i] + e1->dx[i]), A = 0, B = 0, P = 0;
     for (int q = 0; q < GAUSS; q++) {
-      double r = gauss_at[q], l = 1 - r;
+      double r = shares[q], l = 1 - r;
       double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
       Charges at = charges_between(p, U, g0, g1);
       A += gauss_weight[q] * l * at.W * dx;
@@ -285,6 +301,36 @@ static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, c
     s->B[i] = share * B;
     s->P[i] = share * P;
   }
+}
+
+/* The same at rest, without edges. */
+ZP_KERNEL static void parts_at_rest(size_t count, double per_volt, double h_c, double d, const ZpPlatesEval *e,
+                                    const ZpPlatesStep *s) {
+  const double *restrict gap = e->gap, *restrict dx = e->dx;
+  double *restrict A_of = s->A, *restrict B_of = s->B, *restrict P_of = s->P;
+  ZP_SIMD
+  for (size_t i = 0; i < count; i++) {
+    double A = 0, B = 0, P = 0;
+    for (int q = 0; q < GAUSS; q++) {
+      double r = gauss_at[q], l = 1 - r, h = l * gap[i] + r * gap[i + 1] + d, b = 1 / (h > h_c ? h : h_c);
+      double W = h > h_c ? b * b : 0;
+      A += gauss_weight[q] * l * W;
+      B += gauss_weight[q] * r * W;
+      P += gauss_weight[q] * b;
+    }
+    A_of[i] = per_volt * dx[i] * A;
+    B_of[i] = per_volt * dx[i] * B;
+    P_of[i] = -per_volt * P;
+  }
+}
+
+/* Forces of `share` of the charges between two ends => Fx, Fy. */
+static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
+                              double share, ZpPlatesStep *s) {
+  if (p->edges || e0 != e1)
+    parts_of_charges(p, e0, e1, U, share, s);
+  else
+    parts_at_rest(p->nodes - 1, 2 * share * p->k * U, zp_plates_least_h(p, U), p->d, e1, s);
   act_all(p, s);
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
     attract(s->Fy, i, share * p->flat_length * charges_between(p, U, e0->gap[i], e1->gap[i]).W);
@@ -293,12 +339,23 @@ static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, c
 
 static double capacitance(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
   double sum = 0;
-  for (size_t i = 0; i + 1 < p->nodes; i++)
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    const double *at = zp_gauss_shares(&p->level, i);
     for (int q = 0; q < GAUSS; q++)
-      sum += gauss_weight[q] * e->dx[i] * capacitance_at(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * gauss_at[q]);
+      sum += gauss_weight[q] * e->dx[i] * capacitance_at(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * at[q]);
+  }
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
     sum += p->flat_length * capacitance_at(p, U, e->gap[i]);
   return sum;
+}
+
+/* F = -dP/dq at one voltage and dP/dU = -q, so dF/dU = dq/dq. */
+void zp_plates_rest_by_voltage(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesStep *step, double *Fx,
+                               double *Fy) {
+  ZpPlatesStep lent = *step;
+  lent.Fx = Fx;
+  lent.Fy = Fy;
+  forces_of_charges(p, e, e, U, 1, &lent);
 }
 
 void zp_plates_by_voltage(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U1,
@@ -307,9 +364,7 @@ void zp_plates_by_voltage(const ZpPlatesParams *p, const ZpPlatesEval *e0, const
   lent.Fx = by->Fx;
   lent.Fy = by->Fy;
   forces_of_charges(p, e0, e1, U1, 0.5, &lent); /* the law at the end is half of the mean */
-  lent.Fx = by->Qx;
-  lent.Fy = by->Qy;
-  forces_of_charges(p, e1, e1, U1, 1, &lent); /* F = -dP/dq at one voltage, so dF/dU = dq/dq */
+  zp_plates_rest_by_voltage(p, e1, U1, step, by->Qx, by->Qy);
   by->capacitance = capacitance(p, e1, U1);
 }
 

@@ -36,6 +36,10 @@ void zp_plates_by_voltage_carve(const ZpPlatesParams *params, ZpPlatesByVoltage 
 void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U1,
                           ZpPlatesStep *step, ZpPlatesByVoltage *by);
 
+/* At rest => how the forces go with the voltage: Fx, Fy [stride], N/V. `step` lends its parts as above. */
+void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
+                               double *Fx, double *Fy);
+
 /* At rest: (x, y of interleaved upper and lower nodes, voltage) => gaps and all of `step`. */
 void zp_plates_rest(const ZpPlatesParams *params, const double *x, const double *y, double voltage, ZpPlatesEval *eval,
                     ZpPlatesStep *step);

@@ -18,6 +18,8 @@ bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates,
   s->plates = *plates;
   s->plates.h_per_volt = 0;
   s->h_per_volt = plates->h_per_volt;
+  s->plates.level.count =
+      0;                  /* the field's faces go straight between all stations, and so do those of what it replaces */
   s->plates.edges = NULL; /* the field solved is that of the strips' middle: edges stay in the plates law beside it */
   s->scale = scale;
   s->memory = zp_calloc(1, carve(s, NULL));

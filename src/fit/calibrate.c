@@ -28,6 +28,7 @@ typedef struct Names {
     {"residual_N", "N", "fitted minus measured"}}},
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
 #define ZP_INT(path, name, def, min, max, help)               NAMES(#path #name, "1")
 #define ZP_BOOL(path, name, def, help)                        NAMES(#path #name, "1")
 #define ZP_ENUM(path, name, type, def, help)                  NAMES(#path #name, "1")

@@ -43,7 +43,7 @@ static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
   double start = zp_def_get(fit->def, key);
   if (isnan(start) || start == 0)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,
-                   isnan(start) ? "auto" : "0");
+                   isnan(start) ? zp_key(key)->text : "0");
   fit->key[fit->n] = key;
   fit->start[fit->n] = start;
   find_bounds(fit, fit->n++);

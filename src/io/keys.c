@@ -100,7 +100,7 @@ static const char *type_word(ZpKeyType type) {
   return words[type];
 }
 
-/* A value of a key as JSON has it: number, word, "auto" or bool. */
+/* A value of a key as JSON has it: number, word or bool. */
 static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
   switch (key->type) {
@@ -116,7 +116,7 @@ static json_t *json_of_value(int index, double value) {
   case ZP_KEY_REAL_AUTO:
     break;
   }
-  return isnan(value) ? json_string("auto") : json_real(value);
+  return isnan(value) ? json_string(key->text) : json_real(value);
 }
 
 static json_t *json_of_choices(const ZpKey *key) {

@@ -86,7 +86,7 @@ static json_t *key_value(int key, double value) {
   const ZpKey *k = zp_key(key);
   if (k->type == ZP_KEY_BOOL) return json_boolean(value != 0);
   if (k->type == ZP_KEY_ENUM) return json_string(zp_key_word(key, value));
-  if (k->type == ZP_KEY_REAL_AUTO && isnan(value)) return json_string("auto");
+  if (k->type == ZP_KEY_REAL_AUTO && isnan(value)) return json_string(k->text);
   return zp_json_number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
 }
 

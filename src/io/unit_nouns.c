@@ -22,6 +22,10 @@ static const struct {
     {"Hz", "a frequency"},
     {"N", "a force"},
     {"N s2/m2", "a drag coefficient"},
+    {"V/s", "a slew rate"},
+    {"A", "a current"},
+    {"F", "a capacitance"},
+    {"ohm", "a resistance"},
 };
 
 ZpStatus zp_unit_fail_dimension(const char *to, ZpError *err) {

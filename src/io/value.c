@@ -84,7 +84,8 @@ void zp_value_range(int index, char *text, size_t size) {
   char least[ZP_VALUE_SIZE], most[ZP_VALUE_SIZE];
   zp_value_print(index, key->min, least, sizeof least);
   zp_value_print(index, key->max, most, sizeof most);
-  snprintf(text, size, "%.64s to %.64s%s", least, most, key->type == ZP_KEY_REAL_AUTO ? " or auto" : "");
+  bool automatic = key->type == ZP_KEY_REAL_AUTO;
+  snprintf(text, size, "%.64s to %.64s%s%s", least, most, automatic ? " or " : "", automatic ? key->text : "");
 }
 
 /* "REASON; give a value in um from 1 um to 5000 um" */
@@ -212,10 +213,14 @@ static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError
   if (key->type == ZP_KEY_BOOL) return read_bool(text, value, err);
   if (key->type == ZP_KEY_ENUM) return read_word(index, text, value, err);
   if (*text == 0) return fail_number(index, "empty", err);
-  if (strcmp(text, "auto") != 0) return read_number(index, text, value, err);
-  if (key->type != ZP_KEY_REAL_AUTO) return fail_number(index, "this key cannot be auto", err);
-  *value = NAN;
-  return ZP_OK;
+  bool automatic = key->type == ZP_KEY_REAL_AUTO;
+  if (automatic && strcmp(text, key->text) == 0) {
+    *value = NAN;
+    return ZP_OK;
+  }
+  if (strcmp(text, "auto") == 0)
+    return fail_number(index, automatic ? "this key is none, not auto" : "this key cannot be auto", err);
+  return read_number(index, text, value, err);
 }
 
 /* Bytes of the blank that `text` begins with, 0 if it begins with none. Beside those of ASCII: the no-break, figure,
@@ -282,7 +287,7 @@ void zp_value_print(int index, double value, char *text, size_t size) {
   else if (key->type == ZP_KEY_ENUM)
     snprintf(text, size, "%s", value >= 0 && value <= key->max ? key->choices[(int)value].word : "?");
   else if (key->type == ZP_KEY_REAL_AUTO && isnan(value))
-    snprintf(text, size, "auto");
+    snprintf(text, size, "%s", key->text);
   else if (!print_shown(index, value, text, size))
     zp_number_print(value, text, size);
 }

@@ -2,7 +2,7 @@
 
 static const double pi = 3.14159265358979324;
 
-/* F / (1 + F) of eq. (22.13), a fit to potential flow around two plates; q = g / w. */
+/* F / (1 + F) of eq. (22.12), a fit to potential flow around two plates; q = g / w. */
 static double open_part(double q) {
   return 2.7 * q + 2.1 * q * q;
 }

@@ -24,3 +24,21 @@ double zp_tangent(double x) {
     t = 2 * t / (1 - t * t);
   return t;
 }
+
+/* exp(-x) - 1 by its series, whose terms are below rounding from the 15th on; x at most ln 2. */
+static double small_decay(double x) {
+  enum { TERMS = 18 };
+  double sum = 0;
+  for (int k = TERMS; k > 0; k--)
+    sum = -x / k * (1 + sum);
+  return sum;
+}
+
+/* exp(-x) = 2^-n exp(-(x - n ln 2)), ln 2 in two parts, of which the first has zeros for its last digits. */
+double zp_decay(double x) {
+  static const double ln2 = 0x1.62e42feep-1, rest = 0x1.a39ef35793c76p-33, most = 745;
+  if (x > most) return -1;
+  int n = (int)(x / ln2);
+  double left = x - n * ln2 - n * rest;
+  return n == 0 ? small_decay(x) : ldexp(1 + small_decay(left), -n) - 1;
+}

@@ -61,8 +61,17 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
 
+/* Where a source holds the voltage at the step's end, its equation is that of a small capacitor. */
+static const double holding = 1e-12; /* F */
+
+static bool is_held(const ZpDynamics *d, double *U1) {
+  return d->source->holds && d->source->holds(d->source->self, d->state->t, d->h, U1);
+}
+
 /* What has flowed through the source over the step, C, less what the electrodes have taken; of one part. */
 static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
+  double held;
+  if (is_held(d, &held)) return holding * (held - d->U1);
   double flowed = d->source->flow(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
   return flowed - (zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1).charge - d->charge0);
 }
@@ -106,11 +115,17 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
 static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   const ZpByVoltage *by = &d->by_voltage;
   size_t u = d->assembly.n;
+  double held;
   zp_system_by_voltage(d->model, span, &d->eval, &d->by_voltage);
   zp_assembly_sum(&d->assembly, by->force, J->B);
   zp_assembly_sum(&d->assembly, by->charge, J->C);
   for (size_t i = 0; i < u; i++)
     J->B[i] = -J->B[i];
+  if (is_held(d, &held)) {
+    memset(J->C, 0, u * sizeof *J->C);
+    *zp_bordered_at(J, u, u) = holding;
+    return;
+  }
   double slope = d->source->slope(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
   *zp_bordered_at(J, u, u) = by->capacitance - slope;
 }
@@ -349,6 +364,9 @@ static void load(ZpDynamics *d, ZpState *state) {
   }
   if (d->source) {
     size_t u = d->assembly.n;
+    double held;
+    d->h = d->latest - state->t;
+    d->kind[u] = is_held(d, &held) ? ZP_ALGEBRAIC : ZP_FIRST_ORDER;
     d->q[u] = state->U;
     d->v[u] = 0;
     d->history.w[u] = state->U_rate;
@@ -356,6 +374,11 @@ static void load(ZpDynamics *d, ZpState *state) {
   }
   d->history.last = state->last_step;
   d->history.next = state->next_step;
+}
+
+static double charge_at_end(ZpDynamics *d) {
+  ZpSpan span = span_of(d);
+  return zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, d->U1).charge;
 }
 
 static void book_losses(ZpDynamics *d, ZpState *state) {
@@ -400,6 +423,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
   book_losses(d, state);
+  if (d->source) d->charge1 = charge_at_end(d);
   if (model->field) {
     book_work(d, state);
     state->contact_loss += impact(d);

@@ -22,7 +22,8 @@ typedef struct ZpDynamics {
   ZpUnknown *kind;        /* [n] with a source: the last is the voltage */
   double *scale;          /* [n] */
   ZpByVoltage by_voltage; /* with a source */
-  double charge0;         /* of one part where the step begins, C */
+  double charge0;         /* of one part where the step begins, C, */
+  double charge1;         /* and where the last one ended */
   double *mass, *q, *v;   /* [n] by equations */
   double *start, *end;    /* [2 stride] coordinates of nodes */
   double *force;          /* [2 stride] N */

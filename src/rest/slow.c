@@ -11,7 +11,7 @@ void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver
 }
 
 void zp_limit_none(ZpLimit *limit, const char *reason) {
-  *limit = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, limit->state, limit->null};
+  *limit = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, limit->state, limit->null, 0};
 }
 
 void zp_limit_lost(ZpLimit *limit, const char *reason) {
@@ -50,11 +50,17 @@ static bool along_load(const ZpSlow *f) {
   return f->march.fold.system == &f->load;
 }
 
+/* The voltage or the load at the present point. */
+static double value_at(const ZpSlow *f) {
+  return along_load(f) ? f->statics->load : f->statics->U;
+}
+
 void zp_slow_note(ZpSlow *f, ZpLimit *limit, ZpMarchEnd end) {
   const ZpStatics *s = f->statics;
   limit->end = end;
-  limit->value = along_load(f) ? s->load : s->U;
+  limit->value = value_at(f);
   limit->reason = NULL;
+  limit->room = 0;
   f->square.save(f->statics, limit->state);
   memcpy(limit->null, f->march.fold.null, s->assembly.n * sizeof *limit->null);
 }
@@ -62,7 +68,7 @@ void zp_slow_note(ZpSlow *f, ZpLimit *limit, ZpMarchEnd end) {
 void zp_slow_copy(const ZpSlow *f, const ZpLimit *from, ZpLimit *to) {
   memcpy(to->state, from->state, f->square.save_size);
   memcpy(to->null, from->null, f->statics->assembly.n * sizeof *to->null);
-  *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null};
+  *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null, from->room};
 }
 
 /* The parameter, changed by this share of the voltage or of the load. */
@@ -117,31 +123,47 @@ static ZpAround climb_on(ZpSlow *f, double m, double sign) {
   return found ? ZP_CREST_HIGHER : ZP_OUT_OF_SIGHT;
 }
 
-/* On one side, in steps of the gap. */
-static ZpAround look(ZpSlow *f, double sign, double step) {
+/* On one side of the limit, in steps of the gap. Where the branch rises again, beyond what it has fallen to, it is as
+ * near to the limit as it comes: that is the limit's room. */
+static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double step) {
   enum { MOST = 12 };
-  static const double rough = 1e-7, higher = 1e-6; /* of the parameter */
+  static const double higher = 1e-6; /* of the parameter: what counts */
   const double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
-  const double deep = changed(f, m, -sign * ZP_FOLD_RIPPLE);
+  double deepest = 0;
   for (int k = 1; k <= MOST; k++) {
-    f->march.fold.small = rough;
-    bool found = zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step);
-    f->march.fold.small = ZP_FOLD_EXACT;
-    if (!found) return ZP_OUT_OF_SIGHT;
+    if (!zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step, ZP_FOLD_ROUGH)) return ZP_OUT_OF_SIGHT;
     if (sign * (parameter(f) - m) > higher * m) return climb_on(f, m, sign);
-    if (sign * (parameter(f) - deep) < 0) return ZP_NOTHING_HIGHER;
+    double below = sign * (1 - value_at(f) / limit->value);
+    if (below < deepest) limit->room = fmin(limit->room, below);
+    deepest = fmax(deepest, below);
+    if (below > ZP_FOLD_RIPPLE) return ZP_NOTHING_HIGHER;
   }
   return ZP_NOTHING_HIGHER;
 }
 
-ZpAround zp_slow_look_around(ZpSlow *f, const ZpLimit *limit, double sign) {
+/* A step of the gap with which one looks along the branch. */
+static double look_step(const ZpSlow *f) {
   static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
-  double step = zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
-  ZpAround beyond = look(f, sign, -step);
+  return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
+}
+
+ZpAround zp_slow_look_around(ZpSlow *f, ZpLimit *limit, double sign) {
+  double step = look_step(f);
+  limit->room = ZP_FOLD_RIPPLE;
+  ZpAround beyond = look(f, limit, sign, -step);
   if (beyond == ZP_STABLE_HIGHER || beyond == ZP_CREST_HIGHER) return beyond;
   zp_slow_go_to(f, limit->state);
-  ZpAround before = look(f, sign, step);
-  return before == ZP_NOTHING_HIGHER ? beyond : before;
+  ZpAround before = look(f, limit, sign, step);
+  ZpAround both = before == ZP_NOTHING_HIGHER ? beyond : before;
+  if (both != ZP_NOTHING_HIGHER) limit->room = 0;
+  return both;
+}
+
+double zp_slow_room_left(ZpSlow *f, const ZpLimit *near, double gap) {
+  static const double sides = 4; /* steps from a crest to where the branch is deep below it, about */
+  double value = fabs(value_at(f) / near->value - 1);
+  double moved = fabs((zp_closing_gap(f->statics, NULL) - gap) / (sides * look_step(f)));
+  return near->room - fmax(value, moved * ZP_FOLD_RIPPLE);
 }
 
 /* From a limit point to the highest crest of the ripple that it may be part of. => where a stable state is higher, that

@@ -16,6 +16,7 @@ typedef struct ZpLimit {
   const char *reason; /* why it does not */
   double *state;      /* as ZpBranchSystem saves it */
   double *null;       /* [equations] of a limit point */
+  double room;        /* all other crests of its ripple are lower by this share of the value; 0: nobody has looked */
 } ZpLimit;
 
 /* State, of zp_rest_save_size, and null vector come from the caller's block. */
@@ -60,9 +61,12 @@ void zp_slow_note(ZpSlow *slow, ZpLimit *limit, ZpMarchEnd end);
 void zp_slow_copy(const ZpSlow *slow, const ZpLimit *from, ZpLimit *to);
 
 /* What is along the branch, on both sides of the limit point at the present point, as far as a ripple may go? Its
- * highest crest is where the parameter, growing (sign 1) or falling (-1), goes furthest. */
+ * highest crest is where the parameter, growing (sign 1) or falling (-1), goes furthest. => room of the limit, too */
 typedef enum ZpAround { ZP_NOTHING_HIGHER, ZP_STABLE_HIGHER, ZP_CREST_HIGHER, ZP_OUT_OF_SIGHT } ZpAround;
-ZpAround zp_slow_look_around(ZpSlow *slow, const ZpLimit *limit, double sign);
+ZpAround zp_slow_look_around(ZpSlow *slow, ZpLimit *limit, double sign);
+
+/* What is left of the room of `near`, a limit of a neighbour with this `gap`, where the one at the present point is. */
+double zp_slow_room_left(ZpSlow *slow, const ZpLimit *near, double gap);
 
 /* From the present equilibrium, change the load to `target`, kg, until the actuator closes: that limit is `at`. */
 ZpSlowEnd zp_slow_change_load(ZpSlow *slow, double target, ZpLimit *at);

@@ -17,8 +17,6 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->good = zp_carve(&carver, 2 * stride);
   s->tension = zp_carve(&carver, stride);
   s->k0_now = zp_carve(&carver, stride);
-  s->r_up = zp_carve(&carver, 2 * model->count);
-  s->r_down = zp_carve(&carver, 2 * model->count);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
   return carver.used;
 }
@@ -599,27 +597,34 @@ static void set_load(void *self, double load) {
   ((ZpStatics *)self)->load = load;
 }
 
-/* dr/dm by a central difference over +- h: it only steers, the residual is exact. */
-static void difference(ZpStatics *s, double *parameter, double h, double *r_m) {
-  double m = *parameter;
-  *parameter = m + h;
-  residual(s, s->r_up, NULL);
-  *parameter = m - h;
-  residual(s, s->r_down, NULL);
-  *parameter = m;
-  residual(s, r_m, NULL);
-  for (size_t i = 0; i < s->assembly.n; i++)
-    r_m[i] = (s->r_up[i] - s->r_down[i]) / (2 * h);
+/* Forces on nodes per unit of a parameter => r_m. A platform that is held stays where it is. */
+static void sum_by(const ZpStatics *s, const double *force, double *r_m) {
+  zp_assembly_sum(&s->assembly, force, r_m);
+  if (is_held(s)) r_m[zp_statics_platform(s)] = 0;
+}
+
+void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
+  ZpSpan here = span_of(s);
+  ZpByVoltage by = {.force = s->force};
+  here.U0 = here.U1 = U;
+  zp_system_by_voltage(s->model, &here, &s->eval, &by);
+  sum_by(s, s->force, r_m);
 }
 
 static void by_voltage(void *self, double *r_m) {
   ZpStatics *s = self;
-  difference(s, &s->U, 1e-5 * fmax(fabs(s->U), 1), r_m);
+  zp_statics_by_voltage(s, s->U, r_m);
 }
 
 static void by_load(void *self, double *r_m) {
   ZpStatics *s = self;
-  difference(s, &s->load, 1e-3 * fmax(fabs(s->load), 1e-6), r_m);
+  const ZpModel *model = s->model;
+  double per_mass = zp_load_share(model) * model->def.gravity;
+  memset(s->force, 0, 2 * model->stride * sizeof *s->force);
+  zp_weight_by_load(model, s->force);
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    s->force[k] *= per_mass;
+  sum_by(s, s->force, r_m);
 }
 
 static void position(void *self, double *q) {

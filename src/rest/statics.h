@@ -22,12 +22,11 @@ typedef struct ZpStatics {
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
-  double scale;          /* force that a residual is relative to, N */
-  double *tension;       /* [edges] what the last step foresaw, N */
-  double *moved;         /* [2 stride] work space of a move */
-  double *force;         /* [2 stride] */
-  double *good;          /* [2 stride] the last equilibrium on that way */
-  double *r_up, *r_down; /* [n] work space of the sensitivity */
+  double scale;    /* force that a residual is relative to, N */
+  double *tension; /* [edges] what the last step foresaw, N */
+  double *moved;   /* [2 stride] work space of a move */
+  double *force;   /* [2 stride] */
+  double *good;    /* [2 stride] the last equilibrium on that way */
   void *memory;
 } ZpStatics;
 
@@ -41,6 +40,9 @@ ZpStaticSystem zp_statics_system(ZpStatics *statics);
 /* The same with the voltage or the load as parameter. */
 typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_LOAD } ZpAlong;
 ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
+
+/* At the last residual: how the forces go with the voltage at voltage U => r_m [n], N/V. */
+void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
 
 /* Does it stay there when pushed? Of a rod: no negative eigenvalue of the stiffness; of mass_spring, whose shear law
  * makes it unsymmetric: no negative determinant, which changes its sign at a limit point. Leaves the stiffness

@@ -1,6 +1,6 @@
 /* Discrete elastic rod. Letters of docs/theory.md, section 8:
  *   u   unit vector of an edge, T its tension, N         phi   angle between the edges at a joint
- *   k   2 tan(phi / 2), the discrete curvature
+ *   k   (4 tan(phi / 2) + sin(phi)) / 3, the discrete curvature
  */
 #include "ribbon/rod.h"
 
@@ -14,7 +14,7 @@ static size_t edge_count(const ZpRodParams *p) {
 
 void zp_rod_carve(const ZpRodParams *p, ZpRodEval *e, ZpCarver *carver) {
   size_t margin = ZP_ALIGNMENT / sizeof(double);
-  double **plain[] = {&e->dpx, &e->dpy, &e->T, &e->k};
+  double **plain[] = {&e->dpx, &e->dpy, &e->T, &e->half, &e->k};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
     *plain[i] = zp_carve(carver, p->stride);
   double **with_margin[] = {&e->ux, &e->uy, &e->inverse};
@@ -48,11 +48,12 @@ ZP_KERNEL static void edge_directions(const ZpRodParams *p, size_t padded, const
 
 ZP_KERNEL static void joint_curvatures(size_t s, size_t padded, const ZpRodEval *e) {
   const double *restrict ux = e->ux, *restrict uy = e->uy, *restrict bx = ux - s, *restrict by = uy - s;
-  double *restrict k = e->k;
+  double *restrict half = e->half, *restrict k = e->k;
   ZP_SIMD
   for (size_t j = 0; j < padded; j++) {
     double sine = bx[j] * uy[j] - by[j] * ux[j], cosine = bx[j] * ux[j] + by[j] * uy[j];
-    k[j] = 2 * sine / (1 + cosine);
+    half[j] = sine / (1 + cosine);
+    k[j] = (4 * half[j] + sine) * (1.0 / 3);
   }
 }
 
@@ -87,5 +88,7 @@ double zp_rod_bending_energy(const ZpRodParams *p, const ZpRodEval *e) {
   double sum = 0;
   for (size_t j = 0; j < edge_count(p) + p->ribbons; j++)
     sum += p->B[j] * (e->k[j] - p->k0[j]) * (e->k[j] - p->k0[j]);
+  for (const ZpRodEnd *end = p->end; end < p->end + p->ends; end++)
+    sum += 2 * end->B * (e->k[end->held] - p->k0[end->held]) * (e->k[end->next] - p->k0[end->next]);
   return sum / 2;
 }

@@ -11,6 +11,14 @@
 
 #include "base/memory.h"
 
+/* Two joints that bend together, eq. (8.9): the one at a held slope, and the one beside it. */
+typedef struct ZpRodEnd {
+  size_t held, next; /* joints */
+  size_t near, far;  /* the edges of `next`: towards the held slope, and away from it */
+  double B;          /* stiffness between both, N m */
+} ZpRodEnd;
+enum { ZP_ROD_MOST_ENDS = 8 };
+
 typedef struct ZpRodParams {
   size_t ribbons;          /* s */
   size_t nodes;            /* N per ribbon */
@@ -18,8 +26,10 @@ typedef struct ZpRodParams {
   const double *l;         /* [stride] rest lengths of edges, m */
   const double *S;         /* [stride] stretching stiffness EA / l of edges, N/m */
   const double *B;         /* [stride] bending stiffness of joints, EI over their length of rod, N m */
-  const double *k0;        /* [stride] natural 2 tan(phi / 2) of joints */
+  const double *k0;        /* [stride] natural curvature k of joints */
   size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
+  size_t ends;
+  ZpRodEnd end[ZP_ROD_MOST_ENDS];
 } ZpRodParams;
 
 /* Written by zp_rod_eval. Arrays over edges and joints, with one edge more before the first and after the
@@ -29,10 +39,16 @@ typedef struct ZpRodEval {
   double *ux, *uy;   /* their unit vectors; outside: horizontal */
   double *inverse;   /* 1 / length; outside: 0, a held slope does not turn */
   double *T;         /* [stride] tension of edges, N */
-  double *k;         /* [stride] 2 tan(phi / 2) of joints */
+  double *half;      /* [stride] tan(phi / 2) of joints */
+  double *k;         /* [stride] their discrete curvature, eq. (8.2) */
 } ZpRodEval;
 
 void zp_rod_carve(const ZpRodParams *params, ZpRodEval *eval, ZpCarver *carver);
+
+/* tan(phi / 2) of a joint => its discrete curvature. */
+static inline double zp_rod_curvature(double half) {
+  return half * (4 + 2 / (1 + half * half)) * (1.0 / 3);
+}
 
 /* (positions [stride]) => all of eval. */
 void zp_rod_eval(const ZpRodParams *params, const double *x, const double *y, ZpRodEval *eval);

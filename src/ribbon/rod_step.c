@@ -1,6 +1,6 @@
 /* Letters of docs/theory.md, section 18; 0 and 1 are the step's start and end:
  *   d      an edge, m                              t   (d0 + d1) / (|d0| + |d1|)
- *   turn   angle from d0 to d1, = g . (d1 - d0)    k   2 tan(phi / 2) of a joint
+ *   turn   angle from d0 to d1, = g . (d1 - d0)    k   discrete curvature of a joint
  *   T      S ((|d0| + |d1|) / 2 - l)               M   B ((k0 + k1) / 2 - k_nat) (k1 - k0) / (phi1 - phi0)
  * so that T (|d1| - |d0|) and M (phi1 - phi0) are the changes of the energies.
  */
@@ -16,7 +16,7 @@ static size_t edge_count(const ZpRodParams *p) {
 }
 
 void zp_rod_step_carve(const ZpRodParams *p, ZpRodStep *s, ZpCarver *carver) {
-  double **plain[] = {&s->tx, &s->ty, &s->T, &s->M, &s->stiffness, &s->tension, &s->endx, &s->endy};
+  double **plain[] = {&s->tx, &s->ty, &s->T, &s->M, &s->slope, &s->stiffness, &s->tension, &s->endx, &s->endy};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
     *plain[i] = zp_carve(carver, p->stride);
   size_t margin = ZP_ALIGNMENT / sizeof(double); /* one edge more before the first: a held slope, that never turns */
@@ -94,17 +94,20 @@ static void hold_slopes(const ZpRodParams *p, const ZpRodStep *s) {
 
 ZP_INLINE void mean_joints(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,
                            double damping, bool still, const ZpRodStep *s) {
-  const double *restrict turn = s->turn, *restrict before = turn - p->ribbons, *restrict k0 = e0->k,
-                         *restrict k1 = e1->k, *restrict B = p->B, *restrict natural = p->k0;
-  double *restrict M = s->M, *restrict stiffness = s->stiffness;
+  const double *restrict turn = s->turn, *restrict before = turn - p->ribbons, *restrict half0 = e0->half,
+                         *restrict half1 = e1->half, *restrict k0 = e0->k, *restrict k1 = e1->k, *restrict B = p->B,
+                         *restrict natural = p->k0;
+  double *restrict M = s->M, *restrict slope = s->slope, *restrict stiffness = s->stiffness;
   ZP_SIMD
   for (size_t j = 0; j < padded; j++) {
-    double q1 = 1 + 0.25 * k1[j] * k1[j];
-    double slope = still ? q1 : sine_over(0.5 * (turn[j] - before[j])) * sqrt((1 + 0.25 * k0[j] * k0[j]) * q1);
+    double q1 = 1 + half1[j] * half1[j], over1 = 1 / q1;
+    double root = still ? q1 : sqrt((1 + half0[j] * half0[j]) * q1);
+    double turned = still ? 1 : sine_over(0.5 * (turn[j] - before[j]));
+    slope[j] = turned * (2 * root + (1 - half0[j] * half1[j]) / root) * (1.0 / 3);
     double moment = B[j] * (0.5 * (k0[j] + k1[j]) - natural[j] + damping * (k1[j] - k0[j]));
-    M[j] = moment * slope;
-    /* the slope itself changes by k1 / 4 of it; what it changes with the turn vanishes with the step */
-    stiffness[j] = (B[j] * (0.5 + damping) * slope + moment * 0.25 * k1[j]) * slope;
+    M[j] = moment * slope[j];
+    /* half of how the slope changes with the angle; what it changes with the turn vanishes with the step */
+    stiffness[j] = B[j] * (0.5 + damping) * slope[j] * slope[j] + moment * half1[j] * (q1 - over1) * (1.0 / 3);
   }
 }
 
@@ -115,6 +118,28 @@ ZP_KERNEL static void joints_over_step(const ZpRodParams *p, size_t padded, cons
 
 ZP_KERNEL static void joints_at_rest(const ZpRodParams *p, size_t padded, const ZpRodEval *e, const ZpRodStep *s) {
   mean_joints(p, padded, e, e, 0, true, s);
+}
+
+/* Two joints that bend together: each adds to the other's moment. */
+static void bend_together(const ZpRodEnd *end, const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
+                          double damping, ZpRodStep *s) {
+  const size_t joint[2] = {end->held, end->next};
+  for (int k = 0; k < 2; k++) {
+    size_t j = joint[k], other = joint[1 - k];
+    double half = e1->half[j], q = 1 + half * half;
+    double moment =
+        end->B * (0.5 * (e0->k[other] + e1->k[other]) - p->k0[other] + damping * (e1->k[other] - e0->k[other]));
+    s->M[j] += moment * s->slope[j];
+    s->stiffness[j] += moment * half * (q - 1 / q) * (1.0 / 3);
+  }
+}
+
+static void bend_ends(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping, ZpRodStep *s) {
+  for (size_t i = 0; i < p->ends; i++) {
+    const ZpRodEnd *end = &p->end[i];
+    bend_together(end, p, e0, e1, damping, s);
+    s->across[i] = end->B * (0.5 + damping) * s->slope[end->held] * s->slope[end->next];
+  }
 }
 
 ZP_KERNEL static void edge_forces(const ZpRodParams *p, size_t edges, const ZpRodStep *s) {
@@ -163,6 +188,7 @@ void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
     hold_slopes(p, s);
     joints_over_step(p, joints, e0, e1, damping, s);
   }
+  bend_ends(p, e0, e1, damping, s);
   edge_forces(p, edges, s);
 }
 
@@ -176,6 +202,8 @@ double zp_rod_step_loss(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEv
     double bent = e1->k[j] - e0->k[j];
     sum += p->B[j] * bent * bent;
   }
+  for (const ZpRodEnd *end = p->end; end < p->end + p->ends; end++)
+    sum += 2 * end->B * (e1->k[end->held] - e0->k[end->held]) * (e1->k[end->next] - e0->k[end->next]);
   return damping * sum;
 }
 
@@ -200,6 +228,24 @@ static void coupling(const ZpRodStep *s, size_t joint, ptrdiff_t j, ptrdiff_t k,
   D[3] = c * s->gy[j] * s->gy[k];
 }
 
+/* D += factor times g of edge a by g of edge b. */
+static void add_product(const ZpRodStep *s, double factor, size_t a, size_t b, double D[4]) {
+  D[0] += factor * s->gx[a] * s->gx[b];
+  D[1] += factor * s->gx[a] * s->gy[b];
+  D[2] += factor * s->gy[a] * s->gx[b];
+  D[3] += factor * s->gy[a] * s->gy[b];
+}
+
+/* Joints that bend together: the held one turns as the near edge does, the next one against it and with the far edge.
+ */
+static void end_stiffness(const ZpRodStep *s, const ZpRodEnd *end, double across, double (*D)[4]) {
+  size_t near = end->near, far = end->far;
+  int right = far > near;
+  add_product(s, -2 * across, near, near, D[3 * near + 1]);
+  add_product(s, across, near, far, D[3 * near + (right ? 2 : 0)]);
+  add_product(s, across, far, near, D[3 * far + (right ? 0 : 2)]);
+}
+
 void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping,
                       const ZpRodStep *s, const double *tension, double (*D)[4]) {
   for (size_t j = 0; j < edge_count(p); j++) {
@@ -209,4 +255,6 @@ void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval
     own_stiffness(p, s, tension[j], damping, 1 / (L0 + L1), j, D[3 * j + 1]);
     coupling(s, j + p->ribbons, here, here + step, D[3 * j + 2]);
   }
+  for (size_t i = 0; i < p->ends; i++)
+    end_stiffness(s, &p->end[i], s->across[i], D);
 }

@@ -10,16 +10,18 @@
 
 /* Written by zp_rod_step. */
 typedef struct ZpRodStep {
-  double *tx, *ty;     /* edges: mean of both ends' edges over the mean of their lengths */
-  double *gx, *gy;     /* edges: what times the change of the edge is its rotation, 1/m */
-  double *turn;        /* edges: rotation from start to end, rad */
-  double *T;           /* edges: tension over the step, N */
-  double *M;           /* joints: moment over the step, N m */
-  double *stiffness;   /* joints: dM/dphi, N m */
-  double *endx, *endy; /* edges at the end, m */
-  double *tension;     /* edges: tension that the last change of the end foresaw, N; the stiffness takes it */
-  bool begun;          /* an end was tried since zp_rod_step_begin */
-  double *Rx, *Ry;     /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
+  double *tx, *ty;                 /* edges: mean of both ends' edges over the mean of their lengths */
+  double *gx, *gy;                 /* edges: what times the change of the edge is its rotation, 1/m */
+  double *turn;                    /* edges: rotation from start to end, rad */
+  double *T;                       /* edges: tension over the step, N */
+  double *M;                       /* joints: moment over the step, N m */
+  double *slope;                   /* joints: (k1 - k0) / (phi1 - phi0) */
+  double *stiffness;               /* joints: dM/dphi, N m */
+  double across[ZP_ROD_MOST_ENDS]; /* of joints that bend together: dM/dphi of the other one, N m */
+  double *endx, *endy;             /* edges at the end, m */
+  double *tension; /* edges: tension that the last change of the end foresaw, N; the stiffness takes it */
+  bool begun;      /* an end was tried since zp_rod_step_begin */
+  double *Rx, *Ry; /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodStep;
 
 void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);

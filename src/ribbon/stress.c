@@ -1,6 +1,6 @@
 /* Letters of docs/theory.md, sections 2 and 8:
  *   T   tension of an edge, N                        N   tension at a node, N
- *   k   2 tan(phi / 2) of a joint                    M   its moment, dU/dphi = B (k - k_nat) (1 + k^2 / 4), N m
+ *   k   discrete curvature of a joint                M   its moment, dU/dphi = (dU/dk) (dk/dphi), N m
  */
 #include "ribbon/stress.h"
 
@@ -17,10 +17,42 @@ static Edge edge_of(const ZpRodParams *p, const double *x, const double *y, size
   return (Edge){dx / length, dy / length, p->S[j] * (length - p->l[j])};
 }
 
-static double moment_of(const ZpRodParams *p, size_t j, Edge before, Edge after) {
+/* tan(phi / 2) of the joint between two edges. */
+static double half_between(Edge before, Edge after) {
   double sine = before.ux * after.uy - before.uy * after.ux, cosine = before.ux * after.ux + before.uy * after.uy;
-  double k = 2 * sine / (1 + cosine);
-  return p->B[j] * (k - p->k0[j]) * (1 + 0.25 * k * k);
+  return sine / (1 + cosine);
+}
+
+/* Of a joint beside which only one edge is not held. */
+static double half_at_end(const ZpRodParams *p, const double *x, const double *y, const ZpRodEnd *end) {
+  static const Edge held = {1, 0, 0};
+  Edge edge = edge_of(p, x, y, end->near);
+  return end->far > end->near ? half_between(held, edge) : half_between(edge, held);
+}
+
+/* Of the joint beside that. */
+static double half_beside(const ZpRodParams *p, const double *x, const double *y, const ZpRodEnd *end) {
+  Edge near = edge_of(p, x, y, end->near), far = edge_of(p, x, y, end->far);
+  return end->far > end->near ? half_between(near, far) : half_between(far, near);
+}
+
+/* dU/dk of joint j by the joints that bend together with it. */
+static double added_at_ends(const ZpRodParams *p, const double *x, const double *y, size_t j) {
+  double sum = 0;
+  for (const ZpRodEnd *end = p->end; end < p->end + p->ends; end++) {
+    if (j == end->held) sum += end->B * (zp_rod_curvature(half_beside(p, x, y, end)) - p->k0[end->next]);
+    if (j == end->next) sum += end->B * (zp_rod_curvature(half_at_end(p, x, y, end)) - p->k0[end->held]);
+  }
+  return sum;
+}
+
+static double moment_of(const ZpStressParams *params, const double *x, const double *y, size_t j, Edge before,
+                        Edge after) {
+  const ZpRodParams *p = &params->rod;
+  double half = half_between(before, after), q = 1 + half * half;
+  if (params->springs) return p->B[j] * 2 * half * q;
+  double by_k = p->B[j] * (zp_rod_curvature(half) - p->k0[j]) + added_at_ends(p, x, y, j);
+  return by_k * (2 * q + 2 / q - 1) * (1.0 / 3);
 }
 
 /* At the end of a ribbon half an edge lies between the node and the middle of the edge, whose tension is known. */
@@ -39,13 +71,13 @@ static void stress_between(const ZpStressParams *params, const double *x, const 
   const ZpRodParams *p = &params->rod;
   size_t s = p->ribbons;
   Edge before = edge_of(p, x, y, j), after = edge_of(p, x, y, j + s);
-  stress[j] = stress_at(params, j, moment_of(p, j, held, before), tension_at_end(before, after));
+  stress[j] = stress_at(params, j, moment_of(params, x, y, j, held, before), tension_at_end(before, after));
   for (j += s; j < last; j += s) {
     after = edge_of(p, x, y, j);
-    stress[j] = stress_at(params, j, moment_of(p, j, before, after), 0.5 * (before.T + after.T));
+    stress[j] = stress_at(params, j, moment_of(params, x, y, j, before, after), 0.5 * (before.T + after.T));
     if (j + s < last) before = after;
   }
-  stress[last] = stress_at(params, last, moment_of(p, last, after, held), tension_at_end(after, before));
+  stress[last] = stress_at(params, last, moment_of(params, x, y, last, after, held), tension_at_end(after, before));
 }
 
 void zp_stress(const ZpStressParams *params, const double *x, const double *y, double *stress) {

@@ -2,10 +2,13 @@
 #ifndef ZP_RIBBON_STRESS_H
 #define ZP_RIBBON_STRESS_H
 
+#include <stdbool.h>
+
 #include "ribbon/rod.h"
 
 typedef struct ZpStressParams {
-  ZpRodParams rod;          /* stiffnesses and natural turns of edges and joints */
+  ZpRodParams rod; /* stiffnesses and natural turns of edges and joints */
+  bool springs;    /* joints of mass_spring: their moment is B 2 tan(phi / 2) (1 + tan(phi / 2)^2), none together */
   const double *per_moment; /* [nodes * ribbons] of the section that is stressed most within half an edge, Pa/(N m) */
   const double *per_force;  /* [nodes * ribbons] likewise, Pa/N */
 } ZpStressParams;

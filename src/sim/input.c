@@ -41,7 +41,7 @@ static ZpStatus set_voltage(ZpSim *sim, double voltage, double rate, ZpError *er
   if (status != ZP_OK) return status;
   state->by_hand = true;
   state->voltage_input = ramp_within(voltage, rate, state->t, key->min, key->max);
-  zp_sim_jump(sim, voltage);
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
   return ZP_OK;
 }
 

@@ -78,6 +78,11 @@ static void fill_state(const ZpSim *sim, double *row) {
   fill_geometry(sim, row);
   row[SIGNAL_time] = state->t;
   row[SIGNAL_voltage] = state->U;
+  row[SIGNAL_command] = zp_sim_is_fed(sim) ? zp_sim_command(sim) : state->U;
+  row[SIGNAL_source_voltage] = zp_sim_is_fed(sim) ? state->supply.voltage : state->U;
+  row[SIGNAL_source_loss] = state->source_loss;
+  row[SIGNAL_bleeder_loss] = state->bleeder_loss;
+  row[SIGNAL_cable_energy] = zp_sim_is_fed(sim) ? zp_feed_cable_energy(sim, state->U) : 0;
   row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
@@ -106,12 +111,16 @@ static double fill_electric(ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
   ZpElectric e = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   ZpAccount account = zp_sim_account(sim, e);
+  bool fed = zp_sim_is_fed(sim);
   double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
+  double given = fed ? state->source_charge / parts : e.charge;
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
   row[SIGNAL_capacitance] = parts * e.capacitance;
-  row[SIGNAL_current] = passed > 0 ? parts * ((e.charge - sim->row_charge) / passed) : 0;
+  row[SIGNAL_current] = passed > 0 ? parts * ((given - sim->row_charge) / passed) : 0;
   row[SIGNAL_electric_work] = parts * account.work;
+  row[SIGNAL_source_energy] = fed ? state->source_energy : row[SIGNAL_electric_work];
+  row[SIGNAL_power] = passed > 0 ? (row[SIGNAL_source_energy] - sim->row_energy) / passed : 0;
   row[SIGNAL_charging_loss] = parts * account.charging_loss;
   row[SIGNAL_field_energy] = parts * field;
   return account.work - (field - state->base_field) - account.charging_loss;
@@ -127,11 +136,12 @@ static void fill_margins(ZpSim *sim, double *row) {
 /* Which of these a signal takes, what they cost being far more than that of the state. */
 enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, MARGINS = 4, ENERGY = MECHANICS | ELECTRIC, ALL = ENERGY | MARGINS };
 static const unsigned char takes[SIGNAL_COUNT] = {
-    [SIGNAL_force] = ELECTRIC,           [SIGNAL_charge] = ELECTRIC,          [SIGNAL_capacitance] = ELECTRIC,
-    [SIGNAL_current] = ELECTRIC,         [SIGNAL_electric_work] = ELECTRIC,   [SIGNAL_charging_loss] = ELECTRIC,
-    [SIGNAL_field_energy] = ELECTRIC,    [SIGNAL_kinetic_energy] = MECHANICS, [SIGNAL_axial_energy] = MECHANICS,
-    [SIGNAL_bending_energy] = MECHANICS, [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ENERGY,
-    [SIGNAL_liquid_energy] = MECHANICS,  [SIGNAL_insulator_field] = MARGINS,  [SIGNAL_max_stress] = MARGINS};
+    [SIGNAL_force] = ELECTRIC,           [SIGNAL_charge] = ELECTRIC,         [SIGNAL_capacitance] = ELECTRIC,
+    [SIGNAL_current] = ELECTRIC,         [SIGNAL_electric_work] = ELECTRIC,  [SIGNAL_charging_loss] = ELECTRIC,
+    [SIGNAL_field_energy] = ELECTRIC,    [SIGNAL_source_energy] = ELECTRIC,  [SIGNAL_power] = ELECTRIC,
+    [SIGNAL_kinetic_energy] = MECHANICS, [SIGNAL_axial_energy] = MECHANICS,  [SIGNAL_bending_energy] = MECHANICS,
+    [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ENERGY, [SIGNAL_insulator_field] = MARGINS,
+    [SIGNAL_liquid_energy] = MECHANICS,  [SIGNAL_max_stress] = MARGINS};
 
 /* Signals that take no more than `what` => sim->row. */
 static void fill_row(ZpSim *sim, unsigned what) {
@@ -152,8 +162,20 @@ static void make_row(ZpSim *sim) {
   const ZpState *state = sim->state;
   fill_row(sim, ALL);
   if (!(state->t > sim->row_time)) return;
+  if (!zp_sim_is_fed(sim)) zp_feed_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
   sim->row_time = state->t;
-  sim->row_charge = sim->row[SIGNAL_charge] / sim->model->parts;
+  sim->row_charge =
+      zp_sim_is_fed(sim) ? state->source_charge / sim->model->parts : sim->row[SIGNAL_charge] / sim->model->parts;
+  sim->row_energy = sim->row[SIGNAL_source_energy];
+}
+
+void zp_sim_start_row(ZpSim *sim) {
+  const ZpState *state = sim->state;
+  bool fed = zp_sim_is_fed(sim);
+  double charge = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
+  sim->row_time = state->t;
+  sim->row_charge = fed ? state->source_charge / sim->model->parts : charge;
+  sim->row_energy = fed ? state->source_energy : zp_sim_get(sim, "source_energy");
 }
 
 double zp_sim_get(ZpSim *sim, const char *name) {

@@ -44,12 +44,13 @@ static bool allocate(ZpSim *sim) {
   zp_signal_columns(&signals);
   sim->state = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
+  sim->before = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->margins = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
   return zp_system_create(model, true, &sim->eval) && sim->stepping->create(sim) && sim->state && sim->kept &&
-         sim->relax_work && sim->row && make_shape_room(sim);
+         sim->before && sim->relax_work && sim->row && make_shape_room(sim);
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -104,8 +105,8 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     return zp_fail_memory(err);
   }
   zp_sim_start_account(sim);
-  zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
-  sim->row_charge = zp_system_electric_now(model, state, state->U, &sim->eval).charge;
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
+  zp_sim_start_row(sim);
   *out = sim;
   return ZP_OK;
 }
@@ -117,6 +118,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_system_destroy(&sim->eval);
   zp_free(sim->state);
   zp_free(sim->kept);
+  zp_free(sim->before);
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->shape_memory);
@@ -153,6 +155,7 @@ static double resolution(const ZpSim *sim) {
   double t = state->t, usual = fmax(least_voltage, zp_waveform_largest(waveform));
   double voltage =
       state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
+  if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_feed_resolution(sim, usual));
   return fmin(voltage, hand_resolution(&state->load_input, zp_eval_weight_scale(model), t));
 }
 
@@ -247,8 +250,13 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   bool two = zp_is_pair(&model->topology);
+  if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
   double corner = next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
+  if (zp_sim_is_fed(sim)) {
+    corner = fmin(corner, zp_feed_event(sim, latest));
+    latest = fmin(latest, corner);
+  }
   Start start = two ? start_of(model, state) : (Start){0, 0, 0};
   if (!prepare_step(sim)) return;
   ZpStepLimit limit;
@@ -430,10 +438,9 @@ double zp_sim_zip_time(const ZpSim *sim) {
 void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
-  sim->row_time = state->t;
-  sim->row_charge = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
+  zp_sim_start_row(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
-  zp_sim_jump(sim, voltage);
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
   sim->cut = false;
 }
 

@@ -7,6 +7,7 @@
 #include "actuator/shape.h"
 #include "paper/motion/motion.h"
 #include "rest/dynamics.h"
+#include "sim/feed.h"
 #include "system/held.h"
 
 /* How a run moves on (stepping.c). */
@@ -31,9 +32,11 @@ bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
-  ZpState *kept; /* a copy of a state of sound numbers that a longer run passes through, too, where */
-  bool cut;      /* the end of the run has cut a step since */
-  int drive;     /* the key drive.voltage: its range is that of voltages set by hand */
+  ZpState *kept;   /* a copy of a state of sound numbers that a longer run passes through, too, where */
+  ZpState *before; /* behind a supply: a copy of where the step began */
+  ZpFeed feed;     /* the supply at the electrodes */
+  bool cut;        /* the end of the run has cut a step since */
+  int drive;       /* the key drive.voltage: its range is that of voltages set by hand */
   ZpEval eval;
   double *relax_work;          /* [12 stride] work space of settling */
   ZpTable *series;             /* the caller's; NULL: no record */
@@ -42,7 +45,9 @@ struct ZpSim {
   ZpShapeRoom shape_room;      /* of the shape handed out, */
   void *shape_memory;          /* and where it is */
   ZpMargins now, margins;      /* the worst that materials see in the row, and saw in all that were recorded */
-  double row_time, row_charge; /* of the last row before the present time, for the mean current */
+  double row_time, row_charge; /* of the last row before the present time, for the mean current: per part, behind a
+                                  supply what that has given; */
+  double row_energy;           /* and for the mean power, of the whole actuator */
   ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
@@ -85,6 +90,9 @@ void zp_sim_jump(ZpSim *sim, double voltage);
 
 /* The voltage goes to another one while nothing moves, without loss. */
 void zp_sim_glide(ZpSim *sim, double voltage);
+
+/* The mean current and power of the next row count from here. */
+void zp_sim_start_row(ZpSim *sim);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);

@@ -50,6 +50,7 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(COUNT, zip.front),
                                 NUMBER(FLAG, zip.platform),
                                 NUMBER(FLAG, was_open),
+                                NUMBER(COUNT, supply_mode),
                                 NUMBER(REAL, zip_time),
                                 NUMBER(REAL, opening0),
                                 NUMBER(REAL, base_U),
@@ -72,6 +73,12 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, held_energy),
                                 NUMBER(REAL, held_charge),
                                 NUMBER(REAL, held_capacitance),
+                                NUMBER(REAL, supply.lagged),
+                                NUMBER(REAL, supply.voltage),
+                                NUMBER(REAL, source_charge),
+                                NUMBER(REAL, source_energy),
+                                NUMBER(REAL, source_loss),
+                                NUMBER(REAL, bleeder_loss),
                                 NUMBER(REAL, U_rate),
                                 NUMBER(REAL, U_change),
                                 NUMBER(REAL, voltage_input.value),
@@ -354,7 +361,7 @@ static void print_value(int index, double value, char *text, size_t size) {
   if (key->type == ZP_KEY_BOOL)
     snprintf(text, size, "%s", value != 0 ? "true" : "false");
   else if (isnan(value))
-    snprintf(text, size, "auto");
+    snprintf(text, size, "%s", key->text);
   else
     snprintf(text, size, "%.15g%s%s", value, bare ? "" : " ", bare ? "" : key->unit);
 }

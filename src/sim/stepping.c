@@ -2,7 +2,9 @@
 #include "sim/sim_internal.h"
 
 static bool create_implicit(ZpSim *sim) {
-  return zp_dynamics_create(sim->model, NULL, &sim->dynamics);
+  bool fed = zp_sim_is_fed(sim);
+  if (fed) zp_feed_create(sim);
+  return zp_dynamics_create(sim->model, fed ? &sim->feed.source : NULL, &sim->dynamics);
 }
 
 /* Of the shortest, where rounding, a pulse or a steep rise has put the next corner, only time takes notice. */
@@ -10,6 +12,7 @@ static bool step_implicit(ZpSim *sim, double latest, ZpStepLimit *limit) {
   static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
   ZpState *state = sim->state;
   *limit = sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
+  if (zp_sim_is_fed(sim)) return zp_feed_step(sim, latest);
   if (latest - state->t < shortest) {
     state->t = latest;
     return true;

@@ -27,6 +27,7 @@ static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewt
 ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, double tolerance, int most,
                               bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
   static const double at_first = 1e-6, least = 1e-14; /* of the stiffest: slow; below, nothing is changed by it */
+  static const double quickest = 1.0 / 32; /* how c may fall in a step: the next one is hardly longer than 1 */
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   ZpClosing closing;
   zp_closing_start(&closing);
@@ -58,7 +59,7 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
     zp_closing_correct(&closing, system, work->r);
     double length = system->length(system->self, work->r) / longest;
     system->move(system->self, work->r, length > 1 ? 1 / length : 1);
-    c *= length > 1 ? 2 : 0.5;
+    c *= length > 1 ? 2 : fmin(fmax(length, quickest), 0.5);
     fresh = !system->refresh;
   }
   info.end = ZP_NEWTON_SLOW;

@@ -16,9 +16,8 @@ void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bo
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   f->system = system;
   f->newton = newton;
-  f->small = ZP_FOLD_EXACT;
   zp_band_carve(&f->beside, n, symmetric ? 0 : bandwidth, bandwidth, carver);
-  double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at};
+  double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at, &f->by_a, &f->by_n};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_carve(carver, n);
   f->saved = zp_carve(carver, saved);
@@ -27,7 +26,7 @@ void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bo
 bool zp_fold_tangent(ZpFold *f) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   ZpBand *K = &f->newton->K;
-  if (rest->residual(rest->self, f->newton->r, NULL) != ZP_END_FOUND) return false;
+  if (rest->residual(rest->self, f->newton->r, &f->left) != ZP_END_FOUND) return false;
   rest->stiffness(rest->self, K, NULL);
   f->system->sensitivity(rest->self, f->along);
   if (!zp_band_factor(K)) return false;
@@ -56,64 +55,71 @@ static void test(ZpFold *f) {
   f->negative--;
 }
 
-/* The stiffness at `h` (d, dm) from the present point, times x => y. The present point stays. */
-static void beside(ZpFold *f, const double *d, double dm, double h, double *y) {
+/* At h x from the present point => the stiffness times the steps (a, dm_a) and (along, dm_n), what dm does to it
+ * included: K_m x = -d(dr/dm)/dx. The present point stays; its forces are to be found again. */
+static void beside(ZpFold *f, double h, double dm_a, double dm_n, double *by_a, double *by_n) {
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   sys->save(rest->self, f->saved);
-  rest->move(rest->self, d, h);
-  sys->set(rest->self, sys->get(rest->self) + h * dm);
-  rest->residual(rest->self, y, NULL);
+  rest->move(rest->self, f->x, h);
+  rest->residual(rest->self, f->at, NULL);
   rest->stiffness(rest->self, &f->beside, NULL);
-  zp_band_multiply(&f->beside, f->x, y);
+  sys->sensitivity(rest->self, f->at);
+  zp_band_multiply(&f->beside, f->a, by_a);
+  zp_band_multiply(&f->beside, f->along, by_n);
+  for (size_t i = 0; i < rest->n; i++) {
+    by_a[i] -= dm_a * f->at[i];
+    by_n[i] -= dm_n * f->at[i];
+  }
   sys->restore(rest->self, f->saved);
-  rest->residual(rest->self, f->b, NULL); /* a move turns the edges of the last residual */
+  rest->residual(rest->self, f->at, NULL); /* a move turns the edges of the last residual */
 }
 
-/* Derivative of g along (d, dm), by a central difference: its even part is that of edges which turn, a million times
- * stiffer than what bends. */
-static double change_of_test(ZpFold *f, const double *d, double dm) {
-  static const double small = 2e-6; /* of what linearisation stands: 1 urad, far below the contact depth */
-  const ZpBranchSystem *sys = f->system;
-  const ZpStaticSystem *rest = &sys->at_rest;
-  size_t n = rest->n;
-  double size = rest->length(rest->self, d) + fabs(dm) / sys->m_scale, h = small / size, *y = f->newton->r;
-  if (!(size > 0)) return 0;
-  beside(f, d, dm, h, y);
-  beside(f, d, dm, -h, f->at);
-  for (size_t i = 0; i < n; i++)
-    y[i] = (y[i] - f->at[i]) / (2 * h);
+/* Derivative of g from the change y of the stiffness times a step. */
+static double change_of_test(ZpFold *f, double *y) {
   bool symmetric = f->beside.lower == 0;
   if (!symmetric) zp_band_solve(&f->newton->K, y);
-  double through = zp_dot(n, symmetric ? f->x : f->null, y);
+  double through = zp_dot(f->system->at_rest.n, symmetric ? f->x : f->null, y);
   return -through * f->test * f->test;
+}
+
+/* Derivatives of g along the steps (a, dm_a) and (along, dm_n). Since (dK/dd) x = (dK/dx) d, one central difference
+ * along x serves both: its even part is that of edges which turn, a million times stiffer than what bends. */
+static void changes_of_test(ZpFold *f, double dm_a, double dm_n, double *g_a, double *g_n) {
+  static const double small = 2e-6; /* of what linearisation stands: 1 urad, far below the contact depth */
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  double h = small / rest->length(rest->self, f->x), over = 1 / (2 * h);
+  beside(f, h, dm_a, dm_n, f->by_a, f->by_n);
+  beside(f, -h, dm_a, dm_n, f->b, f->newton->r);
+  for (size_t i = 0; i < rest->n; i++) {
+    f->by_a[i] = (f->by_a[i] - f->b[i]) * over;
+    f->by_n[i] = (f->by_n[i] - f->newton->r[i]) * over;
+  }
+  *g_a = change_of_test(f, f->by_a);
+  *g_n = change_of_test(f, f->by_n);
 }
 
 /* -- solutions ------------------------------------------------------------------------------------- */
 
 enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20 };
 
-/* Move by a + along xi and dm, or by a part of it. => is what the next step would change, as the last two foretell,
- * below what is asked for? */
-static bool step(ZpFold *f, double xi, double dm) {
+/* Move by a + along xi and dm, or by a part of it => change. */
+static void step(ZpFold *f, double xi, double dm) {
   static const double of_length = 1e-3; /* what a step of full length counts in m */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   for (size_t i = 0; i < rest->n; i++)
     f->b[i] = f->a[i] + f->along[i] * xi;
   double length = rest->length(rest->self, f->b), part = length > 1 ? 1 / length : 1;
+  f->moved = rest->change(rest->self, f->b);
   rest->move(rest->self, f->b, part);
   sys->set(rest->self, sys->get(rest->self) + part * dm);
-  double change = fabs(dm / sys->get(rest->self)) + of_length * length;
-  double rate = isinf(f->change) ? 1 : fmin(change / f->change, 1);
-  f->change = change;
-  return change * rate < f->small;
+  f->change = fabs(dm / sys->get(rest->self)) + of_length * length;
 }
 
-static double *balance(ZpFold *f) {
+static void balance(ZpFold *f) {
   memcpy(f->a, f->newton->r, f->system->at_rest.n * sizeof *f->a);
   zp_band_solve(&f->newton->K, f->a);
-  return f->a;
 }
 
 /* The step that keeps the equilibrium and the part along c => a, its dm; the one along the null vector => along, its
@@ -130,49 +136,77 @@ static void split_step(ZpFold *f, double *dm_a, double *dm_n) {
   }
 }
 
-/* One Newton step to the limit point. The last one is where the test function falls to 0, not where the stiffness along
- * the null vector is least, close to 0. */
-static bool step_to_fold(ZpFold *f, bool *small) {
-  static const double falls = 0.3;
+/* One Newton step to the limit point. False if there is none. */
+static bool step_to_fold(ZpFold *f) {
   size_t n = f->system->at_rest.n;
-  if (!zp_fold_tangent(f)) return false;
+  double dm_a, dm_n, g_a, g_n;
   balance(f);
-  double before = f->test, dm_a, dm_n;
   test(f);
   split_step(f, &dm_a, &dm_n);
-  double by_a = change_of_test(f, f->a, dm_a), by_n = change_of_test(f, f->along, dm_n);
-  double length = sqrt(zp_dot(n, f->x, f->x)), xi = -(f->test + by_a) / by_n;
+  changes_of_test(f, dm_a, dm_n, &g_a, &g_n);
+  double length = sqrt(zp_dot(n, f->x, f->x)), xi = -(f->test + g_a) / g_n;
   for (size_t i = 0; i < n; i++)
     f->null[i] = f->x[i] / length;
   if (!isfinite(xi)) return false;
-  *small = step(f, xi, dm_a + xi * dm_n) && fabs(f->test) < falls * fabs(before);
+  step(f, xi, dm_a + xi * dm_n);
   return true;
 }
 
-static bool step_to_event(ZpFold *f, ZpEvent event, double wanted, bool *small) {
+static bool step_to_event(ZpFold *f, ZpEvent event, double wanted) {
   const ZpStaticSystem *rest = &f->system->at_rest;
-  if (!zp_fold_tangent(f)) return false;
   balance(f);
   double off = event(rest->self, f->x) - wanted;
   double dm = -(off + zp_dot(rest->n, f->x, f->a)) / zp_dot(rest->n, f->x, f->along);
   if (!isfinite(dm)) return false;
-  *small = step(f, dm, dm);
+  step(f, dm, dm);
   return true;
 }
 
-static bool solve(ZpFold *f, ZpEvent event, double wanted) {
+static bool step_to_rest(ZpFold *f) {
+  balance(f);
+  step(f, 0, 0);
+  return true;
+}
+
+/* What is solved for. */
+typedef struct Goal {
+  enum { TO_FOLD, TO_EVENT, TO_REST } kind;
+  ZpEvent event;
+  double wanted;
+  ZpFoldTo to;
+} Goal;
+
+static bool step_to(ZpFold *f, const Goal *goal) {
+  if (!zp_fold_tangent(f)) return false;
+  if (goal->kind == TO_FOLD) return step_to_fold(f);
+  return goal->kind == TO_EVENT ? step_to_event(f, goal->event, goal->wanted) : step_to_rest(f);
+}
+
+/* Was the last step so small that the point is what was asked for? What the next step would change, as the last two
+ * foretell, is below it. The last step to a limit point is where the test function falls to 0, not where the stiffness
+ * along the null vector is least, close to 0. At rest under a given parameter m says nothing: there the step itself is
+ * small, and what it began with in balance. */
+static bool is_there(const ZpFold *f, const Goal *goal, double change_before, double test_before) {
+  static const double exact = 1e-9, rough = 1e-7, falls = 0.3, moved = 100, left = 1e-3;
+  if (goal->kind == TO_REST) return f->moved < moved && f->left < left && !isinf(change_before);
+  double rate = isinf(change_before) ? 1 : fmin(f->change / change_before, 1);
+  bool fallen = goal->kind != TO_FOLD || fabs(f->test) < falls * fabs(test_before);
+  return f->change * rate < (goal->to == ZP_FOLD_EXACT ? exact : rough) && fallen;
+}
+
+static bool solve(ZpFold *f, Goal goal) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   static const double astray = 0.2; /* what a step after the first may change */
   int refreshes = 0;
   f->test = 0;
   f->change = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
-    bool small;
+    double change = f->change, test = f->test;
     if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;
-    if (!(event ? step_to_event(f, event, wanted, &small) : step_to_fold(f, &small))) return false;
-    if (k > 0 && f->change > astray) return false;
-    if (!small) continue;
-    if (!rest->refresh || k == 0) return true;
+    if (!step_to(f, &goal) || (k > 0 && f->change > astray)) return false;
+    if (!is_there(f, &goal, change, test)) continue;
+    bool fresh = !rest->refresh || k == 0;
+    if (fresh) return rest->residual(rest->self, f->newton->r, NULL) == ZP_END_FOUND;
     if (refreshes++ == MOST_REFRESHES) return false;
     k = -1;
   }
@@ -180,9 +214,13 @@ static bool solve(ZpFold *f, ZpEvent event, double wanted) {
 }
 
 bool zp_fold_solve(ZpFold *f) {
-  return solve(f, NULL, 0);
+  return solve(f, (Goal){.kind = TO_FOLD, .to = ZP_FOLD_EXACT});
 }
 
-bool zp_fold_event(ZpFold *f, ZpEvent event, double value) {
-  return solve(f, event, value);
+bool zp_fold_event(ZpFold *f, ZpEvent event, double value, ZpFoldTo to) {
+  return solve(f, (Goal){TO_EVENT, event, value, to});
+}
+
+bool zp_fold_rest(ZpFold *f) {
+  return solve(f, (Goal){.kind = TO_REST, .to = ZP_FOLD_ROUGH});
 }

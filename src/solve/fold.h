@@ -16,13 +16,14 @@ typedef struct ZpFold {
   ZpNewtonWork *newton;   /* that of a branch serves */
   ZpBand beside;          /* the stiffness beside the point */
   double tolerance;       /* of the residual */
-  double small;           /* relative to m: what a solution may be off by */
   double *null;           /* [n] null vector, of length 1; where a solution starts, a guess of it */
   double *along;          /* [n] dq/dm at the point of the last solution; at a limit point the null vector times much */
   double *a, *b, *x, *at; /* [n] */
+  double *by_a, *by_n;    /* [n] */
   double test;            /* 0 at a limit point: the stiffness along the null vector */
   size_t negative;        /* eigenvalues below 0 of the stiffness; at a limit point of what is across the null vector */
-  double change;          /* of its last step */
+  double left;            /* size of the forces where the last step began */
+  double change, moved;   /* of its last step: relative to m; in units of the accuracy asked for */
   void *saved;
 } ZpFold;
 
@@ -30,8 +31,8 @@ typedef struct ZpFold {
  * branch. Measured at N = 61 without breakdown cap, where it is largest: 0.35 %. */
 #define ZP_FOLD_RIPPLE 5e-3
 
-/* What is asked for at first: `small`. */
-#define ZP_FOLD_EXACT 1e-9
+/* A solution is an answer, or a point on the way to one: near enough for its tangent. */
+typedef enum ZpFoldTo { ZP_FOLD_EXACT, ZP_FOLD_ROUGH } ZpFoldTo;
 
 void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
                    ZpCarver *carver);
@@ -48,6 +49,9 @@ void zp_fold_guess(ZpFold *fold);
 bool zp_fold_solve(ZpFold *fold);
 
 /* The same to the equilibrium where `event` has this value; limit points are no obstacle. */
-bool zp_fold_event(ZpFold *fold, ZpEvent event, double value);
+bool zp_fold_event(ZpFold *fold, ZpEvent event, double value, ZpFoldTo to);
+
+/* The same to the equilibrium at the present parameter, roughly. */
+bool zp_fold_rest(ZpFold *fold);
 
 #endif

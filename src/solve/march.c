@@ -15,6 +15,7 @@ void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwid
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_carve(carver, n);
   march->good = zp_carve(carver, saved);
+  march->start = zp_carve(carver, saved);
 }
 
 /* -- points ---------------------------------------------------------------------------------------- */
@@ -106,13 +107,21 @@ static bool try_fold(ZpMarch *m, double sign, double far) {
   return found > 0 && fabs(found - far) < part * far && agrees(m, 2 * sign * found, 0);
 }
 
+/* From near to the equilibrium at the present parameter. Is it stable? */
+static bool polish(ZpMarch *m) {
+  enum { MOST = 12 };
+  const ZpStaticSystem *rest = &m->fold.system->at_rest;
+  return zp_newton_good(zp_newton(rest, m->fold.tolerance, MOST, m->fold.newton).end) && is_stable(m);
+}
+
+/* The same as near as a step on the way needs it. */
+static bool settle(ZpMarch *m) {
+  return m->to == ZP_FOLD_EXACT ? polish(m) : zp_fold_rest(&m->fold) && m->fold.negative == 0;
+}
+
 /* One step along m. */
 static bool try_step(ZpMarch *m, double dm, double way) {
-  enum { MOST = 12 };
-  const ZpBranchSystem *sys = m->fold.system;
-  if (!predict(m, way, dm)) return false;
-  if (!zp_newton_good(zp_newton(&sys->at_rest, m->fold.tolerance, MOST, m->fold.newton).end)) return false;
-  return is_stable(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
+  return predict(m, way, dm) && settle(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
 }
 
 /* -- along the event's value ------------------------------------------------------------------------ */
@@ -127,8 +136,8 @@ static bool is_steep(const ZpMarch *m) {
   return m->event && fabs(m->slope * m->m) > scale(m);
 }
 
-static bool solve_at(ZpMarch *m, double value) {
-  return zp_fold_event(&m->fold, m->event, value);
+static bool solve_at(ZpMarch *m, double value, ZpFoldTo to) {
+  return zp_fold_event(&m->fold, m->event, value, to);
 }
 
 /* dm/d(value) at the present point. */
@@ -151,7 +160,7 @@ static bool halve(ZpMarch *m, double value) {
   for (int k = 0; k < MOST; k++) {
     step *= 0.5;
     go_back(m);
-    if (!solve_at(m, m->value + step) || !is_before_fold(m)) continue;
+    if (!solve_at(m, m->value + step, ZP_FOLD_EXACT) || !is_before_fold(m)) continue;
     before = m->m;
     keep(m, false);
     if (fabs(m->m - before) <= enough * fabs(m->m)) break;
@@ -167,7 +176,7 @@ static bool solve_between(ZpMarch *m, double sign, double value) {
   bool near = fabs(at - m->value) < fabs(at - value);
   if (near) go_back(m);
   if (near && !predict(m, (at - m->value) * here, 0)) return false;
-  if (!solve_at(m, at)) return false;
+  if (!solve_at(m, at, m->to)) return false;
   zp_fold_guess(&m->fold);
   if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
   double found = m->event(m->fold.system->at_rest.self, m->guess);
@@ -191,10 +200,10 @@ static Step step_along_value(ZpMarch *m, double sign, double value) {
   static const double off = 0.25;  /* of what m has changed by: more, and it has turned twice on the way */
   static const double tiny = 1e-6; /* of m: less does not matter, and where the stiffness jumps no step agrees */
   double far = (value - m->value) / m->slope;
-  if (!predict(m, far, far) || !solve_at(m, value)) return STEP_TOO_LONG;
+  if (!predict(m, far, far) || !solve_at(m, value, value == m->limit ? ZP_FOLD_EXACT : m->to)) return STEP_TOO_LONG;
   double gone = parameter(m) - m->m, half = 0.5 * (value - m->value);
   if (m->fold.negative > 0 || sign * gone < 0) return find_fold(m, sign, value, gone) ? STEP_FOLD : STEP_TOO_LONG;
-  if (!is_stable(m)) return STEP_TOO_LONG;
+  if (m->to == ZP_FOLD_EXACT && !is_stable(m)) return STEP_TOO_LONG;
   m->event(m->fold.system->at_rest.self, m->guess);
   double slope = zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
   bool straight = fabs(gone - from - to) <= off * fabs(gone) && agrees(m, from, to);
@@ -271,20 +280,20 @@ static bool is_at_corner(ZpMarch *m, double sign) {
   return true;
 }
 
-ZpMarchEnd zp_march(ZpMarch *m, double target) {
+static ZpMarchEnd march(ZpMarch *m, double target) {
   enum { MOST = 400 };
   static const double longest = 8, shortest = 1e-9, rounding = 1e-14;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
   if (!is_stable(m)) return ZP_MARCH_LOST;
   keep(m, true);
   for (int k = 0; k < MOST && part > shortest; k++) {
-    if (sign * (target - m->m) <= rounding * fabs(target)) return ZP_MARCH_ARRIVED;
+    if (sign * (target - m->m) <= rounding * fabs(target)) return polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
     Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1)))
                             : step_along_m(m, sign, target, part);
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);
-      return try_step(m, target - m->m, target - m->m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+      return try_step(m, target - m->m, target - m->m) && polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
     }
     if (step == STEP_FOLD) return ZP_MARCH_FOLD;
     if (step == STEP_EVENT) return ZP_MARCH_EVENT;
@@ -295,4 +304,15 @@ ZpMarchEnd zp_march(ZpMarch *m, double target) {
   if (is_at_corner(m, sign)) return ZP_MARCH_FOLD;
   go_back(m);
   return ZP_MARCH_LOST;
+}
+
+ZpMarchEnd zp_march(ZpMarch *m, double target) {
+  const ZpBranchSystem *sys = m->fold.system;
+  sys->save(sys->at_rest.self, m->start);
+  m->to = ZP_FOLD_ROUGH;
+  ZpMarchEnd end = march(m, target);
+  if (end != ZP_MARCH_LOST) return end;
+  sys->restore(sys->at_rest.self, m->start);
+  m->to = ZP_FOLD_EXACT;
+  return march(m, target);
 }

@@ -23,6 +23,8 @@ typedef struct ZpMarch {
   double *before; /* [n] dq/dm there */
   double *guess;  /* [n] a step */
   void *good;     /* the last good point */
+  void *start;    /* where the march began */
+  ZpFoldTo to;    /* how near steps come to the branch: roughly first, exactly where that was lost */
   double m;       /* its parameter */
   double value;   /* of the event there */
   double slope;   /* of the event along m */

@@ -6,6 +6,7 @@
 
 #include "actuator/model.h"
 #include "base/fail.h"
+#include "sim/feed.h"
 #include "sim/margins.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
@@ -48,6 +49,26 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
+}
+
+/* Work against the weight of the load and, with a minus, of the load input, from start to end, J. */
+static double work_on_load(ZpSim *sim, const ZpActuatorDef *def, const ZpResult *result) {
+  double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
+  double ends = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 * def->load.share : 1;
+  return ends * def->load.mass * def->gravity * risen - at_end(sim, result, "load_work");
+}
+
+/* What the source gave, and what came of it. */
+static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
+  ZpCurrents currents = zp_sim_currents(sim, info->simulated_time);
+  double energy = at_end(sim, result, "source_energy");
+  zp_result_add(result, "peak_current_A", "A", currents.peak);
+  zp_result_add(result, "rms_current_A", "A", currents.rms);
+  zp_result_add(result, "source_energy_J", "J", energy);
+  if (zp_model_info(model).ribbons < 2) return;
+  double work = work_on_load(sim, zp_model_def(model), result);
+  zp_result_add(result, "mechanical_work_J", "J", work);
+  zp_result_add(result, "efficiency", "1", energy > 0 ? work / energy : NAN);
 }
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
@@ -120,6 +141,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
   if (model->has_film) summarize_liquid(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
+  if (model->field) summarize_source(sim, model, info, result);
   summarize_steps(info, result);
 }
 
@@ -132,14 +154,20 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
   return ZP_OK;
 }
 
-/* Under a constant voltage until zipped; a run that continues after that has no such end. */
+static bool ends_when_zipped(const ZpModel *model) {
+  const ZpActuatorDef *def = zp_model_def(model);
+  if (def->solver.stop_when_zipped != ZP_WHEN_AUTO) return def->solver.stop_when_zipped == ZP_WHEN_TRUE;
+  return zp_waveform_is_constant(&model->waveform) && def->source.model == ZP_SOURCE_IDEAL;
+}
+
+/* A run that continues after it has zipped does not end for that. */
 static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
                          ZpResult *result, ZpError *err) {
   zp_sim_record(sim, result->series, result->shapes);
   ZpStatus status = start ? zp_sim_continue(sim, start, err) : ZP_OK;
   if (status != ZP_OK) return status;
   const ZpActuatorDef *def = zp_model_def(model);
-  bool until_zipped = zp_waveform_is_constant(&model->waveform) && isnan(zp_sim_zip_time(sim));
+  bool until_zipped = ends_when_zipped(model) && isnan(zp_sim_zip_time(sim));
   ZpRunInfo info;
   zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
   summarize(sim, model, &info, result);

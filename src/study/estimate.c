@@ -70,10 +70,11 @@ static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mes
 /* Eq. (21.1). A number that no coarser mesh has is NAN; the coarsest may be missing. */
 static double error_of(const Findings *findings, int k) {
   static const double margin = 4;
-  const double *n = findings->elements;
-  double fine = n[0] / n[1], first = fabs(findings->f[0][k] - findings->f[1][k]) / (fine * fine - 1);
-  double coarse = n[1] / n[2], second = fabs(findings->f[1][k] - findings->f[2][k]) / (coarse * coarse - 1);
-  return isnan(first) ? first : margin * fmax(first, second / (fine * fine));
+  double finer = findings->elements[0] / findings->elements[1], least = finer * finer, most = least * finer;
+  double first = fabs(findings->f[0][k] - findings->f[1][k]), second = fabs(findings->f[1][k] - findings->f[2][k]);
+  if (isnan(second)) return margin * first / (least - 1);
+  double ratio = first > 0 ? fmin(fmax(second / first, least), most) : most;
+  return margin * fmax(first, second / ratio) / (ratio - 1);
 }
 
 static bool has(const ZpResult *result, const char *name) {

@@ -84,16 +84,19 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   if (load) s->load = near->value;
   if (load) s->U = f->model->def.drive.voltage;
   memcpy(f->slow.march.fold.null, near->null, s->assembly.n * sizeof *near->null);
-  if (!(fold ? zp_fold_solve(&f->slow.march.fold) : zp_fold_event(&f->slow.march.fold, zp_closing_gap, f->slow.closed)))
-    return false;
+  ZpFold *solver = &f->slow.march.fold;
+  bool found = fold ? zp_fold_solve(solver) : zp_fold_event(solver, zp_closing_gap, f->slow.closed, ZP_FOLD_EXACT);
+  if (!found) return false;
   double value = load ? s->load : s->U;
   bool sided = !fold || (near_gap <= 2 * f->slow.closed) == (zp_closing_gap(s, NULL) <= 2 * f->slow.closed);
   bool within = load ? value > 0 : value <= f->model->def.drive.voltage;
   if (f->slow.march.fold.negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
-  zp_slow_note(&f->slow, &f->limits->limit[kind], near->end);
-  if (fold && zp_slow_look_around(&f->slow, &f->limits->limit[kind], load || kind == ZP_LIMIT_RELEASE ? -1 : 1) !=
-                  ZP_NOTHING_HIGHER)
-    return false;
+  ZpLimit *limit = &f->limits->limit[kind];
+  double sign = load || kind == ZP_LIMIT_RELEASE ? -1 : 1;
+  zp_slow_note(&f->slow, limit, near->end);
+  limit->room = zp_slow_room_left(&f->slow, near, near_gap);
+  bool highest = !fold || limit->room > 0 || zp_slow_look_around(&f->slow, limit, sign) == ZP_NOTHING_HIGHER;
+  if (!highest) return false;
   f->limits->warm++;
   return true;
 }

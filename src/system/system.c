@@ -131,7 +131,7 @@ bool zp_system_solve(const ZpModel *model, const double *q, double U, ZpEval *e)
 
 void zp_system_by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   memset(sum->force, 0, 2 * model->stride * sizeof *sum->force);
-  memset(sum->charge, 0, 2 * model->stride * sizeof *sum->charge);
+  if (sum->charge) memset(sum->charge, 0, 2 * model->stride * sizeof *sum->charge);
   sum->capacitance = 0;
   for (size_t k = 0; k < e->terms; k++)
     if (e->term[k]->by_voltage) e->term[k]->by_voltage(model, span, e, sum);

@@ -40,10 +40,12 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   (void)e;
   const ZpHeld *held = &span->beyond;
+  bool still = zp_span_is_still(span);
   if (!held->F) return;
   sum->capacitance += held->charge;
   for (size_t k = 0; k < 2 * model->stride; k++) {
-    sum->force[k] += span->U1 * held->F[k];
+    sum->force[k] += (still ? 2 : 1) * span->U1 * held->F[k];
+    if (still) continue;
     sum->charge[k] += 2 * span->U1 * held->F[k];
     sum->capacitance += 2 * held->F[k] * (span->end[k] - held->at[k]);
   }

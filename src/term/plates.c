@@ -46,6 +46,11 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   size_t stride = model->stride;
   ZpPlatesByVoltage *by = &e->by_voltage;
+  if (zp_span_is_still(span)) {
+    zp_plates_rest_by_voltage(&model->plates, &e->plates, span->U1, &e->attraction, by->Fx, by->Fy);
+    zp_term_add(stride, by->Fx, by->Fy, sum->force);
+    return;
+  }
   zp_plates_by_voltage(&model->plates, start_of(span, e), &e->plates, span->U1, &e->attraction, by);
   zp_term_add(stride, by->Fx, by->Fy, sum->force);
   zp_term_add(stride, by->Qx, by->Qy, sum->charge);

@@ -36,7 +36,7 @@ static inline double zp_span_damping(const ZpModel *model, const ZpSpan *span) {
   return span->h > 0 ? model->internal_damping / span->h : 0;
 }
 
-/* How a step goes with the voltage at its end. */
+/* How a step goes with the voltage at its end; at rest, where both ends have one voltage, only the force is told. */
 typedef struct ZpByVoltage {
   double *force;      /* [2 stride] derivative of the mean force by it, N/V */
   double *charge;     /* [2 stride] of the charge at the end by its coordinates, C/m */
@@ -69,13 +69,16 @@ typedef struct ZpTerm {
    * NULL: none. */
   void (*electric)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U,
                    ZpElectric *sum);
-  /* At the last force, of a step whose voltage at the end is unknown: sum += how mean force and charge go with it.
-   * NULL: they do not. */
+  /* At the last force, of a step whose voltage at the end is unknown, or at rest: sum += how mean force and charge go
+   * with it. NULL: they do not. */
   void (*by_voltage)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpByVoltage *sum);
   /* A force that is held, being too dear to find at every span: find it at coordinates q and voltage U. Where it cannot
    * be, eval->fault says why. NULL: none is held. */
   bool (*solve)(const ZpModel *model, const double *q, double U, ZpEval *eval);
 } ZpTerm;
+
+/* F [2 stride] += how the forces go with the load input, N/N. */
+void zp_weight_by_load(const ZpModel *model, double *F);
 
 #define ZP_TERM(name) extern const ZpTerm zp_term_##name;
 #include "term/terms.def"

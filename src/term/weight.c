@@ -8,12 +8,20 @@ ZP_KERNEL static void subtract(size_t stride, double share, const double *weight
     Fy[j] -= share * weight[j];
 }
 
+static void add_load(const ZpModel *model, double load, double *F) {
+  const ZpTopology *t = &model->topology;
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    F[model->stride + zp_lower(t, i)] -= load / (double)zp_load_ends(t);
+}
+
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
   subtract(model->stride, span->share, model->weight, F + model->stride);
-  const ZpTopology *t = &model->topology;
-  for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    F[model->stride + zp_lower(t, i)] -= span->load / (double)zp_load_ends(t);
+  add_load(model, span->load, F);
+}
+
+void zp_weight_by_load(const ZpModel *model, double *F) {
+  add_load(model, 1, F);
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {

@@ -1,0 +1,54 @@
+/* An actuator behind a supply: how the voltage of its electrodes follows, and the books of what the supply gives. */
+#ifndef ZP_SIM_FEED_H
+#define ZP_SIM_FEED_H
+
+#include <zipact/sim.h>
+
+#include "term/source.h"
+
+/* Which limit of the supply acts. */
+typedef enum ZpFeedMode { ZP_FEED_FREE, ZP_FEED_GIVES_MOST, ZP_FEED_SINKS_MOST } ZpFeedMode;
+
+typedef struct ZpFeed {
+  ZpSource source;     /* what the dynamics ask */
+  double capacitance;  /* of electrodes and cable where the step begins, F */
+  double scale;        /* V */
+  ZpFeedMode beyond;   /* the limit that the last step has passed */
+  double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
+} ZpFeed;
+
+/* Is there a supply that acts? Else zp_feed_create to zp_feed_cable_energy, zp_sim_command
+ * excepted, are not to be called. */
+bool zp_sim_is_fed(const ZpSim *sim);
+
+void zp_feed_create(ZpSim *sim);
+
+/* What the supply is told now, V. */
+double zp_sim_command(const ZpSim *sim);
+
+/* Before a step: jumps of the command arrive, and the limit that acts from now on. */
+void zp_feed_arrive(ZpSim *sim);
+
+/* The next event of the supply before `latest`, s. */
+double zp_feed_event(const ZpSim *sim, double latest);
+
+/* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
+double zp_feed_resolution(const ZpSim *sim, double least);
+
+/* One step that ends at `latest`, at a limit that is reached or left, or before. False if none was found. */
+bool zp_feed_step(ZpSim *sim, double latest);
+
+/* A mean current has flowed for a time h. */
+void zp_feed_note_current(ZpSim *sim, double current, double h);
+
+/* The current out of the source over a run so far, of that duration, A. NAN: the voltage of the electrodes has jumped,
+ * which takes an infinite one. Of an ideal source they are those of the rows. */
+typedef struct ZpCurrents {
+  double peak, rms;
+} ZpCurrents;
+ZpCurrents zp_sim_currents(ZpSim *sim, double duration);
+
+/* Energy of the cable's capacitance at voltage U, J. */
+double zp_feed_cable_energy(const ZpSim *sim, double U);
+
+#endif

@@ -1,0 +1,411 @@
+/* Study `cycle`: a periodic drive until the motion is periodic, and what one cycle then is. docs/theory.md, section 25.
+ *
+ * The motion from one start of a cycle to the next is a map of the state; a periodic motion is a fixed point of it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "math/elementary.h"
+#include "sim/sim_internal.h"
+#include "solve/fixed_point.h"
+#include "study/notes.h"
+#include "study/sensitivity.h"
+#include "study/studies.h"
+
+static const double pi = 3.14159265358979323846;
+
+enum { PHASES = 100, HISTORY = 5 }; /* rows of a cycle; starts of cycles that are remembered */
+
+/* What is compared between two starts of cycles. */
+typedef struct Mark {
+  double *q;   /* [2 stride] m */
+  double rate; /* of the opening, m/s */
+} Mark;
+
+typedef struct Cycles {
+  ZpSim *sim;
+  const ZpModel *model;
+  const ZpHooks *hooks;
+  ZpTable *rows;              /* of the last cycle */
+  ZpMargins margins;          /* what materials saw in it */
+  double period;              /* s */
+  double far, fast;           /* what distances and rates are compared with, m, m/s */
+  Mark mark[HISTORY];         /* the newest first */
+  double moved[2];            /* distance between the last two starts, and the one before */
+  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
+  double *start, *end, *next; /* [4 stride] positions and velocities of a cycle's start and end, and of the next start,
+                                 in units of far and fast */
+  int done;                   /* cycles so far */
+  int repeats;                /* cycles in which the motion repeats itself; 0: in none that was seen */
+  int alike;                  /* how often in a row that was so */
+  ZpRunInfo info;             /* of the last piece */
+  int64_t steps;
+  void *memory;
+} Cycles;
+
+/* -- one cycle -------------------------------------------------------------------------------------- */
+
+/* The row at a phase of the cycle under way; the first and the last are its ends. */
+static void keep_row(Cycles *c) {
+  zp_sim_read(c->sim, c->rows->value + c->rows->rows * c->rows->columns);
+  c->rows->rows++;
+  zp_margins_join(&c->margins, c->sim->now);
+}
+
+/* => false if the run ended before: c->info says how. */
+static bool run_cycle(Cycles *c) {
+  c->rows->rows = 0;
+  c->margins = zp_margins_none();
+  keep_row(c);
+  for (int k = 1; k <= PHASES; k++) {
+    double end = k == PHASES ? (c->done + 1.0) * c->period : (c->done + (double)k / PHASES) * c->period;
+    zp_sim_run(c->sim, end, false, c->hooks, &c->info);
+    c->steps += c->info.steps;
+    if (c->info.outcome != ZP_REACHED_END) return false;
+    keep_row(c);
+  }
+  c->done++;
+  return true;
+}
+
+/* -- is it periodic? -------------------------------------------------------------------------------- */
+
+static void take_mark(Cycles *c) {
+  const ZpModel *model = c->model;
+  Mark oldest = c->mark[HISTORY - 1];
+  memmove(c->mark + 1, c->mark, (HISTORY - 1) * sizeof *c->mark);
+  memcpy(oldest.q, zp_state_q(model, c->sim->state), 2 * model->stride * sizeof *oldest.q);
+  oldest.rate = zp_state_motion(model, c->sim->state).vy[zp_load_node(&model->topology)];
+  c->mark[0] = oldest;
+}
+
+/* How far apart the newest start is from the one `back` cycles before. */
+static double distance(const Cycles *c, int back) {
+  const double *a = c->mark[0].q, *b = c->mark[back].q;
+  double most = 0;
+  for (size_t k = 0; k < 2 * c->model->stride; k++)
+    most = fmax(most, fabs(a[k] - b[k]));
+  return fmax(most / c->far, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
+}
+
+/* What is still to go, eq. (25.1): the sum of all further moves, if each is as many times smaller as the last one. */
+static double still_to_go(const Cycles *c) {
+  static const double slowest = 1 - 1e-4;
+  double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0;
+  return c->moved[0] / (1 - fmin(share, slowest));
+}
+
+/* In how many cycles the motion repeats itself; 0: not yet in so few. */
+static int repeats_in(Cycles *c) {
+  double tolerance = c->model->def.cycle.tolerance;
+  c->moved[1] = c->moved[0];
+  c->moved[0] = distance(c, 1);
+  if (c->done < 3) return 0;
+  if (still_to_go(c) < tolerance) return 1;
+  for (int back = 2; back < HISTORY && back < c->done; back++)
+    if (distance(c, back) < tolerance && c->moved[0] > 10 * tolerance) return back;
+  return 0;
+}
+
+/* Positions and velocities now, in units of far and fast => x [4 stride]. */
+static void read_state(const Cycles *c, double *x) {
+  size_t n = 2 * c->model->stride;
+  const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
+  for (size_t k = 0; k < n; k++) {
+    x[k] = q[k] / c->far;
+    x[n + k] = v[k] / c->fast;
+  }
+}
+
+/* The next cycle starts there, with a new account of energy. */
+static void write_state(Cycles *c, const double *x) {
+  size_t n = 2 * c->model->stride;
+  ZpState *state = c->sim->state;
+  double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state), *w = zp_state_mean_v(c->model, state),
+         *a = zp_state_mean_a(c->model, state);
+  for (size_t k = 0; k < n; k++) {
+    q[k] = c->far * x[k];
+    v[k] = w[k] = c->fast * x[n + k];
+    a[k] = 0;
+  }
+  state->last_step = 0;
+  if (state->U != state->base_U) zp_sim_close_account(c->sim);
+  zp_sim_start_account(c->sim);
+  zp_sim_start_row(c->sim);
+}
+
+/* An actuator that stays open moves smoothly from start to start, with little damping of its swing: what thousands of
+ * cycles would lead to is foreseen from a few. */
+static bool stays_open(const Cycles *c) {
+  double least = INFINITY;
+  for (size_t k = 0; k < c->rows->rows; k++)
+    least = fmin(least, zp_table_get(c->rows, k, "opening_m"));
+  return least > 0.1 * c->sim->state->opening0;
+}
+
+/* Is the motion periodic, as the distance from the cycle's start to the foreseen fixed point says? Else the next cycle
+ * starts there. */
+static int shoot(Cycles *c) {
+  static const double farthest = 0.5; /* hanging openings: what is foreseen beyond is none of this map */
+  size_t n = 4 * c->model->stride;
+  double ahead = 0;
+  zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
+  for (size_t k = 0; k < n; k++)
+    ahead = fmax(ahead, fabs(c->next[k] - c->start[k]));
+  if (c->shooting.pairs >= 2 && ahead < c->model->def.cycle.tolerance) return 1;
+  if (ahead < farthest) write_state(c, c->next);
+  return 0;
+}
+
+/* In how many cycles the motion repeats itself, waiting or shooting. */
+static int look(Cycles *c) {
+  read_state(c, c->end);
+  bool open = stays_open(c);
+  if (!open) zp_fixed_point_forget(&c->shooting);
+  int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
+  read_state(c, c->start);
+  return repeats;
+}
+
+/* Until the motion is periodic, a few times in a row where that takes several cycles. */
+static bool settle(Cycles *c) {
+  read_state(c, c->start);
+  while (c->done < c->model->def.cycle.most_cycles) {
+    if (!run_cycle(c)) return false;
+    take_mark(c);
+    int repeats = look(c);
+    c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
+    c->repeats = repeats;
+    if (repeats == 1 || c->alike > 2 * HISTORY) return true;
+  }
+  c->repeats = 0;
+  return true;
+}
+
+/* -- what a cycle is -------------------------------------------------------------------------------- */
+
+static double at(const Cycles *c, int row, const char *column) {
+  return zp_table_get(c->rows, (size_t)row, column);
+}
+
+typedef struct Range {
+  double least, most;
+} Range;
+
+static Range range_of(const Cycles *c, const char *column) {
+  Range range = {INFINITY, -INFINITY};
+  for (int k = 0; k <= PHASES; k++) {
+    range.least = fmin(range.least, at(c, k, column));
+    range.most = fmax(range.most, at(c, k, column));
+  }
+  return range;
+}
+
+/* Harmonic n of minus the opening, or of the squared command, over a cycle. */
+typedef struct Harmonic {
+  double cosine, sine;
+} Harmonic;
+
+static Harmonic harmonic(const Cycles *c, const char *column, bool squared, int n) {
+  Harmonic sum = {0, 0};
+  ZpWaveform wave = {.kind = ZP_WAVEFORM_SINE, .voltage = 1, .frequency = n / c->period};
+  for (int k = 0; k < PHASES; k++) {
+    double value = at(c, k, column), t = c->period * k / PHASES, late = t + 0.75 * c->period / n;
+    double cosine = 1 - 2 * zp_waveform_voltage(&wave, t), sine = 1 - 2 * zp_waveform_voltage(&wave, late);
+    value = squared ? value * value : -value;
+    sum.cosine += 2.0 / PHASES * value * cosine;
+    sum.sine += 2.0 / PHASES * value * sine;
+  }
+  return sum;
+}
+
+static double size_of(Harmonic h) {
+  return sqrt(h.cosine * h.cosine + h.sine * h.sine);
+}
+
+/* The angle of a direction, rad, -pi to pi: by halving the interval in which the tangent of its half is. */
+static double angle_of(double cosine, double sine) {
+  enum { HALVINGS = 60 };
+  double low = 0, high = 0.5 * pi, opposite = fabs(sine), along = 1 + cosine;
+  for (int k = 0; k < HALVINGS; k++) {
+    double middle = 0.5 * (low + high);
+    if (middle == 0.5 * pi || zp_tangent(middle) * along > opposite)
+      high = middle;
+    else
+      low = middle;
+  }
+  return copysign(2 * low, sine);
+}
+
+/* By how much closing lags behind the squared command, rad, -pi / 2 to 3 pi / 2: of the harmonic that is larger in
+ * that. */
+static double phase_of(const Cycles *c) {
+  Harmonic first = harmonic(c, "command_V", true, 1), second = harmonic(c, "command_V", true, 2);
+  int n = size_of(second) > size_of(first) ? 2 : 1;
+  Harmonic drive = n == 1 ? first : second, moves = harmonic(c, "opening_m", false, n);
+  double product = size_of(drive) * size_of(moves);
+  if (!(product > 0)) return NAN;
+  double cosine = (drive.cosine * moves.cosine + drive.sine * moves.sine) / product,
+         sine = (drive.cosine * moves.sine - drive.sine * moves.cosine) / product;
+  double phase = angle_of(cosine, sine);
+  return phase < -0.5 * pi ? phase + 2 * pi : phase; /* a lag above its resonance is near pi */
+}
+
+/* Energy that the source gives in a cycle, and takes back, J. */
+static void energies_of(const Cycles *c, double *given, double *taken) {
+  *given = *taken = 0;
+  for (int k = 0; k < PHASES; k++) {
+    double change = at(c, k + 1, "source_energy_J") - at(c, k, "source_energy_J");
+    *given += fmax(change, 0);
+    *taken += fmax(-change, 0);
+  }
+}
+
+/* Work against the weight of the load on the way up, J: on the way down it comes back. */
+static double work_of(const Cycles *c) {
+  const ZpActuatorDef *def = &c->model->def;
+  double risen = 0;
+  for (int k = 0; k < PHASES; k++)
+    risen += fmax(at(c, k, "opening_m") - at(c, k + 1, "opening_m"), 0);
+  return 2 * def->load.share * def->load.mass * def->gravity * risen;
+}
+
+static void summarize_motion(const Cycles *c, ZpResult *result) {
+  Range opening = range_of(c, "opening_m"), stroke = range_of(c, "stroke_m");
+  zp_result_add(result, "frequency_Hz", "Hz", 1 / c->period);
+  zp_result_add(result, "periodic", "count", c->repeats == 1);
+  zp_result_add(result, "cycles", "count", c->done);
+  zp_result_add(result, "repeats_in_cycles", "count", c->repeats > 0 ? (double)c->repeats : NAN);
+  zp_result_add(result, "opening_min_m", "m", opening.least);
+  zp_result_add(result, "opening_max_m", "m", opening.most);
+  zp_result_add(result, "stroke_amplitude_m", "m", 0.5 * (stroke.most - stroke.least));
+  zp_result_add(result, "phase_rad", "rad", phase_of(c));
+  zp_result_add(result, "closes", "count", opening.least < 0.01 * c->sim->state->opening0);
+}
+
+/* NAN where the load swings: it then rises by more than the source gives, and gives that back as it sinks. */
+static double efficiency_of(double work, double energy) {
+  return energy > 0 && work <= energy ? work / energy : NAN;
+}
+
+static void summarize_energy(const Cycles *c, ZpResult *result) {
+  double given, taken, work = work_of(c), square = 0;
+  Range current = range_of(c, "current_A");
+  energies_of(c, &given, &taken);
+  for (int k = 1; k <= PHASES; k++)
+    square += at(c, k, "current_A") * at(c, k, "current_A") / PHASES;
+  bool jumps = at(c, PHASES, "charging_loss_J") > at(c, 0, "charging_loss_J");
+  zp_result_add(result, "energy_per_cycle_J", "J", given - taken);
+  zp_result_add(result, "energy_drawn_per_cycle_J", "J", given);
+  zp_result_add(result, "work_per_cycle_J", "J", work);
+  zp_result_add(result, "power_W", "W", (given - taken) / c->period);
+  zp_result_add(result, "efficiency", "1", efficiency_of(work, given - taken));
+  zp_result_add(result, "efficiency_without_recovery", "1", efficiency_of(work, given));
+  zp_result_add(result, "peak_current_A", "A", jumps ? NAN : fmax(current.most, -current.least));
+  zp_result_add(result, "rms_current_A", "A", jumps ? NAN : sqrt(square));
+}
+
+static void describe(const Cycles *c, ZpResult *result) {
+  char *text = result->message;
+  size_t size = sizeof result->message;
+  result->outcome = c->info.outcome;
+  if (c->info.outcome != ZP_REACHED_END)
+    snprintf(text, size, "%s", c->info.message);
+  else if (c->repeats == 1)
+    snprintf(text, size, "periodic after %d cycles", c->done);
+  else if (c->repeats > 1)
+    snprintf(text, size, "after %d cycles the motion repeats itself every %d cycles (subharmonic)", c->done,
+             c->repeats);
+  else
+    snprintf(text, size,
+             "not periodic within %d cycles: from start to start of the last two it still moves by %.2g hanging "
+             "openings (slow decay, beating or chaos of impacts)",
+             c->done, c->moved[0]);
+}
+
+static void summarize(const Cycles *c, ZpResult *result) {
+  describe(c, result);
+  if (c->info.outcome != ZP_REACHED_END) return;
+  summarize_motion(c, result);
+  summarize_energy(c, result);
+  zp_result_add(result, "steps", "count", (double)c->steps);
+  zp_add_margins(result, c->model, &c->margins);
+  zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
+  zp_note_start(result, c->model, c->sim->state->opening0);
+}
+
+/* -- the study -------------------------------------------------------------------------------------- */
+
+static size_t carve(Cycles *c, void *block) {
+  size_t n = 2 * c->model->stride;
+  ZpCarver carver = {block, 0};
+  for (int k = 0; k < HISTORY; k++)
+    c->mark[k].q = zp_carve(&carver, n);
+  double **of_states[] = {&c->start, &c->end, &c->next};
+  for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
+    *of_states[k] = zp_carve(&carver, 2 * n);
+  zp_fixed_point_carve(&c->shooting, 2 * n, &carver);
+  return carver.used;
+}
+
+static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
+  static const double least_gravity = 1e-3; /* m/s2 */
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  c->model = model;
+  c->period = zp_waveform_period(&model->waveform);
+  c->far = fmax(c->sim->state->opening0, model->faces.depth);
+  c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
+  result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
+  c->memory = zp_calloc(1, carve(c, NULL));
+  if (c->memory) carve(c, c->memory);
+  return c->rows && c->memory;
+}
+
+static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
+  Cycles c = {.hooks = hooks};
+  ZpStatus status = zp_sim_create(model, hooks, &c.sim, err);
+  if (status != ZP_OK) return status;
+  if (create(&c, model, result)) {
+    take_mark(&c);
+    settle(&c);
+    summarize(&c, result);
+  } else
+    status = zp_fail_memory(err);
+  zp_free(c.memory);
+  zp_sim_destroy(c.sim);
+  return status;
+}
+
+/* A step is repeated as a sine. */
+static ZpActuatorDef periodic(ZpActuatorDef def) {
+  if (def.drive.waveform == ZP_WAVEFORM_STEP) def.drive.waveform = ZP_WAVEFORM_SINE;
+  return def;
+}
+
+ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
+  ZpWaveformKind kind = def->drive.waveform;
+  if (kind == ZP_WAVEFORM_RAMP || kind == ZP_WAVEFORM_TABLE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",
+                   zp_key(zp_key_find("drive.waveform"))->choices[kind].word);
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
+  if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
+    return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = explicit: study cycle requires implicit");
+  ZpStatus status = zp_def_check_motion(def, err);
+  return status == ZP_OK ? zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err) : status;
+}
+
+ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpActuatorDef def = periodic(*task->def);
+  ZpModel *model;
+  ZpStatus status = zp_model_create(&def, &model, err);
+  if (status != ZP_OK) return status;
+  status = run(model, task->hooks, result, err);
+  zp_note_no_sensitivity(result, task->def);
+  zp_model_destroy(model);
+  return status;
+}

@@ -1,0 +1,154 @@
+/* Study cycle, and the fixed points of dear maps that it looks for. */
+#include "check_util.h"
+
+#include "solve/fixed_point.h"
+
+/* -- fixed points ----------------------------------------------------------------------------------- */
+
+enum { N = 40, SWINGS = 4 };
+
+/* Swings that decay by 3e-4 from start to start, and much that decays at once, about the point x = i. */
+static void map(const double *x, double *y) {
+  static const double turn[SWINGS] = {0.3, 1.1, 2.0, 2.9};
+  for (int k = 0; k < SWINGS; k++) {
+    double share = 1 - 3e-4, a = x[2 * k] - 2 * k, b = x[2 * k + 1] - (2 * k + 1);
+    y[2 * k] = 2 * k + share * (cos(turn[k]) * a - sin(turn[k]) * b);
+    y[2 * k + 1] = 2 * k + 1 + share * (sin(turn[k]) * a + cos(turn[k]) * b);
+  }
+  for (int i = 2 * SWINGS; i < N; i++)
+    y[i] = i + 1e-3 * (x[i] - i);
+}
+
+/* Waiting would take 60 000 evaluations to 1e-8. */
+START_TEST(test_fixed_point_of_slow_swings) {
+  ZpFixedPoint f;
+  ZpCarver carver = {NULL, 0};
+  zp_fixed_point_carve(&f, N, &carver);
+  carver = (ZpCarver){zp_calloc(1, carver.used), 0};
+  void *memory = carver.base;
+  zp_fixed_point_carve(&f, N, &carver);
+  double x[N] = {0}, y[N], next[N], off = 1;
+  int evaluations = 0;
+  for (; off > 1e-8 && evaluations < 100; evaluations++) {
+    map(x, y);
+    zp_fixed_point_next(&f, x, y, next);
+    memcpy(x, next, sizeof x);
+    off = 0;
+    for (int i = 0; i < N; i++)
+      off = fmax(off, fabs(x[i] - i));
+  }
+  printf("fixed point after %d evaluations\n", evaluations);
+  ck_assert_int_le(evaluations, 2 * SWINGS + 6);
+  zp_free(memory);
+}
+END_TEST
+
+/* -- the study -------------------------------------------------------------------------------------- */
+
+static ZpResult *cycle_of(const ZpActuatorDef *def) {
+  ZpResult *result;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_study_run(ZP_STUDY_CYCLE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  return result;
+}
+
+#define SINE                                                                                                           \
+  {"mesh.nodes", 11}, {"drive.waveform", ZP_WAVEFORM_SINE}, {                                                          \
+    "output.errors", 0                                                                                                 \
+  }
+
+/* Far below its resonance the actuator follows the drive, far above it moves against it. */
+START_TEST(test_phase_of_an_oscillator) {
+  ZpActuatorDef slow = DEF(SINE, {"drive.voltage", 2e3}, {"drive.frequency", 0.3}),
+                fast = DEF(SINE, {"drive.voltage", 2e3}, {"drive.frequency", 12});
+  ZpResult *below = cycle_of(&slow), *above = cycle_of(&fast);
+  ck_assert(zp_result_get(below, "periodic") == 1 && zp_result_get(above, "periodic") == 1);
+  ck_below(fabs(zp_result_get(below, "phase_rad")), 0.01);
+  ck_below(fabs(zp_result_get(above, "phase_rad") - 3.14159265), 0.01);
+  ck_below(zp_result_get(above, "stroke_amplitude_m"), 0.2 * zp_result_get(below, "stroke_amplitude_m"));
+  zp_result_destroy(below);
+  zp_result_destroy(above);
+}
+END_TEST
+
+/* What the source gives in a cycle is what the cycle loses; the area of the loop of charge and voltage is that. */
+START_TEST(test_energy_of_a_cycle) {
+  ZpActuatorDef def =
+      DEF(SINE, {"drive.voltage", 8e3}, {"drive.frequency", 2}, {"damping.internal", 5e-3}, {"solver.tolerance", 1e-5});
+  ZpResult *result = cycle_of(&def);
+  const ZpTable *rows = result->series;
+  size_t last = rows->rows - 1;
+  double area = 0, lost = 0;
+  for (size_t k = 0; k < last; k++)
+    area += 0.5 * (zp_table_get(rows, k, "voltage_V") + zp_table_get(rows, k + 1, "voltage_V")) *
+            (zp_table_get(rows, k + 1, "charge_C") - zp_table_get(rows, k, "charge_C"));
+  static const char *const losses[] = {"internal_loss_J", "contact_loss_J", "drag_loss_J"};
+  for (size_t k = 0; k < LENGTH_OF(losses); k++)
+    lost += zp_table_get(rows, last, losses[k]) - zp_table_get(rows, 0, losses[k]);
+  ck_assert(zp_result_get(result, "periodic") == 1 && zp_result_get(result, "closes") == 1);
+  ck_near(lost, zp_result_get(result, "energy_per_cycle_J"), 2e-3); /* periodic to 1e-3 */
+  ck_near(area, zp_result_get(result, "energy_per_cycle_J"), 2e-2); /* of 100 trapezoids */
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Shooting finds what waiting leads to: a swing whose damping is strong enough to wait for. */
+START_TEST(test_shooting_finds_what_waiting_leads_to) {
+  ZpActuatorDef def =
+      DEF(SINE, {"drive.voltage", 3e3}, {"drive.frequency", 3}, {"damping.internal", 20e-3}, {"cycle.tolerance", 1e-5});
+  ZpResult *result = cycle_of(&def);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double least = 1, most = 0;
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 20, false, NULL, NULL)));
+  for (int k = 1; k <= 100; k++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 20 + k / 300.0, false, NULL, NULL)));
+    least = fmin(least, zp_sim_get(sim, "opening"));
+    most = fmax(most, zp_sim_get(sim, "opening"));
+  }
+  printf("periodic after %g cycles\n", zp_result_get(result, "cycles"));
+  ck_near(zp_result_get(result, "opening_max_m") - zp_result_get(result, "opening_min_m"), most - least, 2e-3);
+  ck_below(zp_result_get(result, "cycles"), 12);
+  zp_result_destroy(result);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Impacts without damping have no periodic motion within a few cycles: that is an answer. */
+START_TEST(test_impacts_are_not_periodic) {
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 10e3}, {"drive.frequency", 5}, {"cycle.most_cycles", 8});
+  ZpResult *result = cycle_of(&def);
+  ck_assert(zp_result_get(result, "periodic") == 0 && zp_result_get(result, "cycles") == 8);
+  ck_assert(zp_outcome_good(result->outcome) && strstr(result->message, "not periodic within 8 cycles"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(test_refusals) {
+  static const struct {
+    Setting set;
+    const char *words;
+  } wrong[] = {{{"drive.waveform", ZP_WAVEFORM_TABLE}, "requires a periodic drive"},
+               {{"actuator.kind", ZP_KIND_FLANGE}, "requires electro_ribbon"},
+               {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, "requires implicit"}};
+  ZpActuatorDef def = def_with(&wrong[_i].set, 1);
+  ZpError err = {ZP_OK, ""};
+  ck_assert(zp_study_check(ZP_STUDY_CYCLE, &def, &err) == ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, wrong[_i].words), "%s", err.message);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("cycle");
+  TCase *points = tcase_create("fixed points"), *cycles = tcase_create("cycles");
+  tcase_add_test(points, test_fixed_point_of_slow_swings);
+  tcase_add_test(cycles, test_phase_of_an_oscillator);
+  tcase_add_test(cycles, test_energy_of_a_cycle);
+  tcase_add_test(cycles, test_shooting_finds_what_waiting_leads_to);
+  tcase_add_test(cycles, test_impacts_are_not_periodic);
+  tcase_add_loop_test(cycles, test_refusals, 0, 3);
+  suite_add_tcase(suite, points);
+  suite_add_tcase(suite, cycles);
+  return run_suite(suite);
+}

@@ -1,0 +1,392 @@
+/* An actuator behind a supply: what the supply makes of its command, charging of a closed actuator with resistance and
+ * limits of the current against closed forms, the books of energy, the ideal source as a limit, charge drive. */
+#include "check_util.h"
+
+#include "drive/supply.h"
+#include "math/elementary.h"
+#include "sim/sim_internal.h"
+
+/* -- functions of its own -------------------------------------------------------------------------- */
+
+START_TEST(test_decay) {
+  double worst = 0;
+  for (double e = -12; e < 2.8; e += 0.01) {
+    double x = pow(10, e);
+    worst = fmax(worst, fabs(zp_decay(x) / expm1(-x) - 1));
+  }
+  ck_below(worst, 5e-16);
+  ck_assert(zp_decay(0) == 0 && zp_decay(1e9) == -1);
+}
+END_TEST
+
+/* -- the inner voltage ------------------------------------------------------------------------------ */
+
+typedef struct Follower {
+  ZpSupply supply;
+  ZpWaveform waveform;
+  ZpSupplyState at;
+  double t;
+} Follower;
+
+static Follower follower_of(const ZpActuatorDef *def) {
+  return (Follower){zp_supply_of(def), zp_waveform_of(def, NULL), {0, 0}, 0};
+}
+
+/* To time `end` in steps of at most h, with events found. => inner voltage. */
+static double follow(Follower *f, double end, double h) {
+  ZpCommand command = {&f->waveform, NULL};
+  while (f->t < end) {
+    f->at = zp_supply_jump(&f->supply, &command, f->t, f->at);
+    double latest = fmin(fmin(end, f->t + h), zp_waveform_next_corner(&f->waveform, f->t));
+    latest = fmin(latest, zp_supply_event(&f->supply, &command, f->t, latest, f->at));
+    f->at = zp_supply_follow(&f->supply, &command, f->t, latest, f->at);
+    f->t = latest;
+  }
+  return f->at.voltage;
+}
+
+/* A step of 1 kV behind a lag of 100 Hz: an exponential, in one step or in many. */
+START_TEST(test_lag_of_a_step) {
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 100}, {"drive.voltage", 1e3});
+  Follower once = follower_of(&def), often = once;
+  double t = 2e-3, expected = 1e3 * (1 - exp(-2 * 3.14159265358979 * 100 * t));
+  ck_near(follow(&once, t, 1), expected, 1e-13);
+  ck_near(follow(&often, t, 1e-5), expected, 1e-13);
+}
+END_TEST
+
+/* A sine behind a lag of its own frequency: 1 / sqrt 2 of the amplitude, an eighth of a period late. */
+START_TEST(test_lag_of_a_sine) {
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 50}, {"drive.frequency", 50},
+                          {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 1e3}, {"drive.offset", -1e3});
+  Follower f = follower_of(&def);
+  for (int i = 0; i < 40; i++) {
+    double t = 0.2 + 5e-4 * i, V = follow(&f, t, 1e-3);
+    double expected = -1e3 * sqrt(0.5) * cos(2 * 3.14159265358979 * (50 * t - 0.125));
+    ck_below(fabs(V - expected), 1e-9 * 1e3);
+  }
+}
+END_TEST
+
+/* A step behind a lag and a slew rate: a ramp until it meets the exponential, at the instant when S t = y(t), then
+ * that. */
+START_TEST(test_slew_ends_at_the_right_instant) {
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 100}, {"drive.voltage", 1e3},
+                          {"source.slew_rate", 1e5});
+  double rate = 2 * 3.14159265358979323846 * 100, meets = 5e-3;
+  for (int i = 0; i < 50; i++) /* Newton's method for S t = y(t) */
+    meets -= (1e5 * meets - 1e3 * (1 - exp(-rate * meets))) / (1e5 - 1e3 * rate * exp(-rate * meets));
+  Follower f = follower_of(&def), other = f;
+  ck_near(follow(&f, 0.9 * meets, 1), 0.9e5 * meets, 1e-12);
+  ck_near(follow(&other, 1.1 * meets, 1), 1e3 * (1 - exp(-1.1 * rate * meets)), 1e-12);
+  ck_near(zp_supply_event(&f.supply, &(ZpCommand){&f.waveform, NULL}, f.t, 1, f.at), meets, 1e-12);
+}
+END_TEST
+
+/* A sine faster than the slew rate becomes a triangle of that rate; in the end it is periodic. */
+START_TEST(test_slewed_sine_is_a_triangle) {
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5}, {"drive.frequency", 100},
+                          {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 1e3}, {"drive.offset", -1e3});
+  Follower f = follower_of(&def);
+  double most = 0;
+  for (int i = 0; i < 20000; i++)
+    most = i < 19000 ? 0 : fmax(most, fabs(follow(&f, 1e-4 * i, 1e-3)));
+  ck_near(most, 0.25 * 1e5 / 100, 1e-3);
+}
+END_TEST
+
+/* -- charging --------------------------------------------------------------------------------------- */
+
+enum { STEPS = 40 };
+static const double V = 50, CABLE = 50e-12; /* V: little enough that the layers are not pressed */
+
+typedef struct Charging {
+  ZpModel *model;
+  ZpSim *sim;
+  double C; /* with the cable, F */
+} Charging;
+
+/* A closed actuator without weight is a capacitor. */
+static Charging charging(ZpActuatorDef def) {
+  Charging c = {.model = model_of(&def)};
+  c.sim = sim_of(c.model);
+  c.C = zp_sim_get(c.sim, "capacitance") + def.source.capacitance;
+  ck_near(zp_sim_get(c.sim, "capacitance"), 199.8e-12, 1e-3);
+  return c;
+}
+
+static void end_charging(Charging *c) {
+  zp_sim_destroy(c->sim);
+  zp_model_destroy(c->model);
+}
+
+#define CLOSED_ACTUATOR                                                                                                \
+  {"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},                                  \
+      {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", 1e-6}, {"drive.voltage", V}, {                      \
+    "source.model", ZP_SOURCE_AMPLIFIER                                                                                \
+  }
+
+/* Largest error of the voltage over V against `expected`(t, c) in steps of dt. */
+static double worst_error(Charging *c, double dt, double (*expected)(double t, const Charging *c)) {
+  double worst = 0;
+  for (int i = 1; i <= STEPS; i++) {
+    ck_assert(zp_outcome_good(zp_sim_step(c->sim, dt, NULL, NULL)));
+    worst = fmax(worst, fabs(zp_sim_get(c->sim, "voltage") - expected(dt * i, c)) / V);
+  }
+  return worst;
+}
+
+static double exponential(double t, const Charging *c) {
+  return V * (1 - exp(-t / (1e8 * c->C)));
+}
+
+/* Behind a resistance, with a cable: half of the source's energy is lost. */
+START_TEST(test_charging_behind_a_resistance) {
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.capacitance", CABLE}));
+  ck_below(worst_error(&c, 0.25 * 1e8 * c.C, exponential), 1e-4);
+  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4);
+  ck_near(zp_sim_get(c.sim, "cable_energy"), 0.5 * CABLE * V * V, 1e-4);
+  end_charging(&c);
+}
+END_TEST
+
+static const double LIMIT = 0.3e-6; /* A */
+
+/* I / C until V - U = R I, then the exponential. */
+static double limited(double t, const Charging *c) {
+  double R = 1e8, left = V - R * LIMIT, released = left * c->C / LIMIT;
+  return t < released ? LIMIT * t / c->C : V - (V - left) * exp(-(t - released) / (R * c->C));
+}
+
+START_TEST(test_limit_of_the_current) {
+  Charging c = charging(
+      DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.capacitance", CABLE}, {"source.current_limit", LIMIT}));
+  ck_below(worst_error(&c, 0.1 * 1e8 * c.C, limited), 1e-4);
+  ZpCurrents currents = zp_sim_currents(c.sim, 1);
+  ck_near(currents.peak, LIMIT, 1e-9);
+  end_charging(&c);
+}
+END_TEST
+
+static double ramp(double t, const Charging *c) {
+  return fmin(V, LIMIT * t / c->C);
+}
+
+/* Without a resistance: a ramp, then V. */
+START_TEST(test_limit_without_resistance) {
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.capacitance", CABLE}, {"source.current_limit", LIMIT}));
+  ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, ramp), 1e-4);
+  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4);
+  end_charging(&c);
+}
+END_TEST
+
+static double slewed(double t, const Charging *c) {
+  (void)c;
+  return fmin(V, 1e3 * t);
+}
+
+static double all_stored(const Charging *c) {
+  return 0.5 * c->C * V * V;
+}
+
+/* A slew rate alone: the electrodes have the ramp, and nothing is lost. */
+START_TEST(test_slew_rate_alone) {
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.slew_rate", 1e3}));
+  ck_below(worst_error(&c, 0.06 * V / 1e3, slewed), 1e-9);
+  ck_near(zp_sim_get(c.sim, "source_energy"), all_stored(&c), 2e-4); /* the layers give way a little */
+  ck_below(fabs(zp_sim_get(c.sim, "source_loss")), 1e-9 * all_stored(&c));
+  end_charging(&c);
+}
+END_TEST
+
+static double bled(double t, const Charging *c) {
+  return V * exp(-t / (5e8 * c->C));
+}
+
+/* A supply that cannot sink: off, the electrodes discharge through the bleeder, and all of the energy is lost there. */
+START_TEST(test_discharge_through_the_bleeder) {
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.sink_limit", 0}, {"source.bleeder", 5e8}));
+  ZpError err;
+  ck_assert(zp_outcome_good(zp_sim_step(c.sim, 1e-6, NULL, NULL)));
+  double stored = zp_sim_get(c.sim, "field_energy"), lost = zp_sim_get(c.sim, "bleeder_loss");
+  ck_assert(zp_sim_set_voltage(c.sim, 0, &err) == ZP_OK);
+  ck_below(worst_error(&c, 0.3 * 5e8 * c.C, bled), 1e-4);
+  ck_near(zp_sim_get(c.sim, "bleeder_loss") - lost, stored, 1e-4);
+  end_charging(&c);
+}
+END_TEST
+
+/* -- motion ----------------------------------------------------------------------------------------- */
+
+/* After 20 ms from hanging: opening; the balance is checked on the way. */
+static double opening_after(ZpActuatorDef def, double end, double *voltage) {
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ck_assert(zp_outcome_good(zp_sim_run(sim, end, false, NULL, NULL)));
+  double opening = zp_sim_get(sim, "opening");
+  *voltage = zp_sim_get(sim, "voltage");
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return opening;
+}
+
+/* An amplifier without any limit takes the very steps of the ideal source; a limit that is never reached changes no
+ * more than rounding. */
+START_TEST(test_without_limits_it_is_ideal) {
+  ZpActuatorDef ideal = DEF({"mesh.nodes", 21}), free = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}),
+                wide = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bleeder", 1e18});
+  double U, expected = opening_after(ideal, 0.02, &U);
+  ck_assert(opening_after(free, 0.02, &U) == expected && U == 10e3);
+  ck_near(opening_after(wide, 0.02, &U), expected, 1e-9);
+  ck_near(U, 10e3, 1e-14);
+}
+END_TEST
+
+typedef struct Books {
+  double given, stored, mechanical, heat, off; /* J; largest imbalance on the way */
+} Books;
+
+static Books books_of(ZpSim *sim) {
+  static const char *const stored[] = {"field_energy", "cable_energy"},
+                           *const mechanical[] = {"kinetic_energy", "axial_energy", "bending_energy", "gravity_energy"},
+                           *const heat[] = {"source_loss",   "bleeder_loss", "drag_loss",
+                                            "internal_loss", "contact_loss", "charging_loss"};
+  Books b = {.given = zp_sim_get(sim, "source_energy")};
+  for (size_t k = 0; k < LENGTH_OF(stored); k++)
+    b.stored += zp_sim_get(sim, stored[k]);
+  for (size_t k = 0; k < LENGTH_OF(mechanical); k++)
+    b.mechanical += zp_sim_get(sim, mechanical[k]);
+  for (size_t k = 0; k < LENGTH_OF(heat); k++)
+    b.heat += zp_sim_get(sim, heat[k]);
+  return b;
+}
+
+/* Zip and release behind each kind of supply: what it has given is stored, moved something, or is heat, at any time. */
+START_TEST(test_energy_behind_supplies) {
+  static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV};
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
+          {"drive.frequency", 2}, {"drive.duty", 0.4}, {"source.capacitance", 20e-12}, {"solver.tolerance", 3e-5});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double start = books_of(sim).mechanical, off = 0;
+  for (int i = 0; i < 100; i++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 4.5e-3 * (i + 1), false, NULL, NULL)));
+    Books b = books_of(sim);
+    off = fmax(off, fabs(b.given - b.stored - (b.mechanical - start) - b.heat));
+  }
+  ck_assert(zp_sim_zip_time(sim) > 0);
+  ck_below(off / zp_sim_get(sim, "source_energy"), 1e-8);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* What the books call loss of the source is R I^2: both converge to each other with the square of the step. */
+static double heat_apart(double h) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", 1e9},
+                          {"source.capacitance", 10e-12}, {"solver.time_step", h});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double heat = 0, charge = 0;
+  while (zp_sim_get(sim, "time") < 0.06) {
+    ck_assert(zp_outcome_good(zp_sim_step(sim, h, NULL, NULL)));
+    double now = sim->state->source_charge;
+    heat += 1e9 * (now - charge) * (now - charge) / h;
+    charge = now;
+  }
+  double apart = fabs(heat / zp_sim_get(sim, "source_loss") - 1);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return apart;
+}
+
+START_TEST(test_loss_is_heat_of_the_resistance) {
+  double coarse = heat_apart(8e-4), fine = heat_apart(2e-4), finest = heat_apart(5e-5);
+  printf("loss of the source against R I^2, steps of 800, 200, 50 us: %.2e, %.2e, %.2e\n", coarse, fine, finest);
+  ck_below(finest, 1e-6);
+  ck_below(fine, 0.1 * coarse); /* of second order; measured 0.047 */
+}
+END_TEST
+
+/* A run from a snapshot taken in the middle of a limit goes on as if it had not been interrupted. */
+START_TEST(test_snapshot_behind_a_supply) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"source.bandwidth", 200});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model), *other = sim_of(model);
+  ZpError err;
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 1e-3, false, NULL, NULL)));
+  size_t size = zp_sim_state_size(sim);
+  void *bytes = malloc(size);
+  zp_sim_save(sim, bytes);
+  ck_assert(zp_sim_restore(other, bytes, size, &err) == ZP_OK);
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 5e-3, false, NULL, NULL)));
+  ck_assert(zp_outcome_good(zp_sim_run(other, 5e-3, false, NULL, NULL)));
+  ck_assert(sim->state->U == other->state->U && sim->state->source_energy == other->state->source_energy);
+  free(bytes);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* -- what is refused -------------------------------------------------------------------------------- */
+
+START_TEST(test_refusals) {
+  static const struct {
+    Setting set[3];
+    const char *words;
+  } wrong[] = {{{{"source.current_limit", 0}}, "could never charge"},
+               {{{"source.slew_rate", 0}}, "never leave 0 V"},
+               {{{"source.bandwidth", 1e12}}, "time steps resolve"},
+               {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}}, "requires solver.integrator implicit"},
+               {{{"actuator.kind", ZP_KIND_RIBBON}}, "requires electrodes"},
+               {{{"source.model", ZP_SOURCE_IDEAL}, {"source.resistance", 1}}, "source.resistance: requires"},
+               {{{"source.model", ZP_SOURCE_IDEAL}, {"source.sink_limit", 0}}, "source.sink_limit: requires"}};
+  Setting list[4] = {{"source.model", ZP_SOURCE_AMPLIFIER}};
+  size_t count = 1;
+  for (size_t k = 0; k < 3 && wrong[_i].set[k].key; k++)
+    list[count++] = wrong[_i].set[k];
+  ZpActuatorDef def = def_with(list, count);
+  ZpError err = {ZP_OK, ""};
+  ck_assert(zp_def_check(&def, &err) == ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, wrong[_i].words), "%s", err.message);
+}
+END_TEST
+
+/* A supply fills its keys; a key that is given overrides it. */
+START_TEST(test_supplies_fill_keys) {
+  ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"source.bleeder", 1e9});
+  ck_assert(def.source.model == ZP_SOURCE_AMPLIFIER && def.source.current_limit == 0.3e-3);
+  ck_assert(def.source.sink_limit == 0 && def.source.bleeder == 1e9 && isnan(def.source.slew_rate));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("supply");
+  TCase *inner = tcase_create("inner"), *charges = tcase_create("charges"), *motion = tcase_create("motion"),
+        *keys = tcase_create("keys");
+  tcase_add_test(inner, test_decay);
+  tcase_add_test(inner, test_lag_of_a_step);
+  tcase_add_test(inner, test_lag_of_a_sine);
+  tcase_add_test(inner, test_slew_ends_at_the_right_instant);
+  tcase_add_test(inner, test_slewed_sine_is_a_triangle);
+  tcase_add_test(charges, test_charging_behind_a_resistance);
+  tcase_add_test(charges, test_limit_of_the_current);
+  tcase_add_test(charges, test_limit_without_resistance);
+  tcase_add_test(charges, test_slew_rate_alone);
+  tcase_add_test(charges, test_discharge_through_the_bleeder);
+  tcase_add_test(motion, test_without_limits_it_is_ideal);
+  tcase_add_loop_test(motion, test_energy_behind_supplies, 0, 3);
+  tcase_add_test(motion, test_loss_is_heat_of_the_resistance);
+  tcase_add_test(motion, test_snapshot_behind_a_supply);
+  tcase_add_loop_test(keys, test_refusals, 0, 7);
+  tcase_add_test(keys, test_supplies_fill_keys);
+  TCase *all[] = {inner, charges, motion, keys};
+  for (size_t k = 0; k < LENGTH_OF(all); k++)
+    suite_add_tcase(suite, all[k]);
+  return run_suite(suite);
+}
