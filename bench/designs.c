@@ -7,7 +7,10 @@
  *   designs errors [COUNT [SEED]]        the estimated errors of limits, stationary, modes and isometric beside the
  *                                        true ones, which a mesh of 481 nodes shows
  *   designs times [COUNT [SEED]]         that of the zip time beside the one that 121 nodes and a tolerance of 1e-6
- *                                        show; designs of more than 61 nodes are left out */
+ *                                        show; designs of more than 61 nodes are left out
+ *   designs ramp [COUNT [SEED]]          do `limits` and a slow ramp of the voltage in time close and open the actuator
+ *                                        at the same voltages to 1 %, with 61 nodes or more? Status 1 if one does not
+ */
 #include <zipact/zipact.h>
 
 #include <inttypes.h>
@@ -97,12 +100,17 @@ static double insulators(const ZpActuatorDef *def) {
   return 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
 }
 
+/* m, theory section 9 */
+static double contact_depth(const ZpActuatorDef *def) {
+  return fmax(fmin(0.5e-6, insulators(def) / 150), 1e-8);
+}
+
 /* How far faces may overlap, m: 1 um, 1 % of the insulators, or three times what the attraction of closed faces makes
  * of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press
  * on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
 static double deepest(const ZpActuatorDef *def) {
   static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
-  double d = insulators(def), depth = fmax(fmin(0.5e-6, d / 150), 1e-8);
+  double depth = contact_depth(def);
   double at_breakdown = 2 * def->insulator.thickness * def->insulator.breakdown_field;
   double over = def->electro.breakdown_cap ? 1 : pow(def->drive.voltage / at_breakdown, 2);
   double pressed = lever * depth * cbrt(fmax(over, 1));
@@ -380,6 +388,143 @@ static int check_errors(const ZpStudy *studies, int count, int designs, uint64_t
   return bad;
 }
 
+/* -- limits against a slow ramp ------------------------------------------------------------------------ */
+
+/* A simulation whose voltage is a ramp; times in units of the first mode's period. */
+typedef struct Ramp {
+  ZpSim *sim;
+  double period, volts, closed; /* s; V; opening at which it counts as closed, m */
+  void *saved;
+  size_t size;
+} Ramp;
+
+/* The period of the slowest motion of the actuator that hangs, s; NAN if there is none. */
+static double period_of(const ZpActuatorDef *def) {
+  ZpActuatorDef hanging = *def;
+  ZpResult *modes = NULL;
+  ZpError err;
+  hanging.modes.voltage = 0;
+  hanging.output.errors = false;
+  if (zp_study_run(ZP_STUDY_MODES, &hanging, NULL, NULL, &modes, &err) != ZP_OK) return NAN;
+  double frequency = zp_table_get(modes->series, 0, "frequency_Hz");
+  zp_result_destroy(modes);
+  return 1 / frequency;
+}
+
+static bool is_closed(const Ramp *r) {
+  return zp_sim_get(r->sim, "opening") <= r->closed;
+}
+
+/* Go to this voltage in `periods`. => that at which the actuator first is open, or closed, where it stops; NAN if it is
+ * not on the way */
+static double go(Ramp *r, double to, double periods, bool closes) {
+  enum { STEPS = 400 };
+  ZpError err;
+  double from = r->volts, found = NAN;
+  zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, from, (to - from) / (periods * r->period), &err);
+  for (int k = 1; k <= STEPS && isnan(found); k++) {
+    if (!zp_outcome_good(zp_sim_step(r->sim, periods * r->period / STEPS, NULL, NULL))) break;
+    r->volts = from + (to - from) * k / STEPS;
+    if (is_closed(r) == closes) found = r->volts;
+  }
+  zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, r->volts, 0, &err);
+  return found;
+}
+
+/* The same without a look, and wait there until what that excites has died away. */
+static void go_and_wait(Ramp *r, double to) {
+  static const double quick = 10; /* periods */
+  ZpError err;
+  zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, r->volts, (to - r->volts) / (quick * r->period), &err);
+  zp_sim_step(r->sim, quick * r->period, NULL, NULL);
+  r->volts = to;
+  zp_sim_set_input(r->sim, ZP_INPUT_VOLTAGE, to, 0, &err);
+  zp_sim_step(r->sim, quick * r->period, NULL, NULL);
+}
+
+/* The voltage at which it closes, or opens, on a ramp past `near` from the present state, the rate halved until the
+ * answer moves by less than 0.2 %. The simulation is where it was on the last ramp. */
+static double by_ramp(Ramp *r, double near, bool closes) {
+  enum { HALVINGS = 11 };
+  static const double beyond = 0.2, enough = 2e-3;
+  double from = r->volts, to = near * (closes ? 1 + beyond : 1 - beyond), periods = 20, before = NAN;
+  ZpError err;
+  zp_sim_save(r->sim, r->saved);
+  for (int k = 0; k < HALVINGS; k++, periods *= 2) {
+    if (zp_sim_restore(r->sim, r->saved, r->size, &err) != ZP_OK) return NAN;
+    r->volts = from;
+    double found = go(r, to, periods, closes);
+    if (fabs(found / before - 1) < enough) return found;
+    before = found;
+  }
+  return NAN;
+}
+
+/* Up past `closing` and down past `release` (NAN: there is none) => both by the ramp. */
+static void ramp(Ramp *r, double top, double closing, double release, double found[2]) {
+  static const double near = 0.1;
+  go_and_wait(r, (1 - near) * closing);
+  found[0] = by_ramp(r, closing, true);
+  found[1] = NAN;
+  if (isnan(found[0]) || isnan(release)) return;
+  go_and_wait(r, top);
+  go_and_wait(r, fmin((1 + near) * release, top));
+  found[1] = by_ramp(r, release, false);
+}
+
+/* => is there a simulation, and did it run? Damped to a tenth of the critical: what a ramp excites dies away in some
+ * periods, and at a limit point the motion hardly lags. */
+static bool run_ramp(ZpActuatorDef def, double closing, double release, double found[2]) {
+  ZpModel *model = NULL;
+  ZpError err;
+  Ramp r = {.period = period_of(&def)};
+  def.damping.internal = 0.1 * r.period / 3.14159265358979;
+  def.drive.waveform = ZP_WAVEFORM_RAMP; /* set by hand, from 0 */
+  def.drive.rise_time = 1;
+  bool good =
+      r.period > 0 && zp_model_create(&def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &r.sim, &err) == ZP_OK;
+  if (good) r.size = zp_sim_state_size(r.sim);
+  if (good) r.saved = malloc(r.size);
+  good = good && r.saved;
+  if (good) r.closed = fmax(0.01 * zp_sim_get(r.sim, "opening"), contact_depth(&def));
+  if (good) ramp(&r, def.drive.voltage, closing, release, found);
+  free(r.saved);
+  zp_sim_destroy(r.sim);
+  zp_model_destroy(model);
+  return good;
+}
+
+static bool is_off(double limit, double by_time) {
+  static const double part = 0.01;
+  return !isnan(limit) && !(fabs(by_time / limit - 1) <= part);
+}
+
+/* => how many designs close or open on a ramp elsewhere than `limits` says */
+static int check_ramp(int designs, uint64_t state) {
+  int off = 0, looked = 0, released = 0;
+  for (int i = 0; i < designs; i++) {
+    ZpActuatorDef def = design(&state);
+    if (def.mesh.nodes < 61) def.mesh.nodes = 61;
+    def.output.errors = false;
+    Answer answer = answer_of(ZP_STUDY_LIMITS, &def);
+    double closing = answer.voltage[1], release = answer.voltage[2], found[2] = {NAN, NAN};
+    if (!answer.good || isnan(closing)) continue;
+    bool ran = run_ramp(def, closing, release, found);
+    looked++;
+    released += !isnan(release);
+    if (ran && !is_off(closing, found[0]) && !is_off(release, found[1])) continue;
+    off++;
+    printf("design %d:", i);
+    print_design(&def);
+    printf("  closing %.5g V, by a ramp %.5g V; release %.5g V, by a ramp %.5g V\n", closing, found[0], release,
+           found[1]);
+    fflush(stdout);
+  }
+  printf("ramp: %d of %d designs that close agree to 1 %%, %d of them with a release\n", looked - off, looked,
+         released);
+  return off;
+}
+
 /* -- the command -------------------------------------------------------------------------------------- */
 
 /* Everything but calibrate, which asks for measurements. */
@@ -395,11 +540,12 @@ int main(int argc, char **argv) {
   if (strcmp(word, "errors") == 0) return check_errors(still, 4, designs, seed, 242) > 0;
   if (strcmp(word, "times") == 0) return check_errors(moving, 1, designs, seed, 61) > 0;
   if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
+  if (strcmp(word, "ramp") == 0) return check_ramp(designs, seed) > 0;
   for (size_t k = 0; k < sizeof every / sizeof every[0]; k++) {
     if (strcmp(word, "all") != 0 && strcmp(word, zp_study_name(every[k])) != 0) continue;
     bad += check_study(every[k], designs, seed);
     known++;
   }
-  if (known == 0) fprintf(stderr, "%s: no study; also all, agree, errors, times\n", word);
+  if (known == 0) fprintf(stderr, "%s: no study; also all, agree, errors, times, ramp\n", word);
   return known == 0 ? 2 : bad > 0;
 }

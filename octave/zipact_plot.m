@@ -24,7 +24,7 @@ end
 function [x, y, labels, style] = axes_of(study)
   style = '-';
   switch study
-    case 'actuate'
+    case {'actuate', 'cycle'}
       x = @(s) 1e3 * s.time_s;     y = @(s) 1e3 * s.stroke_m;     labels = {'time / ms', 'stroke / mm'};
     case 'equilibrium'
       x = @(s) 1e-3 * s.voltage_V; y = @(s) 1e3 * s.opening_m;    labels = {'voltage / kV', 'opening / mm'};

@@ -15,7 +15,7 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
  python3-matplotlib python3-pandas python3-pytest"
 [ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
-[ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind"
+[ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind ngspice"
 [ "${1:-}" = --docs ] && packages="$packages pandoc doxygen fonts-dejavu-extra"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 if [ "${1:-}" = --web ]; then

@@ -147,6 +147,8 @@ START_TEST(test_charging_behind_a_resistance) {
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
   ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4);
   ck_near(zp_sim_get(c.sim, "cable_energy"), 0.5 * CABLE * V * V, 1e-4);
+  ck_near(zp_sim_currents(c.sim, 1).peak, V / 1e8, 1e-9);
+  ck_near(zp_sim_currents(c.sim, 1).rms, sqrt(0.5 * c.C * V * V / 1e8), 1e-3); /* of squared means over steps */
   end_charging(&c);
 }
 END_TEST
@@ -312,6 +314,47 @@ START_TEST(test_loss_is_heat_of_the_resistance) {
 }
 END_TEST
 
+/* -- charge drive ----------------------------------------------------------------------------------- */
+
+/* A wide platform on short ribbons: hardly anything but the platform attracts. A current, far too small for its inertia
+ * to matter, charges it: at a given charge the force of plates does not depend on their gap, so the gap falls evenly
+ * with the squared charge, past the third at which a given voltage pulls in, with no snap. */
+START_TEST(test_charge_drive_of_plates_has_no_pull_in) {
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 15}, {"platform.length", 0.09}, {"ribbon.thickness", 20e-6}, {"load.mass", 2e-3},
+          {"insulator.thickness", 20e-6}, {"electro.breakdown_cap", 0}, {"source.model", ZP_SOURCE_AMPLIFIER},
+          {"source.current_limit", 2e-9}, {"drive.voltage", 20e3}, {"damping.internal", 20e-3},
+          {"solver.end_time", 100}, {"solver.tolerance", 1e-5});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double hangs = zp_sim_get(sim, "opening"), d = 2 * 20e-6 * 2.75 / 4.62;
+  double most = 0, at_most = 0, before = hangs, fastest = 0, first = 0, half = 0;
+  for (int i = 1; i <= 400 && zp_sim_get(sim, "contraction") < 0.9; i++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 0.25 * i, false, NULL, NULL)));
+    double now = zp_sim_get(sim, "opening"), Q = zp_sim_get(sim, "charge"), U = zp_sim_get(sim, "voltage");
+    double per_square = (hangs - now) / (Q * Q);
+    fastest = fmax(fastest, before - now);
+    if (now > 0.9 * hangs) first = per_square;
+    if (now > 0.5 * hangs) half = per_square;
+    if (U > most) at_most = now;
+    most = fmax(most, U);
+    before = now;
+  }
+  double U = zp_sim_get(sim, "voltage");
+  printf("travel per squared charge at a half over that at a tenth: %.3f; largest voltage %.1f V at %.4g mm, %.1f V in "
+         "the "
+         "end\n",
+         half / first, most, 1e3 * at_most, U);
+  ck_below(before, 0.1 * hangs);
+  ck_below(fastest, 0.05 * hangs);
+  ck_near(half, first, 0.1);                                         /* the ribbons attract, too; measured 1.06 */
+  ck_below(fabs(at_most - (hangs - (hangs + d) / 3)), 0.03 * hangs); /* where a voltage would pull in */
+  ck_below(U, 0.6 * most);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A run from a snapshot taken in the middle of a limit goes on as if it had not been interrupted. */
 START_TEST(test_snapshot_behind_a_supply) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"source.bandwidth", 200});
@@ -382,6 +425,7 @@ int main(void) {
   tcase_add_test(motion, test_without_limits_it_is_ideal);
   tcase_add_loop_test(motion, test_energy_behind_supplies, 0, 3);
   tcase_add_test(motion, test_loss_is_heat_of_the_resistance);
+  tcase_add_test(motion, test_charge_drive_of_plates_has_no_pull_in);
   tcase_add_test(motion, test_snapshot_behind_a_supply);
   tcase_add_loop_test(keys, test_refusals, 0, 7);
   tcase_add_test(keys, test_supplies_fill_keys);

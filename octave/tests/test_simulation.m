@@ -1,9 +1,9 @@
 % Stepping by hand: like a run, to and fro to the same bits.
 1;
 
-% All signals but the mean current since they were read last.
+% All signals but the mean current and power since they were read last.
 function signals = seen(sim)
-  signals = rmfield(zipact('read', sim), 'current_A');
+  signals = rmfield(zipact('read', sim), {'current_A', 'power_W'});
 end
 
 sim = zipact('open', 'mesh.nodes', 21);

@@ -51,6 +51,8 @@ same_as_the_command('modes', ' --set mesh.nodes=21', 'mesh.nodes', int32(21));
 modes = zipact('modes', 'mesh.nodes', 21);
 check(isequal(modes.frequencies_Hz, modes.series.frequency_Hz), 'frequencies');
 same_as_the_command('profile', ' --set electro.model=field', 'electro.model', 'field');
+same_as_the_command('cycle', ' --set mesh.nodes=11 --set drive.waveform=sine --set drive.voltage=3000', ...
+                    'mesh.nodes', 11, 'drive.waveform', 'sine', 'drive.voltage', 3e3);
 same_as_the_command('actuate', ' --set mesh.nodes=21', 'mesh.nodes', single(21));
 
 data = fullfile(fileparts(mfilename('fullpath')), '..', '..', 'examples');

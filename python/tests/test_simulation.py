@@ -19,8 +19,8 @@ def make(**keys):
 
 
 def without_current(row):
-    """It is a mean over what lies between two readings: no state has it."""
-    return np.delete(row, list(zipact.SIGNALS).index("current"))
+    """It and the power are means over what lies between two readings: no state has them."""
+    return np.delete(row, [list(zipact.SIGNALS).index(name) for name in ("current", "power")])
 
 
 def test_one_step_is_the_study():

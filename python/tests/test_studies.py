@@ -29,6 +29,7 @@ CASES = {
     "modes": {},
     "profile": dict(electro__model="field", isometric__separation="2 mm"),
     "actuate": MOTION,
+    "cycle": dict(MOTION, drive__waveform="sine", drive__voltage="3 kV"),
     "calibrate": dict(
         preset="paper-fe",
         ribbon__young_modulus="150 GPa",

@@ -130,6 +130,7 @@ def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 STUDIES = {
     "actuate": actuate,
     "calibrate": calibrate,
+    "cycle": actuate,
     "equilibrium": equilibrium,
     "isometric": isometric,
     "limits": limits,

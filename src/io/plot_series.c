@@ -1,4 +1,5 @@
-/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, energies.svg, electric.svg, stress.svg. */
+/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, source.svg, loops.svg, energies.svg,
+ * electric.svg, stress.svg. */
 #include <math.h>
 #include <string.h>
 
@@ -131,6 +132,59 @@ static void script_voltage(const ZpPlot *plot, FILE *file) {
   fputs("unset multiplot\n", file);
 }
 
+/* Of a source that is not ideal. */
+static bool has_source(const ZpPlot *plot) {
+  return is_film(plot) && !is_ribbon(plot) && plot->def.source.model != ZP_SOURCE_IDEAL &&
+         zp_plot_has(series(plot), "current_A");
+}
+
+static void script_source(const ZpPlot *plot, FILE *file) {
+  const char *const voltages[][2] = {{"command_V", "command"},
+                                     {"source_voltage_V", "inner"},
+                                     {"voltage_V", "electrodes"}},
+                    *const currents[][2] = {{"current_A", "current"}};
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit voltage = zp_plot_table_unit(series(plot), (const char *const[]){"command_V", NULL}, "V");
+  ZpPlotUnit current = zp_plot_table_unit(series(plot), (const char *const[]){"current_A", NULL}, "A");
+  zp_plot_head(plot, file, "source", "Voltages and current of the source over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  zp_plot_upper_panel(file);
+  plot_columns(plot, file, time, voltage, "voltage", voltages, 3);
+  lower_panel(file, time);
+  plot_columns(plot, file, time, current, "current", currents, 1);
+  fputs("unset multiplot\n", file);
+}
+
+/* Of a cycle. */
+static bool has_loops(const ZpPlot *plot) {
+  return is_film(plot) && isfinite(zp_result_get(plot->single, "energy_per_cycle_J")) &&
+         zp_plot_has(series(plot), "charge_C");
+}
+
+/* One closed curve: a column against another. */
+static void plot_loop(FILE *file, const char *x, ZpPlotUnit x_unit, const char *x_label, const char *y,
+                      ZpPlotUnit y_unit, const char *y_label) {
+  fprintf(file, "set xlabel '%s / %s'\nset ylabel '%s / %s' offset 0.5\n", x_label, x_unit.text, y_label, y_unit.text);
+  fprintf(file, "plot '../table.csv' using (column('%s')*%g):(column('%s')*%g) with lines lw 2 lc rgb '%s' notitle\n",
+          x, x_unit.factor, y, y_unit.factor, zp_plot_colour(0));
+}
+
+static void script_loops(const ZpPlot *plot, FILE *file) {
+  const ZpTable *table = series(plot);
+  ZpPlotUnit voltage = zp_plot_table_unit(table, (const char *const[]){"voltage_V", NULL}, "V"),
+             charge = zp_plot_table_unit(table, (const char *const[]){"charge_C", NULL}, "C"),
+             length = zp_plot_table_unit(table, (const char *const[]){"opening_m", NULL}, "m"),
+             force = zp_plot_table_unit(table, (const char *const[]){"force_N", NULL}, "N");
+  zp_plot_head(plot, file, "loops", "A cycle: the area of the left loop is what the source gives", 0.96);
+  fputs("set datafile separator ','\nset key autotitle columnhead\n", file);
+  fputs("set multiplot\nset lmargin at screen 0.10\nset rmargin at screen 0.47\n", file);
+  plot_loop(file, "charge_C", charge, "charge", "voltage_V", voltage, "voltage");
+  fputs("unset label\nset lmargin at screen 0.60\nset rmargin at screen 0.97\n", file);
+  plot_loop(file, "opening_m", length, "opening", "force_N", force, "electric force");
+  fputs("unset multiplot\n", file);
+}
+
 static bool has_energies(const ZpPlot *plot) {
   return is_film(plot) && zp_plot_has(series(plot), "kinetic_energy_J");
 }
@@ -222,6 +276,8 @@ const ZpPicture zp_series_pictures[] = {
     {"stroke", "svg", has_stroke, script_stroke, NULL},
     {"zipped_length", "svg", has_zipped_length, script_zipped_length, NULL},
     {"voltage", "svg", has_voltage, script_voltage, NULL},
+    {"source", "svg", has_source, script_source, NULL},
+    {"loops", "svg", has_loops, script_loops, NULL},
     {"energies", "svg", has_energies, script_energies, NULL},
     {"electric", "svg", has_electric, script_electric, NULL},
     {"stress", "svg", has_stress, script_stress, NULL},

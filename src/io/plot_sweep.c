@@ -1,6 +1,6 @@
-/* Pictures of a sweep: contraction.svg, all runs over time, and what a study asks for against the list key that
- * varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg, factors.svg; forces.svg, a curve for each
- * value of the others. */
+/* Pictures of a sweep: contraction.svg, all runs over time, bode.svg against the frequency of a drive, and what a study
+ * asks for against the list key that varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg,
+ * factors.svg; forces.svg, a curve for each value of the others. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -404,7 +404,62 @@ static void script_forces(const ZpPlot *plot, FILE *file) {
   plot_forces(plot, file, unit);
 }
 
+/* -- bode ------------------------------------------------------------------------------------------ */
+
+/* Amplitude and phase against the frequency of a drive. */
+static bool has_bode(const ZpPlot *plot) {
+  return has_axis(plot) && strcmp(zp_key(x_key(plot))->name, "drive.frequency") == 0 &&
+         points_of(plot, "phase_rad") >= 2;
+}
+
+/* An index per curve: frequency, amplitude, phase. */
+static void data_bode(const ZpPlot *plot, FILE *file) {
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  fputs("# drive.frequency stroke_amplitude_m phase_rad; an index per curve\n", file);
+  for (size_t k = 0; k < curves; k++) {
+    for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
+      zp_plot_put(file, key_value(plot, run), ' ');
+      zp_plot_put(file, zp_result_get(plot->report->result[run], "stroke_amplitude_m"), ' ');
+      zp_plot_put(file, zp_result_get(plot->report->result[run], "phase_rad"), '\n');
+    }
+    fputs("\n\n", file);
+  }
+}
+
+/* One panel: a column of all curves. */
+static void plot_bode(const ZpPlot *plot, FILE *file, const char *column, bool names) {
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  for (size_t k = 0; k < curves; k++) {
+    char name[256];
+    run_name(plot, chosen[k], 1, name, sizeof name);
+    fprintf(file, "%s'bode.dat' index %zu using 1:(%s) with linespoints lw 2 pt 7 ps 0.8 lc rgb '%s' title ",
+            k ? ", \\\n     " : "plot ", k, column, zp_plot_colour(k));
+    zp_plot_text(file, names ? name : "");
+  }
+  fputc('\n', file);
+}
+
+static void script_bode(const ZpPlot *plot, FILE *file) {
+  char amplitude[64];
+  double largest = 0;
+  for (size_t run = 0; run < plot->report->count; run++)
+    largest = fmax(largest, zp_result_get(plot->report->result[run], "stroke_amplitude_m"));
+  ZpPlotUnit length = zp_plot_unit(largest, "m");
+  snprintf(amplitude, sizeof amplitude, "$2*%g", length.factor);
+  zp_plot_head(plot, file, "bode", "Amplitude and phase of the stroke", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  fputs("set logscale x\nset autoscale x noextend\n", file);
+  zp_plot_upper_panel(file);
+  fprintf(file, "set logscale y\nset ylabel 'amplitude / %s' offset 0.5\n", length.text);
+  plot_bode(plot, file, amplitude, true);
+  zp_plot_lower_panel(file, RIGHT, "frequency / Hz");
+  fputs("unset logscale y\nset ylabel 'phase / deg' offset 0.5\n", file);
+  plot_bode(plot, file, "$3*180/pi", false);
+  fputs("unset multiplot\n", file);
+}
+
 const ZpPicture zp_sweep_pictures[] = {
+    {"bode", "svg", has_bode, script_bode, data_bode},
     {"contraction", "svg", has_contraction, script_contraction, data_contraction},
     {"forces", "svg", has_forces, script_forces, data_forces},
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \

@@ -196,6 +196,14 @@ void zp_feed_note_current(ZpSim *sim, double current, double h) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(current));
 }
 
+/* Behind a resistance the current is largest where a step begins or ends, A; 0 at a limit, where it does not change. */
+static double current_at_ends(const ZpSim *sim) {
+  const ZpState *state = sim->state, *before = sim->before;
+  if (state->supply_mode != ZP_FEED_FREE || sim->model->supply.resistance == 0) return 0;
+  double drop = fmax(fabs(before->supply.voltage - before->U), fabs(state->supply.voltage - state->U));
+  return drop / sim->model->supply.resistance;
+}
+
 /* The books of a step, eqs. (23.6) and (23.7). */
 static void book(ZpSim *sim) {
   ZpState *state = sim->state;
@@ -211,6 +219,7 @@ static void book(ZpSim *sim) {
   state->source_loss += energy - taken;
   state->bleeder_loss += bled;
   zp_feed_note_current(sim, charge / h, h);
+  sim->feed.peak = fmax(sim->feed.peak, current_at_ends(sim));
 }
 
 /* -- a step ---------------------------------------------------------------------------------------- */

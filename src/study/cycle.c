@@ -325,11 +325,19 @@ static void describe(const Cycles *c, ZpResult *result) {
              c->done, c->moved[0]);
 }
 
+/* Rows count from the start of their cycle. */
+static void rebase_time(const Cycles *c) {
+  double start = at(c, 0, "time_s");
+  for (size_t k = 0; k < c->rows->rows; k++)
+    c->rows->value[k * c->rows->columns] -= start;
+}
+
 static void summarize(const Cycles *c, ZpResult *result) {
   describe(c, result);
   if (c->info.outcome != ZP_REACHED_END) return;
   summarize_motion(c, result);
   summarize_energy(c, result);
+  rebase_time(c);
   zp_result_add(result, "steps", "count", (double)c->steps);
   zp_add_margins(result, c->model, &c->margins);
   zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));

@@ -130,17 +130,19 @@ static void look_at(Holder *h, double direction, bool *turned) {
 /* How following the branch ends. */
 typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
 
-/* Follow the branch until it has come to drive.voltage within its last step. */
+/* Follow the branch until it has come to drive.voltage within its last step. What is left at its end is in `edge`. */
 static End follow(Holder *h) {
   double top = h->model->def.drive.voltage;
   ZpStatics *s = &h->rest.statics;
   bool turned = false;
+  h->rest.system.save(s, h->edge);
   if (!zp_rest_follow(&h->rest, true)) return LOST;
   for (int k = 0; k < MOST_POINTS; k++) {
     double direction = h->rest.branch.direction_m;
     h->rising = direction > 0;
     h->rest.system.save(s, h->before);
     bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h);
+    if (!further && !turned) memcpy(h->edge, h->before, h->rest.system.save_size);
     if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
@@ -155,15 +157,15 @@ static End follow(Holder *h) {
   return turned ? TURNED_FOR_GOOD : LOST;
 }
 
-/* Release at the last turn, just above its voltage. */
-static bool fall(Holder *h) {
-  static const double above = 1e-3;
+/* Release at the last turn, or where the branch was lost, just above the voltage there. */
+static bool fall(Holder *h, bool turned) {
+  static const double above = 1e-3, least = 1e-5; /* of that voltage, of drive.voltage */
   ZpStatics *s = &h->rest.statics;
+  double top = h->model->def.drive.voltage;
   h->rest.system.restore(s, h->edge);
-  ZpNewtonInfo info =
-      zp_statics_fall(s, fmin((1 + above) * h->highest, h->model->def.drive.voltage), &h->rest.branch.newton);
+  ZpNewtonInfo info = zp_statics_fall(s, fmin((1 + above) * h->highest + least * top, top), &h->rest.branch.newton);
   if (!zp_newton_good(info.end) || !is_possible(h)) return false;
-  pass(h, true);
+  pass(h, turned);
   record(h, true, false);
   return true;
 }
@@ -172,7 +174,7 @@ static bool fall(Holder *h) {
 static End rise(Holder *h) {
   enum { MOST = 100 };
   End end = follow(h);
-  for (int k = 0; k < MOST && end == TURNED_FOR_GOOD && fall(h); k++)
+  for (int k = 0; k < MOST && (end == TURNED_FOR_GOOD || end == LOST) && fall(h, end == TURNED_FOR_GOOD); k++)
     end = follow(h);
   return end;
 }
