@@ -303,38 +303,13 @@ static void parts_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, co
   }
 }
 
-/* The same at rest, without edges. */
-ZP_KERNEL static void parts_at_rest(size_t count, double per_volt, double h_c, double d, const ZpPlatesEval *e,
-                                    const ZpPlatesStep *s) {
-  const double *restrict gap = e->gap, *restrict dx = e->dx;
-  double *restrict A_of = s->A, *restrict B_of = s->B, *restrict P_of = s->P;
-  ZP_SIMD
-  for (size_t i = 0; i < count; i++) {
-    double A = 0, B = 0, P = 0;
-    for (int q = 0; q < GAUSS; q++) {
-      double r = gauss_at[q], l = 1 - r, h = l * gap[i] + r * gap[i + 1] + d, b = 1 / (h > h_c ? h : h_c);
-      double W = h > h_c ? b * b : 0;
-      A += gauss_weight[q] * l * W;
-      B += gauss_weight[q] * r * W;
-      P += gauss_weight[q] * b;
-    }
-    A_of[i] = per_volt * dx[i] * A;
-    B_of[i] = per_volt * dx[i] * B;
-    P_of[i] = -per_volt * P;
-  }
-}
-
 /* Forces of `share` of the charges between two ends => Fx, Fy. */
 static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
                               double share, ZpPlatesStep *s) {
-  if (p->edges || e0 != e1)
-    parts_of_charges(p, e0, e1, U, share, s);
-  else
-    parts_at_rest(p->nodes - 1, 2 * share * p->k * U, zp_plates_least_h(p, U), p->d, e1, s);
+  parts_of_charges(p, e0, e1, U, share, s);
   act_all(p, s);
-  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
     attract(s->Fy, i, share * p->flat_length * charges_between(p, U, e0->gap[i], e1->gap[i]).W);
-  }
 }
 
 static double capacitance(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
