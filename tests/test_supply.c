@@ -266,12 +266,14 @@ static Books books_of(ZpSim *sim) {
   return b;
 }
 
-/* Zip and release behind each kind of supply: what it has given is stored, moved something, or is heat, at any time. */
+/* Zip and release behind each kind of supply: what it has given is stored, moved something, or is heat, at any time.
+ * Measured 1.3e-9, 6.4e-10, 2.2e-10; with a tolerance of 1e-5 2.0e-9, 1.5e-9 and, by what one step's iteration leaves,
+ * 2.8e-8. */
 START_TEST(test_energy_behind_supplies) {
   static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV};
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
-          {"drive.frequency", 2}, {"drive.duty", 0.4}, {"source.capacitance", 20e-12}, {"solver.tolerance", 3e-5});
+          {"drive.frequency", 2}, {"drive.duty", 0.4}, {"source.capacitance", 20e-12}, {"solver.tolerance", 3e-6});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   double start = books_of(sim).mechanical, off = 0;

@@ -1,7 +1,5 @@
 #include "study/faces.h"
 
-#include <stdbool.h>
-
 /* Where station k of an odd number lies between clip and platform, 0 .. 1. Those of even k are twice as close at the
  * clip as in the middle, for there is the force of a wide wedge; the others lie midway, as Simpson's rule wants it. */
 static double place(const ZpStations *s, size_t k) {
@@ -19,30 +17,51 @@ void zp_faces_cubic(double length, double separation, ZpStations *s) {
   }
 }
 
-/* Slope by node number at node i of a ribbon's coordinate; at the ends `flat` or of the parabola through three. */
-static double slope(size_t nodes, const double *at, size_t i, bool flat) {
-  size_t last = nodes - 1;
-  if (i > 0 && i < last) return 0.5 * (at[2 * i + 2] - at[2 * i - 2]);
-  if (flat) return 0;
-  if (i == 0) return 0.5 * (-3 * at[0] + 4 * at[2] - at[4]);
-  return 0.5 * (3 * at[2 * last] - 4 * at[2 * last - 2] + at[2 * last - 4]);
+/* One coordinate of the nodes of a ribbon. */
+typedef struct Line {
+  size_t nodes;
+  bool rod, flat;   /* flat: level at both ends */
+  const double *at; /* [2 nodes] every other one */
+} Line;
+
+/* Where the ribbon is at node i. Beside a level end the parabola of eq. (8.10) says where the node there would be if it
+ * were not held: a fifth of the step to its neighbour further back. */
+static double on_ribbon(const Line *line, size_t i) {
+  static const double back = 0.2;
+  const double *at = line->at + 2 * i;
+  size_t last = line->nodes - 1;
+  if (!line->rod || i == 0 || i == last) return at[0];
+  double left = at[-2], here = at[0], right = at[2];
+  if (line->flat && i == 1) left -= back * (here - left);
+  if (line->flat && i + 1 == last) right -= back * (here - right);
+  return here + (left - 2 * here + right) / 12;
+}
+
+/* Slope by node number at node i; at ends that are not flat, of the parabola through three. */
+static double slope(const Line *line, size_t i) {
+  size_t last = line->nodes - 1;
+  if (i > 0 && i < last) return 0.5 * (on_ribbon(line, i + 1) - on_ribbon(line, i - 1));
+  if (line->flat) return 0;
+  if (i == 0) return 0.5 * (-3 * on_ribbon(line, 0) + 4 * on_ribbon(line, 1) - on_ribbon(line, 2));
+  return 0.5 * (3 * on_ribbon(line, last) - 4 * on_ribbon(line, last - 1) + on_ribbon(line, last - 2));
 }
 
 /* Cubic Hermite between node i and the next at u in [0, 1]. */
-static double hermite(size_t nodes, const double *at, size_t i, double u, bool flat) {
-  double v = 1 - u, left = slope(nodes, at, i, flat), right = slope(nodes, at, i + 1, flat);
-  return v * v * ((1 + 2 * u) * at[2 * i] + u * left) + u * u * ((3 - 2 * u) * at[2 * i + 2] - v * right);
+static double hermite(const Line *line, size_t i, double u) {
+  double v = 1 - u, left = on_ribbon(line, i), right = on_ribbon(line, i + 1);
+  return v * v * ((1 + 2 * u) * left + u * slope(line, i)) + u * u * ((3 - 2 * u) * right - v * slope(line, i + 1));
 }
 
-void zp_faces_smooth(size_t nodes, const double *x, const double *y, ZpStations *s) {
+void zp_faces_smooth(size_t nodes, bool rods, const double *x, const double *y, ZpStations *s) {
   double clip = x[0];
   for (size_t k = 0; k < s->count; k++) {
     double at = place(s, k) * (double)(nodes - 1);
     size_t i = at < (double)(nodes - 2) ? (size_t)at : nodes - 2;
     double u = at - (double)i;
     for (size_t r = 0; r < 2; r++) {
-      s->x[2 * k + r] = hermite(nodes, x + r, i, u, false) - clip;
-      s->y[2 * k + r] = hermite(nodes, y + r, i, u, true);
+      Line along = {nodes, rods, false, x + r}, across = {nodes, rods, true, y + r};
+      s->x[2 * k + r] = hermite(&along, i, u) - clip;
+      s->y[2 * k + r] = hermite(&across, i, u);
     }
   }
 }

@@ -2,6 +2,7 @@
 #ifndef ZP_STUDY_FACES_H
 #define ZP_STUDY_FACES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Upper and lower point of station k at [2 k], [2 k + 1]; the clip's edge is at x = 0. */
@@ -13,8 +14,9 @@ typedef struct ZpStations {
 /* A wedge over `length`: gap = separation (3 xi^2 - 2 xi^3), symmetric about y = 0. */
 void zp_faces_cubic(double length, double separation, ZpStations *stations);
 
-/* Through the nodes of two ribbons (upper and lower interleaved), which are horizontal at both ends: a curve whose
- * direction has no jumps, so that the chords of a coarse mesh are not taken for corners of the faces. */
-void zp_faces_smooth(size_t nodes, const double *x, const double *y, ZpStations *stations);
+/* Of two ribbons (nodes of upper and lower interleaved), which are horizontal at both ends: a curve whose direction has
+ * no jumps, so that the chords of a coarse mesh are not taken for corners of the faces. The nodes of rods lie beside it
+ * by a twelfth of their second difference, eq. (8.8); those of others on it. */
+void zp_faces_smooth(size_t nodes, bool rods, const double *x, const double *y, ZpStations *stations);
 
 #endif

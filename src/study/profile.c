@@ -117,7 +117,7 @@ static bool hold(Profiler *p, bool *found) {
     *found = zp_newton_good(info.end);
     ZpShape shape = zp_statics_shape(&rest.statics, 0, &rest.shape_room);
     if (*found) p->margins = zp_margins_of(model, &shape);
-    zp_faces_smooth(model->nodes, rest.statics.q, rest.statics.q + model->stride, &p->stations);
+    zp_faces_smooth(model->nodes, model->is_rod, rest.statics.q, rest.statics.q + model->stride, &p->stations);
   }
   zp_rest_close(&rest);
   return opened;
