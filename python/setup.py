@@ -91,7 +91,7 @@ def choices():
 
 def keywords():
     """The text of zipact/keywords.py."""
-    types = {"REAL": "Number", "REAL_AUTO": "Number", "INT": "int", "BOOL": "bool", "TEXT": "str"}
+    types = {"REAL": "Number", "REAL_AUTO": "Number", "REAL_NONE": "Number", "INT": "int", "BOOL": "bool", "TEXT": "str"}
     words = choices()
     lines = [
         '"""Every key of an actuator as a keyword; made from keys.def by setup.py."""',
@@ -104,7 +104,7 @@ def keywords():
         "class Keywords(TypedDict, total=False):",
         '    """Keys, the dot written as two underscores."""',
     ]
-    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
+    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
         if kind == "OF_SCENARIO":  # a choice key without a group
             kind, given = "ENUM", ["", *given]
         type_ = "Literal[%s]" % ", ".join(words[given[2]]) if kind == "ENUM" else types[kind]

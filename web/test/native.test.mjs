@@ -144,7 +144,7 @@ test('the page begins with the command’s default of every key (its internal da
     const wanted = type === 'enum' ? choices.findIndex(({word}) => word === def) : number[type](def);
     assert.ok(Object.is(core.value(key), wanted), `${key}: ${core.value(key)}, the command has ${def}`);
   }
-  for (const {key, type} of list.filter(({type}) => type === 'real_auto')) assert.equal(core.print(key, core.value(key)), 'auto', type);
+  for (const {key, default: def} of list.filter(({type}) => type === 'real_auto')) assert.equal(core.print(key, core.value(key)), def, key);
   const values = new Map([['solver.end_time', '1 ms']]);
   native('actuate', values);
   const written = readFileSync(join(folder, 'scenario.yaml'), 'utf8');
