@@ -74,6 +74,14 @@ static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
 }
 #define DEF(...) def_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
 
+/* What a study of a Def that is in order finds. */
+static inline ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  return result;
+}
+
 static inline ZpModel *model_of(const ZpActuatorDef *def) {
   ZpModel *model = NULL;
   ZpError err = {ZP_OK, ""};

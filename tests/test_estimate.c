@@ -2,13 +2,6 @@
  * much finer meshes and shorter steps give. */
 #include "check_util.h"
 
-static ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  return result;
-}
-
 static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
   ZpResult *result = study_of(study, def);
   double value = zp_result_get(result, name);

@@ -12,16 +12,14 @@ static ZpActuatorDef held_def(double separation, double voltage, bool cap, int n
              {"mesh.nodes", nodes});
 }
 
-static ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+static ZpResult *converged_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = study_of(study, def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   return result;
 }
 
 static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result = study_of(study, def);
+  ZpResult *result = converged_of(study, def);
   double value = zp_result_get(result, name);
   zp_result_destroy(result);
   return value;
@@ -116,7 +114,7 @@ START_TEST(test_holds_what_hangs_powered) {
   ZpActuatorDef held = held_def(zp_statics_opening(&r.statics), U, true, 61);
   zp_rest_close(&r);
   zp_model_destroy(model);
-  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &held);
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &held);
   double sum = zp_result_get(result, "force_N") + zp_result_get(result, "force_unpowered_N");
   printf("8 g at 4 kV: %+.1e off the weight\n", sum / weight - 1);
   ck_assert_double_gt(zp_result_get(result, "force_N"), 1e-3);
@@ -142,7 +140,7 @@ START_TEST(test_load_does_not_matter) {
   ZpActuatorDef a = held_def(MM(2), KV(1), true, 61), b = a;
   b.load.mass = 3;
   b.load.share = 0.25;
-  ZpResult *ra = study_of(ZP_STUDY_ISOMETRIC, &a), *rb = study_of(ZP_STUDY_ISOMETRIC, &b);
+  ZpResult *ra = converged_of(ZP_STUDY_ISOMETRIC, &a), *rb = converged_of(ZP_STUDY_ISOMETRIC, &b);
   for (size_t i = 0; i < LENGTH_OF(names); i++)
     ck_assert_double_eq(zp_result_get(ra, names[i]), zp_result_get(rb, names[i]));
   zp_result_destroy(ra);
@@ -169,7 +167,7 @@ static double peel(double d, int nodes, double *open) {
   def.drive.voltage = d * sqrt(W / k);
   def.gravity = 0;
   def.platform.electrode = false;
-  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   double a = pow(9 * EI * s * s / G, 0.25), force = 12 * EI * s / (a * a * a);
   *open = (MM(45) - zp_result_get(result, "zipped_length_m")) / a - 1;
   double off = zp_result_get(result, "force_N") + zp_result_get(result, "force_unpowered_N");
@@ -229,7 +227,7 @@ START_TEST(test_jumps) {
   double force[2];
   for (int k = 0; k < FULL_OR(2, 1); k++) {
     ZpActuatorDef def = held_def(MM(20), KV(10), false, k ? 121 : 61);
-    ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+    ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
     const ZpTable *t = result->series;
     double highest = -1, jumps = zp_result_get(result, "jumps");
     int over = 0;
@@ -260,7 +258,7 @@ START_TEST(test_falls) {
   for (int k = 0; k < FULL_OR(2, 1); k++) {
     ZpActuatorDef def = held_def(MM(2), KV(10), true, k ? 121 : 91);
     def.ribbon.thickness = 10e-6;
-    ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+    ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
     force[k] = zp_result_get(result, "force_N");
     printf("10 um, N = %d: %g jumps, %.5f N\n", def.mesh.nodes, zp_result_get(result, "jumps"), force[k]);
     ck_assert_double_eq(zp_result_get(result, "jumps"), 1);
@@ -276,7 +274,7 @@ END_TEST
 START_TEST(test_unpowered_is_stable) {
   ZpActuatorDef def = held_def(MM(2), 0, true, 241);
   def.ribbon.thickness = 5e-6;
-  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_double_eq(zp_table_get(result->series, 0, "stable"), 1);
   ck_below(fabs(zp_result_get(result, "force_unpowered_N")), 1e-3);
   zp_result_destroy(result);
@@ -290,7 +288,7 @@ START_TEST(test_everywhere) {
   for (size_t i = 0; i < LENGTH_OF(separations); i++)
     for (int k = 0; k < FULL_OR(4, 2); k++) {
       ZpActuatorDef def = held_def(separations[i], KV(10), k % 2, k / 2 ? 61 : 21);
-      ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+      ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
       ck_near(zp_result_get(result, "opening_m"), separations[i], 1e-9);
       ck_assert_double_gt(zp_result_get(result, "force_N"), 0);
       zp_result_destroy(result);
@@ -325,7 +323,7 @@ START_TEST(test_thin_insulators_stay_apart) {
   ZpActuatorDef def = held_def(separations[_i % 3], voltages[_i / 3 % 3], false, nodes[_i / 9]);
   def.insulator.thickness = 2e-6;
   def.medium.permittivity = 1;
-  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   double C = eps0 * w * def.ribbon.length / closed_gap, U = def.drive.voltage;
   double force = zp_result_get(result, "force_N"), capacitance = zp_result_get(result, "capacitance_F");
   printf("N = %d, %g mm, %g V: %.4g N, %.4g nF of %.4g\n", def.mesh.nodes, 1e3 * def.isometric.separation, U, force,
@@ -352,7 +350,7 @@ START_TEST(insulators_beyond_their_breakdown_are_pressed_not_passed) {
   def.ribbon.young_modulus = 4.5e9;
   def.ribbon.poisson_ratio = 0.38;
   def.insulator.thickness = 38.9e-6;
-  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   printf("%s\n", result->message);
   ck_assert_int_eq(result->outcome, ZP_CONVERGED);
   ck_assert_double_gt(zp_result_get(result, "force_N"), 0);

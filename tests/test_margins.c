@@ -110,13 +110,6 @@ END_TEST
 
 /* -- stress at rest --------------------------------------------------------------------------------------- */
 
-static ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  return result;
-}
-
 /* The moment at the clamp is load times lever, whatever bends: the stress is 6 M / (w b^2) in plane strain and in plane
  * stress, of the rod and of the paper's springs. */
 static const struct {

@@ -2,13 +2,6 @@
  * what the coarse meshes that are noted are really off by, and the finer ones that they advise. */
 #include "check_util.h"
 
-static ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  return result;
-}
-
 /* The first note that has these words; NULL if there is none. */
 static const char *note_of(const ZpResult *result, const char *words) {
   for (size_t i = 0; i < result->notes; i++)

@@ -10,13 +10,6 @@
 
 /* -- running a study ------------------------------------------------------------------------------- */
 
-static ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  return result;
-}
-
 static ZpResult *rest_of(ZpStudy study, const ZpActuatorDef *def) {
   ZpResult *result = study_of(study, def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);

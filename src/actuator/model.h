@@ -149,6 +149,11 @@ static inline double zp_load_share(const ZpModel *model) {
   return (double)zp_load_ends(&model->topology) * model->def.load.share;
 }
 
+/* Weight of the load that the whole actuator carries, N. */
+static inline double zp_load_weight(const ZpModel *model) {
+  return model->parts * zp_load_share(model) * model->def.load.mass * model->def.gravity;
+}
+
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */
 static inline double zp_state_load(const ZpModel *model, const ZpState *state, double t) {
   return zp_load_share(model) * zp_ramp_value(&state->load_input, t);
@@ -199,6 +204,11 @@ static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
   return state->data + 6 * model->stride;
 }
 
+/* Of all stations. */
+static inline size_t zp_own_unknowns(const ZpModel *model) {
+  return model->own * model->nodes;
+}
+
 /* Unknowns of the laws, [own N] station by station. */
 static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride;
@@ -206,7 +216,7 @@ static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
 
 /* State of the laws, [kept N] station by station. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
-  return state->data + 12 * model->stride + model->own * model->nodes;
+  return state->data + 12 * model->stride + zp_own_unknowns(model);
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

@@ -5,7 +5,6 @@
 
 #include "math/elementary.h"
 
-static const double pi = 3.14159265358979323846;
 static const double same = 1e-6; /* V: y and V are one */
 
 /* Without a limit where the key is none. */
@@ -15,7 +14,7 @@ static double or_none(double value) {
 
 ZpSupply zp_supply_of(const ZpActuatorDef *def) {
   double most = or_none(def->source.current_limit);
-  ZpSupply supply = {.rate = 2 * pi * or_none(def->source.bandwidth),
+  ZpSupply supply = {.rate = 2 * zp_pi * or_none(def->source.bandwidth),
                      .slew = or_none(def->source.slew_rate),
                      .most = most,
                      .sinks = isnan(def->source.sink_limit) ? most : def->source.sink_limit,

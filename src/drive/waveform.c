@@ -92,20 +92,9 @@ static double on_piece(const ZpWaveform *w, int64_t i, double t) {
 
 /* -- sine ----------------------------------------------------------------------------------------- */
 
-/* sin(pi p)^2, p >= 0, by its series: of + and x only, so that it has the same bits everywhere. */
-static double sine_squared(double p) {
-  enum { TERMS = 12 }; /* the first left out is below 1e-20 */
-  static const double pi = 3.14159265358979323846;
-  p -= floor(p);
-  double x = pi * (p > 0.5 ? 1 - p : p), sum = 1;
-  for (int k = TERMS; k > 0; k--)
-    sum = 1 - x * x / (2 * k * (2 * k + 1)) * sum;
-  return x * sum * (x * sum);
-}
-
 /* From U_0 up to the voltage and back, first at U_0: eq. (17.1). */
 static double sine(const ZpWaveform *w, double t) {
-  return w->offset + (w->voltage - w->offset) * sine_squared(w->frequency * t);
+  return w->offset + (w->voltage - w->offset) * zp_sine_squared(w->frequency * t);
 }
 
 static double next_extreme(const ZpWaveform *w, double t) {
@@ -160,11 +149,9 @@ double zp_waveform_largest(const ZpWaveform *w) {
   return fmax(fabs(low), fabs(high));
 }
 
-static const double pi = 3.14159265358979323846;
-
 /* V/s just after t; of a sine the largest. */
 static double slope(const ZpWaveform *w, double t) {
-  if (w->kind == ZP_WAVEFORM_SINE) return pi * w->frequency * (w->voltage - w->offset);
+  if (w->kind == ZP_WAVEFORM_SINE) return zp_pi * w->frequency * (w->voltage - w->offset);
   int64_t last = knots(w) == 0 ? -1 : last_knot(w, t, true);
   if (last < 0 || last + 1 >= knots(w)) return 0;
   Knot from = knot(w, last), to = knot(w, last + 1);
@@ -177,18 +164,9 @@ double zp_ramp_resolution(double largest, double rate) {
   return rate != 0 ? fmin(coarse * all, fmax(fine * all, fast)) : INFINITY;
 }
 
-/* sin(2 pi p) and cos(2 pi p), p > -1. */
-static double cosine(double p) {
-  return 1 - 2 * sine_squared(p + 1);
-}
-
-static double sine_of(double p) {
-  return cosine(p - 0.25);
-}
-
 double zp_waveform_rate(const ZpWaveform *w, double t) {
   double largest_rate = slope(w, t);
-  return w->kind == ZP_WAVEFORM_SINE ? largest_rate * sine_of(w->frequency * t) : largest_rate;
+  return w->kind == ZP_WAVEFORM_SINE ? largest_rate * zp_sine_of(w->frequency * t) : largest_rate;
 }
 
 double zp_lag_line(double rate, double voltage, double slope, double h, double lagged) {
@@ -197,8 +175,8 @@ double zp_lag_line(double rate, double voltage, double slope, double h, double l
 
 /* Where a lag settles on a sine, less U_0. */
 static double settled_sine(const ZpWaveform *w, double rate, double t) {
-  double ratio = 2 * pi * w->frequency / rate, p = w->frequency * t;
-  return 0.5 * (w->voltage - w->offset) * (1 - (cosine(p) + ratio * sine_of(p)) / (1 + ratio * ratio));
+  double ratio = 2 * zp_pi * w->frequency / rate, p = w->frequency * t;
+  return 0.5 * (w->voltage - w->offset) * (1 - (zp_cosine_of(p) + ratio * zp_sine_of(p)) / (1 + ratio * ratio));
 }
 
 double zp_waveform_lag(const ZpWaveform *w, double rate, double from, double to, double lagged) {

@@ -75,16 +75,18 @@ double zp_film_length(const ZpFilmParams *p, size_t i) {
   return 0.5 * beside(p, i) + flat(p, i);
 }
 
-double zp_film_cell(const ZpFilmParams *p, size_t i, size_t j) {
+/* What the thickness at station j, i - 1 .. i + 1, counts in the cell of station i, m: half of each element beside it.
+ */
+static double cell_share(const ZpFilmParams *p, size_t i, size_t j) {
   if (i != j) return element(p, i < j ? i : j) / 8;
   return 3 * beside(p, i) / 8 + flat(p, i);
 }
 
 /* The integral of what is linear between stations over the cell of station i: half of each element beside it. */
 static double over_cell(const ZpFilmParams *p, const double *x, size_t i) {
-  double sum = zp_film_cell(p, i, i) * x[i];
-  if (i > 0) sum += zp_film_cell(p, i, i - 1) * x[i - 1];
-  if (i + 1 < p->nodes) sum += zp_film_cell(p, i, i + 1) * x[i + 1];
+  double sum = cell_share(p, i, i) * x[i];
+  if (i > 0) sum += cell_share(p, i, i - 1) * x[i - 1];
+  if (i + 1 < p->nodes) sum += cell_share(p, i, i + 1) * x[i + 1];
   return sum;
 }
 
@@ -326,7 +328,7 @@ double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t
 }
 
 double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
-  return is_free(p, i, k) ? p->share[k] * p->w * zp_film_cell(p, i, j) * e->secant[j] : 0;
+  return is_free(p, i, k) ? p->share[k] * p->w * cell_share(p, i, j) * e->secant[j] : 0;
 }
 
 double zp_film_inertia(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i) {

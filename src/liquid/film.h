@@ -80,10 +80,6 @@ double zp_film_energy(const ZpFilmParams *params, const double *gap, const doubl
 /* Length of the film at station i, m. */
 double zp_film_length(const ZpFilmParams *params, size_t i);
 
-/* What the thickness at station j, i - 1 .. i + 1, counts in the cell of station i, m: half of each element beside it.
- */
-double zp_film_cell(const ZpFilmParams *params, size_t i, size_t j);
-
 /* Derivative of r of mode k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
  * the head's force; m^2. */
 double zp_film_by_gap(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, size_t j, int k);

@@ -1,6 +1,6 @@
 #include "liquid/outer.h"
 
-static const double pi = 3.14159265358979324;
+#include "math/elementary.h"
 
 /* F / (1 + F) of eq. (22.12), a fit to potential flow around two plates; q = g / w. */
 static double open_part(double q) {
@@ -8,7 +8,7 @@ static double open_part(double q) {
 }
 
 double zp_outer_side(const ZpOuterParams *p) {
-  return pi / 8 * p->rho * p->w * p->w;
+  return zp_pi / 8 * p->rho * p->w * p->w;
 }
 
 double zp_outer_pair(const ZpOuterParams *p, double gap) {

@@ -1,10 +1,10 @@
 /* x = A^-1 f - V z with V = A^-1 B and S z = g - C A^-1 f, S = D - C V. */
 #include "math/bordered.h"
 
-#include "math/vector.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "math/vector.h"
 
 void zp_bordered_carve(ZpBordered *m, size_t n, size_t border, size_t lower, size_t upper, ZpCarver *carver) {
   size_t inner = n - border;

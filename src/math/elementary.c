@@ -42,3 +42,21 @@ double zp_decay(double x) {
   double left = x - n * ln2 - n * rest;
   return n == 0 ? small_decay(x) : ldexp(1 + small_decay(left), -n) - 1;
 }
+
+/* By its series: of + and x only. */
+double zp_sine_squared(double p) {
+  enum { TERMS = 12 }; /* the first left out is below 1e-20 */
+  p -= floor(p);
+  double x = zp_pi * (p > 0.5 ? 1 - p : p), sum = 1;
+  for (int k = TERMS; k > 0; k--)
+    sum = 1 - x * x / (2 * k * (2 * k + 1)) * sum;
+  return x * sum * (x * sum);
+}
+
+double zp_cosine_of(double p) {
+  return 1 - 2 * zp_sine_squared(p + 1);
+}
+
+double zp_sine_of(double p) {
+  return zp_cosine_of(p - 0.25);
+}

@@ -2,8 +2,15 @@
 #ifndef ZP_MATH_ELEMENTARY_H
 #define ZP_MATH_ELEMENTARY_H
 
+/* Half a turn, rad. */
+static const double zp_pi = 3.14159265358979323846;
+
 double zp_cube_root(double x); /* x > 0; infinity of infinity */
 double zp_tangent(double x);   /* |x| < pi / 2 */
 double zp_decay(double x);     /* exp(-x) - 1, x >= 0 */
+
+double zp_sine_squared(double p); /* sin(pi p)^2, p >= 0 */
+double zp_cosine_of(double p);    /* cos(2 pi p), p > -1 */
+double zp_sine_of(double p);      /* sin(2 pi p), p > -3/4 */
 
 #endif

@@ -5,7 +5,7 @@
 
 static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
-  size_t stride = model->stride, all = 2 * model->count + model->own * model->nodes + 1; /* with the voltage */
+  size_t stride = model->stride, all = 2 * model->count + zp_own_unknowns(model) + 1; /* with the voltage */
   ZpCarver carver = {block, 0};
   zp_implicit_carve(&d->stepper, &d->system, &carver);
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
@@ -18,7 +18,7 @@ static size_t carve(ZpDynamics *d, void *block) {
   d->by_voltage.charge = zp_carve(&carver, 2 * stride);
   d->scale = zp_carve(&carver, all);
   d->kind = (ZpUnknown *)(void *)zp_carve(&carver, all); /* room for doubles is more than enough */
-  d->own = zp_carve(&carver, model->own * model->nodes);
+  d->own = zp_carve(&carver, zp_own_unknowns(model));
   d->moved = zp_carve(&carver, 2 * stride);
   d->gap = zp_carve(&carver, model->nodes);
   d->foreseen = zp_carve(&carver, model->nodes);
@@ -93,19 +93,24 @@ static double begin(void *self, const double *q0, const double *v0) {
   return bending + fabs(field);
 }
 
+/* The laws' own unknowns, of all equations. */
+static void gather_own(ZpDynamics *d, const double *q) {
+  for (size_t c = 0; c < zp_own_unknowns(d->model); c++)
+    d->own[c] = q[d->assembly.own_equation[c]];
+}
+
 static ZpEnd force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
   d->h = h;
   d->U1 = d->source ? q1[d->assembly.n] : end_voltage(d);
   zp_assembly_scatter(&d->assembly, q1, d->end);
-  for (size_t c = 0; c < model->own * model->nodes; c++)
-    d->own[c] = q1[d->assembly.own_equation[c]];
+  gather_own(d, q1);
   ZpSpan span = span_of(d);
   zp_system_force(model, &span, &d->eval, d->force);
   if (model->field) memcpy(d->gap, d->eval.plates.gap, model->nodes * sizeof *d->gap);
   zp_assembly_sum(&d->assembly, d->force, f);
-  for (size_t c = 0; c < model->own * model->nodes; c++)
+  for (size_t c = 0; c < zp_own_unknowns(model); c++)
     f[d->assembly.own_equation[c]] = d->eval.own_residual[c];
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
   return ZP_END_FOUND;
@@ -252,7 +257,7 @@ static void add_own(ZpDynamics *d) {
   static const double pressure = 1e9; /* Pa: what counts as much as 1 m of a position: 1 kPa as 1 um */
   for (size_t i = 0; i < d->assembly.n; i++)
     d->scale[i] = 1;
-  for (size_t c = 0; c < d->model->own * d->model->nodes; c++) {
+  for (size_t c = 0; c < zp_own_unknowns(d->model); c++) {
     d->kind[d->assembly.own_equation[c]] = ZP_ALGEBRAIC;
     d->scale[d->assembly.own_equation[c]] = pressure;
   }
@@ -357,7 +362,7 @@ static void load(ZpDynamics *d, ZpState *state) {
   zp_assembly_gather(&d->assembly, d->mean_v, d->history.w);
   zp_assembly_gather(&d->assembly, zp_state_mean_a(model, state), d->history.a);
   const double *own = zp_state_own(model, state);
-  for (size_t c = 0; c < model->own * model->nodes; c++) {
+  for (size_t c = 0; c < zp_own_unknowns(model); c++) {
     size_t i = (size_t)d->assembly.own_equation[c];
     d->own[c] = d->q[i] = own[c];
     d->v[i] = d->history.w[i] = d->history.a[i] = 0;
@@ -382,8 +387,7 @@ static double charge_at_end(ZpDynamics *d) {
 }
 
 static void book_losses(ZpDynamics *d, ZpState *state) {
-  for (size_t c = 0; c < d->model->own * d->model->nodes; c++)
-    d->own[c] = d->q[d->assembly.own_equation[c]];
+  gather_own(d, d->q);
   ZpSpan span = span_of(d);
   ZpLosses losses = zp_system_losses(d->model, &span, &d->eval);
   state->drag_loss += losses.drag;
@@ -401,8 +405,8 @@ static void store(ZpDynamics *d, ZpState *state) {
   zp_assembly_scatter(&d->assembly, d->v, zp_state_v(model, state));
   zp_assembly_scatter(&d->assembly, d->history.w, zp_state_mean_v(model, state));
   zp_assembly_scatter(&d->assembly, d->history.a, zp_state_mean_a(model, state));
-  memcpy(zp_state_own(model, state), d->own, model->own * model->nodes * sizeof *d->own);
-  memcpy(zp_state_own(model, state) + model->own * model->nodes, d->eval.memory_end,
+  memcpy(zp_state_own(model, state), d->own, zp_own_unknowns(model) * sizeof *d->own);
+  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), d->eval.memory_end,
          model->kept * model->nodes * sizeof *d->own);
   state->t = end_time(d);
   if (d->source) {

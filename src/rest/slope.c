@@ -1,11 +1,11 @@
 /* Letters of docs/theory.md, section 20: p the key, q coordinates, F forces, K = -dF/dq, m a branch's parameter. */
 #include "rest/slope.h"
 
-#include "base/fail.h"
-#include "math/vector.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "base/fail.h"
+#include "math/vector.h"
 
 /* -- what can be asked ----------------------------------------------------------------------------- */
 

@@ -30,15 +30,15 @@ double zp_sim_command(const ZpSim *sim) {
   return zp_command_voltage(&command, sim->state->t);
 }
 
-static ZpSupplyState followed(const ZpSim *sim, double to) {
+static ZpSupplyState followed(const ZpSim *sim, const ZpState *from, double to) {
   ZpCommand command = command_of(sim);
-  return zp_supply_follow(&sim->model->supply, &command, sim->state->t, to, sim->state->supply);
+  return zp_supply_follow(&sim->model->supply, &command, from->t, to, from->supply);
 }
 
 /* Inner voltage where a step of h ends. */
 static double inner_after(const ZpSim *sim, double h) {
   double t = sim->state->t, latest = sim->dynamics.latest;
-  return followed(sim, h == latest - t ? latest : t + h).voltage;
+  return followed(sim, sim->state, h == latest - t ? latest : t + h).voltage;
 }
 
 double zp_feed_event(const ZpSim *sim, double latest) {
@@ -258,12 +258,8 @@ static double try_step(ZpSim *sim, double latest) {
   ZpState *state = sim->state;
   memcpy(sim->before, state, zp_state_size(sim->model));
   if (!(zp_dynamics_step(&sim->dynamics, state, latest) > 0)) return NAN;
-  double t = state->t;
-  state->t = sim->before->t; /* from where the inner voltage follows */
-  ZpSupplyState supply = followed(sim, t);
-  state->t = t;
-  state->supply = supply;
-  return margin(sim, supply.voltage - state->U, charge_given(sim) / (t - sim->before->t));
+  state->supply = followed(sim, sim->before, state->t);
+  return margin(sim, state->supply.voltage - state->U, charge_given(sim) / (state->t - sim->before->t));
 }
 
 /* Where in a step of h the margin is 0, as a share of it: on a straight line, where the start's is known. */
@@ -283,7 +279,7 @@ bool zp_feed_step(ZpSim *sim, double latest) {
   enum { MOST_TRIES = 100, MOST_CHANGES = 4 };
   ZpState *state = sim->state;
   if (latest - state->t < shortest) {
-    state->supply = followed(sim, latest);
+    state->supply = followed(sim, state, latest);
     state->t = latest;
     return true;
   }

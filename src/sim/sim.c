@@ -189,7 +189,7 @@ static double opening(const ZpModel *model, const ZpState *state) {
 }
 
 static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > 0.01 * state->opening0;
+  return opening(model, state) > ZP_CLOSED_PART * state->opening0;
 }
 
 /* From open to closed, or, where it started closed, held there by the platforms' faces. */
@@ -226,7 +226,7 @@ static Start start_of(const ZpModel *model, const ZpState *state) {
 /* When within the step that has just been taken the opening fell to 1 %: on the parabola of the midpoint rule, which
  * has the start's opening and rate and the end's opening. A platform that touches at more than 1 % is closed there. */
 static double zipped_at(const ZpModel *model, const ZpState *state, Start start) {
-  double now = opening(model, state), limit = 0.01 * state->opening0, left = start.opening - limit;
+  double now = opening(model, state), limit = ZP_CLOSED_PART * state->opening0, left = start.opening - limit;
   if (left <= 0 || now > limit) return state->t;
   double taken = state->t - start.t, bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);

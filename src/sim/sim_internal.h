@@ -29,6 +29,9 @@ const ZpStepping *zp_stepping_of(const ZpModel *model);
  * steps; it says what the voltage is. False if there is no memory. */
 bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 
+/* An actuator is closed below this part of its hanging opening. */
+#define ZP_CLOSED_PART 0.01
+
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;

@@ -6,10 +6,10 @@
  */
 #include "solve/fold.h"
 
-#include "math/vector.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "math/vector.h"
 
 void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
                    ZpCarver *carver) {

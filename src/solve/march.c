@@ -1,9 +1,9 @@
 #include "solve/march.h"
 
-#include "math/vector.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "math/vector.h"
 
 static const double little = 5e-3; /* of the scale of q: what is too little to matter */
 

@@ -1,8 +1,8 @@
 #include "solve/newton.h"
 
-#include "math/vector.h"
-
 #include <math.h>
+
+#include "math/vector.h"
 
 void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, bool symmetric, ZpCarver *carver) {
   zp_band_carve(&work->K, n, symmetric ? 0 : bandwidth, bandwidth, carver);

@@ -52,10 +52,9 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
 }
 
 /* Work against the weight of the load and, with a minus, of the load input, from start to end, J. */
-static double work_on_load(ZpSim *sim, const ZpActuatorDef *def, const ZpResult *result) {
+static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
-  double ends = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 * def->load.share : 1;
-  return ends * def->load.mass * def->gravity * risen - at_end(sim, result, "load_work");
+  return zp_load_weight(model) * risen - at_end(sim, result, "load_work");
 }
 
 /* What the source gave, and what came of it. */
@@ -66,7 +65,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   zp_result_add(result, "rms_current_A", "A", currents.rms);
   zp_result_add(result, "source_energy_J", "J", energy);
   if (zp_model_info(model).ribbons < 2) return;
-  double work = work_on_load(sim, zp_model_def(model), result);
+  double work = work_on_load(sim, model, result);
   zp_result_add(result, "mechanical_work_J", "J", work);
   zp_result_add(result, "efficiency", "1", energy > 0 ? work / energy : NAN);
 }

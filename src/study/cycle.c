@@ -1,4 +1,4 @@
-/* Study `cycle`: a periodic drive until the motion is periodic, and what one cycle then is. docs/theory.md, section 25.
+/* Study `cycle`: a periodic drive until the motion is periodic, and what one cycle then is. docs/theory.md, section 24.
  *
  * The motion from one start of a cycle to the next is a map of the state; a periodic motion is a fixed point of it. */
 #include <math.h>
@@ -13,8 +13,6 @@
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
-
-static const double pi = 3.14159265358979323846;
 
 enum { PHASES = 100, HISTORY = 5 }; /* rows of a cycle; starts of cycles that are remembered */
 
@@ -90,7 +88,7 @@ static double distance(const Cycles *c, int back) {
   return fmax(most / c->far, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
 }
 
-/* What is still to go, eq. (25.1): the sum of all further moves, if each is as many times smaller as the last one. */
+/* What is still to go, eq. (24.1): the sum of all further moves, if each is as many times smaller as the last one. */
 static double still_to_go(const Cycles *c) {
   static const double slowest = 1 - 1e-4;
   double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0;
@@ -210,13 +208,11 @@ typedef struct Harmonic {
 
 static Harmonic harmonic(const Cycles *c, const char *column, bool squared, int n) {
   Harmonic sum = {0, 0};
-  ZpWaveform wave = {.kind = ZP_WAVEFORM_SINE, .voltage = 1, .frequency = n / c->period};
   for (int k = 0; k < PHASES; k++) {
-    double value = at(c, k, column), t = c->period * k / PHASES, late = t + 0.75 * c->period / n;
-    double cosine = 1 - 2 * zp_waveform_voltage(&wave, t), sine = 1 - 2 * zp_waveform_voltage(&wave, late);
+    double value = at(c, k, column), turns = (double)(n * k) / PHASES;
     value = squared ? value * value : -value;
-    sum.cosine += 2.0 / PHASES * value * cosine;
-    sum.sine += 2.0 / PHASES * value * sine;
+    sum.cosine += 2.0 / PHASES * value * zp_cosine_of(turns);
+    sum.sine += 2.0 / PHASES * value * zp_sine_of(turns);
   }
   return sum;
 }
@@ -228,10 +224,10 @@ static double size_of(Harmonic h) {
 /* The angle of a direction, rad, -pi to pi: by halving the interval in which the tangent of its half is. */
 static double angle_of(double cosine, double sine) {
   enum { HALVINGS = 60 };
-  double low = 0, high = 0.5 * pi, opposite = fabs(sine), along = 1 + cosine;
+  double low = 0, high = 0.5 * zp_pi, opposite = fabs(sine), along = 1 + cosine;
   for (int k = 0; k < HALVINGS; k++) {
     double middle = 0.5 * (low + high);
-    if (middle == 0.5 * pi || zp_tangent(middle) * along > opposite)
+    if (middle == 0.5 * zp_pi || zp_tangent(middle) * along > opposite)
       high = middle;
     else
       low = middle;
@@ -250,7 +246,7 @@ static double phase_of(const Cycles *c) {
   double cosine = (drive.cosine * moves.cosine + drive.sine * moves.sine) / product,
          sine = (drive.cosine * moves.sine - drive.sine * moves.cosine) / product;
   double phase = angle_of(cosine, sine);
-  return phase < -0.5 * pi ? phase + 2 * pi : phase; /* a lag above its resonance is near pi */
+  return phase < -0.5 * zp_pi ? phase + 2 * zp_pi : phase; /* a lag above its resonance is near pi */
 }
 
 /* Energy that the source gives in a cycle, and takes back, J. */
@@ -265,11 +261,10 @@ static void energies_of(const Cycles *c, double *given, double *taken) {
 
 /* Work against the weight of the load on the way up, J: on the way down it comes back. */
 static double work_of(const Cycles *c) {
-  const ZpActuatorDef *def = &c->model->def;
   double risen = 0;
   for (int k = 0; k < PHASES; k++)
     risen += fmax(at(c, k, "opening_m") - at(c, k + 1, "opening_m"), 0);
-  return 2 * def->load.share * def->load.mass * def->gravity * risen;
+  return zp_load_weight(c->model) * risen;
 }
 
 static void summarize_motion(const Cycles *c, ZpResult *result) {
@@ -282,7 +277,7 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   zp_result_add(result, "opening_max_m", "m", opening.most);
   zp_result_add(result, "stroke_amplitude_m", "m", 0.5 * (stroke.most - stroke.least));
   zp_result_add(result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", opening.least < 0.01 * c->sim->state->opening0);
+  zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
 }
 
 /* NAN where the load swings: it then rises by more than the source gives, and gives that back as it sinks. */

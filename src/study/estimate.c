@@ -2,10 +2,10 @@
  * ones, each with half as many elements as the one before. */
 #include "study/estimate.h"
 
-#include "base/fail.h"
-
 #include <math.h>
 #include <string.h>
+
+#include "base/fail.h"
 
 enum { MESHES = 3, FEWEST_NODES = 4 };
 

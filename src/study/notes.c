@@ -19,7 +19,7 @@ static void note_breakdown(ZpResult *result, const ZpModel *model, const ZpMargi
                    seen->liquid / 1e6, def->medium.breakdown_field / 1e6);
 }
 
-void zp_add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
+static void add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   const ZpActuatorDef *def = &model->def;
   double withstands = def->insulator.breakdown_field, both = 2 * def->insulator.thickness;
   zp_result_add(result, "insulator_field_V_per_m", "V/m", seen->insulator);
@@ -42,7 +42,7 @@ void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen
 }
 
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
-  zp_add_fields(result, model, seen);
+  add_fields(result, model, seen);
   zp_add_stress(result, model, seen);
 }
 

@@ -15,13 +15,10 @@
   }
 #define ZP_MARGIN_VALUES(margins) (margins).insulator, (margins).stress
 
-/* Add to the summary what the insulators see, with a note where they or, without cap, the liquid break down. */
-void zp_add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
-
 /* Add the stress of the metal, with a note where it yields. */
 void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
-/* Both. */
+/* The same, and what the insulators see, with a note where they or, without cap, the liquid break down. */
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
 /* The mesh for `voltage`, the highest (V), 0 for none => result->resolution, with a note where it is too coarse. */

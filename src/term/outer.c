@@ -1,5 +1,5 @@
 /* The liquid outside the gap of submerged ribbons. What each outer face moves is in the masses of the nodes (along y
- * only); here is what the pair moves beyond that, and the form drag. Eqs. (22.12) to (22.15). */
+ * only); here is what the pair moves beyond that, and the form drag. Eqs. (22.12) to (22.14). */
 #include <math.h>
 
 #include "term/term.h"
