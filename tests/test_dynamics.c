@@ -569,14 +569,13 @@ static void check_zip(const char *name, const Zip *zip) {
   printf("%s: %.3f ms, energy off by %.1e, faces overlap by %.2g um, %.3f of the work lost where they meet\n", name,
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
   ck_below(zip->energy_error, 1e-5); /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
-  ck_below(zip->overlap, 0.025 * 260e-6);       /* of both insulators, where the platform lands */
+  ck_below(zip->overlap, 0.03 * 260e-6);        /* of both insulators, where the platform lands */
   ck_assert_double_gt(zip->contact_loss, 0.05); /* 0.09 undamped: what bounces on loses it later */
   ck_assert_double_gt(zip->contraction, 0.99);
 }
 
-/* The default actuator: times agree between tolerances and between meshes. Measured: 75.65 ms, with a tolerance of 1e-6
- * 75.88 ms (0.3 %), at N = 121 75.68 ms (0.03 %); energy within 1.0e-8, 1.3e-10, 2.7e-8; overlap 0.04, 0.37, 0.08 um.
- */
+/* The default actuator: times agree between tolerances and between meshes. Measured: 75.74 ms, with a tolerance of 1e-6
+ * 75.89 ms (0.2 %; 0.5 % when faces pushed as they lay at the step's end). */
 START_TEST(test_zip_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -588,7 +587,7 @@ START_TEST(test_zip_time) {
   def.mesh.nodes = 121;
   Zip more = zip(def);
   check_zip("N = 121", &more);
-  ck_near(usual.time, fine.time, 5e-3);
+  ck_near(usual.time, fine.time, 2.5e-3);
   ck_near(usual.time, more.time, 1e-2);
 }
 END_TEST
@@ -741,7 +740,7 @@ START_TEST(test_zip_by_field) {
   ck_near(field.time, plates, 5e-3);
   ck_assert_double_ne(field.time, plates);
   ck_below(field.energy_error, 1e-3);
-  ck_below(field.overlap, 0.02 * 260e-6);
+  ck_below(field.overlap, 0.03 * 260e-6);
 }
 END_TEST
 

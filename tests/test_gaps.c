@@ -99,10 +99,74 @@ START_TEST(damper_takes_what_the_loss_factor_says) {
   ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
   double push[3], own[3], next[3], stiffness[3], k = 3 * 60 * 1e-3 / 1e-7, m = 1e-5, dt = 1e-12;
   ZpFacesEval eval = {push, own, next, stiffness};
-  zp_faces_eval(&faces, (double[]){-1e-7, -1e-7, -1e-7}, &eval);
+  const double closed[] = {-1e-7, -1e-7, -1e-7}, open[] = {0, 1e-9, 0};
+  zp_faces_eval(&faces, &(ZpFacesSpan){closed, closed, 0}, &eval);
   ck_near((1 - zp_faces_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-4);
-  zp_faces_eval(&faces, (double[]){0, 1e-9, 0}, &eval);
+  zp_faces_eval(&faces, &(ZpFacesSpan){open, open, 0}, &eval);
   ck_assert_double_eq(zp_faces_kept(&eval, 1, m, 1), 1);
+}
+END_TEST
+
+/* Energy of the layers of two elements, p_c delta / 4 (-g / delta)^4 per length, J. */
+static double layers_energy(const ZpFacesParams *faces, const double *gap) {
+  enum { CELLS = 4000 };
+  double sum = 0;
+  for (size_t i = 0; i + 1 < faces->nodes; i++)
+    for (int c = 0; c < CELLS; c++) {
+      double r = (c + 0.5) / CELLS, s = fmax(-((1 - r) * gap[i] + r * gap[i + 1]) / faces->depth, 0);
+      sum += faces->l / CELLS * faces->push * faces->depth / 4 * s * s * s * s;
+    }
+  return sum;
+}
+
+static double work_of_push(const ZpFacesParams *faces, const double *from, const double *to, const ZpFacesEval *eval) {
+  double work = 0;
+  zp_faces_eval(faces, &(ZpFacesSpan){from, to, 0}, eval);
+  for (size_t i = 0; i < faces->nodes; i++)
+    work += eval->push[i] * (to[i] - from[i]);
+  return work;
+}
+
+/* Over a step faces push with the mean that does the work by which the energy of their layers changes: where they stay
+ * closed, meet, part, or both within an element. */
+START_TEST(push_over_a_step_does_the_work_of_the_layers) {
+  static const double way[][2][3] = {{{-1e-7, -2e-7, -1e-7}, {-2e-7, -1e-7, -1e-7}},
+                                     {{5e-8, 5e-8, 5e-8}, {-1e-7, -1e-7, -1e-7}},
+                                     {{-1e-7, -1e-7, -1e-7}, {2e-7, 2e-7, 2e-7}},
+                                     {{1e-7, 1e-7, 1e-7}, {2e-7, 2e-7, 2e-7}}};
+  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
+  double push[3], own[3], next[3], stiffness[3];
+  ZpFacesEval eval = {push, own, next, stiffness};
+  for (size_t k = 0; k < LENGTH_OF(way); k++) {
+    double work = work_of_push(&faces, way[k][0], way[k][1], &eval);
+    double lost = layers_energy(&faces, way[k][0]) - layers_energy(&faces, way[k][1]);
+    printf("work %.6g J, energy %.6g J\n", work, lost);
+    ck_assert_double_le(fabs(work - lost), 1e-6 * 60 * 1e-7 * 1e-3);
+  }
+}
+END_TEST
+
+/* Its derivative by the gaps at the end, by differences; at rest, where both ends move, it is half of the stiffness. */
+START_TEST(push_over_a_step_has_this_derivative) {
+  static const double from[][3] = {{-1e-7, -2e-7, -1e-7}, {5e-8, 5e-8, 5e-8}, {-3e-7, 1e-7, 2e-7}};
+  const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
+  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
+  double push[3], own[3], next[3], stiffness[3], more[3], other[3][3];
+  ZpFacesEval eval = {push, own, next, stiffness}, at_more = {more, other[0], other[1], other[2]};
+  for (size_t k = 0; k < LENGTH_OF(from); k++)
+    for (size_t i = 0; i < 3; i++) {
+      double moved[3] = {to[0], to[1], to[2]};
+      moved[i] += d;
+      double late = k == 2 ? 0.3 : 0;
+      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], to, late}, &eval);
+      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], moved, late}, &at_more);
+      ck_near((push[i] - more[i]) / d, own[i], 1e-4);
+      if (i + 1 < 3) ck_near((push[i + 1] - more[i + 1]) / d, next[i], 1e-4);
+    }
+  zp_faces_eval(&faces, &(ZpFacesSpan){to, to, 0}, &eval);
+  double both[] = {to[0], to[1] + d, to[2]};
+  zp_faces_eval(&faces, &(ZpFacesSpan){both, both, 0}, &at_more);
+  ck_near((push[1] - more[1]) / d, 2 * own[1], 1e-4);
 }
 END_TEST
 
@@ -199,6 +263,8 @@ int main(void) {
   tcase_add_test(c, front_ends_at_the_first_open_station);
   tcase_add_test(c, closed_faces_lie_on_each_other);
   tcase_add_test(c, damper_takes_what_the_loss_factor_says);
+  tcase_add_test(c, push_over_a_step_does_the_work_of_the_layers);
+  tcase_add_test(c, push_over_a_step_has_this_derivative);
   tcase_add_test(c, pull_in_does_not_depend_on_the_largest_voltage);
   tcase_add_test(c, floppy_ribbon_hangs_straight_down);
   tcase_add_test(c, other_states_are_counted);

@@ -408,6 +408,13 @@ static double largest_attraction(const ZpModel *model) {
   return p->k * (capped ? field * field : voltage * voltage / (d * d));
 }
 
+/* A small part of the time in which a ribbon bends, eq. (18.11), s. */
+static double settling_time(const ZpModel *model) {
+  static const double part = 1.0 / 16;
+  ZpSection section = zp_ribbon_section(model, 0);
+  return part * model->L * model->L * sqrt(section.mu / section.EI);
+}
+
 /* Eq. (9.2). */
 static ZpFacesParams faces_of(const ZpModel *model) {
   static const double least = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
@@ -421,6 +428,7 @@ static ZpFacesParams faces_of(const ZpModel *model) {
                          .l = model->l,
                          .depth = depth,
                          .push = push,
+                         .settling = settling_time(model),
                          .platform = model->topology.platform.first,
                          .platform_end = model->topology.platform.last,
                          .level = level_faces(model),

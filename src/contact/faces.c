@@ -14,20 +14,34 @@ void zp_faces_carve(const ZpFacesParams *p, ZpFacesEval *e, ZpCarver *carver) {
   e->stiffness = zp_carve(carver, p->nodes);
 }
 
-/* How deep faces are in each other, in units of delta. */
-static inline double depth(const ZpFacesParams *p, double gap) {
-  return gap < 0 ? -gap / p->depth : 0;
+/* Push over p_c as faces go from x0 to x1, -g / delta, of which what is positive is the depth s: eq. (18.11), and its
+ * derivative by x1. */
+typedef struct Mean {
+  double push, slope;
+} Mean;
+
+static inline Mean mean_of(double x0, double x1, double late) {
+  double s0 = x0 > 0 ? x0 : 0, s1 = x1 > 0 ? x1 : 0, q1 = s1 * s1;
+  double push = 0.25 * (s0 + s1) * (s0 * s0 + q1), slope = 0.25 * (s0 * s0 + 2 * s0 * s1 + 3 * q1);
+  if (x0 * x1 < 0) {
+    double way = x1 - x0, share = (s1 - s0) / way;
+    slope = x1 > 0 ? 0.25 * q1 * share * (4 - share) : -push * share / way;
+    push *= share;
+  }
+  return (Mean){push + late * (q1 * s1 - push), slope + late * (3 * q1 - slope)};
 }
 
-static void add_element(const ZpFacesParams *p, const double *gap, size_t i, const ZpFacesEval *e) {
-  const double *share = zp_gauss_shares(&p->level, i);
+static void add_element(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
+  const double *share = zp_gauss_shares(&p->level, i), *start = span->start, *end = span->end;
   for (int q = 0; q < GAUSS; q++) {
-    double r = share[q], l = 1 - r, s = depth(p, l * gap[i] + r * gap[i + 1]);
-    double f = gauss_weight[q] * p->l * p->push * s * s, c = 3 * f / p->depth;
-    e->push[i] += l * f * s;
-    e->push[i + 1] += r * f * s;
-    e->stiffness[i] += l * c;
-    e->stiffness[i + 1] += r * c;
+    double r = share[q], l = 1 - r, weight = gauss_weight[q] * p->l * p->push;
+    double x0 = -(l * start[i] + r * start[i + 1]) / p->depth, x1 = -(l * end[i] + r * end[i + 1]) / p->depth;
+    Mean m = mean_of(x0, x1, span->late);
+    double f = weight * m.push, c = weight * m.slope / p->depth;
+    e->push[i] += l * f;
+    e->push[i + 1] += r * f;
+    e->stiffness[i] += 2 * l * c;
+    e->stiffness[i + 1] += 2 * r * c;
     e->own[i] += l * l * c;
     e->own[i + 1] += r * r * c;
     e->next[i] += l * r * c;
@@ -39,22 +53,31 @@ static bool is_rigid(const ZpFacesParams *p, size_t i) {
   return i >= p->platform && i < p->platform_end;
 }
 
-static void add_platform(const ZpFacesParams *p, const double *gap, size_t i, const ZpFacesEval *e) {
-  double s = depth(p, gap[i]), f = p->flat_length * p->push * s * s;
-  e->push[i] += f * s;
-  e->own[i] += 3 * f / p->depth;
-  e->stiffness[i] += 3 * f / p->depth;
+static void add_platform(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
+  Mean m = mean_of(-span->start[i] / p->depth, -span->end[i] / p->depth, span->late);
+  double weight = p->flat_length * p->push, c = weight * m.slope / p->depth;
+  e->push[i] += weight * m.push;
+  e->own[i] += c;
+  e->stiffness[i] += 2 * c;
 }
 
-void zp_faces_eval(const ZpFacesParams *p, const double *gap, const ZpFacesEval *e) {
+ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
+  return (ZpFacesSpan){start, end, h > 0 ? h / (h + p->settling) : 0};
+}
+
+static bool touches(const double *gap, size_t i) {
+  return gap[i] < 0 || gap[i + 1] < 0;
+}
+
+void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
   memset(e->push, 0, p->nodes * sizeof *e->push);
   memset(e->own, 0, p->nodes * sizeof *e->own);
   memset(e->next, 0, p->nodes * sizeof *e->next);
   memset(e->stiffness, 0, p->nodes * sizeof *e->stiffness);
   for (size_t i = 0; i + 1 < p->nodes; i++)
-    if ((gap[i] < 0 || gap[i + 1] < 0) && !is_rigid(p, i)) add_element(p, gap, i, e);
+    if ((touches(span->start, i) || touches(span->end, i)) && !is_rigid(p, i)) add_element(p, span, i, e);
   for (size_t i = p->platform; i <= p->platform_end; i++)
-    add_platform(p, gap, i, e);
+    add_platform(p, span, i, e);
 }
 
 double zp_faces_kept(const ZpFacesEval *e, size_t i, double reduced_mass, double dt) {

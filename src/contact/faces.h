@@ -18,6 +18,7 @@ typedef struct ZpFacesParams {
   double l;                      /* element length, m */
   double depth;                  /* delta: overlap at which the push is p_c, m */
   double push;                   /* p_c, N/m */
+  double settling;               /* tau_c: what vibrates in contact settles in about that time, s; eq. (18.11) */
   size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
   ZpLevelEnds level;             /* elements with a level end */
   double flat_length;            /* of its faces, at the gap of each of these, m */
@@ -38,8 +39,18 @@ typedef struct ZpFacesEval {
 
 void zp_faces_carve(const ZpFacesParams *params, ZpFacesEval *eval, ZpCarver *carver);
 
-/* (gaps [N]) => all of eval. */
-void zp_faces_eval(const ZpFacesParams *params, const double *gap, const ZpFacesEval *eval);
+/* From where to where faces go. */
+typedef struct ZpFacesSpan {
+  const double *start, *end; /* [N] gaps, m; one array: rest */
+  double late;               /* share of the push at the end in the mean, 0 to 1; eq. (18.11) */
+} ZpFacesSpan;
+
+/* The same over a time h, s; 0: rest. */
+ZpFacesSpan zp_faces_span(const ZpFacesParams *params, const double *start, const double *end, double h);
+
+/* => all of eval: the mean push of the span, its derivatives by the gaps at the end. At rest both ends move: the
+ * derivatives are then half of the stiffness. */
+void zp_faces_eval(const ZpFacesParams *params, const ZpFacesSpan *span, const ZpFacesEval *eval);
 
 /* (eval, mass of the relative motion of station i, kg) => the share of its velocity that the damper leaves after a time
  * dt. */

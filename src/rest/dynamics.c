@@ -206,7 +206,8 @@ static double unforeseen(void *self, const double *q1) {
     foreseen[i] -= faces->next[i] * (gap[i + 1] - before[i + 1]);
     foreseen[i + 1] -= faces->next[i] * (gap[i] - before[i]);
   }
-  zp_faces_eval(&model->faces, gap, faces);
+  ZpFacesSpan span = zp_faces_span(&model->faces, d->eval.plates_start.gap, gap, d->h);
+  zp_faces_eval(&model->faces, &span, faces);
   for (size_t i = 1; i < model->nodes; i++)
     work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - d->eval.plates_start.gap[i]));
   return work;

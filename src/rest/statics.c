@@ -111,9 +111,11 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   return info;
 }
 
-/* Has Newton's method found an equilibrium, and none of folded ribbons? Its last stiffness tells. */
-static bool is_found(ZpNewtonInfo info, const ZpNewtonWork *work) {
-  return zp_newton_good(info.end) && (info.iterations == 0 || zp_band_negative(&work->K) == 0);
+/* Has Newton's method found an equilibrium, and none of folded ribbons? Its last stiffness tells, or that of the
+ * equilibrium itself. */
+static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
+  if (!zp_newton_good(info.end)) return false;
+  return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
 }
 
 /* The equilibrium found without contact, now with it, where there are faces. */
@@ -136,8 +138,8 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   s->U = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
-  if (!is_found(info, work)) info = zp_statics_fall(s, 0, work);
+  if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
+  if (zp_newton_good(info.end) && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work);
   return let_faces_push(s, info, work);
 }
 
@@ -160,8 +162,8 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   s->contact_acts = false;
   lay_straight(s);
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(info, work)) info = step_by_step(s, open_to, opening, 0.05, work);
-  if (!is_found(info, work)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
+  if (!is_found(s, info, work)) info = step_by_step(s, open_to, opening, 0.05, work);
+  if (!is_found(s, info, work)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
   return let_faces_push(s, info, work);
 }
 

@@ -10,7 +10,9 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   if (span->faces_pass) return;
   const ZpTopology *t = &model->topology;
   double *Fy = F + model->stride;
-  zp_faces_eval(&model->faces, e->plates.gap, &e->faces);
+  const double *start = zp_span_is_still(span) ? e->plates.gap : e->plates_start.gap;
+  ZpFacesSpan faces = zp_faces_span(&model->faces, start, e->plates.gap, span->h);
+  zp_faces_eval(&model->faces, &faces, &e->faces);
   for (size_t i = 0; i < model->nodes; i++) {
     Fy[zp_lower(t, i)] -= e->faces.push[i];
     if (zp_is_pair(t)) Fy[zp_upper(t, i)] += e->faces.push[i];
@@ -19,9 +21,10 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   (void)assembly, (void)K;
+  double both = zp_span_is_still(span) ? 2 : 1; /* at rest both ends of the span move */
   for (size_t i = 0; !span->faces_pass && i < model->nodes; i++) {
-    e->gaps.own[i] += e->faces.own[i];
-    e->gaps.next[i] += e->faces.next[i];
+    e->gaps.own[i] += both * e->faces.own[i];
+    e->gaps.next[i] += both * e->faces.next[i];
   }
 }
 
