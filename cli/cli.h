@@ -17,7 +17,8 @@ typedef struct Options {
   const char **set;     /* [sets] values of --set, in order */
   int sets;
   const char *directory; /* NULL: out/STUDY */
-  bool json, yaml, quiet, help;
+  int jobs;              /* processors to use; 0: all */
+  bool no_plots, json, yaml, quiet, help;
 } Options;
 
 /* Say something on stderr. */

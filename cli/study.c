@@ -12,6 +12,7 @@ static ZpStatus read_scenario(const char *study, const Options *o, ZpScenario *s
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
+  if (status == ZP_OK && o->no_plots) status = zp_scenario_set(scenario, "output.plots=false", err);
   if (!study || status != ZP_OK) return status;
   char assignment[64];
   snprintf(assignment, sizeof assignment, "study=%s", study);
@@ -75,7 +76,7 @@ static void print_row(const ZpBatch *batch, size_t index) {
   printf("\n");
 }
 
-static void print_summary(const ZpBatch *batch, const char *directory) {
+static void print_summary(const ZpBatch *batch, const char *directory, bool plots) {
   if (batch->count > 1) {
     for (size_t i = 0; i < batch->done; i++)
       print_row(batch, i);
@@ -87,7 +88,7 @@ static void print_summary(const ZpBatch *batch, const char *directory) {
     for (size_t i = 0; i < result->notes; i++)
       printf("  note: %s\n", result->note[i]);
   }
-  printf("results: %s/ (summary.json, table.csv, results.h5, plots/)\n", directory);
+  printf("results: %s/ (summary.json, table.csv, results.h5%s)\n", directory, plots ? ", plots/" : "");
 }
 
 static int exit_status(const ZpBatch *batch) {
@@ -106,13 +107,13 @@ static int report(const ZpBatch *batch, const Options *o, const Place *place, do
   Progress silent = {0};
   const ZpHooks hooks = cli_hooks(&silent);
   const ZpReport report = {place->directory, batch->scenario, batch->result, batch->done,
-                           wall_time,        place->folder,   &hooks};
+                           wall_time,        place->folder,   &hooks,        o->jobs};
   if (batch->interrupted) cli_watch_interrupts(); /* what was done is still drawn, unless there is another Ctrl-C */
   if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
   } else if (!o->quiet) {
-    print_summary(batch, place->directory);
+    print_summary(batch, place->directory, !o->no_plots);
   }
   return exit_status(batch);
 }

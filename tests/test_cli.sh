@@ -548,6 +548,18 @@ zp actuate --set actuator.kind=ribbon $short -o ribbon
 ok "kind ribbon" status_is 0
 zp actuate $short --set load.mass=0 --set gravity=0 --set drive.voltage=0 -o nothing
 ok "no load, no weight, no voltage" status_is 0
+zp_drawing actuate $short --no-plots -o bare
+ok "--no-plots: 0" status_is 0
+ok "--no-plots: no folder for pictures" is_absent bare/plots
+ok "--no-plots: says nothing of plots/" [ -z "$(grep plots/ stdout)" ]
+zp keys --no-plots
+ok "--no-plots of keys: 2" status_is 2
+for jobs in 0 -1 two 1e3 2000 ''; do
+  zp actuate $short --jobs "$jobs" -o wrong-jobs
+  ok "--jobs '$jobs': 2" status_is 2
+  ok "--jobs '$jobs': says what it takes" says "jobs takes a number from 1 to 1024"
+  ok "--jobs '$jobs': nothing written" is_absent wrong-jobs
+done
 grep -rliE --include='*.csv' --include='*.json' --include='*.yaml' --include='*.pvd' '(^|[^a-z])(nan|inf|infinity)([^a-z]|$)' . \
   >nan.txt
 ok "no NaN or infinity in any file: $(tr '\n' ' ' <nan.txt)" is_empty nan.txt

@@ -99,6 +99,7 @@ typedef struct ZpReport {
   double wall_time;           /* of all, s */
   const ZpFolder *folder;     /* `directory`, opened by the caller; NULL: zp_report_write opens and closes it */
   const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
+  int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
 } ZpReport;
 
 /* Write summary.json (also what --json prints) to `file`. */

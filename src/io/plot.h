@@ -38,6 +38,7 @@ typedef struct ZpDrawing {
   void (*notice)(const char *message); /* NULL: silent */
   double patience;                     /* ZP_PLOT_PATIENCE, s */
   const ZpHooks *hooks;                /* asked while gnuplot runs: true ends it. May be NULL */
+  int jobs;                            /* pictures drawn at once; 0: as many as there are processors */
   bool over;                           /* no more pictures: there is no gnuplot, it hangs, or a hook said so */
 } ZpDrawing;
 
