@@ -11,7 +11,7 @@
 enum { JOBS_MOST = 1024 };
 
 static const char usage[] =
-    "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--json] [--quiet]\n"
+    "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n"
     "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
     "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
     "zipact reproduce [-o DIR]           the tables and figures of the paper beside our own\n"
@@ -27,6 +27,7 @@ static const char study_usage[] =
     "  -o, --output DIR  folder of the results (default: out/STUDY)\n"
     "  --no-plots        no pictures; the same as --set output.plots=false\n"
     "  --jobs N          number of processors to use (default: all); the results do not depend on it\n"
+    "  --resume          continue the sweep in the folder of the results: cases that are done are not run again\n"
     "  --json            print only the summary, as JSON, to standard output\n"
     "  --quiet           no progress and no messages except errors\n"
     "\n"
@@ -66,7 +67,9 @@ static void print_help(void) {
 
 static int print_study_help(const char *study) {
   int place = zp_key_choice(zp_key_find("study"), study);
-  printf("zipact %s [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--json] [--quiet]\n", study);
+  printf(
+      "zipact %s [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n",
+      study);
   printf("%s\n", place >= 0 ? study_key()->choices[place].help : "the study that the scenario names");
   fputs(study_usage, stdout);
   return EXIT_DONE;
@@ -83,15 +86,11 @@ static bool read_jobs(const char *text, int *jobs) {
 
 /* Read what follows the first word; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
 static int read_options(int argc, char **argv, const char **set, Options *options) {
-  static const struct option known[] = {{"set", required_argument, NULL, 's'},
-                                        {"output", required_argument, NULL, 'o'},
-                                        {"no-plots", no_argument, NULL, 'p'},
-                                        {"jobs", required_argument, NULL, 'n'},
-                                        {"json", no_argument, NULL, 'j'},
-                                        {"yaml", no_argument, NULL, 'y'},
-                                        {"quiet", no_argument, NULL, 'q'},
-                                        {"help", no_argument, NULL, 'h'},
-                                        {NULL, 0, NULL, 0}};
+  static const struct option known[] = {{"set", required_argument, NULL, 's'}, {"output", required_argument, NULL, 'o'},
+                                        {"no-plots", no_argument, NULL, 'p'},  {"jobs", required_argument, NULL, 'n'},
+                                        {"resume", no_argument, NULL, 'r'},    {"json", no_argument, NULL, 'j'},
+                                        {"yaml", no_argument, NULL, 'y'},      {"quiet", no_argument, NULL, 'q'},
+                                        {"help", no_argument, NULL, 'h'},      {NULL, 0, NULL, 0}};
   *options = (Options){.set = set};
   for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
     if (c == 's')
@@ -100,6 +99,8 @@ static int read_options(int argc, char **argv, const char **set, Options *option
       options->directory = optarg;
     else if (c == 'p')
       options->no_plots = true;
+    else if (c == 'r')
+      options->resume = true;
     else if (c == 'n') {
       if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
     } else if (c == 'j')
@@ -121,6 +122,7 @@ static int no_scenario_options(const char *word, const Options *o) {
   if (o->scenario) return fail_usage("does not take a scenario: ", word);
   if (o->sets) return fail_usage("does not take --set: ", word);
   if (o->no_plots) return fail_usage("does not take --no-plots: ", word);
+  if (o->resume) return fail_usage("does not take --resume: ", word);
   if (o->jobs) return fail_usage("does not take --jobs: ", word);
   return EXIT_DONE;
 }

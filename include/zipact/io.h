@@ -36,6 +36,9 @@ ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 /* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
 ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
+/* Whether the results of a sweep keep their series: output.series. */
+ZP_API bool zp_scenario_keeps_series(const ZpScenario *scenario);
+
 /* The study of the scenario, the same for all its Defs. */
 ZP_API ZpStudy zp_scenario_study(const ZpScenario *scenario);
 
@@ -90,15 +93,23 @@ ZP_API ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *e
 /* Unlock it; NULL is allowed. */
 ZP_API void zp_folder_close(ZpFolder *folder);
 
+/* Results that are read one by one: a campaign has more of them than memory. */
+typedef struct ZpRows {
+  const ZpResult *(*get)(void *user, size_t index); /* result `index`, valid until the next call; never NULL */
+  ZpStatus (*status)(void *user, ZpError *err);     /* ZP_MACHINE if one of them could not be read */
+  void *user;                                       /* handed to the functions above */
+} ZpRows;
+
 /* Where results go, and what was run. */
 typedef struct ZpReport {
   const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
   const ZpScenario *scenario; /* what was run */
-  ZpResult *const *result;    /* [count] */
+  ZpResult *const *result;    /* [count]; NULL where there are `rows` */
   size_t count;               /* zp_scenario_count, fewer if interrupted */
   double wall_time;           /* of all, s */
   const ZpFolder *folder;     /* `directory`, opened by the caller; NULL: zp_report_write opens and closes it */
   const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
+  const ZpRows *rows;         /* in place of `result`; NULL: there is none */
   int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
 } ZpReport;
 

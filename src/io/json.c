@@ -30,7 +30,8 @@ static void print_real(FILE *file, double value) {
 
 static bool print_tree(FILE *file, const json_t *tree, int depth);
 
-static bool print_object(FILE *file, const json_t *object, int depth) {
+/* All but the brace at its end. */
+static bool print_members(FILE *file, const json_t *object, int depth) {
   const char *name, *mark = "{";
   json_t *value;
   bool done = true;
@@ -39,6 +40,11 @@ static bool print_object(FILE *file, const json_t *object, int depth) {
     done = print_tree(file, value, depth + 1) && done;
     mark = ",";
   }
+  return done;
+}
+
+static bool print_object(FILE *file, const json_t *object, int depth) {
+  bool done = print_members(file, object, depth);
   fprintf(file, "\n%*s}", 2 * depth, "");
   return done;
 }
@@ -64,10 +70,37 @@ static bool print_tree(FILE *file, const json_t *tree, int depth) {
   return true;
 }
 
-ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
-  errno = 0;
-  bool done = print_tree(file, tree, 0);
+/* `done`: all was printed so far. */
+static ZpStatus finish(FILE *file, bool done, ZpError *err) {
   done = fputc('\n', file) != EOF && done;
   if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
+}
+
+/* The list as print_array would print it. */
+static bool print_list(FILE *file, size_t count, ZpJsonItem item, const void *user) {
+  bool done = true;
+  for (size_t i = 0; i < count && done; i++) {
+    json_t *tree = item(user, i);
+    fprintf(file, "%s\n    ", i ? "," : "[");
+    done = tree && print_tree(file, tree, 2);
+    json_decref(tree);
+  }
+  fputs(count > 0 ? "\n  ]" : "[]", file);
+  return done;
+}
+
+ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
+                            FILE *file, ZpError *err) {
+  errno = 0;
+  bool done = print_members(file, head, 0);
+  fprintf(file, ",\n  \"%s\": ", name);
+  done = print_list(file, count, item, user) && done;
+  fputs("\n}", file);
+  return finish(file, done, err);
+}
+
+ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  return finish(file, print_tree(file, tree, 0), err);
 }

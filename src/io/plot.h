@@ -14,6 +14,7 @@ typedef struct ZpPlot {
   const ZpReport *report;
   const ZpResult *single; /* the only run; NULL for a sweep */
   ZpActuatorDef def;      /* of the first run */
+  bool drawn;             /* output.plots, and not too many runs */
   ZpStudy study;
   ZpShows shows;             /* what its results are */
   char subtitle[320];        /* under what: load, voltage, N, preset */

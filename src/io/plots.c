@@ -8,14 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
 #include "io/gnuplot.h"
 #include "io/plot.h"
+#include "io/processors.h"
 #include "io/report.h"
 #include "io/writers.h"
+
+/* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
+enum { DRAWN_MOST = 10000 };
 
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
@@ -188,13 +191,14 @@ static void add_subtitle(ZpPlot *plot, const Subtitle *s) {
     add_drive(plot);
 }
 
-/* (report) => what there is to draw; of a report without runs, nothing: then output.plots is false. */
+/* (report) => what there is to draw; of a report without runs, nothing. */
 static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   *plot = (ZpPlot){.report = report, .single = zp_report_single(report)};
   if (report->count == 0) return ZP_OK;
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
   if (status != ZP_OK) return status;
-  plot->study = report->result[0]->study;
+  plot->drawn = plot->def.output.plots && report->count <= DRAWN_MOST;
+  plot->study = zp_report_result(report, 0)->study;
   plot->shows = zp_study_shows(plot->study);
   for (size_t k = 0; k < sizeof subtitles / sizeof subtitles[0]; k++)
     if (subtitles[k].study == plot->study) add_subtitle(plot, &subtitles[k]);
@@ -223,8 +227,8 @@ ZpStatus zp_drawing_prepare(const ZpDrawing *drawing, const ZpPicture *const *ta
 }
 
 static size_t at_once(const ZpDrawing *drawing) {
-  const long processors = drawing->jobs > 0 ? drawing->jobs : sysconf(_SC_NPROCESSORS_ONLN);
-  return processors < 1 ? 1 : processors < ZP_GNUPLOT_MOST ? (size_t)processors : ZP_GNUPLOT_MOST;
+  const int jobs = drawing->jobs > 0 ? drawing->jobs : zp_processors();
+  return jobs < ZP_GNUPLOT_MOST ? (size_t)jobs : ZP_GNUPLOT_MOST;
 }
 
 void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables) {
@@ -255,7 +259,7 @@ ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {
   if (!folder) return zp_fail_memory(err);
   const ZpDrawing drawing = {.plot = &plot, .folder = folder};
   ZpStatus status = look_at(report, &plot, err);
-  if (status == ZP_OK && plot.def.output.plots)
+  if (status == ZP_OK && plot.drawn)
     status = zp_drawing_prepare(&drawing, all, TABLES, err);
   else if (status == ZP_OK)
     status = for_all(&drawing, all, TABLES, remove_picture, err);
@@ -269,7 +273,7 @@ void zp_plots_write(const ZpReport *report, void (*notice)(const char *message))
   char *folder = zp_path_join(report->directory, "plots");
   ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, report->jobs, false};
   const bool known = folder && look_at(report, &plot, &err) == ZP_OK;
-  if (known && plot.def.output.plots) zp_drawing_draw(&drawing, all, TABLES);
+  if (known && plot.drawn) zp_drawing_draw(&drawing, all, TABLES);
   if (!known && notice) notice(err.message);
   free(folder);
 }

@@ -412,6 +412,15 @@ ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def,
   return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
 }
 
+/* Sweeps of more cases keep no series unless asked. */
+enum { CASES_WITH_SERIES = 20 };
+
+bool zp_scenario_keeps_series(const ZpScenario *s) {
+  ZpActuatorDef def = {.layout = zp_def_layout()};
+  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO) return s->count <= CASES_WITH_SERIES;
+  return def.output.series == ZP_WHEN_TRUE;
+}
+
 static bool same_value(double a, double b) {
   return a == b || (isnan(a) && isnan(b));
 }

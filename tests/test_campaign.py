@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""Campaigns from outside:  python3 tests/test_campaign.py [--kills N] ZIPACT SCRATCH
+
+The same cases give the same bytes for any number of workers, and after any number of kills at random instants, each
+followed by --resume. What is compared: table.csv and results.h5 byte by byte, summary.json without what follows from
+wall time. N kills are made (default 10). Standard library only. Last line: "N passed, N failed".
+"""
+
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+
+passed = failed = 0
+
+
+def ok(what, done):
+    global passed, failed
+    passed += bool(done)
+    failed += not done
+    if not done:
+        print("FAILED: " + what)
+
+
+def listed(first, last, count, unit):
+    step = (last - first) / (count - 1)
+    return "[%s]" % ", ".join("%.6g %s" % (first + i * step, unit) for i in range(count))
+
+
+CASES = {
+    "rest": ["stationary", "--set", "load.mass=" + listed(1, 100, 30, "g"), "--set", "ribbon.thickness=" + listed(20, 200, 20, "um"), "--set", "mesh.nodes=31"],
+    "limits": ["limits", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
+    "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
+}
+
+
+class Zipact:
+    def __init__(self, program):
+        self.program = program
+
+    def command(self, case, folder, *more):
+        return [self.program, *CASES[case], "--no-plots", "--quiet", "-o", str(folder), *more]
+
+    def run(self, case, folder, *more):
+        return subprocess.run(self.command(case, folder, *more), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def timeless(value):
+    """A summary without what follows from wall time."""
+    if isinstance(value, dict):
+        return {name: timeless(item) for name, item in value.items() if name not in ("wall_time_s", "real_time_factor")}
+    return [timeless(item) for item in value] if isinstance(value, list) else value
+
+
+def results(folder):
+    files = [(folder / name).read_bytes() for name in ("table.csv", "results.h5", "scenario.yaml")]
+    return files, timeless(json.loads((folder / "summary.json").read_text()))
+
+
+def check_workers(zipact, scratch):
+    for case in CASES:
+        alone = scratch / (case + "-1")
+        ok("%s by one worker: done" % case, zipact.run(case, alone, "--jobs", "1").returncode == 0)
+        for jobs in (2, 7):
+            other = scratch / ("%s-%d" % (case, jobs))
+            ok("%s by %d workers: done" % (case, jobs), zipact.run(case, other, "--jobs", str(jobs)).returncode == 0)
+            ok("%s by %d workers: the same bytes" % (case, jobs), results(other) == results(alone))
+
+
+def rows_of(folder):
+    base = sqlite3.connect("file:%s?mode=ro" % (folder / "journal.sqlite"), uri=True)
+    with base:
+        rows = base.execute("SELECT number, outcome FROM row ORDER BY number").fetchall()
+    base.close()
+    return rows
+
+
+def check_kills(zipact, scratch, kills):
+    """kill -9 at random instants of a run that takes some seconds, and of what writes its files."""
+    chance = random.Random(20)
+    for case in ("rest", "limits"):
+        whole, torn = scratch / (case + "-1"), scratch / (case + "-torn")
+        begin = time.monotonic()
+        zipact.run(case, scratch / (case + "-timed"))
+        span = time.monotonic() - begin
+        for _ in range((kills + 1) // 2):
+            process = subprocess.Popen(zipact.command(case, torn, "--resume"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(chance.uniform(0, span))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        ok("%s after kills: done" % case, zipact.run(case, torn, "--resume").returncode == 0)
+        ok("%s after kills: the bytes of an uninterrupted run" % case, results(torn) == results(whole))
+        ok("%s after kills: no other file is left" % case, sorted(os.listdir(torn)) == sorted(os.listdir(whole)))
+
+
+def spoil(folder, sql):
+    base = sqlite3.connect(str(folder / "journal.sqlite"))
+    with base:
+        base.execute(sql)
+    base.close()
+
+
+def check_resume(zipact, scratch):
+    """Rows count for the same case only; what is missing is computed, nothing else."""
+    whole, part = scratch / "limits-1", scratch / "limits-part"
+    shutil.copytree(whole, part)
+    spoil(part, "DELETE FROM row WHERE number IN (3, 40)")
+    spoil(part, "UPDATE row SET message = 'kept' WHERE number = 59")
+    ok("a journal that lacks rows: done", zipact.run("limits", part, "--resume").returncode == 0)
+    ok("a journal that lacks rows: the same table", (part / "table.csv").read_bytes() == (whole / "table.csv").read_bytes())
+    ok("rows that are there are not computed again", json.loads((part / "summary.json").read_text())["rows"][59]["message"] == "kept")
+    other = zipact.run("limits", part, "--resume", "--set", "ribbon.width=13 mm")
+    ok("rows of another case do not count", other.returncode == 0 and (part / "table.csv").read_bytes() != (whole / "table.csv").read_bytes())
+    fresh = zipact.run("limits", part)
+    ok("without --resume all is computed", fresh.returncode == 0 and results(part) == results(whole))
+    (part / "journal.sqlite").write_text("no database\n" * 100)
+    refused = zipact.run("limits", part, "--resume")
+    ok("a file that is no journal is refused", refused.returncode in (2, 3) and "journal.sqlite" in refused.stderr)
+    single = subprocess.run([zipact.program, "stationary", "--resume", "-o", str(scratch / "single")], stderr=subprocess.PIPE, text=True)
+    ok("--resume of a single case is refused", single.returncode == 2 and "list" in single.stderr and not (scratch / "single").exists())
+
+
+def check_interrupt(zipact, scratch):
+    """Ctrl-C: 130, rows without a gap are reported, the rest is in the journal."""
+    whole, torn = scratch / "rest-1", scratch / "rest-interrupted"
+    process = subprocess.Popen(zipact.command("rest", torn), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not (torn / "journal.sqlite-wal").exists():
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    ok("interrupted: 130", process.wait() == 130)
+    if (torn / "summary.json").exists():
+        summary = json.loads((torn / "summary.json").read_text())
+        ok("interrupted: the summary says so", summary["outcome"] == "interrupted" and "cases" in summary["message"])
+        ok("interrupted: rows are in the journal", len(summary["rows"]) <= len(rows_of(torn)))
+    ok("interrupted: resumed", zipact.run("rest", torn, "--resume").returncode == 0)
+    ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
+
+
+def check_failures(zipact, scratch):
+    """A case whose solver fails is a row; the campaign goes on and its status says 1."""
+    folder = scratch / "failing"
+    run = subprocess.run([zipact.program, "actuate", "--set", "solver.max_steps=[3, 1000000]", "--set", "drive.voltage=[0, 8 kV]", "--set", "mesh.nodes=11",
+                          "--set", "solver.end_time=2 ms", "--set", "output.errors=false", "--no-plots", "--quiet", "-o", str(folder)])
+    outcomes = [outcome for _, outcome in rows_of(folder)]
+    ok("failures: status 1", run.returncode == 1)
+    ok("failures: all rows", len(outcomes) == 4 and outcomes.count("step_limit") == 2)
+    again = subprocess.run([zipact.program, "run", str(folder / "scenario.yaml"), "--resume", "--quiet", "-o", str(folder)])
+    ok("failures: a failed row counts when resumed", again.returncode == 1)
+
+
+def main():
+    kills = 10
+    arguments = sys.argv[1:]
+    if arguments[:1] == ["--kills"]:
+        kills = int(arguments[1])
+        arguments = arguments[2:]
+    program, scratch = os.path.abspath(arguments[0]), pathlib.Path(arguments[1]).resolve()
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    zipact = Zipact(program)
+    check_workers(zipact, scratch)
+    check_kills(zipact, scratch, kills)
+    check_resume(zipact, scratch)
+    check_interrupt(zipact, scratch)
+    check_failures(zipact, scratch)
+    print("%d passed, %d failed" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
