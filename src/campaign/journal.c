@@ -246,5 +246,5 @@ const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
 
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err) {
   if (!journal->bad) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "%.300s: a row cannot be read: %s", journal->path, sqlite3_errmsg(journal->base));
+  return zp_fail(err, ZP_MACHINE, "%.300s: a row cannot be read: no memory, or it is damaged", journal->path);
 }

@@ -156,5 +156,6 @@ ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
                         ? zp_json_write_list(summary, "rows", report->count, row_of, report, file, err)
                         : zp_json_write(summary, file, err);
   json_decref(summary);
+  if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err); /* of all files so far */
   return status;
 }

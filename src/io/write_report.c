@@ -37,7 +37,6 @@ static ZpStatus write_all(const ZpReport *report, void (*notice)(const char *mes
   if (status == ZP_OK) status = zp_vtk_write(report, err);
   if (status == ZP_OK) status = zp_checkpoint_report(report, err);
   if (status == ZP_OK) status = zp_plots_prepare(report, err);
-  if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err);
   if (status == ZP_OK) status = write_summary(report, err);
   if (status == ZP_OK) zp_plots_write(report, notice);
   return status;
