@@ -89,18 +89,19 @@ static void print_summary(const ZpReport *report, bool plots) {
 }
 
 /* Write and print a report => EXIT_DONE or why not. */
-static int write_report(ZpReport *report, const Options *o) {
+static int write_report(const ZpReport *what, const Options *o) {
   ZpError err;
   Progress silent = {0};
   const ZpHooks hooks = cli_hooks(&silent);
-  report->hooks = &hooks;
-  report->jobs = o->jobs;
+  ZpReport report = *what;
+  report.hooks = &hooks;
+  report.jobs = o->jobs;
   if (cli_interrupted()) cli_watch_interrupts(); /* what was done is still drawn, unless there is another Ctrl-C */
-  if (zp_report_write(report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
+  if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
-    if (zp_summary_write(report, stdout, &err) != ZP_OK) return cli_fail(&err);
+    if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
   } else if (!o->quiet) {
-    print_summary(report, !o->no_plots);
+    print_summary(&report, !o->no_plots);
   }
   return EXIT_DONE;
 }
@@ -129,12 +130,12 @@ static int run_one(const ZpScenario *scenario, const Options *o, const char *dir
   if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), &def, &hooks, &result, &err);
   cli_progress_end(&progress);
   if (status != ZP_OK) return cli_fail(&err);
-  ZpReport report = {.directory = directory,
-                     .scenario = scenario,
-                     .result = &result,
-                     .count = 1,
-                     .wall_time = cli_wall_clock(NULL) - progress.start,
-                     .folder = folder};
+  const ZpReport report = {.directory = directory,
+                           .scenario = scenario,
+                           .result = &result,
+                           .count = 1,
+                           .wall_time = cli_wall_clock(NULL) - progress.start,
+                           .folder = folder};
   const bool interrupted = result->outcome == ZP_INTERRUPTED;
   int code = exit_status(write_report(&report, o), interrupted, zp_outcome_good(result->outcome));
   zp_result_destroy(result);
@@ -151,12 +152,12 @@ static bool on_campaign(void *user, const ZpCampaignState *state) {
 static int report_campaign(ZpCampaign *campaign, const ZpScenario *scenario, const Options *o, const char *directory,
                            const ZpFolder *folder, double wall_time) {
   const ZpCampaignState state = zp_campaign_state(campaign);
-  ZpReport report = {.directory = directory,
-                     .scenario = scenario,
-                     .count = zp_campaign_count(campaign),
-                     .wall_time = wall_time,
-                     .folder = folder,
-                     .rows = zp_campaign_rows(campaign)};
+  const ZpReport report = {.directory = directory,
+                           .scenario = scenario,
+                           .count = zp_campaign_count(campaign),
+                           .wall_time = wall_time,
+                           .folder = folder,
+                           .rows = zp_campaign_rows(campaign)};
   const bool interrupted = cli_interrupted();
   if (state.resumed > 0 && !o->quiet)
     fprintf(stderr, "zipact: %zu of %zu cases were done before\n", state.resumed, state.cases);
