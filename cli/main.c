@@ -23,7 +23,8 @@ static const char usage[] =
 static const char study_usage[] =
     "\n"
     "  SCENARIO.yaml     values of keys; keys not given keep their defaults. A list of values is a sweep\n"
-    "  --set KEY=VALUE   the value of a key, as in \"load.mass=20 g\"; overrides the file; may be repeated\n"
+    "  --set KEY=VALUE   the value of a key, as in \"load.mass=20 g\"; overrides the file; may be repeated.\n"
+    "                    \"load.mass=1 g .. 100 g : 5 log\" is a sweep, too: 5 values, \"log\" by equal factors\n"
     "  -o, --output DIR  folder of the results (default: out/STUDY)\n"
     "  --no-plots        no pictures; the same as --set output.plots=false\n"
     "  --jobs N          number of processors to use (default: all); the results do not depend on it\n"
