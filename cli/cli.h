@@ -25,6 +25,9 @@ typedef struct Options {
 /* Say something on stderr. */
 void cli_notice(const char *message);
 
+/* Read the scenario and the values that the command line says. `study` NULL: the one that it names. */
+ZpStatus cli_read_scenario(const char *study, const Options *options, ZpScenario *scenario, ZpError *err);
+
 /* Say why and give the exit status. */
 int cli_fail(const ZpError *err);
 
@@ -33,6 +36,7 @@ int cli_flush(int status);
 
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
+int cli_batch(const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);
 int cli_reproduce(const Options *options);

@@ -9,7 +9,7 @@
 
 #include "cli.h"
 
-static ZpStatus read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
+ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
@@ -202,7 +202,7 @@ int cli_study(const char *study, const Options *o) {
   ZpError err;
   ZpScenario *scenario = zp_scenario_create();
   if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
-  ZpStatus status = read_scenario(study, o, scenario, &err);
+  ZpStatus status = cli_read_scenario(study, o, scenario, &err);
   if (status == ZP_OK) status = zp_batch_check(scenario, &err);
   int exit_code = status == ZP_OK ? run_in_folder(scenario, o) : cli_fail(&err);
   zp_scenario_destroy(scenario);

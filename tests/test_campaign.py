@@ -154,6 +154,36 @@ def check_failures(zipact, scratch):
     ok("failures: a failed row counts when resumed", again.returncode == 1)
 
 
+def check_batch(zipact):
+    """Lines in, lines out: in order, as the command would answer, at once, whatever is wrong with others."""
+    good = [{"study": "stationary", "load.mass": "%d g" % mass, "mesh": {"nodes": 21}} for mass in range(1, 40)]
+    bad = ["", "hello", "[]", '{"load.mass": [1, 2]}', '{"load.mas": 1}', '{"load.mass": "1 m"}', '{"load.mass": 1', '{"study": "isometric", "isometric.separation": 1}']
+    lines = [json.dumps(case) for case in good] + bad + [json.dumps(good[0])]
+    command = [zipact.program, "batch", "--set", "output.errors=false", "--set", "load.mass=77 g"]
+    answers = {}
+    for jobs in ("1", "7"):
+        run = subprocess.run([*command, "--jobs", jobs], input="\n".join(lines), stdout=subprocess.PIPE, text=True)
+        answers[jobs] = [timeless(json.loads(line)) for line in run.stdout.splitlines()]
+        ok("batch by %s: status 0" % jobs, run.returncode == 0)
+        ok("batch by %s: an answer for each line" % jobs, len(answers[jobs]) == len(lines))
+    ok("batch: the same for any number of workers", answers["1"] == answers["7"])
+    ok("batch: errors where they belong", [list(a) == ["error"] for a in answers["1"]] == [False] * len(good) + [True] * len(bad) + [False])
+    ok("batch: a line wins over --set", answers["1"][0]["stroke_m"] < answers["1"][30]["stroke_m"] and answers["1"][-1] == answers["1"][0])
+    alone = subprocess.run([zipact.program, "stationary", "--set", "output.errors=false", "--set", "load.mass=5 g", "--set", "mesh.nodes=21", "--no-plots", "--json", "-o", "batch-alone"], stdout=subprocess.PIPE, text=True)
+    ok("batch: what the command answers", timeless(json.loads(alone.stdout)) == answers["1"][4])
+    dialog = subprocess.Popen([*command, "--jobs", "2"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    for line, answer in list(zip(lines, answers["1"]))[:5]:
+        dialog.stdin.write(line + "\n")
+        dialog.stdin.flush()
+        ok("batch: answers before the next line comes", timeless(json.loads(dialog.stdout.readline())) == answer)
+    dialog.stdin.close()
+    ok("batch: ends with its input", dialog.wait() == 0)
+    ok("batch: wrong common input is status 2", subprocess.run([zipact.program, "batch", "--set", "load.mas=1"], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 2)
+    with open("/dev/full", "w") as full:
+        broken = subprocess.run(command, input="\n".join(lines), stdout=full, stderr=subprocess.PIPE, text=True)
+    ok("batch: a full disk is status 3", broken.returncode == 3)
+
+
 def main():
     kills = 10
     arguments = sys.argv[1:]
@@ -169,6 +199,8 @@ def main():
     check_resume(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_failures(zipact, scratch)
+    os.chdir(scratch)
+    check_batch(zipact)
     print("%d passed, %d failed" % (passed, failed))
     return 1 if failed else 0
 

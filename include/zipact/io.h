@@ -27,6 +27,10 @@ ZP_API ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError
 /* The same from `size` bytes in memory; `name` stands for the file in messages. */
 ZP_API ZpStatus zp_scenario_parse(ZpScenario *scenario, const char *text, size_t size, const char *name, ZpError *err);
 
+/* As zp_scenario_parse, but what it gives wins over files and --set alike, as long as no other --set comes. */
+ZP_API ZpStatus zp_scenario_override(ZpScenario *scenario, const char *text, size_t size, const char *name,
+                                     ZpError *err);
+
 /* Set from "KEY=VALUE" as --set gives it; wins over the file. VALUE as in YAML, a list "[1, 2]" too. */
 ZP_API ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
 
@@ -82,6 +86,9 @@ ZP_API const char *zp_library_at_work(void);
  * there is no memory. */
 ZP_API ZpStatus zp_hdf5_skip_exit(ZpError *err);
 
+/* Processors that this process may use, 1 or more. */
+ZP_API int zp_processors(void);
+
 /* A folder for results that one run has for itself. */
 typedef struct ZpFolder ZpFolder;
 
@@ -115,6 +122,9 @@ typedef struct ZpReport {
 
 /* Write summary.json (also what --json prints) to `file`. */
 ZP_API ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
+
+/* Write the same, of a report without rows, as one line. */
+ZP_API ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err);
 
 /* Write scenario.yaml, table.csv, results.h5, shapes.pvd with its .vtp files, of one run in time checkpoint.zps, then
  * summary.json, at last the pictures in plots/.

@@ -22,7 +22,6 @@
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
 #include "fit/case.h"
-#include "io/processors.h"
 
 /* How often the writer looks around, and for how long rows may wait for their commit, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };

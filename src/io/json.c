@@ -28,6 +28,17 @@ static void print_real(FILE *file, double value) {
   fprintf(file, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
 }
 
+/* The depth at which all is on one line. */
+enum { FLAT = -1 };
+
+static int inside(int depth) {
+  return depth == FLAT ? FLAT : depth + 1;
+}
+
+static void begin_line(FILE *file, int depth) {
+  if (depth != FLAT) fprintf(file, "\n%*s", 2 * depth, "");
+}
+
 static bool print_tree(FILE *file, const json_t *tree, int depth);
 
 /* All but the brace at its end. */
@@ -36,26 +47,31 @@ static bool print_members(FILE *file, const json_t *object, int depth) {
   json_t *value;
   bool done = true;
   json_object_foreach((json_t *)object, name, value) {
-    fprintf(file, "%s\n%*s\"%s\": ", mark, 2 * depth + 2, "", name);
-    done = print_tree(file, value, depth + 1) && done;
-    mark = ",";
+    fputs(mark, file);
+    begin_line(file, inside(depth));
+    fprintf(file, "\"%s\": ", name);
+    done = print_tree(file, value, inside(depth)) && done;
+    mark = depth == FLAT ? ", " : ",";
   }
   return done;
 }
 
 static bool print_object(FILE *file, const json_t *object, int depth) {
   bool done = print_members(file, object, depth);
-  fprintf(file, "\n%*s}", 2 * depth, "");
+  begin_line(file, depth);
+  fputc('}', file);
   return done;
 }
 
 static bool print_array(FILE *file, const json_t *array, int depth) {
   bool done = true;
   for (size_t i = 0; i < json_array_size(array); i++) {
-    fprintf(file, "%s\n%*s", i ? "," : "[", 2 * depth + 2, "");
-    done = print_tree(file, json_array_get(array, i), depth + 1) && done;
+    fputs(i == 0 ? "[" : depth == FLAT ? ", " : ",", file);
+    begin_line(file, inside(depth));
+    done = print_tree(file, json_array_get(array, i), inside(depth)) && done;
   }
-  fprintf(file, "\n%*s]", 2 * depth, "");
+  begin_line(file, depth);
+  fputc(']', file);
   return done;
 }
 
@@ -103,4 +119,9 @@ ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, 
 ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
   errno = 0;
   return finish(file, print_tree(file, tree, 0), err);
+}
+
+ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  return finish(file, print_tree(file, tree, FLAT), err);
 }

@@ -26,4 +26,7 @@ ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, 
  * ZP_MACHINE if the file could not be written. */
 ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err);
 
+/* The same as a single line. */
+ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err);
+
 #endif

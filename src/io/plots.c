@@ -13,7 +13,6 @@
 #include "io/atomic.h"
 #include "io/gnuplot.h"
 #include "io/plot.h"
-#include "io/processors.h"
 #include "io/report.h"
 #include "io/writers.h"
 

@@ -1,4 +1,4 @@
-#include "io/processors.h"
+#include <zipact/io.h>
 
 #include <sched.h>
 #include <unistd.h>

@@ -85,8 +85,8 @@ static ZpStatus fill(int index, double from, double to, bool by_factors, double 
 }
 
 ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *count, ZpError *err) {
-  double from, to;
-  bool by_factors;
+  double from = 0, to = 0;
+  bool by_factors = false;
   *value = NULL;
   ZpStatus status = read_end(index, "from", range->from, &from, err);
   if (status == ZP_OK) status = read_end(index, "to", range->to, &to, err);

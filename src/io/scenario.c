@@ -364,15 +364,20 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   return take_values(reader, key, item, err);
 }
 
-ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+/* Read a text into a layer. */
+static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, Slot *layer, ZpError *err) {
   ZpSource source = {.name = name};
   Reader reader;
-  char *kept_name = strdup(name);
-  ZpStatus status = kept_name ? open_reader(&reader, &source, -1, err) : zp_fail_memory(err);
-  if (!kept_name) return status;
+  ZpStatus status = open_reader(&reader, &source, -1, err);
   if (status == ZP_OK) status = zp_yaml_read(&source, text, size, take_item, &reader, err);
-  if (status == ZP_OK) status = merge(s, &reader, s->file, err);
+  if (status == ZP_OK) status = merge(s, &reader, layer, err);
   close_reader(&reader);
+  return status;
+}
+
+ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+  char *kept_name = strdup(name);
+  ZpStatus status = kept_name ? read_layer(s, text, size, name, s->file, err) : zp_fail_memory(err);
   if (status != ZP_OK) {
     free(kept_name);
     return status;
@@ -380,6 +385,10 @@ ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const c
   free(s->name);
   s->name = kept_name;
   return ZP_OK;
+}
+
+ZpStatus zp_scenario_override(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+  return read_layer(s, text, size, name, s->set, err);
 }
 
 /* (open file) => at most one byte more than may be read, to be freed. */

@@ -159,3 +159,11 @@ ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
   if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err); /* of all files so far */
   return status;
 }
+
+ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err) {
+  json_t *summary = summary_of(report);
+  if (!summary) return zp_fail_memory(err);
+  ZpStatus status = zp_json_write_line(summary, file, err);
+  json_decref(summary);
+  return status;
+}
