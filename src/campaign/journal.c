@@ -30,7 +30,7 @@ struct ZpJournal {
   ZpNames names;
   size_t names_written;
   ZpRecord record;
-  ZpResult row; /* what zp_journal_get gives: row `at` */
+  ZpRow row; /* what zp_journal_get gives: row `at` */
   size_t at;
   bool has_row, bad;
 };
@@ -131,7 +131,7 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
   ZpJournal *journal = *out = calloc(1, sizeof *journal);
   ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK) journal->row.study = study;
+  if (status == ZP_OK) journal->row.result.study = study;
   if (status == ZP_OK && !keep) status = remove_old(directory, err);
   if (status == ZP_OK) status = open_base(journal, cases, err);
   if (status == ZP_OK) return ZP_OK;
@@ -221,27 +221,27 @@ ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err) {
 /* False if there is no such row, or it is damaged. */
 static bool read_row(ZpJournal *journal, size_t number) {
   sqlite3_stmt *query = journal->get;
-  ZpResult *row = &journal->row;
+  ZpResult *result = &journal->row.result;
   sqlite3_bind_int64(query, 1, (sqlite3_int64)number);
   bool found = sqlite3_step(query) == SQLITE_ROW;
   if (found) {
     const char *message = (const char *)sqlite3_column_text(query, 1);
     const unsigned char *byte = sqlite3_column_blob(query, 2);
-    row->outcome = outcome_of((const char *)sqlite3_column_text(query, 0));
-    snprintf(row->message, sizeof row->message, "%s", message ? message : "");
-    found = byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 2), &journal->names, row);
+    result->outcome = outcome_of((const char *)sqlite3_column_text(query, 0));
+    snprintf(result->message, sizeof result->message, "%s", message ? message : "");
+    found = byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 2), &journal->names, &journal->row);
   }
   sqlite3_reset(query);
   return found;
 }
 
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
-  if (journal->has_row && journal->at == number) return &journal->row;
+  if (journal->has_row && journal->at == number) return &journal->row.result;
   journal->at = number;
   journal->has_row = read_row(journal, number);
   if (!journal->has_row) zp_record_clear(&journal->row);
   journal->bad = journal->bad || !journal->has_row;
-  return &journal->row;
+  return &journal->row.result;
 }
 
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err) {

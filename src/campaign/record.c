@@ -193,44 +193,41 @@ static void get_sensitivities(Reader *reader, ZpResult *result) {
   }
 }
 
-/* The table and its columns, which zp_record_clear frees. */
-static bool make_series(Reader *reader, size_t columns, size_t rows, ZpResult *result) {
-  ZpColumn *column = calloc(columns, sizeof *column);
-  for (size_t i = 0; column && i < columns && !reader->bad; i++) {
+static bool make_series(Reader *reader, size_t columns, size_t rows, ZpRow *row) {
+  row->column = calloc(columns, sizeof *row->column);
+  for (size_t i = 0; row->column && i < columns && !reader->bad; i++) {
     const ZpName *name = get_name(reader);
-    if (name) column[i] = (ZpColumn){name->name, name->unit, name->help};
+    if (name) row->column[i] = (ZpColumn){name->name, name->unit, name->help};
   }
-  const bool read = column && !reader->bad;
-  result->series = read ? zp_table_create(column, columns, rows < 2 ? 2 : rows) : NULL;
-  if (!result->series) free(column);
-  return result->series != NULL;
+  if (row->column && !reader->bad) row->result.series = zp_table_create(row->column, columns, rows < 2 ? 2 : rows);
+  return row->result.series != NULL;
 }
 
-static void get_series(Reader *reader, ZpResult *result) {
+static void get_series(Reader *reader, ZpRow *row) {
   const size_t columns = get_count(reader, reader->names->count), rows = columns ? (size_t)get(reader, 4) : 0;
   if (columns == 0 || reader->bad) return;
-  reader->bad = reader->left < columns * (4 + 8 * rows) || !make_series(reader, columns, rows, result);
+  reader->bad = reader->left < columns * (4 + 8 * rows) || !make_series(reader, columns, rows, row);
   if (reader->bad) return;
   for (size_t i = 0; i < rows * columns; i++)
-    result->series->value[i] = get_real(reader);
-  result->series->rows = rows;
+    row->result.series->value[i] = get_real(reader);
+  row->result.series->rows = rows;
 }
 
-bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpResult *result) {
+bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpRow *row) {
   Reader reader = {byte, size, names, false};
-  zp_record_clear(result);
-  result->resolution = get_real(&reader);
-  get_notes(&reader, result);
-  get_scalars(&reader, result);
-  get_sensitivities(&reader, result);
-  get_series(&reader, result);
+  zp_record_clear(row);
+  row->result.resolution = get_real(&reader);
+  get_notes(&reader, &row->result);
+  get_scalars(&reader, &row->result);
+  get_sensitivities(&reader, &row->result);
+  get_series(&reader, row);
   return !reader.bad && reader.left == 0;
 }
 
-void zp_record_clear(ZpResult *result) {
-  const ZpColumn *column = result->series ? result->series->column : NULL;
-  zp_table_destroy(result->series);
-  free((void *)column);
-  result->series = NULL;
-  result->notes = result->scalars = result->sensitivities = 0;
+void zp_record_clear(ZpRow *row) {
+  zp_table_destroy(row->result.series);
+  free(row->column);
+  row->result.series = NULL;
+  row->column = NULL;
+  row->result.notes = row->result.scalars = row->result.sensitivities = 0;
 }

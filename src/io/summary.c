@@ -126,7 +126,7 @@ static const ZpResult *spokesman(const ZpReport *report) {
 static bool set_outcome(json_t *object, const ZpReport *report) {
   const ZpResult *result = spokesman(report);
   const size_t cases = zp_scenario_count(report->scenario);
-  bool stopped = report->count < cases;
+  const bool stopped = !result || report->count < cases;
   char message[96] = "interrupted before the first run";
   if (result) snprintf(message, sizeof message, "stopped after %zu of %zu cases", report->count, cases);
   bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(stopped ? ZP_INTERRUPTED : result->outcome)));
