@@ -228,7 +228,8 @@ def test_progress_can_stop_an_executor():
                 run.set_running_or_notify_cancel()
         return True
 
-    batch = zipact.run_batch(loads(), "stationary", executor=pool, progress=progress)
+    short = zipact.Actuator(mesh__nodes=11, study="stationary")
+    batch = zipact.run_batch([short, LONG, LONG], executor=pool, progress=progress)
     assert [result.outcome for result in batch] == ["converged", "interrupted", "interrupted"]
 
 
