@@ -142,6 +142,28 @@ def check_interrupt(zipact, scratch):
     ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
 
 
+def rows_so_far(folder):
+    try:
+        return [number for number, _ in rows_of(folder)]
+    except sqlite3.OperationalError:  # not made yet
+        return []
+
+
+def check_gap(zipact, scratch):
+    """Two workers: the third case is done while the second still runs. Files show rows up to that gap."""
+    folder = scratch / "gap"
+    words = [zipact.program, "actuate", "--set", "solver.end_time=[1 ms, 10000 s, 1 ms]", "--set", "mesh.nodes=11", "--set", "drive.voltage=1 kV",
+             "--set", "output.errors=false", "--no-plots", "--quiet", "--jobs", "2", "-o", str(folder)]
+    process = subprocess.Popen(words)
+    while rows_so_far(folder) != [0, 2] and process.poll() is None:
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    ok("a gap: 130", process.wait() == 130)
+    summary = json.loads((folder / "summary.json").read_text())
+    ok("a gap: rows before it", len(summary["rows"]) == 1 and summary["message"] == "stopped after 1 of 3 cases")
+    ok("a gap: the journal has those behind it", rows_so_far(folder) == [0, 2])
+
+
 def check_failures(zipact, scratch):
     """A case whose solver fails is a row; the campaign goes on and its status says 1."""
     folder = scratch / "failing"
@@ -198,6 +220,7 @@ def main():
     check_kills(zipact, scratch, kills)
     check_resume(zipact, scratch)
     check_interrupt(zipact, scratch)
+    check_gap(zipact, scratch)
     check_failures(zipact, scratch)
     os.chdir(scratch)
     check_batch(zipact)
