@@ -29,7 +29,7 @@ $(BUILD)/zipact: deps $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) -j $(JOBS) --target zipact_command -- --no-print-directory
 
 demo: $(BUILD)/zipact
-	$(BUILD)/zipact run examples/demo.yaml -o out/demo
+	$(BUILD)/zipact run examples/demo.yaml --set output.animation=true -o out/demo
 	@echo "pictures:"; ls -1 out/demo/plots/*.svg out/demo/plots/*.gif
 
 check: deps $(BUILD)/CMakeCache.txt

@@ -6,6 +6,7 @@
 
 #include <zipact/zipact.h>
 
+#include <zipact/campaign.h>
 #include <zipact/io.h>
 
 /* Exit statuses; docs/interface.md. */
@@ -17,11 +18,15 @@ typedef struct Options {
   const char **set;     /* [sets] values of --set, in order */
   int sets;
   const char *directory; /* NULL: out/STUDY */
-  bool json, yaml, quiet, help;
+  int jobs;              /* processors to use; 0: all */
+  bool resume, no_plots, json, yaml, quiet, help;
 } Options;
 
 /* Say something on stderr. */
 void cli_notice(const char *message);
+
+/* Read the scenario and the values that the command line says. `study` NULL: the one that it names. */
+ZpStatus cli_read_scenario(const char *study, const Options *options, ZpScenario *scenario, ZpError *err);
 
 /* Say why and give the exit status. */
 int cli_fail(const ZpError *err);
@@ -31,17 +36,20 @@ int cli_flush(int status);
 
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
+int cli_batch(const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);
 int cli_reproduce(const Options *options);
 
-/* Progress on stderr where it is a terminal, and Ctrl-C. `of` runs, this is number `index`. */
+/* Progress on stderr where it is a terminal, and Ctrl-C. */
 typedef struct Progress {
   bool shown;
-  size_t index, of;
-  double last; /* wall time of the last line, s */
+  double start, last; /* wall time of the beginning and of the last line, s */
 } Progress;
 ZpHooks cli_hooks(Progress *progress);
+
+/* The same for a campaign: draws how far it is, at which rate, how long it takes and how many cases have failed. */
+void cli_draw_campaign(Progress *progress, const ZpCampaignState *state);
 void cli_progress_end(Progress *progress);
 
 /* From now on, the first Ctrl-C asks to stop, the second ends the program at once. */

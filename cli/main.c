@@ -1,4 +1,5 @@
 /* zipact: the words of the command line. */
+#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,9 +7,14 @@
 
 #include "cli.h"
 
+/* Largest value of --jobs. */
+enum { JOBS_MOST = 1024 };
+
 static const char usage[] =
-    "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--json] [--quiet]\n"
+    "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n"
     "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
+    "zipact batch [SCENARIO.yaml] [--set KEY=VALUE]... [--jobs N]   cases as JSON on standard input, one per line;\n"
+    "                                    results as JSON on standard output\n"
     "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
     "zipact reproduce [-o DIR]           the tables and figures of the paper beside our own\n"
     "zipact bench [--json]               speed on this machine\n"
@@ -19,8 +25,12 @@ static const char usage[] =
 static const char study_usage[] =
     "\n"
     "  SCENARIO.yaml     values of keys; keys not given keep their defaults. A list of values is a sweep\n"
-    "  --set KEY=VALUE   the value of a key, as in \"load.mass=20 g\"; overrides the file; may be repeated\n"
+    "  --set KEY=VALUE   the value of a key, as in \"load.mass=20 g\"; overrides the file; may be repeated.\n"
+    "                    \"load.mass=1 g .. 100 g : 5 log\" is a sweep, too: 5 values, \"log\" by equal factors\n"
     "  -o, --output DIR  folder of the results (default: out/STUDY)\n"
+    "  --no-plots        no pictures; the same as --set output.plots=false\n"
+    "  --jobs N          number of processors to use (default: all); the results do not depend on it\n"
+    "  --resume          continue the sweep in the folder of the results: cases that are done are not run again\n"
     "  --json            print only the summary, as JSON, to standard output\n"
     "  --quiet           no progress and no messages except errors\n"
     "\n"
@@ -60,28 +70,43 @@ static void print_help(void) {
 
 static int print_study_help(const char *study) {
   int place = zp_key_choice(zp_key_find("study"), study);
-  printf("zipact %s [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--json] [--quiet]\n", study);
+  printf(
+      "zipact %s [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n",
+      study);
   printf("%s\n", place >= 0 ? study_key()->choices[place].help : "the study that the scenario names");
   fputs(study_usage, stdout);
   return EXIT_DONE;
 }
 
+/* => false unless `text` is a whole number of processors. */
+static bool read_jobs(const char *text, int *jobs) {
+  char *end;
+  errno = 0;
+  const long value = strtol(text, &end, 10);
+  *jobs = (int)value;
+  return end > text && *end == 0 && errno == 0 && value >= 1 && value <= JOBS_MOST;
+}
+
 /* Read what follows the first word; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
 static int read_options(int argc, char **argv, const char **set, Options *options) {
-  static const struct option known[] = {{"set", required_argument, NULL, 's'},
-                                        {"output", required_argument, NULL, 'o'},
-                                        {"json", no_argument, NULL, 'j'},
-                                        {"yaml", no_argument, NULL, 'y'},
-                                        {"quiet", no_argument, NULL, 'q'},
-                                        {"help", no_argument, NULL, 'h'},
-                                        {NULL, 0, NULL, 0}};
+  static const struct option known[] = {{"set", required_argument, NULL, 's'}, {"output", required_argument, NULL, 'o'},
+                                        {"no-plots", no_argument, NULL, 'p'},  {"jobs", required_argument, NULL, 'n'},
+                                        {"resume", no_argument, NULL, 'r'},    {"json", no_argument, NULL, 'j'},
+                                        {"yaml", no_argument, NULL, 'y'},      {"quiet", no_argument, NULL, 'q'},
+                                        {"help", no_argument, NULL, 'h'},      {NULL, 0, NULL, 0}};
   *options = (Options){.set = set};
   for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
     if (c == 's')
       set[options->sets++] = optarg;
     else if (c == 'o')
       options->directory = optarg;
-    else if (c == 'j')
+    else if (c == 'p')
+      options->no_plots = true;
+    else if (c == 'r')
+      options->resume = true;
+    else if (c == 'n') {
+      if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
+    } else if (c == 'j')
       options->json = true;
     else if (c == 'y')
       options->yaml = true;
@@ -99,7 +124,21 @@ static int read_options(int argc, char **argv, const char **set, Options *option
 static int no_scenario_options(const char *word, const Options *o) {
   if (o->scenario) return fail_usage("does not take a scenario: ", word);
   if (o->sets) return fail_usage("does not take --set: ", word);
+  if (o->no_plots) return fail_usage("does not take --no-plots: ", word);
+  if (o->resume) return fail_usage("does not take --resume: ", word);
+  if (o->jobs) return fail_usage("does not take --jobs: ", word);
   return EXIT_DONE;
+}
+
+static int dispatch_batch(const Options *o) {
+  if (o->help) {
+    print_help();
+    return EXIT_DONE;
+  }
+  if (o->directory) return fail_usage("does not take -o: ", "batch");
+  if (o->resume) return fail_usage("does not take --resume: ", "batch");
+  if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", "batch");
+  return cli_batch(o);
 }
 
 static int dispatch(const char *word, const Options *o) {
@@ -110,6 +149,7 @@ static int dispatch(const char *word, const Options *o) {
     if (is_run && !o->scenario) return fail_usage("run needs a scenario file", "");
     return cli_study(is_run ? NULL : word, o);
   }
+  if (strcmp(word, "batch") == 0) return dispatch_batch(o);
   bool is_keys = strcmp(word, "keys") == 0, is_reproduce = strcmp(word, "reproduce") == 0;
   if (!is_keys && !is_reproduce && strcmp(word, "bench") != 0) return fail_usage("unknown study or command: ", word);
   if (o->help) {

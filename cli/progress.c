@@ -33,18 +33,14 @@ double cli_wall_clock(void *unused) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void draw(const Progress *progress, const char *stage, double fraction) {
+static void draw(const char *stage, double fraction) {
   enum { WIDTH = 40 };
   char bar[WIDTH + 1];
   int filled = (int)(fraction * WIDTH);
   for (int i = 0; i < WIDTH; i++)
     bar[i] = i < filled ? '#' : '.';
   bar[WIDTH] = 0;
-  if (progress->of > 1)
-    fprintf(stderr, "\r%zu of %zu ", progress->index + 1, progress->of);
-  else
-    fputc('\r', stderr);
-  fprintf(stderr, "[%s] %3.0f %% %-12s", bar, 100 * fraction, stage);
+  fprintf(stderr, "\r[%s] %3.0f %% %-12s", bar, 100 * fraction, stage);
   fflush(stderr);
 }
 
@@ -54,10 +50,34 @@ static bool on_progress(void *user, const char *stage, double fraction) {
   if (!progress->shown) return interrupted;
   double now = cli_wall_clock(NULL);
   if (now - progress->last >= between) {
-    draw(progress, stage, fraction);
+    draw(stage, fraction);
     progress->last = now;
   }
   return interrupted;
+}
+
+/* "2:05" or "3:07:09". */
+static void print_duration(char *text, size_t size, double seconds) {
+  const long s = seconds < 1e7 ? (long)(seconds + 0.5) : 10000000;
+  if (s < 3600)
+    snprintf(text, size, "%ld:%02ld", s / 60, s % 60);
+  else
+    snprintf(text, size, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+}
+
+void cli_draw_campaign(Progress *progress, const ZpCampaignState *state) {
+  const double now = cli_wall_clock(NULL), taken = now - progress->start;
+  if (!progress->shown) return;
+  const double before = (double)state->resumed / (double)state->cases, own = state->fraction - before;
+  char rate[32] = "", left[32] = "-";
+  if (own > 0 && taken > 0) {
+    snprintf(rate, sizeof rate, "%.3g/s", own * (double)state->cases / taken);
+    print_duration(left, sizeof left, taken * (1 - state->fraction) / own);
+  }
+  fprintf(stderr, "\r%zu of %zu  %3.0f %%  %s  %s left  %zu failed%10s", state->done, state->cases,
+          100 * state->fraction, rate, left, state->failed, "");
+  fflush(stderr);
+  progress->last = now;
 }
 
 ZpHooks cli_hooks(Progress *progress) {

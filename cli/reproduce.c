@@ -7,7 +7,7 @@
 
 int cli_reproduce(const Options *o) {
   const char *directory = o->directory ? o->directory : "out/reproduce";
-  Progress progress = {.shown = !o->quiet && isatty(STDERR_FILENO), .of = 1};
+  Progress progress = {.shown = !o->quiet && isatty(STDERR_FILENO)};
   ZpHooks hooks = cli_hooks(&progress);
   ZpOutcome outcome;
   ZpError err;

@@ -5,29 +5,19 @@
 #include <unistd.h>
 
 #include <zipact/batch.h>
+#include <zipact/calibrate.h>
 
 #include "cli.h"
 
-static ZpStatus read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
+ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
+  if (status == ZP_OK && o->no_plots) status = zp_scenario_set(scenario, "output.plots=false", err);
   if (!study || status != ZP_OK) return status;
   char assignment[64];
   snprintf(assignment, sizeof assignment, "study=%s", study);
   return zp_scenario_set(scenario, assignment, err);
-}
-
-static ZpStatus run_all(ZpBatch *batch, const Options *o, ZpError *err) {
-  Progress progress = {.shown = !o->quiet && isatty(STDERR_FILENO), .of = batch->count};
-  ZpHooks hooks = cli_hooks(&progress);
-  ZpStatus status = ZP_OK;
-  while (status == ZP_OK && zp_batch_open(batch)) {
-    progress.index = batch->done;
-    status = zp_batch_next(batch, &hooks, err);
-  }
-  cli_progress_end(&progress);
-  return status;
 }
 
 static void print_scalar(const ZpScalar *scalar) {
@@ -59,12 +49,12 @@ static void print_answers(const ZpResult *result) {
 }
 
 /* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
-static void print_row(const ZpBatch *batch, size_t index) {
+static void print_row(const ZpReport *report, size_t index) {
   size_t lists;
-  const int *list = zp_scenario_lists(batch->scenario, &lists);
+  const int *list = zp_scenario_lists(report->scenario, &lists);
+  const ZpResult *result = report->rows->get(report->rows->user, index);
   ZpActuatorDef def;
-  const ZpResult *result = batch->result[index];
-  if (zp_scenario_def(batch->scenario, index, &def, NULL) != ZP_OK) return;
+  if (zp_scenario_def(report->scenario, index, &def, NULL) != ZP_OK) return;
   for (size_t k = 0; k < lists; k++) {
     char text[64];
     zp_value_print(list[k], zp_def_get(&def, list[k]), text, sizeof text);
@@ -75,79 +65,146 @@ static void print_row(const ZpBatch *batch, size_t index) {
   printf("\n");
 }
 
-static void print_summary(const ZpBatch *batch, const char *directory) {
-  if (batch->count > 1) {
-    for (size_t i = 0; i < batch->done; i++)
-      print_row(batch, i);
-  } else if (batch->done) {
-    const ZpResult *result = batch->result[0];
-    printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
-    for (size_t i = 0; i < result->scalars; i++)
-      print_scalar(&result->scalar[i]);
-    for (size_t i = 0; i < result->notes; i++)
-      printf("  note: %s\n", result->note[i]);
-  }
-  printf("results: %s/ (summary.json, table.csv, results.h5, plots/)\n", directory);
+static void print_rows(const ZpReport *report) {
+  enum { PRINTED = 100 };
+  for (size_t i = 0; i < report->count && i < PRINTED; i++)
+    print_row(report, i);
+  if (report->count > PRINTED) printf("  ... and %zu more rows in table.csv\n", report->count - PRINTED);
 }
 
-static int exit_status(const ZpBatch *batch) {
-  if (batch->interrupted || cli_interrupted()) return EXIT_INTERRUPTED;
-  return zp_batch_good(batch) ? EXIT_DONE : EXIT_NUMERICS;
+static void print_result(const ZpResult *result) {
+  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
+  for (size_t i = 0; i < result->scalars; i++)
+    print_scalar(&result->scalar[i]);
+  for (size_t i = 0; i < result->notes; i++)
+    printf("  note: %s\n", result->note[i]);
 }
 
-/* A folder that is open, and where it is. */
-typedef struct Place {
-  const char *directory;
-  ZpFolder *folder;
-} Place;
+static void print_summary(const ZpReport *report, bool plots) {
+  if (report->rows)
+    print_rows(report);
+  else if (report->count > 0)
+    print_result(report->result[0]);
+  printf("results: %s/ (summary.json, table.csv, results.h5%s)\n", report->directory, plots ? ", plots/" : "");
+}
 
-static int report(const ZpBatch *batch, const Options *o, const Place *place, double wall_time) {
+/* Write and print a report => EXIT_DONE or why not. */
+static int write_report(const ZpReport *what, const Options *o) {
   ZpError err;
   Progress silent = {0};
   const ZpHooks hooks = cli_hooks(&silent);
-  const ZpReport report = {place->directory, batch->scenario, batch->result, batch->done,
-                           wall_time,        place->folder,   &hooks};
-  if (batch->interrupted) cli_watch_interrupts(); /* what was done is still drawn, unless there is another Ctrl-C */
+  ZpReport report = *what;
+  report.hooks = &hooks;
+  report.jobs = o->jobs;
+  if (cli_interrupted()) cli_watch_interrupts(); /* what was done is still drawn, unless there is another Ctrl-C */
   if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
   } else if (!o->quiet) {
-    print_summary(batch, place->directory);
+    print_summary(&report, !o->no_plots);
   }
-  return exit_status(batch);
+  return EXIT_DONE;
 }
 
-static int run_and_report(ZpBatch *batch, const Options *o, const Place *place) {
-  ZpError err;
-  double start = cli_wall_clock(NULL);
-  cli_watch_interrupts();
-  ZpStatus status = run_all(batch, o, &err);
-  int exit_code = EXIT_DONE;
-  if (status == ZP_OK || batch->done > 0) exit_code = report(batch, o, place, cli_wall_clock(NULL) - start);
-  return status == ZP_OK ? exit_code : cli_fail(&err);
+/* The exit status of what was reported with `status`; an interrupt while pictures were drawn counts, too. */
+static int exit_status(int status, bool interrupted, bool good) {
+  if (status != EXIT_DONE) return status;
+  if (interrupted || cli_interrupted()) return EXIT_INTERRUPTED;
+  return good ? EXIT_DONE : EXIT_NUMERICS;
 }
+
+static Progress begin_progress(const Options *o) {
+  cli_watch_interrupts();
+  return (Progress){.shown = !o->quiet && isatty(STDERR_FILENO), .start = cli_wall_clock(NULL)};
+}
+
+/* -- one case --------------------------------------------------------------------------------------- */
+
+static int run_one(const ZpScenario *scenario, const Options *o, const char *directory, const ZpFolder *folder) {
+  ZpError err;
+  ZpActuatorDef def;
+  ZpResult *result = NULL;
+  Progress progress = begin_progress(o);
+  const ZpHooks hooks = cli_hooks(&progress);
+  ZpStatus status = zp_scenario_def(scenario, 0, &def, &err);
+  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), &def, &hooks, &result, &err);
+  cli_progress_end(&progress);
+  if (status != ZP_OK) return cli_fail(&err);
+  const ZpReport report = {.directory = directory,
+                           .scenario = scenario,
+                           .result = &result,
+                           .count = 1,
+                           .wall_time = cli_wall_clock(NULL) - progress.start,
+                           .folder = folder};
+  const bool interrupted = result->outcome == ZP_INTERRUPTED;
+  int code = exit_status(write_report(&report, o), interrupted, zp_outcome_good(result->outcome));
+  zp_result_destroy(result);
+  return code;
+}
+
+/* -- many cases ------------------------------------------------------------------------------------- */
+
+static bool on_campaign(void *user, const ZpCampaignState *state) {
+  cli_draw_campaign(user, state);
+  return cli_interrupted();
+}
+
+static int report_campaign(ZpCampaign *campaign, const ZpScenario *scenario, const Options *o, const char *directory,
+                           const ZpFolder *folder, double wall_time) {
+  const ZpCampaignState state = zp_campaign_state(campaign);
+  const ZpReport report = {.directory = directory,
+                           .scenario = scenario,
+                           .count = zp_campaign_count(campaign),
+                           .wall_time = wall_time,
+                           .folder = folder,
+                           .rows = zp_campaign_rows(campaign)};
+  const bool interrupted = cli_interrupted();
+  if (state.resumed > 0 && !o->quiet)
+    fprintf(stderr, "zipact: %zu of %zu cases were done before\n", state.resumed, state.cases);
+  return exit_status(write_report(&report, o), interrupted, state.failed == 0);
+}
+
+static int run_many(const ZpScenario *scenario, const Options *o, const char *directory, const ZpFolder *folder) {
+  ZpError err;
+  ZpCampaign *campaign;
+  Progress progress = begin_progress(o);
+  const ZpCampaignOptions options = {o->jobs, o->resume, &progress, on_campaign, cli_wall_clock};
+  if (zp_campaign_open(scenario, directory, &options, &campaign, &err) != ZP_OK) return cli_fail(&err);
+  ZpStatus status = zp_campaign_run(campaign, &err);
+  cli_progress_end(&progress);
+  int code = EXIT_DONE;
+  if (status == ZP_OK || zp_campaign_count(campaign) > 0)
+    code = report_campaign(campaign, scenario, o, directory, folder, cli_wall_clock(NULL) - progress.start);
+  zp_campaign_close(campaign);
+  return status == ZP_OK ? code : cli_fail(&err);
+}
+
+/* -- a scenario ------------------------------------------------------------------------------------- */
 
 /* Have the folder for as long as the runs and their report take. */
-static int run_in_folder(ZpBatch *batch, const Options *o) {
+static int run_in_folder(const ZpScenario *scenario, const Options *o) {
   ZpError err;
-  char directory[64];
-  snprintf(directory, sizeof directory, "out/%s", zp_study_name(zp_scenario_study(batch->scenario)));
-  Place place = {o->directory ? o->directory : directory, NULL};
-  if (zp_folder_open(place.directory, &place.folder, &err) != ZP_OK) return cli_fail(&err);
-  int exit_code = run_and_report(batch, o, &place);
-  zp_folder_close(place.folder);
-  return exit_code;
+  ZpFolder *folder;
+  size_t lists;
+  char own[64];
+  snprintf(own, sizeof own, "out/%s", zp_study_name(zp_scenario_study(scenario)));
+  const char *directory = o->directory ? o->directory : own;
+  zp_scenario_lists(scenario, &lists);
+  if (o->resume && lists == 0)
+    return cli_fail(&(ZpError){ZP_BAD_INPUT, "--resume continues a sweep; the scenario has no list of values"});
+  if (zp_folder_open(directory, &folder, &err) != ZP_OK) return cli_fail(&err);
+  int code = lists > 0 ? run_many(scenario, o, directory, folder) : run_one(scenario, o, directory, folder);
+  zp_folder_close(folder);
+  return code;
 }
 
 int cli_study(const char *study, const Options *o) {
   ZpError err;
-  ZpBatch batch = {0};
   ZpScenario *scenario = zp_scenario_create();
   if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
-  ZpStatus status = read_scenario(study, o, scenario, &err);
-  if (status == ZP_OK) status = zp_batch_create(scenario, &batch, &err);
-  int exit_code = status == ZP_OK ? run_in_folder(&batch, o) : cli_fail(&err);
-  zp_batch_free(&batch);
+  ZpStatus status = cli_read_scenario(study, o, scenario, &err);
+  if (status == ZP_OK) status = zp_batch_check(scenario, &err);
+  int exit_code = status == ZP_OK ? run_in_folder(scenario, o) : cli_fail(&err);
   zp_scenario_destroy(scenario);
   return exit_code;
 }

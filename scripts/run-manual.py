@@ -34,7 +34,7 @@ PICTURES = {
     "reproduce.svg": "reproduce/plots/fig-8.svg",
     "sweep.svg": "sweep/plots/contraction.svg",
     "release.svg": "release/plots/stroke.svg",
-    "demo.gif": "actuate/plots/animation.gif",
+    "demo.gif": "motion/plots/animation.gif",
 }
 
 

@@ -34,6 +34,7 @@ MAY_INCLUDE = {
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "io": ["base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
+    "campaign": ["fit", "io", "base"],
     "reproduce": ["fit", "io", "base"],
     "cli": [],
 }
@@ -62,9 +63,10 @@ PUBLIC = {
     "io.h": "io",
     "calibrate.h": "fit",
     "batch.h": "fit",
+    "campaign.h": "campaign",
 }
 
-ABOVE_CORE = ("io", "fit", "reproduce", "cli")  # may use libraries, files and streams
+ABOVE_CORE = ("io", "fit", "campaign", "reproduce", "cli")  # may use libraries, files and streams
 
 LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
 

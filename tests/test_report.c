@@ -179,6 +179,7 @@ static ZpScenario *scenario_of(const char *assignment) {
   ZpScenario *scenario = zp_scenario_create();
   ck_assert_ptr_nonnull(scenario);
   ZpError err = {0};
+  ck_assert_int_eq(zp_scenario_set(scenario, "output.animation=true", &err), ZP_OK);
   if (assignment) ck_assert_msg(zp_scenario_set(scenario, assignment, &err) == ZP_OK, "%s", err.message);
   return scenario;
 }
@@ -187,7 +188,7 @@ static ZpScenario *scenario_of(const char *assignment) {
 static void write_single(const char *name, const char *assignment, ZpResult *result, double wall_time) {
   ZpScenario *scenario = scenario_of(assignment);
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL};
+  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL, NULL, 0};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   zp_result_destroy(result);
@@ -205,7 +206,7 @@ static void write_sweep(const char *name, const char *assignment, size_t count) 
   if (count > 1) result[1]->outcome = ZP_DIVERGED;
   if (count > 1) result[1]->scalar[1].value = NAN;
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL};
+  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL, NULL, 0};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
@@ -226,7 +227,7 @@ static void write_scenario(const char *name, ZpScenario *scenario) {
     ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
                   err.message);
   }
-  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL};
+  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
     zp_result_destroy(result[i]);
@@ -545,7 +546,7 @@ END_TEST
 START_TEST(interrupted_before_the_first_run) {
   ZpScenario *scenario = scenario_of("drive.voltage=[6 kV, 8 kV]");
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL};
+  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL, NULL, 0};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   json_t *json = load_json("out/summary.json");
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "interrupted");
@@ -800,7 +801,7 @@ START_TEST(name_taken_by_a_folder) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0};
   ck_assert_int_eq(mkdir(in_base("out"), 0777), 0);
   ck_assert_int_eq(mkdir(in_base("out/results.h5"), 0777), 0);
   ck_assert_int_eq(zp_report_write(&report, note, &err), ZP_MACHINE);
@@ -816,7 +817,7 @@ START_TEST(summary_to_a_full_device) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL};
+  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL, NULL, 0};
   FILE *full = fopen("/dev/full", "w");
   if (full) {
     ck_assert_int_eq(zp_summary_write(&report, full, &err), ZP_MACHINE);
@@ -846,7 +847,7 @@ static bool write_on_small_disk(int kilobytes) {
   ZpError err = {0};
   snprintf(option, sizeof option, "size=%dk", kilobytes);
   ck_assert_int_eq(mount("none", in_base("disk"), "tmpfs", 0, option), 0);
-  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL};
+  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK || strstr(err.message, strerror(ENOSPC)), "%s", err.message);
   ck_assert_msg(status == ZP_OK || strstr(err.message, "disk/out"), "no file name: %s", err.message);
@@ -900,16 +901,20 @@ END_TEST
 
 /* -- a gnuplot that hangs blocked for ever, swallowed the first Ctrl-C, and summary.json never came ---------------- */
 
-/* A gnuplot that says where it is, ignores what can be ignored, leaves the work to a child and never ends. */
-static void put_hanging_gnuplot(void) {
+/* Put a script in the place of gnuplot. */
+static void put_gnuplot(const char *script) {
   ck_assert_int_eq(mkdir(in_base("bin"), 0777), 0);
-  put_file("bin/gnuplot", "#!/bin/sh\ntrap '' INT TERM HUP\necho $$ >started\nsleep 1000\nsleep 1000\n");
+  put_file("bin/gnuplot", script);
   ck_assert_int_eq(chmod(in_base("bin/gnuplot"), 0755), 0);
   char path[2600];
   snprintf(path, sizeof path, "%s:%s", in_base("bin"), getenv("PATH"));
   ck_assert_int_eq(setenv("PATH", path, 1), 0);
 }
 
+/* A gnuplot that says where it is, ignores what can be ignored, leaves the work to a child and never ends. */
+static void put_hanging_gnuplot(void) {
+  put_gnuplot("#!/bin/sh\ntrap '' INT TERM HUP\necho $$ >started\nsleep 1000\nsleep 1000\n");
+}
 static bool nothing_runs(const char *started) {
   size_t size;
   char *text = read_whole(in_base(started), &size);
@@ -924,8 +929,14 @@ static bool nothing_runs(const char *started) {
 START_TEST(hanging_gnuplot_is_given_up) {
   put_hanging_gnuplot();
   char reason[128];
-  const ZpGnuplotJob job = {base, "a.gp", "a.svg", 8, NULL}; /* it has started by then */
-  ck_assert_int_eq(zp_gnuplot_run(&job, reason, sizeof reason), ZP_GNUPLOT_HANGS);
+  const ZpGnuplotJob job = {base, "a.gp", "a.svg", 8}; /* it has started by then */
+  ZpGnuplotChild child, *const children[] = {&child};
+  ZpGnuplot state = zp_gnuplot_start(&job, &child, reason, sizeof reason);
+  while (state == ZP_GNUPLOT_RUNS) {
+    zp_gnuplot_wait(children, 1);
+    state = zp_gnuplot_look(&child, false, reason, sizeof reason);
+  }
+  ck_assert_int_eq(state, ZP_GNUPLOT_HANGS);
   ck_assert_str_eq(reason, "gnuplot took longer than 8 s");
   ck_assert(nothing_runs("started"));
 }
@@ -947,7 +958,7 @@ START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
   const ZpPlot plot = {0};
   ZpError err;
   put_hanging_gnuplot();
-  ZpDrawing drawing = {&plot, in_base("plots"), note, 1, NULL, false};
+  ZpDrawing drawing = {&plot, in_base("plots"), note, 1, NULL, 1, false};
   ck_assert_int_eq(zp_drawing_prepare(&drawing, table, 1, &err), ZP_OK);
   zp_drawing_draw(&drawing, table, 1);
   ck_assert_ptr_nonnull(
@@ -955,6 +966,42 @@ START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
   ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
   ck_assert(exists("plots/a.gp") && exists("plots/b.gp") && !exists("plots/a.svg"));
   count_files("plots");
+}
+END_TEST
+
+/* -- pictures that cannot be turned off cost more than the run, and most of that was an animation nobody asked for ----
+ */
+
+START_TEST(no_pictures_where_plots_are_off) {
+  write_single("out", NULL, made_up(50, 10, false, 8e3, 1), 1);
+  ck_assert(exists("out/plots/stroke.svg") && exists("out/plots/stroke.gp"));
+  write_single("out", "output.plots=false", made_up(50, 10, false, 8e3, 1), 1);
+  ck_assert(!exists("out/plots/stroke.svg") && !exists("out/plots/stroke.gp") && exists("out/summary.json"));
+  write_single("new", "output.plots=false", made_up(50, 10, false, 8e3, 1), 1);
+  ck_assert(!exists("new/plots") && exists("new/table.csv"));
+  ck_assert_str_eq(notices, "");
+}
+END_TEST
+
+START_TEST(no_animation_unless_asked) {
+  write_single("out", "output.animation=false", made_up(50, 10, false, 8e3, 1), 1);
+  ck_assert(exists("out/plots/stroke.svg") && !exists("out/plots/animation.gif") && !exists("out/plots/animation.gp"));
+}
+END_TEST
+
+/* Each gnuplot waits until another one has started: drawn one after the other, they would hang. */
+START_TEST(pictures_are_drawn_at_once) {
+  static const ZpPicture two[] = {{"a", "svg", always, no_script, NULL}, {"b", "svg", always, no_script, NULL}, {0}};
+  static const ZpPicture *const table[] = {two};
+  const ZpPlot plot = {0};
+  ZpError err;
+  put_gnuplot("#!/bin/sh\n>started.$$\nwhile [ \"$(ls started.* | wc -l)\" -lt 2 ]; do sleep 0.01; done\n"
+              "out=${3#*\\'}\necho '<svg> </svg>' >\"${out%\\'}\"\n");
+  ZpDrawing drawing = {&plot, in_base("plots"), note, 60, NULL, 2, false};
+  ck_assert_int_eq(zp_drawing_prepare(&drawing, table, 1, &err), ZP_OK);
+  zp_drawing_draw(&drawing, table, 1);
+  ck_assert_str_eq(notices, "");
+  ck_assert(exists("plots/a.svg") && exists("plots/b.svg"));
 }
 END_TEST
 
@@ -971,7 +1018,7 @@ START_TEST(numbers_come_before_pictures) {
   ZpResult *result = made_up(50, 10, false, 8e3, 1);
   ZpError err = {0};
   const ZpHooks hooks = {.progress = stop_with_numbers};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks, NULL, 0};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   ck_assert_ptr_nonnull(strstr(notices, "was not drawn: interrupted; the rest are not drawn either"));
   ck_assert(nothing_runs("out/plots/started"));
@@ -1105,6 +1152,9 @@ static Suite *suite_of_report(void) {
                                broken_gnuplot,
                                hanging_gnuplot_is_given_up,
                                after_a_hanging_gnuplot_no_other_is_started,
+                               no_pictures_where_plots_are_off,
+                               no_animation_unless_asked,
+                               pictures_are_drawn_at_once,
                                numbers_come_before_pictures,
                                folder_of_another_run_is_refused,
                                what_a_killed_run_left_is_cleaned_up,

@@ -281,7 +281,7 @@ static const struct {
     {"ribbon: 5 mm", "test.yaml:1: ribbon", "a group of keys"},
     {"ribbon: [1]", "test.yaml:1: ribbon", "a group of keys"},
     {"ribbon.length: {a: 1}", "test.yaml:1: ribbon.length.a", "unknown key"},
-    {"ribbon.length: {}", "test.yaml:1: ribbon.length", "unknown key"},
+    {"ribbon.length: {}", "test.yaml:1: ribbon.length", "a range has no \"from\""},
     {"ribbon.length:", "test.yaml:1: ribbon.length", "empty"},
     {"ribbon.length: ''", "test.yaml:1: ribbon.length", "empty"},
     {"ribbon.length: ~", "test.yaml:1: ribbon.length", "not a number"},
@@ -323,6 +323,16 @@ static const struct {
      "nested deeper"},
     {"load.mass: .inf", "load.mass", "not a number"},
     {"load.mass: 1e999", "load.mass", "too large"},
+    {"load.mass: {from: 1 g, to: 2 g}", "test.yaml:", "load.mass = \"{...}\": a range has no \"count\""},
+    {"load.mass: {}", "test.yaml:", "a range has no \"from\""},
+    {"load.mass: {from: [1 g], to: 2 g, count: 2}", "test.yaml:", "load.mass.from: takes one value"},
+    {"load.mass: {from: 1 g, from: 2 g}", "test.yaml:", "load.mass.from"},
+    {"load.mass: {from: 1 g, till: 2 g}", "test.yaml:", "load.mass.till: unknown key"},
+    {"load.mass: 3 g\nload: {mass: {from: 1 g, to: 2 g, count: 2}}", "test.yaml:", "given twice"},
+    {"load.mass.from: 1 g", "test.yaml:", "load.mass: write a range as {from"},
+    {"load.mass.from: 1 g\nribbon.width: {to: 3 mm}", "test.yaml:", "load.mass: write a range as {from"},
+    {"ribbon.model: {from: 1, to: 2, count: 2}", "test.yaml:", "takes one value, not a range"},
+    {"data.file: {from: 1, to: 2, count: 2}", "test.yaml:", "takes one value, not a range"},
 };
 
 START_TEST(test_bad_text) {
@@ -360,6 +370,17 @@ static const struct {
     {"drive.voltage=\xFF", "UTF-8"},
     {"drive.voltage\xFF=1", "unknown key"},
     {"study=[actuate]", "not a list"},
+    {"load.mass=1 g .. 2 g", "write \"10 um .. 200 um : 20\""},
+    {"load.mass=1 g .. 2 g : 1", "count = \"1\": give a whole number from 2 to 20000"},
+    {"load.mass=1 g .. 2 g : many", "count = \"many\""},
+    {"load.mass=1 g .. : 3", "to = \"\": empty"},
+    {"load.mass=1 g .. 2 m : 3", "to = \"2 m\": not a mass"},
+    {"load.mass=2 g .. 2 g : 3", "from a value to itself"},
+    {"load.mass=0 g .. 2 g : 3 log", "above 0"},
+    {"load.mass=1 g .. 2 g : 3 cubic", "spacing = \"cubic\": give linear or log"},
+    {"mesh.nodes=5 .. 10 : 3", "7.5 in it, which is not a whole number"},
+    {"solver.time_step=auto .. 1 s : 3", "from = \"auto\": give a number"},
+    {"ribbon.model=rod .. rod : 3", "give one value or a list"},
 };
 
 START_TEST(test_bad_argument) {
@@ -416,6 +437,39 @@ START_TEST(test_lists) {
   ck_assert_uint_eq(zp_scenario_count(s), 2);
   assert_round_trip(s);
   zp_scenario_destroy(s);
+}
+END_TEST
+
+/* Ranges, in a file and in --set, and the list that says the same. */
+static const struct {
+  const char *file, *argument, *list;
+} ranges[] = {
+    {"load.mass: {from: 10 g, to: 30 g, count: 5}", "load.mass=10 g .. 30 g : 5",
+     "load.mass: [10 g, 15 g, 20 g, 25 g, 30 g]"},
+    {"load:\n  mass:\n    count: 3\n    to: 1 g\n    from: 100 g\n    spacing: log", "load.mass=100 g..1 g:3 log",
+     "load.mass: [100 g, 10 g, 1 g]"},
+    {"ribbon.thickness: {from: 20 um, to: 200 um, count: 10, spacing: linear}",
+     "ribbon.thickness= 20 um .. 0.2 mm: 10 linear",
+     "ribbon.thickness: [20 um, 40 um, 60 um, 80 um, 100 um, 120 um, 140 um, 160 um, 180 um, 200 um]"},
+    {"mesh.nodes: {from: 21, to: 61, count: 3}", "mesh.nodes=21 .. 61 : 3", "mesh.nodes: [21, 41, 61]"},
+    {"solver.time_step: {from: 1 us, to: 0.1 ms, count: 3, spacing: log}", "solver.time_step=1 us .. 0.1 ms : 3 log",
+     "solver.time_step: [1 us, 10 us, 100 us]"},
+};
+
+START_TEST(test_ranges) {
+  ZpScenario *file = scenario_of(ranges[_i].file), *argument = scenario_of(""), *list = scenario_of(ranges[_i].list);
+  ZpError err = {0};
+  ck_assert_msg(zp_scenario_set(argument, ranges[_i].argument, &err) == ZP_OK, "%s", err.message);
+  char *wanted = written(list), *got = written(file), *also = written(argument);
+  ck_assert_str_eq(got, wanted);
+  ck_assert_str_eq(also, wanted);
+  assert_round_trip(file);
+  free(wanted);
+  free(got);
+  free(also);
+  zp_scenario_destroy(file);
+  zp_scenario_destroy(argument);
+  zp_scenario_destroy(list);
 }
 END_TEST
 
@@ -771,6 +825,7 @@ int main(void) {
   tcase_add_loop_test(scenarios, test_bad_argument, 0, LENGTH_OF(bad_arguments));
   tcase_add_test(scenarios, test_layers);
   tcase_add_test(scenarios, test_lists);
+  tcase_add_loop_test(scenarios, test_ranges, 0, LENGTH_OF(ranges));
   tcase_add_test(scenarios, test_preset_with_list);
   tcase_add_test(scenarios, test_def_errors);
   tcase_add_test(scenarios, test_limits);

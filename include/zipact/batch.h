@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/* Check every Def of `scenario`. ZP_BAD_INPUT as zp_scenario_def and zp_data_check. */
+ZP_API ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err);
+
 /* A scenario at work. */
 typedef struct ZpBatch {
   const ZpScenario *scenario;
@@ -20,8 +23,8 @@ typedef struct ZpBatch {
   bool interrupted; /* by a hook: the last result is what was reached */
 } ZpBatch;
 
-/* Check every Def of `scenario`, which must outlive the batch, before the first is run. ZP_BAD_INPUT as zp_scenario_def
- * and zp_data_check. To be freed whatever the status. */
+/* Check every Def of `scenario` (zp_batch_check), which must outlive the batch, before the first is run. To be freed
+ * whatever the status. */
 ZP_API ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err);
 ZP_API void zp_batch_free(ZpBatch *batch);
 

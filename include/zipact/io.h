@@ -27,6 +27,10 @@ ZP_API ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError
 /* The same from `size` bytes in memory; `name` stands for the file in messages. */
 ZP_API ZpStatus zp_scenario_parse(ZpScenario *scenario, const char *text, size_t size, const char *name, ZpError *err);
 
+/* As zp_scenario_parse, but what it gives wins over files and --set alike, as long as no other --set comes. */
+ZP_API ZpStatus zp_scenario_override(ZpScenario *scenario, const char *text, size_t size, const char *name,
+                                     ZpError *err);
+
 /* Set from "KEY=VALUE" as --set gives it; wins over the file. VALUE as in YAML, a list "[1, 2]" too. */
 ZP_API ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
 
@@ -35,6 +39,9 @@ ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 
 /* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
 ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
+
+/* Whether the results of a sweep keep their series: output.series. */
+ZP_API bool zp_scenario_keeps_series(const ZpScenario *scenario);
 
 /* The study of the scenario, the same for all its Defs. */
 ZP_API ZpStudy zp_scenario_study(const ZpScenario *scenario);
@@ -79,6 +86,9 @@ ZP_API const char *zp_library_at_work(void);
  * there is no memory. */
 ZP_API ZpStatus zp_hdf5_skip_exit(ZpError *err);
 
+/* Processors that this process may use, 1 or more. */
+ZP_API int zp_processors(void);
+
 /* A folder for results that one run has for itself. */
 typedef struct ZpFolder ZpFolder;
 
@@ -90,19 +100,31 @@ ZP_API ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *e
 /* Unlock it; NULL is allowed. */
 ZP_API void zp_folder_close(ZpFolder *folder);
 
+/* Results that are read one by one: a campaign has more of them than memory. */
+typedef struct ZpRows {
+  const ZpResult *(*get)(void *user, size_t index); /* result `index`, valid until the next call; never NULL */
+  ZpStatus (*status)(void *user, ZpError *err);     /* ZP_MACHINE if one of them could not be read */
+  void *user;                                       /* handed to the functions above */
+} ZpRows;
+
 /* Where results go, and what was run. */
 typedef struct ZpReport {
   const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
   const ZpScenario *scenario; /* what was run */
-  ZpResult *const *result;    /* [count] */
+  ZpResult *const *result;    /* [count]; NULL where there are `rows` */
   size_t count;               /* zp_scenario_count, fewer if interrupted */
   double wall_time;           /* of all, s */
   const ZpFolder *folder;     /* `directory`, opened by the caller; NULL: zp_report_write opens and closes it */
   const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
+  const ZpRows *rows;         /* in place of `result`; NULL: there is none */
+  int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
 } ZpReport;
 
 /* Write summary.json (also what --json prints) to `file`. */
 ZP_API ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
+
+/* Write the same, of a report without rows, as one line. */
+ZP_API ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err);
 
 /* Write scenario.yaml, table.csv, results.h5, shapes.pvd with its .vtp files, of one run in time checkpoint.zps, then
  * summary.json, at last the pictures in plots/.

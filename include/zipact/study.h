@@ -78,6 +78,9 @@ typedef struct ZpResult {
 /* The word of a study: "actuate"; "unknown" of any other number. */
 ZP_API const char *zp_study_name(ZpStudy study);
 
+/* Whether a run of `study` may start from the result of a neighbour (ZpStudyInput); then its bits depend on it. */
+ZP_API bool zp_study_follows(ZpStudy study);
+
 /* Check `def` and what `study` asks of it besides. ZP_BAD_INPUT names the key. */
 ZP_API ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 

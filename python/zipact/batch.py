@@ -3,7 +3,8 @@
 import os
 import threading
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -73,11 +74,40 @@ class BatchError(Error):
         return BatchError, (self.batch,)
 
 
+def _run(actuator: Actuator, study: str | None, progress: Callable[[str, float], Any] | None = None) -> Result | Exception:
+    """A function of the module, so that processes find it."""
+    try:
+        return actuator.run(study, progress=progress)
+    except Exception as error:
+        return error
+
+
+def _found(run: "Future[Result | Exception]", actuator: Actuator, study: str | None) -> Result | Exception:
+    """What a run has found, or why its worker was lost. One that never began is interrupted here."""
+    if run.cancelled():
+        return _run(actuator, study, lambda stage, fraction: True)
+    error = run.exception()
+    if error is None:
+        return run.result()
+    if isinstance(error, Exception):
+        return error
+    raise error
+
+
+def _executor(given: Any) -> Any:
+    """The executor of concurrent.futures that `given` is, or has, as a Client of Dask."""
+    executor = given.get_executor() if hasattr(given, "get_executor") else given
+    if not callable(getattr(executor, "submit", None)):
+        raise InputError(f"executor: takes one of concurrent.futures or a Client of Dask, not {type(given).__name__}")
+    return executor
+
+
 def run_batch(
     actuators: Iterable[Actuator],
     study: str | None = None,
     *,
     workers: int | None = None,
+    executor: Any = None,
     progress: Callable[[int, int], Any] | None = None,
     return_exceptions: bool = False,
 ) -> Batch:
@@ -87,8 +117,12 @@ def run_batch(
     all have ended run_batch raises BatchError, whose `batch` holds what was found. With return_exceptions=True, as in
     asyncio.gather, it returns that batch: the exception is in the place of the result.
 
+    `executor` runs them elsewhere: one of concurrent.futures, as ProcessPoolExecutor or mpi4py's MPIPoolExecutor, or a
+    Client of Dask. It stays open. A run whose worker is lost has the exception that its executor gives.
+
     `progress` is called with the runs done and all runs; what it returns, if true, stops the rest, and so do Ctrl-C and
-    an exception that it raises. What was stopped has the outcome interrupted.
+    an exception that it raises. What was stopped has the outcome interrupted; in an `executor`, runs that have begun
+    end first.
     """
     actuators = list(actuators)
     for actuator in actuators:
@@ -96,25 +130,31 @@ def run_batch(
             raise InputError(f"run_batch: takes actuators, not {type(actuator).__name__}")
     if workers is not None and (not isinstance(workers, int) or workers < 1):
         raise InputError(f"workers = {workers!r}: takes a whole number from 1 on")
+    if workers is not None and executor is not None:
+        raise InputError("workers: an executor has its own")
     stop = threading.Event()
+    if executor is not None:
+        pool, end, hooks = _executor(executor), nullcontext(), ()
+    else:
+        pool = end = ThreadPoolExecutor(workers or len(os.sched_getaffinity(0)))
+        hooks = (lambda stage, fraction: stop.is_set(),)
 
-    def run(actuator: Actuator) -> Result | Exception:
-        try:
-            return actuator.run(study, progress=lambda stage, fraction: stop.is_set())
-        except Exception as error:
-            return error
+    def stop_all() -> None:
+        stop.set()
+        for run in runs:
+            run.cancel()
 
-    with ThreadPoolExecutor(workers or len(os.sched_getaffinity(0))) as pool:
-        runs = [pool.submit(run, actuator) for actuator in actuators]
+    with end:
+        runs: list[Future[Result | Exception]] = []
         try:
+            runs += (pool.submit(_run, actuator, study, *hooks) for actuator in actuators)
             for done, _ in enumerate(as_completed(runs), 1):
                 if progress and progress(done, len(runs)):
-                    stop.set()
+                    stop_all()
         except BaseException:
-            stop.set()
-            pool.shutdown(cancel_futures=True)
+            stop_all()
             raise
-    batch = Batch((run.result() for run in runs), actuators)
+    batch = Batch((_found(run, actuator, study) for run, actuator in zip(runs, actuators, strict=True)), actuators)
     if batch.errors and not return_exceptions:
         raise BatchError(batch) from next(iter(batch.errors.values()))
     return batch

@@ -6,20 +6,26 @@
 #include <zipact/calibrate.h>
 
 #include "base/fail.h"
+#include "fit/case.h"
 #include "io/guard.h"
 #include "io/report.h"
 
 /* Bytes that a run may take while it lasts. */
 enum { MARGIN = 1 << 22 };
 
-ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err) {
+ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err) {
   ZpActuatorDef def;
   ZpStatus status = ZP_OK;
-  *batch = (ZpBatch){.scenario = scenario, .count = zp_scenario_count(scenario)};
-  for (size_t i = 0; i < batch->count && status == ZP_OK; i++) {
+  for (size_t i = 0; i < zp_scenario_count(scenario) && status == ZP_OK; i++) {
     status = zp_scenario_def(scenario, i, &def, err);
     if (status == ZP_OK) status = zp_data_check(zp_scenario_study(scenario), &def, err);
   }
+  return status;
+}
+
+ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err) {
+  *batch = (ZpBatch){.scenario = scenario, .count = zp_scenario_count(scenario)};
+  ZpStatus status = zp_batch_check(scenario, err);
   if (status != ZP_OK) return status;
   batch->result = calloc(batch->count + 1, sizeof(ZpResult *));
   return batch->result ? ZP_OK : zp_fail_memory(err);
@@ -57,27 +63,38 @@ static ZpStatus need_room(const ZpBatch *batch, ZpError *err) {
                  batch->count);
 }
 
-/* Run one Def; study limits from where the run before it, a neighbour in a sweep, has found its limits. */
-static ZpStatus run_next(const ZpBatch *batch, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
-                         ZpError *err) {
-  ZpStudy study = zp_scenario_study(batch->scenario);
-  ZpResult *before = batch->done > 0 ? batch->result[batch->done - 1] : NULL;
-  if (!before || !before->limits) return zp_data_study_run(study, def, hooks, result, err);
+size_t zp_case_chunk(const ZpScenario *scenario) {
+  enum { CHUNKS_FEWEST = 8 };
+  if (!zp_study_follows(zp_scenario_study(scenario))) return 1;
+  const size_t length = zp_scenario_count(scenario) / CHUNKS_FEWEST;
+  return length < 1 ? 1 : length < ZP_CHUNK_MOST ? length : ZP_CHUNK_MOST;
+}
+
+static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, ZpResult *before, const ZpHooks *hooks,
+                    ZpResult **result, ZpError *err) {
+  ZpStudy study = zp_scenario_study(scenario);
   const ZpStudyInput input = {.neighbour = before};
-  ZpStatus status = zp_study_run(study, def, &input, hooks, result, err);
-  zp_limits_destroy(before->limits);
-  before->limits = NULL;
+  if (before && before->limits) return zp_study_run(study, def, &input, hooks, result, err);
+  return zp_data_study_run(study, def, hooks, result, err);
+}
+
+ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+                     ZpResult **result, ZpError *err) {
+  ZpActuatorDef def;
+  const bool fresh = index % zp_case_chunk(scenario) == 0;
+  ZpStatus status = zp_scenario_def(scenario, index, &def, err);
+  if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
+  if (before) zp_limits_destroy(before->limits);
+  if (before) before->limits = NULL;
+  if (status == ZP_OK && zp_scenario_count(scenario) > 1) keep_the_series(*result);
   return status;
 }
 
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
-  ZpActuatorDef def;
-  ZpResult *result;
+  ZpResult *result, *before = batch->done > 0 ? batch->result[batch->done - 1] : NULL;
   ZpStatus status = need_room(batch, err);
-  if (status == ZP_OK) status = zp_scenario_def(batch->scenario, batch->done, &def, err);
-  if (status == ZP_OK) status = run_next(batch, &def, hooks, &result, err);
+  if (status == ZP_OK) status = zp_case_run(batch->scenario, batch->done, before, hooks, &result, err);
   if (status != ZP_OK) return status;
-  if (batch->count > 1) keep_the_series(result);
   batch->result[batch->done++] = result;
   batch->numbers += zp_result_numbers(result);
   batch->interrupted = result->outcome == ZP_INTERRUPTED;

@@ -70,10 +70,10 @@ static ZpStatus write_sweep(FILE *file, const ZpReport *report, ZpError *err) {
   write_head(file, report, &names);
   for (size_t run = 0; run < report->count && status == ZP_OK; run++) {
     status = write_keys(file, report, run, err);
-    fputs(zp_outcome_name(report->result[run]->outcome), file);
+    fputs(zp_outcome_name(zp_report_result(report, run)->outcome), file);
     for (size_t i = 0; i < names.count; i++) {
       fputc(',', file);
-      put_number(file, zp_result_get(report->result[run], names.item[i].name));
+      put_number(file, zp_result_get(zp_report_result(report, run), names.item[i].name));
     }
     fputc('\n', file);
   }

@@ -1,4 +1,4 @@
-/* Running gnuplot as a child process.
+/* Running gnuplot as child processes.
  *
  * Arguments go as a vector, so no shell reads file names. The child has a process group of its own: a Ctrl-C at the
  * terminal is for us, who decide whether to wait on, and what the child has started dies with it. It writes to a
@@ -19,19 +19,8 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What is kept of stderr: more than enough for the first complaint. */
-#define KEPT 4096
-
-/* How long to wait before the hooks are asked again, ms. */
-#define PULSE 20
-
-/* A gnuplot that runs. */
-typedef struct Child {
-  pid_t id;
-  int errors; /* its stderr, read without waiting; -1 when it has closed it */
-  char kept[KEPT];
-  size_t used; /* bytes of `kept`, which ends with a 0 */
-} Child;
+/* How long a wait may take, ms; where a child has closed its stderr, so that nothing wakes us when it ends. */
+enum { PULSE = 20, SHORT_PULSE = 1 };
 
 /* => 0 or an errno. stderr of the child goes to `error_pipe`. */
 static int set_files(posix_spawn_file_actions_t *actions, const char *folder, int error_pipe) {
@@ -71,15 +60,15 @@ static int spawn(pid_t *child, const char *folder, const char *script, char *set
   return error;
 }
 
-/* Read what is there; keep the first KEPT bytes. */
-static void read_errors(Child *child) {
+/* Read what is there; keep the first ZP_GNUPLOT_KEPT bytes. */
+static void read_errors(ZpGnuplotChild *child) {
   char part[1024];
   for (;;) {
     ssize_t got = read(child->errors, part, sizeof part);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && errno == EAGAIN) return;
     if (got <= 0) break;
-    size_t room = KEPT - 1 - child->used, take = (size_t)got < room ? (size_t)got : room;
+    size_t room = ZP_GNUPLOT_KEPT - 1 - child->used, take = (size_t)got < room ? (size_t)got : room;
     memcpy(child->kept + child->used, part, take);
     child->used += take;
     child->kept[child->used] = 0;
@@ -88,11 +77,14 @@ static void read_errors(Child *child) {
   child->errors = -1;
 }
 
-/* Wait until it says something or ends, a PULSE at most. */
-static void wait_a_little(Child *child) {
-  struct pollfd stream = {.fd = child->errors, .events = POLLIN};
-  poll(&stream, 1, child->errors >= 0 ? PULSE : 1); /* it closes its stderr when it ends */
-  if (child->errors >= 0) read_errors(child);
+void zp_gnuplot_wait(ZpGnuplotChild *const *child, size_t count) {
+  struct pollfd stream[ZP_GNUPLOT_MOST];
+  int pulse = PULSE;
+  for (size_t i = 0; i < count; i++) {
+    stream[i] = (struct pollfd){.fd = child[i]->errors, .events = POLLIN}; /* poll looks at none below 0 */
+    if (child[i]->errors < 0) pulse = SHORT_PULSE;
+  }
+  poll(stream, count, pulse);
 }
 
 static double wall_clock(void) {
@@ -101,30 +93,21 @@ static double wall_clock(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool asked_to_stop(const ZpHooks *hooks) {
-  return hooks && hooks->progress && hooks->progress(hooks->user, "pictures", 1);
-}
-
-static void kill_group(Child *child) {
+static void kill_group(const ZpGnuplotChild *child) {
   kill(-child->id, SIGKILL);
   while (waitpid(child->id, NULL, 0) < 0 && errno == EINTR)
     continue;
 }
 
-static ZpGnuplot wait_for(Child *child, const ZpGnuplotJob *job) {
-  const double end = wall_clock() + job->patience;
-  for (;;) {
-    int status = 0;
-    wait_a_little(child);
-    pid_t ended = waitpid(child->id, &status, WNOHANG);
-    if (ended < 0 && errno != EINTR)
-      return ZP_GNUPLOT_DONE; /* someone else waits for children; the picture will tell */
-    if (ended > 0) return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ZP_GNUPLOT_DONE : ZP_GNUPLOT_FAILED;
-    bool stop = asked_to_stop(job->hooks);
-    if (!stop && wall_clock() < end) continue;
-    kill_group(child);
-    return stop ? ZP_GNUPLOT_INTERRUPTED : ZP_GNUPLOT_HANGS;
-  }
+/* Whether it runs, has ended, or is to be ended now. */
+static ZpGnuplot state_of(const ZpGnuplotChild *child, bool stop) {
+  int status = 0;
+  pid_t ended = waitpid(child->id, &status, WNOHANG);
+  if (ended < 0 && errno != EINTR) return ZP_GNUPLOT_DONE; /* someone else waits for children; the picture will tell */
+  if (ended > 0) return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ZP_GNUPLOT_DONE : ZP_GNUPLOT_FAILED;
+  if (!stop && wall_clock() < child->end) return ZP_GNUPLOT_RUNS;
+  kill_group(child);
+  return stop ? ZP_GNUPLOT_INTERRUPTED : ZP_GNUPLOT_HANGS;
 }
 
 /* The first line that says something: not empty, not the mark under a quoted command, no mere warning. */
@@ -139,10 +122,10 @@ static void first_complaint(char *text, char *reason, size_t size) {
 }
 
 /* => 0 and the child, or an errno. */
-static int start(const ZpGnuplotJob *job, Child *child) {
+static int start(const ZpGnuplotJob *job, ZpGnuplotChild *child) {
   char *set_out = NULL;
   int ends[2];
-  *child = (Child){.errors = -1};
+  *child = (ZpGnuplotChild){.errors = -1, .patience = job->patience, .end = wall_clock() + job->patience};
   if (pipe2(ends, O_CLOEXEC) != 0) return errno;
   int error = asprintf(&set_out, "out = '%s'", job->output) < 0 ? ENOMEM : 0;
   if (!error) {
@@ -155,16 +138,22 @@ static int start(const ZpGnuplotJob *job, Child *child) {
   return error;
 }
 
-ZpGnuplot zp_gnuplot_run(const ZpGnuplotJob *job, char *reason, size_t size) {
-  Child child;
-  int error = start(job, &child);
-  snprintf(reason, size, "%s", error ? strerror(error) : "gnuplot gave no reason");
-  if (error) return error == ENOENT ? ZP_GNUPLOT_MISSING : ZP_GNUPLOT_FAILED;
-  ZpGnuplot end = wait_for(&child, job);
-  if (child.errors >= 0) read_errors(&child);
-  if (child.errors >= 0) close(child.errors);
-  first_complaint(child.kept, reason, size);
-  if (end == ZP_GNUPLOT_HANGS) snprintf(reason, size, "gnuplot took longer than %g s", job->patience);
+ZpGnuplot zp_gnuplot_start(const ZpGnuplotJob *job, ZpGnuplotChild *child, char *reason, size_t size) {
+  int error = start(job, child);
+  if (!error) return ZP_GNUPLOT_RUNS;
+  snprintf(reason, size, "%s", strerror(error));
+  return error == ENOENT ? ZP_GNUPLOT_MISSING : ZP_GNUPLOT_FAILED;
+}
+
+ZpGnuplot zp_gnuplot_look(ZpGnuplotChild *child, bool stop, char *reason, size_t size) {
+  if (child->errors >= 0) read_errors(child);
+  ZpGnuplot end = state_of(child, stop);
+  if (end == ZP_GNUPLOT_RUNS) return end;
+  if (child->errors >= 0) read_errors(child);
+  if (child->errors >= 0) close(child->errors);
+  snprintf(reason, size, "gnuplot gave no reason");
+  first_complaint(child->kept, reason, size);
+  if (end == ZP_GNUPLOT_HANGS) snprintf(reason, size, "gnuplot took longer than %g s", child->patience);
   if (end == ZP_GNUPLOT_INTERRUPTED) snprintf(reason, size, "interrupted");
   return end;
 }

@@ -7,10 +7,11 @@
  *             /field/...             x, y, potential [i][j] of nodes; strength, permittivity of the cells between
  *             /summary/SCALAR        what does not follow from wall time
  *   a sweep:  /table/COLUMN          as table.csv, one value per run
- *             /runs/0000/series, shapes, summary of each run
+ *             /runs/0000/series, summary of each run, where its results keep their series
  *
  * HDF5 builds the file in memory and zp_atomic writes its bytes: HDF5 never meets a full disk, from which
- * it does not recover, and the reason is the system's own. Times of objects are not kept and every NaN
+ * it does not recover, and the reason is the system's own. Results are read once, in order: a block of rows of all
+ * columns is in memory besides the file. Times of objects are not kept and every NaN
  * has the same bits, so the same numbers give the same bytes. */
 #include <hdf5.h>
 
@@ -65,17 +66,24 @@ static void put_attribute(Store *store, hid_t object, const char *name, const ch
   H5Tclose(type);
 }
 
-/* One dataset of `rank` dimensions (0: a single value) from `value` of the type `memory`. */
-static void put_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, hid_t memory, int rank,
-                      const hsize_t *size, const void *value) {
-  if (store->bad) return;
+/* A dataset of `rank` dimensions (0: a single value) without its values, to be closed. */
+static hid_t open_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, int rank, const hsize_t *size) {
+  if (store->bad) return -1;
   hid_t space = rank ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
   hid_t set = H5Dcreate2(group, meaning->name, disk, space, H5P_DEFAULT, store->plain, H5P_DEFAULT);
-  if (!is_bad(store, set)) is_bad(store, H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
+  is_bad(store, set);
   put_attribute(store, set, "unit", meaning->unit);
   put_attribute(store, set, "help", meaning->help);
-  H5Dclose(set);
   H5Sclose(space);
+  return set;
+}
+
+/* One dataset from `value` of the type `memory`. */
+static void put_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, hid_t memory, int rank,
+                      const hsize_t *size, const void *value) {
+  hid_t set = open_array(store, group, meaning, disk, rank, size);
+  if (!store->bad) is_bad(store, H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
+  if (set >= 0) H5Dclose(set);
 }
 
 static void put_reals(Store *store, hid_t group, const Meaning *meaning, int rank, const hsize_t *size,
@@ -229,58 +237,108 @@ static void put_run(Store *store, hid_t parent, const ZpResult *result) {
   put_summary(store, parent, result);
 }
 
-/* Columns of the table that hold the list keys. A choice is its place in its list of words. */
-static void put_keys(Store *store, hid_t group, const ZpReport *report) {
-  size_t keys;
-  const int *key = zp_scenario_lists(report->scenario, &keys);
-  hsize_t rows = report->count;
-  double *value = numbers(store, report->count);
-  for (size_t i = 0; i < keys && !store->bad; i++) {
-    char name[ZP_KEY_COLUMN_SIZE];
-    ZpActuatorDef def;
-    for (size_t run = 0; run < report->count && !store->bad; run++) {
-      store->bad = zp_scenario_def(report->scenario, run, &def, NULL) != ZP_OK;
-      if (!store->bad) value[run] = clean(zp_def_get(&def, key[i]));
-    }
-    zp_key_column(key[i], name, sizeof name);
-    const ZpKey *k = zp_key(key[i]);
-    put_reals(store, group, &(Meaning){name, k->unit, k->help}, 1, &rows, value);
-  }
-  free(value);
-}
-
 /* All outcomes take the same room, as an array of strings in HDF5 must. */
 #define OUTCOME_SIZE 16
 
-static void put_outcomes(Store *store, hid_t group, const ZpReport *report) {
-  hsize_t rows = report->count;
-  char *text = calloc(report->count + 1, OUTCOME_SIZE);
-  hid_t type = H5Tcopy(H5T_C_S1);
-  if (!text) store->bad = true;
-  if (!is_bad(store, type)) is_bad(store, H5Tset_size(type, OUTCOME_SIZE));
-  for (size_t run = 0; run < report->count && !store->bad; run++)
-    snprintf(text + run * OUTCOME_SIZE, OUTCOME_SIZE, "%s", zp_outcome_name(report->result[run]->outcome));
-  put_array(store, group, &(Meaning){.name = "outcome", .help = "how the numerics ended"}, type, type, 1, &rows, text);
-  H5Tclose(type);
-  free(text);
+/* Rows that are written at a time. */
+enum { BLOCK = 1024 };
+
+/* The table of a sweep: first the list keys, then the scalars; outcomes apart. */
+typedef struct Columns {
+  const ZpReport *report;
+  const int *key; /* [keys]; a choice is its place in its list of words */
+  size_t keys;
+  ZpScalarNames names;
+  hid_t type, outcomes;
+  hid_t *set;    /* [keys + names.count] */
+  double *value; /* [keys + names.count][BLOCK] */
+  char outcome[BLOCK][OUTCOME_SIZE];
+} Columns;
+
+static void open_key(Store *store, hid_t group, int key, hsize_t rows, hid_t *set) {
+  char name[ZP_KEY_COLUMN_SIZE];
+  const ZpKey *k = zp_key(key);
+  zp_key_column(key, name, sizeof name);
+  *set = open_array(store, group, &(Meaning){name, k->unit, k->help}, H5T_IEEE_F64LE, 1, &rows);
+}
+
+static void open_scalar(Store *store, hid_t group, const ZpScalar *scalar, hsize_t rows, hid_t *set) {
+  const Meaning meaning = {.name = scalar->name, .unit = scalar->unit};
+  *set = open_array(store, group, &meaning, H5T_IEEE_F64LE, 1, &rows);
+}
+
+static void open_columns(Store *store, hid_t group, Columns *c) {
+  const hsize_t rows = c->report->count;
+  const Meaning outcome = {.name = "outcome", .help = "how the numerics ended"};
+  for (size_t i = 0; i < c->keys; i++)
+    open_key(store, group, c->key[i], rows, &c->set[i]);
+  c->type = H5Tcopy(H5T_C_S1);
+  if (!is_bad(store, c->type)) is_bad(store, H5Tset_size(c->type, OUTCOME_SIZE));
+  c->outcomes = open_array(store, group, &outcome, c->type, 1, &rows);
+  for (size_t i = 0; i < c->names.count; i++)
+    open_scalar(store, group, &c->names.item[i], rows, &c->set[c->keys + i]);
+}
+
+static void close_columns(const Columns *c) {
+  for (size_t i = 0; i < c->keys + c->names.count; i++)
+    if (c->set[i] > 0) H5Dclose(c->set[i]);
+  if (c->outcomes > 0) H5Dclose(c->outcomes);
+  H5Tclose(c->type);
+}
+
+/* Row `run` as row `place` of the block. */
+static void take_row(Store *store, Columns *c, size_t run, size_t place) {
+  ZpActuatorDef def;
+  const ZpResult *result = zp_report_result(c->report, run);
+  double *value = c->value + place;
+  store->bad = store->bad || zp_scenario_def(c->report->scenario, run, &def, NULL) != ZP_OK;
+  for (size_t i = 0; i < c->keys && !store->bad; i++, value += BLOCK)
+    *value = clean(zp_def_get(&def, c->key[i]));
+  for (size_t i = 0; i < c->names.count && !store->bad; i++, value += BLOCK)
+    *value = clean(zp_result_get(result, c->names.item[i].name));
+  memset(c->outcome[place], 0, OUTCOME_SIZE);
+  snprintf(c->outcome[place], OUTCOME_SIZE, "%s", zp_outcome_name(result->outcome));
+}
+
+static void put_block(Store *store, const Columns *c, size_t from, hsize_t rows) {
+  const hsize_t all = c->report->count, start = from;
+  hid_t here = H5Screate_simple(1, &rows, NULL), there = H5Screate_simple(1, &all, NULL);
+  if (!is_bad(store, there)) is_bad(store, H5Sselect_hyperslab(there, H5S_SELECT_SET, &start, NULL, &rows, NULL));
+  for (size_t i = 0; i < c->keys + c->names.count && !store->bad; i++)
+    is_bad(store, H5Dwrite(c->set[i], H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, c->value + i * BLOCK));
+  if (!store->bad) is_bad(store, H5Dwrite(c->outcomes, c->type, here, there, H5P_DEFAULT, c->outcome));
+  H5Sclose(here);
+  H5Sclose(there);
+}
+
+static void put_columns(Store *store, hid_t group, Columns *c) {
+  open_columns(store, group, c);
+  for (size_t from = 0; from < c->report->count && !store->bad; from += BLOCK) {
+    const size_t left = c->report->count - from, rows = left < BLOCK ? left : BLOCK;
+    for (size_t i = 0; i < rows; i++)
+      take_row(store, c, from + i, i);
+    put_block(store, c, from, rows);
+  }
+  close_columns(c);
 }
 
 static void put_table(Store *store, const ZpReport *report) {
-  ZpScalarNames names;
-  hsize_t rows = report->count;
+  Columns *c = calloc(1, sizeof *c);
   hid_t group = open_group(store, store->file, "table");
-  double *value = numbers(store, report->count);
-  put_keys(store, group, report);
-  put_outcomes(store, group, report);
-  if (!zp_report_scalars(report, false, &names)) store->bad = true;
-  for (size_t i = 0; !store->bad && i < names.count; i++) {
-    const ZpScalar *s = &names.item[i];
-    for (size_t run = 0; run < report->count; run++)
-      value[run] = clean(zp_result_get(report->result[run], s->name));
-    put_reals(store, group, &(Meaning){.name = s->name, .unit = s->unit}, 1, &rows, value);
+  if (!c || !zp_report_scalars(report, false, &c->names)) {
+    store->bad = true;
+  } else {
+    c->report = report;
+    c->key = zp_scenario_lists(report->scenario, &c->keys);
+    c->set = calloc(c->keys + c->names.count + 1, sizeof *c->set);
+    c->value = calloc((c->keys + c->names.count + 1) * BLOCK, sizeof *c->value);
+    store->bad = store->bad || !c->set || !c->value;
+    if (!store->bad) put_columns(store, group, c);
+    free(c->names.item);
+    free(c->set);
+    free(c->value);
   }
-  free(names.item);
-  free(value);
+  free(c);
   H5Gclose(group);
 }
 
@@ -290,7 +348,7 @@ static void put_runs(Store *store, const ZpReport *report) {
     char name[32];
     snprintf(name, sizeof name, "%04zu", i);
     hid_t group = open_group(store, runs, name);
-    put_run(store, group, report->result[i]);
+    put_run(store, group, zp_report_result(report, i));
     H5Gclose(group);
   }
   H5Gclose(runs);
@@ -303,7 +361,7 @@ static void put_all(Store *store, const ZpReport *report, const char *scenario) 
   if (single) put_run(store, store->file, single);
   if (zp_report_is_sweep(report)) {
     put_table(store, report);
-    put_runs(store, report);
+    if (zp_scenario_keeps_series(report->scenario)) put_runs(store, report);
   }
 }
 
@@ -317,66 +375,68 @@ static hid_t open_memory_file(void) {
   return file;
 }
 
-/* The bytes of the file, to be freed; NULL if that failed. */
-static void *take_image(hid_t file, size_t *size) {
-  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) return NULL;
-  ssize_t length = H5Fget_file_image(file, NULL, 0);
-  void *image = length > 0 ? malloc((size_t)length) : NULL;
-  *size = (size_t)length;
-  if (image && H5Fget_file_image(file, image, *size) == length) return image;
-  free(image);
-  return NULL;
+/* Write the bytes of the file, which HDF5 has in memory, to `out`, whose errors its commit finds. False if HDF5 failed.
+ */
+static bool write_image(hid_t file, FILE *out) {
+  void **image = NULL;
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) return false;
+  const ssize_t size = H5Fget_file_image(file, NULL, 0);
+  if (size <= 0 || H5Fget_vfd_handle(file, H5P_DEFAULT, (void **)&image) < 0) return false;
+  fwrite(*image, 1, (size_t)size, out);
+  return true;
 }
 
-static void *build_image(const ZpReport *report, const char *scenario, size_t *size) {
+static bool build(const ZpReport *report, const char *scenario, FILE *out) {
   Store store = {.file = open_memory_file(), .plain = H5Pcreate(H5P_DATASET_CREATE)};
   is_bad(&store, store.file);
   if (!is_bad(&store, store.plain)) is_bad(&store, H5Pset_obj_track_times(store.plain, false));
   put_all(&store, report, scenario);
-  void *image = store.bad ? NULL : take_image(store.file, size);
+  bool done = !store.bad && write_image(store.file, out);
   H5Pclose(store.plain);
   H5Fclose(store.file);
-  return image;
+  return done;
 }
 
 /* HDF5 prints its own stack of errors on stderr unless told not to; the caller's setting comes back. */
-static void *build_silently(const ZpReport *report, const char *scenario, size_t *size) {
+static bool build_silently(const ZpReport *report, const char *scenario, FILE *out) {
   H5E_auto2_t print = NULL;
   void *data = NULL;
   bool saved = H5Eget_auto2(H5E_DEFAULT, &print, &data) >= 0;
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  void *image = build_image(report, scenario, size);
+  bool done = build(report, scenario, out);
   if (saved) H5Eset_auto2(H5E_DEFAULT, print, data);
-  return image;
+  return done;
 }
 
-static ZpStatus build_guarded(const ZpReport *report, const char *scenario, void **image, size_t *size, ZpError *err) {
-  ZpGuard guard;
-  size_t numbers = 0;
+/* Bytes that the file takes in memory, rather too many: of a sweep without series it has the table only. */
+static size_t room_of(const ZpReport *report) {
+  size_t numbers = 0, keys;
+  zp_scenario_lists(report->scenario, &keys);
+  if (report->count > 0 && zp_report_is_sweep(report) && !zp_scenario_keeps_series(report->scenario))
+    return zp_report_room(0, report->count * (keys + 2 + zp_report_result(report, 0)->scalars));
   for (size_t i = 0; i < report->count; i++)
-    numbers += zp_result_numbers(report->result[i]);
-  ZpStatus status = zp_guard_enter(&guard, "HDF5", zp_report_room(report->count, numbers), err);
+    numbers += zp_result_numbers(zp_report_result(report, i));
+  return zp_report_room(report->count, numbers);
+}
+
+static ZpStatus build_guarded(const ZpReport *report, const char *scenario, FILE *out, ZpError *err) {
+  ZpGuard guard;
+  ZpStatus status = zp_guard_enter(&guard, "HDF5", room_of(report), err);
   if (status != ZP_OK) return status;
-  *image = build_silently(report, scenario, size);
+  bool done = build_silently(report, scenario, out);
   zp_guard_leave(&guard);
-  if (*image) return ZP_OK;
+  if (done) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "cannot create %s/results.h5: HDF5 could not build it in memory", report->directory);
 }
 
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err) {
   char *scenario;
-  void *image = NULL;
-  size_t size = 0;
   ZpAtomic out;
   ZpStatus status = zp_scenario_text(report, &scenario, err);
-  if (status == ZP_OK) status = build_guarded(report, scenario, &image, &size, err);
+  if (status != ZP_OK) return status;
+  status = zp_atomic_open(&out, report->directory, "results.h5", err);
+  if (status == ZP_OK) status = zp_atomic_finish(&out, build_guarded(report, scenario, out.file, err), err);
   free(scenario);
-  if (status == ZP_OK) status = zp_atomic_open(&out, report->directory, "results.h5", err);
-  if (status == ZP_OK) {
-    fwrite(image, 1, size, out.file); /* the commit finds what goes wrong here */
-    status = zp_atomic_commit(&out, err);
-  }
-  free(image);
   return status;
 }
 

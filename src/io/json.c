@@ -28,28 +28,50 @@ static void print_real(FILE *file, double value) {
   fprintf(file, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
 }
 
+/* The depth at which all is on one line. */
+enum { FLAT = -1 };
+
+static int inside(int depth) {
+  return depth == FLAT ? FLAT : depth + 1;
+}
+
+static void begin_line(FILE *file, int depth) {
+  if (depth != FLAT) fprintf(file, "\n%*s", 2 * depth, "");
+}
+
 static bool print_tree(FILE *file, const json_t *tree, int depth);
 
-static bool print_object(FILE *file, const json_t *object, int depth) {
+/* All but the brace at its end. */
+static bool print_members(FILE *file, const json_t *object, int depth) {
   const char *name, *mark = "{";
   json_t *value;
   bool done = true;
   json_object_foreach((json_t *)object, name, value) {
-    fprintf(file, "%s\n%*s\"%s\": ", mark, 2 * depth + 2, "", name);
-    done = print_tree(file, value, depth + 1) && done;
-    mark = ",";
+    fputs(mark, file);
+    begin_line(file, inside(depth));
+    fprintf(file, "\"%s\": ", name);
+    done = print_tree(file, value, inside(depth)) && done;
+    mark = depth == FLAT ? ", " : ",";
   }
-  fprintf(file, "\n%*s}", 2 * depth, "");
+  return done;
+}
+
+static bool print_object(FILE *file, const json_t *object, int depth) {
+  bool done = print_members(file, object, depth);
+  begin_line(file, depth);
+  fputc('}', file);
   return done;
 }
 
 static bool print_array(FILE *file, const json_t *array, int depth) {
   bool done = true;
   for (size_t i = 0; i < json_array_size(array); i++) {
-    fprintf(file, "%s\n%*s", i ? "," : "[", 2 * depth + 2, "");
-    done = print_tree(file, json_array_get(array, i), depth + 1) && done;
+    fputs(i == 0 ? "[" : depth == FLAT ? ", " : ",", file);
+    begin_line(file, inside(depth));
+    done = print_tree(file, json_array_get(array, i), inside(depth)) && done;
   }
-  fprintf(file, "\n%*s]", 2 * depth, "");
+  begin_line(file, depth);
+  fputc(']', file);
   return done;
 }
 
@@ -64,10 +86,42 @@ static bool print_tree(FILE *file, const json_t *tree, int depth) {
   return true;
 }
 
-ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
-  errno = 0;
-  bool done = print_tree(file, tree, 0);
+/* `done`: all was printed so far. */
+static ZpStatus finish(FILE *file, bool done, ZpError *err) {
   done = fputc('\n', file) != EOF && done;
   if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
+}
+
+/* The list as print_array would print it. */
+static bool print_list(FILE *file, size_t count, ZpJsonItem item, const void *user) {
+  bool done = true;
+  for (size_t i = 0; i < count && done; i++) {
+    json_t *tree = item(user, i);
+    fprintf(file, "%s\n    ", i ? "," : "[");
+    done = tree && print_tree(file, tree, 2);
+    json_decref(tree);
+  }
+  fputs(count > 0 ? "\n  ]" : "[]", file);
+  return done;
+}
+
+ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
+                            FILE *file, ZpError *err) {
+  errno = 0;
+  bool done = print_members(file, head, 0);
+  fprintf(file, ",\n  \"%s\": ", name);
+  done = print_list(file, count, item, user) && done;
+  fputs("\n}", file);
+  return finish(file, done, err);
+}
+
+ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  return finish(file, print_tree(file, tree, 0), err);
+}
+
+ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  return finish(file, print_tree(file, tree, FLAT), err);
 }

@@ -14,8 +14,19 @@ bool zp_json_set(json_t *object, const char *name, json_t *value);
 /* A real, a whole number for the unit "count", null for what does not exist; JSON knows no infinity either. */
 json_t *zp_json_number(double value, const char *unit);
 
+/* Makes item `index` of a list; NULL if there is no memory. */
+typedef json_t *(*ZpJsonItem)(const void *user, size_t index);
+
+/* Write the object `head` as zp_json_write, with a last member `name`: a list of `count` items, of which only one is in
+ * memory at a time. */
+ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
+                            FILE *file, ZpError *err);
+
 /* Write the tree as lines, numbers as the shortest that read back the same (jansson writes all 17 digits of 0.075).
  * ZP_MACHINE if the file could not be written. */
 ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err);
+
+/* The same as a single line. */
+ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err);
 
 #endif

@@ -14,6 +14,7 @@ typedef struct ZpPlot {
   const ZpReport *report;
   const ZpResult *single; /* the only run; NULL for a sweep */
   ZpActuatorDef def;      /* of the first run */
+  bool drawn;             /* output.plots, and not too many runs */
   ZpStudy study;
   ZpShows shows;             /* what its results are */
   char subtitle[320];        /* under what: load, voltage, N, preset */
@@ -38,6 +39,7 @@ typedef struct ZpDrawing {
   void (*notice)(const char *message); /* NULL: silent */
   double patience;                     /* ZP_PLOT_PATIENCE, s */
   const ZpHooks *hooks;                /* asked while gnuplot runs: true ends it. May be NULL */
+  int jobs;                            /* pictures drawn at once; 0: as many as there are processors */
   bool over;                           /* no more pictures: there is no gnuplot, it hangs, or a hook said so */
 } ZpDrawing;
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "io/plot.h"
+#include "io/report.h"
 #include "io/units.h"
 
 /* Lengths or forces. */
@@ -21,7 +22,7 @@ static double computed(const ZpTable *table, size_t row) {
 static bool has_fit(const ZpPlot *plot) {
   if (plot->shows != ZP_SHOWS_fit) return false;
   for (size_t run = 0; run < plot->report->count; run++) {
-    const ZpTable *table = plot->report->result[run]->series;
+    const ZpTable *table = zp_report_result(plot->report, run)->series;
     for (size_t row = 0; table && row < table->rows; row++)
       if (isfinite(computed(table, row))) return true;
   }
@@ -31,7 +32,7 @@ static bool has_fit(const ZpPlot *plot) {
 static void data_fit(const ZpPlot *plot, FILE *file) {
   fputs("# x measured fitted\n", file);
   for (size_t run = 0; run < plot->report->count; run++) {
-    const ZpTable *table = plot->report->result[run]->series;
+    const ZpTable *table = zp_report_result(plot->report, run)->series;
     for (size_t row = 0; table && row < table->rows; row++) {
       zp_plot_put(file, table->value[row * table->columns], ' ');
       zp_plot_put(file, measured(table, row), ' ');
@@ -77,7 +78,7 @@ static const char *axes(const ZpTable *table) {
 }
 
 static void script_fit(const ZpPlot *plot, FILE *file) {
-  const ZpTable *table = plot->report->result[0]->series;
+  const ZpTable *table = zp_report_result(plot->report, 0)->series;
   const bool force = is_force(table);
   const char *const shown[] = {table->column[1].name, table->column[2].name, NULL};
   char label[128];

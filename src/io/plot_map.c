@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "io/report.h"
 #include "io/sweep.h"
 
 /* Values of each key: fewer are better drawn as curves. */
@@ -25,7 +26,7 @@ static void choose_scalar(const ZpPlot *plot, Grid *grid) {
 }
 
 static double value_of(const ZpPlot *plot, const Grid *grid, size_t run) {
-  return zp_result_get(plot->report->result[run], grid->scalar);
+  return zp_result_get(zp_report_result(plot->report, run), grid->scalar);
 }
 
 /* Are the keys numbers that grow or fall along their lists? A surface needs no less. */

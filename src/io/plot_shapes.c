@@ -46,6 +46,7 @@ static bool is_held(const ZpPlot *plot) {
 }
 
 static bool has_animation(const ZpPlot *plot) {
+  if (!plot->def.output.animation) return false;
   if (!is_path(plot)) return has_shapes(plot);
   if (!plot->single || !film(plot) || plot->def.drive.voltage <= 0) return false;
   return film(plot)->frames >= 2 && isfinite(zp_plot_box(film(plot)).left);

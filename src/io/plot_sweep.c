@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "io/report.h"
 #include "io/sweep.h"
 #include "io/units.h"
 
@@ -29,7 +30,7 @@ static const char *column(const ZpPlot *plot) {
 }
 
 static const ZpTable *series(const ZpPlot *plot, size_t run) {
-  return plot->report->result[run]->series;
+  return zp_report_result(plot->report, run)->series;
 }
 
 static bool has_contraction(const ZpPlot *plot) {
@@ -178,14 +179,14 @@ const ZpAnswer *zp_sweep_answer(const ZpPlot *plot) {
 
 static double answer(const ZpPlot *plot, size_t run, size_t curve) {
   const char *name = zp_sweep_answer(plot)->scalar[curve];
-  return name ? zp_result_get(plot->report->result[run], name) : (double)NAN;
+  return name ? zp_result_get(zp_report_result(plot->report, run), name) : (double)NAN;
 }
 
 /* How many runs have the scalar and a number of the list key; none where `name` is NULL. */
 static size_t points_of(const ZpPlot *plot, const char *name) {
   size_t count = 0;
   for (size_t run = 0; name && run < plot->report->count; run++)
-    count += isfinite(zp_result_get(plot->report->result[run], name)) && isfinite(key_value(plot, run));
+    count += isfinite(zp_result_get(zp_report_result(plot->report, run), name)) && isfinite(key_value(plot, run));
   return count;
 }
 
@@ -340,7 +341,7 @@ static bool has_forces(const ZpPlot *plot) {
 }
 
 static double force(const ZpPlot *plot, size_t run) {
-  return zp_result_get(plot->report->result[run], "force_N");
+  return zp_result_get(zp_report_result(plot->report, run), "force_N");
 }
 
 /* An index per curve. */
@@ -419,8 +420,8 @@ static void data_bode(const ZpPlot *plot, FILE *file) {
   for (size_t k = 0; k < curves; k++) {
     for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
       zp_plot_put(file, key_value(plot, run), ' ');
-      zp_plot_put(file, zp_result_get(plot->report->result[run], "stroke_amplitude_m"), ' ');
-      zp_plot_put(file, zp_result_get(plot->report->result[run], "phase_rad"), '\n');
+      zp_plot_put(file, zp_result_get(zp_report_result(plot->report, run), "stroke_amplitude_m"), ' ');
+      zp_plot_put(file, zp_result_get(zp_report_result(plot->report, run), "phase_rad"), '\n');
     }
     fputs("\n\n", file);
   }
@@ -443,7 +444,7 @@ static void script_bode(const ZpPlot *plot, FILE *file) {
   char amplitude[64];
   double largest = 0;
   for (size_t run = 0; run < plot->report->count; run++)
-    largest = fmax(largest, zp_result_get(plot->report->result[run], "stroke_amplitude_m"));
+    largest = fmax(largest, zp_result_get(zp_report_result(plot->report, run), "stroke_amplitude_m"));
   ZpPlotUnit length = zp_plot_unit(largest, "m");
   snprintf(amplitude, sizeof amplitude, "$2*%g", length.factor);
   zp_plot_head(plot, file, "bode", "Amplitude and phase of the stroke", RIGHT);

@@ -3,7 +3,7 @@
  *
  * A picture is worth less than the numbers: these are on the disk before gnuplot runs. Without gnuplot, or where it
  * fails or hangs, the scripts stay and a notice says so. Pictures of an earlier report are removed first, so none
- * shows what is not in the table. */
+ * shows what is not in the table. As many are drawn at once as there are processors. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +15,9 @@
 #include "io/plot.h"
 #include "io/report.h"
 #include "io/writers.h"
+
+/* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
+enum { DRAWN_MOST = 10000 };
 
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
@@ -57,36 +60,76 @@ static ZpStatus write_text(const ZpDrawing *drawing, const ZpPicture *picture, c
   return zp_atomic_commit(&out, err);
 }
 
-/* Run the script of a picture. From then on no more are tried where gnuplot can draw none. */
-static ZpGnuplot run_script(ZpDrawing *drawing, const ZpPicture *picture, const char *output, char *reason,
-                            size_t size) {
-  char script[NAME_SIZE];
-  snprintf(script, sizeof script, "%s.gp", picture->name);
-  const ZpGnuplotJob job = {drawing->folder, script, output, drawing->patience, drawing->hooks};
-  ZpGnuplot end = zp_gnuplot_run(&job, reason, size);
-  drawing->over = end != ZP_GNUPLOT_DONE && end != ZP_GNUPLOT_FAILED;
-  return end;
+/* A picture that is being drawn. */
+typedef struct Work {
+  const ZpPicture *picture;
+  ZpAtomic out;
+  ZpGnuplotChild child;
+} Work;
+
+static void name_of(const ZpPicture *picture, char *name) {
+  snprintf(name, NAME_SIZE, "%s.%s", picture->name, picture->extension);
 }
 
-static void draw(ZpDrawing *drawing, const ZpPicture *picture) {
-  ZpAtomic out;
-  ZpError err;
-  char name[NAME_SIZE], reason[256];
-  snprintf(name, sizeof name, "%s.%s", picture->name, picture->extension);
-  if (zp_atomic_reserve(&out, drawing->folder, name, &err) != ZP_OK) {
-    say(drawing, name, err.message);
-    return;
-  }
-  ZpGnuplot end = run_script(drawing, picture, strrchr(out.temporary, '/') + 1, reason, sizeof reason);
-  if (end == ZP_GNUPLOT_DONE && is_complete(out.temporary, picture->extension)) {
-    if (zp_atomic_commit(&out, &err) != ZP_OK) say(drawing, name, err.message);
-    return;
-  }
-  zp_atomic_abandon(&out);
+/* From then on no more are tried where gnuplot can draw none. */
+static void give_up(ZpDrawing *drawing, Work *work, ZpGnuplot end, const char *reason) {
+  char name[NAME_SIZE];
+  const bool told = drawing->over && end == ZP_GNUPLOT_INTERRUPTED; /* of those that were drawn beside it */
+  name_of(work->picture, name);
+  drawing->over = drawing->over || (end != ZP_GNUPLOT_DONE && end != ZP_GNUPLOT_FAILED);
+  zp_atomic_abandon(&work->out);
   if (end == ZP_GNUPLOT_MISSING)
     say_missing(drawing);
-  else
+  else if (!told)
     say(drawing, name, reason);
+}
+
+/* Begin a picture; false if it could not be begun. */
+static bool begin(ZpDrawing *drawing, const ZpPicture *picture, Work *work) {
+  ZpError err;
+  char name[NAME_SIZE], script[NAME_SIZE], reason[256];
+  *work = (Work){.picture = picture};
+  name_of(picture, name);
+  snprintf(script, sizeof script, "%s.gp", picture->name);
+  if (zp_atomic_reserve(&work->out, drawing->folder, name, &err) != ZP_OK) {
+    say(drawing, name, err.message);
+    return false;
+  }
+  const ZpGnuplotJob job = {drawing->folder, script, strrchr(work->out.temporary, '/') + 1, drawing->patience};
+  ZpGnuplot state = zp_gnuplot_start(&job, &work->child, reason, sizeof reason);
+  if (state != ZP_GNUPLOT_RUNS) give_up(drawing, work, state, reason);
+  return state == ZP_GNUPLOT_RUNS;
+}
+
+static void finish(ZpDrawing *drawing, Work *work, ZpGnuplot end, const char *reason) {
+  ZpError err;
+  char name[NAME_SIZE];
+  name_of(work->picture, name);
+  if (end != ZP_GNUPLOT_DONE || !is_complete(work->out.temporary, work->picture->extension))
+    give_up(drawing, work, end, reason);
+  else if (zp_atomic_commit(&work->out, &err) != ZP_OK)
+    say(drawing, name, err.message);
+}
+
+static bool asked_to_stop(const ZpHooks *hooks) {
+  return hooks && hooks->progress && hooks->progress(hooks->user, "pictures", 1);
+}
+
+/* Wait a little for `busy` pictures and finish those that are done => how many are not. */
+static size_t tend(ZpDrawing *drawing, Work *work, size_t busy) {
+  ZpGnuplotChild *child[ZP_GNUPLOT_MOST] = {NULL};
+  char reason[256];
+  for (size_t i = 0; i < busy; i++)
+    child[i] = &work[i].child;
+  zp_gnuplot_wait(child, busy);
+  const bool stop = asked_to_stop(drawing->hooks);
+  for (size_t i = busy; i-- > 0;) {
+    ZpGnuplot state = zp_gnuplot_look(&work[i].child, stop, reason, sizeof reason);
+    if (state == ZP_GNUPLOT_RUNS) continue;
+    finish(drawing, &work[i], state, reason);
+    work[i] = work[--busy];
+  }
+  return busy;
 }
 
 static ZpStatus remove_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
@@ -153,7 +196,8 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   if (report->count == 0) return ZP_OK;
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
   if (status != ZP_OK) return status;
-  plot->study = report->result[0]->study;
+  plot->drawn = plot->def.output.plots && report->count <= DRAWN_MOST;
+  plot->study = zp_report_result(report, 0)->study;
   plot->shows = zp_study_shows(plot->study);
   for (size_t k = 0; k < sizeof subtitles / sizeof subtitles[0]; k++)
     if (subtitles[k].study == plot->study) add_subtitle(plot, &subtitles[k]);
@@ -172,20 +216,32 @@ static ZpStatus for_all(const ZpDrawing *drawing, const ZpPicture *const *table,
   return status;
 }
 
+/* Pictures of different studies may have the same name: all are removed before any is made. */
 ZpStatus zp_drawing_prepare(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
+  ZpStatus status = for_all(drawing, table, tables, remove_picture, err);
+  if (status == ZP_OK && mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
     status = zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
-  /* pictures of different studies may have the same name: remove all before any is made */
-  if (status == ZP_OK) status = for_all(drawing, table, tables, remove_picture, err);
   if (status == ZP_OK) status = for_all(drawing, table, tables, prepare_picture, err);
   return status;
 }
 
+static size_t at_once(const ZpDrawing *drawing) {
+  const int jobs = drawing->jobs > 0 ? drawing->jobs : zp_processors();
+  return jobs < ZP_GNUPLOT_MOST ? (size_t)jobs : ZP_GNUPLOT_MOST;
+}
+
 void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables) {
+  Work work[ZP_GNUPLOT_MOST];
+  const size_t most = at_once(drawing);
+  size_t busy = 0;
   for (size_t t = 0; t < tables; t++)
-    for (const ZpPicture *picture = table[t]; picture->name && !drawing->over; picture++)
-      if (picture->has(drawing->plot)) draw(drawing, picture);
+    for (const ZpPicture *picture = table[t]; picture->name; picture++) {
+      while (busy == most)
+        busy = tend(drawing, work, busy);
+      if (!drawing->over && picture->has(drawing->plot)) busy += begin(drawing, picture, &work[busy]);
+    }
+  while (busy > 0)
+    busy = tend(drawing, work, busy);
 }
 
 /* -- those of a report ----------------------------------------------------------------------------- */
@@ -202,7 +258,10 @@ ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {
   if (!folder) return zp_fail_memory(err);
   const ZpDrawing drawing = {.plot = &plot, .folder = folder};
   ZpStatus status = look_at(report, &plot, err);
-  if (status == ZP_OK) status = zp_drawing_prepare(&drawing, all, TABLES, err);
+  if (status == ZP_OK && plot.drawn)
+    status = zp_drawing_prepare(&drawing, all, TABLES, err);
+  else if (status == ZP_OK)
+    status = for_all(&drawing, all, TABLES, remove_picture, err);
   free(folder);
   return status;
 }
@@ -211,10 +270,9 @@ void zp_plots_write(const ZpReport *report, void (*notice)(const char *message))
   ZpPlot plot;
   ZpError err = {ZP_MACHINE, "no memory"};
   char *folder = zp_path_join(report->directory, "plots");
-  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, false};
-  if (folder && look_at(report, &plot, &err) == ZP_OK)
-    zp_drawing_draw(&drawing, all, TABLES);
-  else if (notice)
-    notice(err.message);
+  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, report->jobs, false};
+  const bool known = folder && look_at(report, &plot, &err) == ZP_OK;
+  if (known && plot.drawn) zp_drawing_draw(&drawing, all, TABLES);
+  if (!known && notice) notice(err.message);
   free(folder);
 }

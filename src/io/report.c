@@ -12,12 +12,16 @@ bool zp_report_is_sweep(const ZpReport *report) {
   return lists > 0 || report->count > 1;
 }
 
+const ZpResult *zp_report_result(const ZpReport *report, size_t index) {
+  return report->rows ? report->rows->get(report->rows->user, index) : report->result[index];
+}
+
 const ZpResult *zp_report_single(const ZpReport *report) {
-  return report->count > 0 && !zp_report_is_sweep(report) ? report->result[0] : NULL;
+  return report->count > 0 && !zp_report_is_sweep(report) ? zp_report_result(report, 0) : NULL;
 }
 
 const char *zp_report_study(const ZpReport *report) {
-  return zp_study_name(report->count > 0 ? report->result[0]->study : zp_scenario_study(report->scenario));
+  return zp_study_name(report->count > 0 ? zp_report_result(report, 0)->study : zp_scenario_study(report->scenario));
 }
 
 static bool is_listed(const ZpScalarNames *names, const char *name) {
@@ -40,7 +44,7 @@ static bool add_scalars(ZpScalarNames *names, const ZpResult *result, bool timin
 bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names) {
   *names = (ZpScalarNames){0};
   for (size_t i = 0; i < report->count; i++)
-    if (!add_scalars(names, report->result[i], timing)) {
+    if (!add_scalars(names, zp_report_result(report, i), timing)) {
       free(names->item);
       *names = (ZpScalarNames){0};
       return false;
@@ -56,12 +60,12 @@ size_t zp_result_numbers(const ZpResult *result) {
   return numbers;
 }
 
-/* As measured of HDF5, which takes most: it keeps what it has freed up to 32 MB; of a run the places of its columns,
- * and all numbers, are in memory twice, as the file and as its copy. */
+/* As measured of HDF5, which takes most: it keeps what it has freed up to 32 MB; of a run the places of its columns;
+ * and all numbers as the file in memory, and while that grows, once more. */
 size_t zp_report_room(size_t runs, size_t numbers) {
   const size_t base = 1 << 23, kept = 1 << 25, kept_of_run = 340000, places_of_run = 60000;
   return base + (runs < kept / kept_of_run ? runs * kept_of_run : kept) + runs * places_of_run +
-         3 * sizeof(double) * numbers;
+         2 * sizeof(double) * numbers;
 }
 
 void zp_key_column(int key, char *text, size_t size) {

@@ -22,6 +22,9 @@ bool zp_report_is_sweep(const ZpReport *report);
 /* The word of the study: "actuate". */
 const char *zp_report_study(const ZpReport *report);
 
+/* Result `index` of the report, below report->count; valid until the next call. */
+const ZpResult *zp_report_result(const ZpReport *report, size_t index);
+
 /* The only run of a report that is no sweep; NULL if it was interrupted before it began. */
 const ZpResult *zp_report_single(const ZpReport *report);
 

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "base/fail.h"
+#include "io/range.h"
 #include "io/source.h"
 #include "io/value.h"
 #include "io/yaml.h"
@@ -40,13 +41,19 @@ struct ZpScenario {
   char *name;   /* of the file read last, NULL before */
 };
 
+/* What a range consists of, by the names of its parts. */
+enum { PARTS = 4 };
+static const char *const part_name[PARTS] = {"from", "to", "count", "spacing"};
+
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
-  int key;         /* of --set; -1 when keys come from the text */
-  Slot *slot;      /* [keys] filled */
-  int *line;       /* [keys] where the key was given; 0: not yet */
-  int *group_line; /* [keys] where the group was opened whose first key this is; 0: not yet */
+  int key;           /* of --set; -1 when keys come from the text */
+  Slot *slot;        /* [keys] filled */
+  int *line;         /* [keys] where the key was given; 0: not yet */
+  int *group_line;   /* [keys] where the group was opened whose first key this is; 0: not yet */
+  int part_key;      /* whose range is being read, where there is a part */
+  char *part[PARTS]; /* of the range that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
 
 static size_t key_count(void) {
@@ -133,7 +140,16 @@ static ZpStatus open_reader(Reader *reader, const ZpSource *source, int key, ZpE
   return reader->slot && reader->line && reader->group_line ? ZP_OK : zp_fail_memory(err);
 }
 
+/* Forget the parts of a range. */
+static void drop_parts(Reader *reader) {
+  for (size_t i = 0; i < PARTS; i++) {
+    free(reader->part[i]);
+    reader->part[i] = NULL;
+  }
+}
+
 static void close_reader(Reader *reader) {
+  drop_parts(reader);
   free_slots(reader->slot);
   free(reader->line);
   free(reader->group_line);
@@ -152,8 +168,18 @@ static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpErr
                         zp_key_nearest(item->path));
 }
 
+/* The parts of a range stand together, in a group of their own: what is left of one is a mistake. */
+static ZpStatus check_no_parts(const Reader *reader, int key, int line, ZpError *err) {
+  bool any = false;
+  for (size_t i = 0; i < PARTS; i++)
+    any |= reader->part[i] != NULL;
+  if (!any || reader->part_key == key) return ZP_OK;
+  return zp_source_fail(reader->source, line, err, "%s: write a range as {from: ..., to: ..., count: ...}",
+                        zp_key(reader->part_key)->name);
+}
+
 static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err) {
-  if (*item->path == 0) return ZP_OK;
+  if (*item->path == 0) return check_no_parts(reader, -1, item->line, err);
   int first = first_of_group(item->path);
   if (first < 0) return fail_unknown(reader, item, err);
   int *line = &reader->group_line[first];
@@ -233,10 +259,75 @@ static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpErr
   return ZP_OK;
 }
 
+static bool takes_range(int key) {
+  ZpKeyType type = zp_key(key)->type;
+  return type == ZP_KEY_REAL || type == ZP_KEY_REAL_AUTO || type == ZP_KEY_INT;
+}
+
+/* The values of a range; `word` is what to quote of it. */
+static ZpStatus take_range(Reader *reader, int key, const ZpRange *range, int line, const char *word, ZpError *err) {
+  Slot slot = {.is_list = true};
+  ZpError reason;
+  if (zp_range_read(key, range, &slot.value, &slot.count, &reason) != ZP_OK)
+    return fail_value(reader, key, line, word, &reason, true, err);
+  reader->slot[key] = slot;
+  reader->line[key] = line;
+  return ZP_OK;
+}
+
+/* "10 um .. 200 um : 20" */
+static ZpStatus take_range_word(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  char copy[ZP_VALUE_SIZE];
+  ZpRange range;
+  ZpError reason;
+  snprintf(copy, sizeof copy, "%s", item->word);
+  if (zp_range_split(copy, &range, &reason) != ZP_OK)
+    return fail_value(reader, key, item->line, item->word, &reason, true, err);
+  return take_range(reader, key, &range, item->line, item->word, err);
+}
+
+/* The key that the path of a part, "ribbon.length.from", belongs to, and which part; -1 if it is no part of a range. */
+static int key_of_part(const char *path, size_t *part) {
+  char name[ZP_VALUE_SIZE];
+  const char *last = strrchr(path, '.');
+  if (!last) return -1;
+  snprintf(name, sizeof name, "%.*s", (int)(last - path), path);
+  const int key = zp_key_find(name);
+  for (*part = 0; key >= 0 && *part < PARTS; ++*part)
+    if (strcmp(last + 1, part_name[*part]) == 0) return key;
+  return -1;
+}
+
+static ZpStatus take_part(Reader *reader, const ZpYamlItem *item, int key, size_t part, ZpError *err) {
+  ZpStatus status = check_no_parts(reader, key, item->line, err);
+  if (status != ZP_OK) return status;
+  if (item->kind != ZP_YAML_VALUE)
+    return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a list", item->path);
+  if (reader->part[part]) return zp_source_fail(reader->source, item->line, err, "%s: given twice", item->path);
+  reader->part_key = key;
+  reader->part[part] = strdup(item->word);
+  return reader->part[part] ? ZP_OK : zp_fail_memory(err);
+}
+
+/* The end of {from: ..., to: ..., count: ...}. */
+static ZpStatus take_range_group(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  const ZpRange range = {reader->part[0], reader->part[1], reader->part[2], reader->part[3]};
+  if (!takes_range(key))
+    return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a range", item->path);
+  if (reader->line[key])
+    return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path,
+                          reader->line[key]);
+  ZpStatus status = take_range(reader, key, &range, item->line, "{...}", err);
+  drop_parts(reader);
+  return status;
+}
+
 static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
   ZpStatus status = check_shape(reader, key, item, err);
   if (status != ZP_OK) return status;
   if (zp_key(key)->type == ZP_KEY_TEXT) return take_text(reader, key, item, err);
+  if (item->kind == ZP_YAML_VALUE && takes_range(key) && zp_range_is(item->word))
+    return take_range_word(reader, key, item, err);
   Slot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST, NULL};
   if (!slot.value) return zp_fail_memory(err);
   const char *word = item->word;
@@ -258,8 +349,12 @@ static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpE
 static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   Reader *reader = user;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
-  if (item->kind == ZP_YAML_GROUP) return take_group(reader, item, err);
   int key = zp_key_find(item->path);
+  if (item->kind == ZP_YAML_GROUP)
+    return key >= 0 ? take_range_group(reader, key, item, err) : take_group(reader, item, err);
+  size_t part;
+  const int ranged = key < 0 ? key_of_part(item->path, &part) : -1;
+  if (ranged >= 0) return take_part(reader, item, ranged, part, err);
   int first = key < 0 ? first_of_group(item->path) : -1;
   if (first >= 0) return take_value_of_group(reader, item, first, err);
   if (key < 0) return fail_unknown(reader, item, err);
@@ -269,15 +364,20 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   return take_values(reader, key, item, err);
 }
 
-ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+/* Read a text into a layer. */
+static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, Slot *layer, ZpError *err) {
   ZpSource source = {.name = name};
   Reader reader;
-  char *kept_name = strdup(name);
-  ZpStatus status = kept_name ? open_reader(&reader, &source, -1, err) : zp_fail_memory(err);
-  if (!kept_name) return status;
+  ZpStatus status = open_reader(&reader, &source, -1, err);
   if (status == ZP_OK) status = zp_yaml_read(&source, text, size, take_item, &reader, err);
-  if (status == ZP_OK) status = merge(s, &reader, s->file, err);
+  if (status == ZP_OK) status = merge(s, &reader, layer, err);
   close_reader(&reader);
+  return status;
+}
+
+ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+  char *kept_name = strdup(name);
+  ZpStatus status = kept_name ? read_layer(s, text, size, name, s->file, err) : zp_fail_memory(err);
   if (status != ZP_OK) {
     free(kept_name);
     return status;
@@ -285,6 +385,10 @@ ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const c
   free(s->name);
   s->name = kept_name;
   return ZP_OK;
+}
+
+ZpStatus zp_scenario_override(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
+  return read_layer(s, text, size, name, s->set, err);
 }
 
 /* (open file) => at most one byte more than may be read, to be freed. */
@@ -328,6 +432,15 @@ static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) 
   return -1;
 }
 
+/* A range is no YAML, which takes its colon for that of a mapping. */
+static ZpStatus read_argument(Reader *reader, const char *text, ZpError *err) {
+  const ZpYamlItem item = {ZP_YAML_VALUE, "", 1, text, 1};
+  const bool is_range = takes_range(reader->key) && zp_range_is(text) && *(text + strspn(text, " ")) != '[';
+  if (!is_range) return zp_yaml_read_value(reader->source, text, strlen(text), take_item, reader, err);
+  if (strlen(text) < ZP_VALUE_SIZE) return take_values(reader, reader->key, &item, err);
+  return zp_source_fail(reader->source, 0, err, "value longer than %d bytes", ZP_VALUE_SIZE - 1);
+}
+
 ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   ZpSource source = {.name = assignment, .argument = true};
   const char *equals = strchr(assignment, '=');
@@ -336,7 +449,7 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   if (key < 0) return ZP_BAD_INPUT;
   Reader reader;
   ZpStatus status = open_reader(&reader, &source, key, err);
-  if (status == ZP_OK) status = zp_yaml_read_value(&source, equals + 1, strlen(equals + 1), take_item, &reader, err);
+  if (status == ZP_OK) status = read_argument(&reader, equals + 1, err);
   if (status == ZP_OK && !reader.line[key]) status = zp_source_fail(&source, 0, err, "empty; give a value");
   if (status == ZP_OK) status = merge(s, &reader, s->set, err);
   close_reader(&reader);
@@ -410,6 +523,15 @@ ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def,
   ZpStatus status = resolve(s, index, def, &reason);
   if (status == ZP_OK) status = zp_study_check(zp_scenario_study(s), def, &reason);
   return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
+}
+
+/* Sweeps of more cases keep no series unless asked. */
+enum { CASES_WITH_SERIES = 20 };
+
+bool zp_scenario_keeps_series(const ZpScenario *s) {
+  ZpActuatorDef def = {.layout = zp_def_layout()};
+  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO) return s->count <= CASES_WITH_SERIES;
+  return def.output.series == ZP_WHEN_TRUE;
 }
 
 static bool same_value(double a, double b) {

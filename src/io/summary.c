@@ -70,14 +70,19 @@ static bool set_scalars(json_t *object, const ZpResult *result) {
   return set_sensitivity(object, result) && done;
 }
 
-/* Add the notes of a run that are not in the array yet. */
+/* Different notes of all runs that the summary repeats: sentences with numbers may all differ, and each is compared
+ * with all. */
+enum { NOTES_MOST = 50 };
+
+/* Add the notes of a run that are not in the array yet, up to NOTES_MOST and a last one that says where the rest is. */
 static bool add_notes(json_t *array, const ZpResult *result) {
   bool done = true;
-  for (size_t i = 0; i < result->notes; i++) {
+  for (size_t i = 0; i < result->notes && json_array_size(array) <= NOTES_MOST; i++) {
     bool known = false;
     for (size_t k = 0; k < json_array_size(array) && !known; k++)
       known = strcmp(json_string_value(json_array_get(array, k)), result->note[i]) == 0;
-    if (!known) done = json_array_append_new(array, json_string(result->note[i])) == 0 && done;
+    const char *note = json_array_size(array) < NOTES_MOST ? result->note[i] : "there are more notes: see the rows";
+    if (!known) done = json_array_append_new(array, json_string(note)) == 0 && done;
   }
   return done;
 }
@@ -90,11 +95,12 @@ static json_t *key_value(int key, double value) {
   return zp_json_number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
 }
 
-/* One run of a sweep. */
-static json_t *row_of(const ZpReport *report, size_t run) {
+/* One run of a sweep: a ZpJsonItem. */
+static json_t *row_of(const void *user, size_t run) {
+  const ZpReport *report = user;
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
-  const ZpResult *result = report->result[run];
+  const ZpResult *result = zp_report_result(report, run);
   ZpActuatorDef def;
   json_t *row = json_object(), *notes = json_array();
   bool done = zp_scenario_def(report->scenario, run, &def, NULL) == ZP_OK;
@@ -110,26 +116,21 @@ static json_t *row_of(const ZpReport *report, size_t run) {
   return NULL;
 }
 
-static bool set_rows(json_t *object, const ZpReport *report) {
-  json_t *rows = json_array();
-  bool done = true;
-  for (size_t i = 0; i < report->count; i++)
-    done = json_array_append_new(rows, row_of(report, i)) == 0 && done;
-  return zp_json_set(object, "rows", rows) && done;
-}
-
-/* The run that speaks for all: the first that failed, else the first. NULL if there is none. */
+/* The run that speaks for all: the first that failed, else the first. NULL if there is none. Valid until the next. */
 static const ZpResult *spokesman(const ZpReport *report) {
   for (size_t i = 0; i < report->count; i++)
-    if (!zp_outcome_good(report->result[i]->outcome)) return report->result[i];
-  return report->count > 0 ? report->result[0] : NULL;
+    if (!zp_outcome_good(zp_report_result(report, i)->outcome)) return zp_report_result(report, i);
+  return report->count > 0 ? zp_report_result(report, 0) : NULL;
 }
 
 static bool set_outcome(json_t *object, const ZpReport *report) {
   const ZpResult *result = spokesman(report);
-  bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(result ? result->outcome : ZP_INTERRUPTED)));
-  done = zp_json_set(object, "message", json_string(result ? result->message : "interrupted before the first run")) &&
-         done;
+  const size_t cases = zp_scenario_count(report->scenario);
+  const bool stopped = !result || report->count < cases;
+  char message[96] = "interrupted before the first run";
+  if (result) snprintf(message, sizeof message, "stopped after %zu of %zu cases", report->count, cases);
+  bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(stopped ? ZP_INTERRUPTED : result->outcome)));
+  done = zp_json_set(object, "message", json_string(stopped ? message : result->message)) && done;
   return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
 }
 
@@ -141,9 +142,8 @@ static json_t *summary_of(const ZpReport *report) {
   done = set_outcome(object, report) && done;
   if (single) done = set_scalars(object, single) && done;
   for (size_t i = 0; i < report->count; i++)
-    done = add_notes(notes, report->result[i]) && done;
+    done = add_notes(notes, zp_report_result(report, i)) && done;
   done = zp_json_set(object, "notes", notes) && done;
-  if (zp_report_is_sweep(report)) done = set_rows(object, report) && done;
   if (done) return object;
   json_decref(object);
   return NULL;
@@ -152,7 +152,18 @@ static json_t *summary_of(const ZpReport *report) {
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
   json_t *summary = summary_of(report);
   if (!summary) return zp_fail_memory(err);
-  ZpStatus status = zp_json_write(summary, file, err);
+  ZpStatus status = zp_report_is_sweep(report)
+                        ? zp_json_write_list(summary, "rows", report->count, row_of, report, file, err)
+                        : zp_json_write(summary, file, err);
+  json_decref(summary);
+  if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err); /* of all files so far */
+  return status;
+}
+
+ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err) {
+  json_t *summary = summary_of(report);
+  if (!summary) return zp_fail_memory(err);
+  ZpStatus status = zp_json_write_line(summary, file, err);
   json_decref(summary);
   return status;
 }

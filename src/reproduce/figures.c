@@ -148,7 +148,7 @@ ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, const ZpHook
   char *folder = zp_path_join(directory, "plots");
   if (!folder) return zp_fail_memory(err);
   const ZpPlot plot = {.runs = runs};
-  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, hooks, false};
+  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, hooks, 0, false};
   ZpStatus status = zp_drawing_prepare(&drawing, table, 1, err);
   if (status == ZP_OK) zp_drawing_draw(&drawing, table, 1);
   free(folder);

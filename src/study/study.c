@@ -27,6 +27,14 @@ const char *zp_study_name(ZpStudy study) {
   return is_study(study) ? table[study].word : "unknown";
 }
 
+bool zp_study_follows(ZpStudy study) {
+  static const bool follows[ZpStudy_COUNT] = {
+#define ZP_FOLLOWS(enumerator) [enumerator] = true,
+#include <zipact/studies.def>
+  };
+  return is_study(study) && follows[study];
+}
+
 ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (!is_study(study))
     return zp_fail(err, ZP_BAD_INPUT, "study = %d: out of range; 0 to %d", (int)study, ZpStudy_COUNT - 1);

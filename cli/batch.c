@@ -1,0 +1,205 @@
+/* zipact batch: one case per line in, one result per line out, for programs that drive this one.
+ *
+ * The thread that reads hands lines to workers through a ring; whoever finishes the oldest line prints it and what is
+ * done behind it. So answers have the order of the lines, and each is out as soon as those before it are: a program
+ * that waits for its answer before it asks again gets it. Ctrl-C ends the program at once; what was answered is out. */
+#include <jansson.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/calibrate.h>
+
+#include "cli.h"
+
+/* Lines that are read before the oldest of them is answered, at most. */
+enum { RING = 256 };
+
+typedef struct Line {
+  char *text;
+  size_t number; /* from 1 */
+  char *answer;  /* NULL: not yet */
+} Line;
+
+typedef struct Batch {
+  const Options *options;
+  pthread_mutex_t lock; /* guards what follows */
+  pthread_cond_t more, room;
+  Line ring[RING];
+  size_t read, taken, printed; /* lines so far */
+  bool closed;                 /* no more lines */
+  ZpStatus status;             /* of the machine */
+} Batch;
+
+/* -- one line --------------------------------------------------------------------------------------- */
+
+/* Without the place "line 7:1: " before it: the answer has the place of its line. */
+static void drop_place(ZpError *err, const char *name) {
+  const size_t length = strlen(name);
+  const char *reason = strncmp(err->message, name, length) == 0 ? strstr(err->message + length, ": ") : NULL;
+  if (reason) memmove(err->message, reason + 2, strlen(reason + 2) + 1);
+}
+
+static ZpStatus read_case(const Options *o, const Line *line, ZpScenario *scenario, ZpError *err) {
+  char name[32];
+  size_t lists;
+  const size_t blank = strspn(line->text, " \t\r\n");
+  snprintf(name, sizeof name, "line %zu", line->number);
+  *err = (ZpError){ZP_BAD_INPUT, "give one JSON object per line: {\"load.mass\": \"8 g\"}"};
+  if (line->text[blank] != '{') return ZP_BAD_INPUT;
+  ZpStatus status = cli_read_scenario(NULL, o, scenario, err);
+  if (status == ZP_OK) status = zp_scenario_override(scenario, line->text, strlen(line->text), name, err);
+  if (status != ZP_OK) {
+    drop_place(err, name);
+    return status;
+  }
+  zp_scenario_lists(scenario, &lists);
+  if (lists == 0) return ZP_OK;
+  *err = (ZpError){ZP_BAD_INPUT, "a list of values: a line is one case"};
+  return ZP_BAD_INPUT;
+}
+
+static ZpStatus run_case(const ZpScenario *scenario, FILE *answer, ZpError *err) {
+  ZpActuatorDef def;
+  ZpResult *result = NULL;
+  const double start = cli_wall_clock(NULL);
+  const ZpHooks hooks = {.clock = cli_wall_clock};
+  ZpStatus status = zp_scenario_def(scenario, 0, &def, err);
+  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), &def, &hooks, &result, err);
+  if (status != ZP_OK) return status;
+  const ZpReport report = {
+      .scenario = scenario, .result = &result, .count = 1, .wall_time = cli_wall_clock(NULL) - start};
+  status = zp_summary_write_line(&report, answer, err);
+  zp_result_destroy(result);
+  return status;
+}
+
+static ZpStatus answer_case(const Options *o, const Line *line, FILE *answer, ZpError *err) {
+  ZpScenario *scenario = zp_scenario_create();
+  *err = (ZpError){ZP_MACHINE, "no memory"};
+  if (!scenario) return ZP_MACHINE;
+  ZpStatus status = read_case(o, line, scenario, err);
+  if (status == ZP_OK) status = run_case(scenario, answer, err);
+  zp_scenario_destroy(scenario);
+  return status;
+}
+
+/* {"error": "..."}, to be freed; NULL if there is no memory. */
+static char *error_line(const ZpError *err) {
+  json_t *object = json_pack("{ss}", "error", err->message);
+  char *text = json_dumps(object, 0), *line = NULL;
+  if (text && asprintf(&line, "%s\n", text) < 0) line = NULL;
+  free(text);
+  json_decref(object);
+  return line;
+}
+
+/* => the answer, to be freed; NULL if there is no memory for one. */
+static char *answer_of(const Options *o, const Line *line, ZpStatus *status) {
+  char *text = NULL;
+  size_t size;
+  ZpError err;
+  FILE *answer = open_memstream(&text, &size);
+  *status = ZP_MACHINE;
+  if (!answer) return NULL;
+  *status = answer_case(o, line, answer, &err);
+  if (fclose(answer) == 0 && *status == ZP_OK) return text;
+  free(text);
+  return error_line(&err);
+}
+
+/* -- all lines -------------------------------------------------------------------------------------- */
+
+/* Print the answers that are next. */
+static void print_ready(Batch *batch) {
+  for (Line *line; batch->printed < batch->read; batch->printed++) {
+    line = &batch->ring[batch->printed % RING];
+    if (!line->answer) break;
+    fputs(line->answer, stdout);
+    if (fflush(stdout) != 0) batch->status = ZP_MACHINE;
+    free(line->text);
+    free(line->answer);
+    *line = (Line){0};
+    pthread_cond_signal(&batch->room);
+  }
+}
+
+/* The next line that nobody has taken; NULL if there will be none. */
+static Line *take(Batch *batch) {
+  while (batch->taken == batch->read && !batch->closed)
+    pthread_cond_wait(&batch->more, &batch->lock);
+  return batch->taken < batch->read ? &batch->ring[batch->taken++ % RING] : NULL;
+}
+
+static void *work(void *user) {
+  Batch *batch = user;
+  pthread_mutex_lock(&batch->lock);
+  for (Line *line; (line = take(batch));) {
+    ZpStatus status;
+    pthread_mutex_unlock(&batch->lock);
+    char *answer = answer_of(batch->options, line, &status);
+    pthread_mutex_lock(&batch->lock);
+    if (status == ZP_MACHINE) batch->status = ZP_MACHINE;
+    line->answer = answer ? answer : strdup("{\"error\": \"no memory\"}\n");
+    print_ready(batch);
+  }
+  pthread_mutex_unlock(&batch->lock);
+  return NULL;
+}
+
+/* Hand lines over until there are no more, or the machine fails. */
+static void read_lines(Batch *batch) {
+  char *text = NULL;
+  size_t room = 0;
+  bool open = true;
+  while (open && getline(&text, &room, stdin) >= 0) {
+    pthread_mutex_lock(&batch->lock);
+    while (batch->read - batch->printed == RING && batch->status == ZP_OK)
+      pthread_cond_wait(&batch->room, &batch->lock);
+    open = batch->status == ZP_OK;
+    if (open) {
+      batch->ring[batch->read % RING] = (Line){.text = text, .number = batch->read + 1};
+      batch->read++;
+      pthread_cond_signal(&batch->more);
+      text = NULL;
+      room = 0;
+    }
+    pthread_mutex_unlock(&batch->lock);
+  }
+  free(text);
+  pthread_mutex_lock(&batch->lock);
+  batch->closed = true;
+  pthread_cond_broadcast(&batch->more);
+  pthread_mutex_unlock(&batch->lock);
+}
+
+/* What all lines share must be right before the first is read. */
+static ZpStatus check_common(const Options *o, ZpError *err) {
+  ZpScenario *scenario = zp_scenario_create();
+  *err = (ZpError){ZP_MACHINE, "no memory"};
+  if (!scenario) return ZP_MACHINE;
+  ZpStatus status = cli_read_scenario(NULL, o, scenario, err);
+  zp_scenario_destroy(scenario);
+  return status;
+}
+
+int cli_batch(const Options *o) {
+  static Batch batch = {
+      .lock = PTHREAD_MUTEX_INITIALIZER, .more = PTHREAD_COND_INITIALIZER, .room = PTHREAD_COND_INITIALIZER};
+  ZpError err;
+  if (check_common(o, &err) != ZP_OK) return cli_fail(&err);
+  const size_t jobs = (size_t)(o->jobs > 0 ? o->jobs : zp_processors());
+  pthread_t *thread = calloc(jobs, sizeof *thread);
+  size_t started = 0;
+  batch.options = o;
+  while (thread && started < jobs && pthread_create(&thread[started], NULL, work, &batch) == 0)
+    started++;
+  if (started > 0) read_lines(&batch);
+  for (size_t i = 0; i < started; i++)
+    pthread_join(thread[i], NULL);
+  free(thread);
+  if (started == 0) return cli_fail(&(ZpError){ZP_MACHINE, "no thread could be started"});
+  if (batch.status == ZP_OK) return EXIT_DONE;
+  return cli_fail(&(ZpError){ZP_MACHINE, "the machine failed; see the answers"});
+}

@@ -1,0 +1,71 @@
+/* FNV-1a, 64 bits. A row is looked for by its number and compared by its hash, so that two cases would have to collide
+ * at the same place of a scenario that was changed: once in 2^64. */
+#include "campaign/case_hash.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include <zipact/version.h>
+
+#include "base/fail.h"
+
+static const uint64_t fnv_offset = 0xcbf29ce484222325, fnv_prime = 0x100000001b3;
+
+static uint64_t add_bytes(uint64_t hash, const void *data, size_t size) {
+  const unsigned char *byte = data;
+  for (size_t i = 0; i < size; i++)
+    hash = (hash ^ byte[i]) * fnv_prime;
+  return hash;
+}
+
+/* With the 0 at its end, so that "a", "b" differs from "ab". */
+static uint64_t add_text(uint64_t hash, const char *text) {
+  return add_bytes(hash, text, strlen(text) + 1);
+}
+
+static uint64_t add_number(uint64_t hash, double value) {
+  if (isnan(value)) value = (double)NAN; /* one of its many bits */
+  return add_bytes(hash, &value, sizeof value);
+}
+
+static ZpStatus add_file(const char *key, const char *path, uint64_t *hash, ZpError *err) {
+  unsigned char part[1 << 14];
+  FILE *file = fopen(path, "rbe");
+  if (!file) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be opened: %s", key, path, strerror(errno));
+  for (size_t got; (got = fread(part, 1, sizeof part, file)) > 0;)
+    *hash = add_bytes(*hash, part, got);
+  const bool failed = ferror(file) != 0;
+  fclose(file); /* nothing was written */
+  return failed ? zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read", key, path) : ZP_OK;
+}
+
+static bool names_file(const ZpKey *key) {
+  const char *last = strrchr(key->name, '.');
+  return last && strcmp(last, ".file") == 0;
+}
+
+ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *hash, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  *hash = add_text(add_text(fnv_offset, ZP_VERSION), zp_study_name(study));
+  for (int i = 0; i < zp_key_count() && status == ZP_OK; i++) {
+    const char *path = names_file(zp_key(i)) ? zp_def_text(def, i) : NULL;
+    if (path && *path) status = add_file(zp_key(i)->name, path, hash, err);
+  }
+  return status;
+}
+
+/* Pictures are no part of a result. */
+static bool is_of_pictures(const ZpKey *key) {
+  return strcmp(key->name, "output.plots") == 0 || strcmp(key->name, "output.animation") == 0;
+}
+
+uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {
+  uint64_t hash = before;
+  for (int i = 0; i < zp_key_count(); i++) {
+    const char *text = zp_def_text(def, i);
+    if (is_of_pictures(zp_key(i))) continue;
+    hash = text ? add_text(hash, text) : add_number(hash, zp_def_get(def, i));
+  }
+  return hash ? hash : 1;
+}

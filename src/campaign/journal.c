@@ -1,0 +1,250 @@
+/* The journal is a database of SQLite in WAL mode: a process may be killed at any instant, and what was committed is
+ * there. synchronous = FULL brings each commit to the disk, so that it is there after a loss of power, too.
+ *
+ *   about(name, value)                            version of the program, study, number of cases: for people
+ *   name(id, name, unit, help, timing)            names of scalars and columns, once for all rows
+ *   row(number, hash, outcome, message, result)   a case that is done; result: record.c
+ *
+ * Names are written in the transaction of the first row that has them. */
+#include "campaign/journal.h"
+
+#include <sqlite3.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "campaign/record.h"
+#include "io/atomic.h"
+
+/* "zipa", and the number of this layout. */
+enum { APPLICATION = 0x7a697061, LAYOUT = 1 };
+
+static const char file_name[] = "journal.sqlite";
+
+struct ZpJournal {
+  char *path;
+  sqlite3 *base;
+  sqlite3_stmt *put, *get, *put_name;
+  bool open; /* a transaction */
+  ZpNames names;
+  size_t names_written;
+  ZpRecord record;
+  ZpRow row; /* what zp_journal_get gives: row `at` */
+  size_t at;
+  bool has_row, bad;
+};
+
+static ZpStatus fail_base(const ZpJournal *journal, ZpError *err) {
+  return zp_fail(err, ZP_MACHINE, "%.300s: %s", journal->path, sqlite3_errmsg(journal->base));
+}
+
+static ZpStatus run(ZpJournal *journal, const char *sql, ZpError *err) {
+  return sqlite3_exec(journal->base, sql, NULL, NULL, NULL) == SQLITE_OK ? ZP_OK : fail_base(journal, err);
+}
+
+/* => the whole number that a query answers, -1 if it cannot. */
+static sqlite3_int64 ask(ZpJournal *journal, const char *sql) {
+  sqlite3_stmt *query = NULL;
+  sqlite3_int64 answer = -1;
+  if (sqlite3_prepare_v2(journal->base, sql, -1, &query, NULL) == SQLITE_OK && sqlite3_step(query) == SQLITE_ROW)
+    answer = sqlite3_column_int64(query, 0);
+  sqlite3_finalize(query);
+  return answer;
+}
+
+/* -- open and close --------------------------------------------------------------------------------- */
+
+static ZpStatus remove_old(const char *directory, ZpError *err) {
+  static const char *const name[] = {"journal.sqlite-wal", "journal.sqlite-shm", "journal.sqlite"};
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < sizeof name / sizeof name[0] && status == ZP_OK; i++)
+    status = zp_remove_file(directory, name[i], err);
+  return status;
+}
+
+static ZpStatus make_tables(ZpJournal *journal, ZpError *err) {
+  char sql[1024];
+  snprintf(sql, sizeof sql,
+           "BEGIN; PRAGMA application_id = %d; PRAGMA user_version = %d;"
+           "CREATE TABLE about(name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+           "CREATE TABLE name(id INTEGER PRIMARY KEY, name TEXT, unit TEXT, help TEXT, timing INTEGER);"
+           "CREATE TABLE row(number INTEGER PRIMARY KEY, hash INTEGER, outcome TEXT, message TEXT, result BLOB);"
+           "INSERT INTO about VALUES('version', '%s'); COMMIT;",
+           APPLICATION, LAYOUT, zp_version());
+  return run(journal, sql, err);
+}
+
+/* Only an empty file gets our tables. */
+static ZpStatus need_tables(ZpJournal *journal, ZpError *err) {
+  const sqlite3_int64 tables = ask(journal, "SELECT count(*) FROM sqlite_master");
+  if (tables == 0) return make_tables(journal, err);
+  if (tables > 0 && ask(journal, "PRAGMA application_id") == APPLICATION &&
+      ask(journal, "PRAGMA user_version") == LAYOUT)
+    return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%.300s: not a journal of this version of zipact; begin without --resume",
+                 journal->path);
+}
+
+static ZpStatus read_names(ZpJournal *journal, ZpError *err) {
+  sqlite3_stmt *query = NULL;
+  int step = SQLITE_ROW;
+  bool added = true;
+  if (sqlite3_prepare_v2(journal->base, "SELECT name, unit, help, timing FROM name ORDER BY id", -1, &query, NULL))
+    return fail_base(journal, err);
+  while (added && (step = sqlite3_step(query)) == SQLITE_ROW) {
+    const ZpName name = {(char *)sqlite3_column_text(query, 0), (char *)sqlite3_column_text(query, 1),
+                         (char *)sqlite3_column_text(query, 2), sqlite3_column_int(query, 3) != 0};
+    added = name.name && name.unit && zp_names_add(&journal->names, &name);
+  }
+  ZpStatus status = !added ? zp_fail_memory(err) : step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
+  journal->names_written = journal->names.count;
+  sqlite3_finalize(query);
+  return status;
+}
+
+static ZpStatus prepare(ZpJournal *journal, ZpError *err) {
+  const struct {
+    sqlite3_stmt **statement;
+    const char *sql;
+  } all[] = {{&journal->put, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?)"},
+             {&journal->get, "SELECT outcome, message, result FROM row WHERE number = ?"},
+             {&journal->put_name, "INSERT INTO name VALUES(?, ?, ?, ?, ?)"}};
+  for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+    if (sqlite3_prepare_v3(journal->base, all[i].sql, -1, SQLITE_PREPARE_PERSISTENT, all[i].statement, NULL))
+      return fail_base(journal, err);
+  return ZP_OK;
+}
+
+static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
+  char sql[96];
+  snprintf(sql, sizeof sql, "DELETE FROM row WHERE number >= %zu", cases);
+  if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
+    return journal->base ? fail_base(journal, err) : zp_fail_memory(err);
+  ZpStatus status = need_tables(journal, err);
+  if (status == ZP_OK) status = run(journal, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL", err);
+  if (status == ZP_OK) status = run(journal, sql, err);
+  if (status == ZP_OK) status = read_names(journal, err);
+  return status == ZP_OK ? prepare(journal, err) : status;
+}
+
+ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
+  ZpJournal *journal = *out = calloc(1, sizeof *journal);
+  ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
+  if (status == ZP_OK) journal->row.result.study = study;
+  if (status == ZP_OK && !keep) status = remove_old(directory, err);
+  if (status == ZP_OK) status = open_base(journal, cases, err);
+  if (status == ZP_OK) return ZP_OK;
+  zp_journal_close(journal);
+  *out = NULL;
+  return status;
+}
+
+void zp_journal_close(ZpJournal *journal) {
+  if (!journal) return;
+  if (journal->open) zp_journal_commit(journal, NULL);
+  sqlite3_finalize(journal->put);
+  sqlite3_finalize(journal->get);
+  sqlite3_finalize(journal->put_name);
+  sqlite3_close(journal->base);
+  zp_record_clear(&journal->row);
+  zp_names_free(&journal->names);
+  free(journal->record.byte);
+  free(journal->path);
+  free(journal);
+}
+
+/* -- rows ------------------------------------------------------------------------------------------- */
+
+/* The outcome of this word; ZP_BAD_ARGUMENT of any other. */
+static ZpOutcome outcome_of(const char *word) {
+  for (int i = 0; word && i <= ZP_PULLED_IN; i++)
+    if (strcmp(zp_outcome_name((ZpOutcome)i), word) == 0) return (ZpOutcome)i;
+  return ZP_BAD_ARGUMENT;
+}
+
+ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t number, uint64_t hash, bool good),
+                          void *user, ZpError *err) {
+  sqlite3_stmt *query = NULL;
+  int step;
+  if (sqlite3_prepare_v2(journal->base, "SELECT number, hash, outcome FROM row ORDER BY number", -1, &query, NULL))
+    return fail_base(journal, err);
+  while ((step = sqlite3_step(query)) == SQLITE_ROW)
+    visit(user, (size_t)sqlite3_column_int64(query, 0), (uint64_t)sqlite3_column_int64(query, 1),
+          zp_outcome_good(outcome_of((const char *)sqlite3_column_text(query, 2))));
+  sqlite3_finalize(query);
+  return step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
+}
+
+/* Run a statement whose values are bound. */
+static ZpStatus finish(ZpJournal *journal, sqlite3_stmt *statement, ZpError *err) {
+  const bool done = sqlite3_step(statement) == SQLITE_DONE;
+  ZpStatus status = done ? ZP_OK : fail_base(journal, err);
+  sqlite3_reset(statement);
+  return status;
+}
+
+static ZpStatus write_names(ZpJournal *journal, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (; journal->names_written < journal->names.count && status == ZP_OK; journal->names_written++) {
+    const ZpName *name = &journal->names.item[journal->names_written];
+    sqlite3_bind_int64(journal->put_name, 1, (sqlite3_int64)journal->names_written);
+    sqlite3_bind_text(journal->put_name, 2, name->name, -1, SQLITE_STATIC);
+    sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
+    sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
+    sqlite3_bind_int(journal->put_name, 5, name->timing);
+    status = finish(journal, journal->put_name, err);
+  }
+  return status;
+}
+
+ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpResult *result, ZpError *err) {
+  if (!zp_record_write(&journal->record, &journal->names, result)) return zp_fail_memory(err);
+  ZpStatus status = journal->open ? ZP_OK : run(journal, "BEGIN", err);
+  journal->open = status == ZP_OK;
+  if (status == ZP_OK) status = write_names(journal, err);
+  if (status != ZP_OK) return status;
+  sqlite3_bind_int64(journal->put, 1, (sqlite3_int64)number);
+  sqlite3_bind_int64(journal->put, 2, (sqlite3_int64)hash);
+  sqlite3_bind_text(journal->put, 3, zp_outcome_name(result->outcome), -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put, 4, result->message, -1, SQLITE_STATIC);
+  sqlite3_bind_blob64(journal->put, 5, journal->record.byte, journal->record.used, SQLITE_STATIC);
+  return finish(journal, journal->put, err);
+}
+
+ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err) {
+  if (!journal->open) return ZP_OK;
+  journal->open = false;
+  return run(journal, "COMMIT", err);
+}
+
+/* False if there is no such row, or it is damaged. */
+static bool read_row(ZpJournal *journal, size_t number) {
+  sqlite3_stmt *query = journal->get;
+  ZpResult *result = &journal->row.result;
+  sqlite3_bind_int64(query, 1, (sqlite3_int64)number);
+  bool found = sqlite3_step(query) == SQLITE_ROW;
+  if (found) {
+    const char *message = (const char *)sqlite3_column_text(query, 1);
+    const unsigned char *byte = sqlite3_column_blob(query, 2);
+    result->outcome = outcome_of((const char *)sqlite3_column_text(query, 0));
+    snprintf(result->message, sizeof result->message, "%s", message ? message : "");
+    found = byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 2), &journal->names, &journal->row);
+  }
+  sqlite3_reset(query);
+  return found;
+}
+
+const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
+  if (journal->has_row && journal->at == number) return &journal->row.result;
+  journal->at = number;
+  journal->has_row = read_row(journal, number);
+  if (!journal->has_row) zp_record_clear(&journal->row);
+  journal->bad = journal->bad || !journal->has_row;
+  return &journal->row.result;
+}
+
+ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err) {
+  if (!journal->bad) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "%.300s: a row cannot be read: no memory, or it is damaged", journal->path);
+}

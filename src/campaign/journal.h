@@ -1,0 +1,33 @@
+/* journal.sqlite: one row per case that is done. */
+#ifndef ZP_CAMPAIGN_JOURNAL_H
+#define ZP_CAMPAIGN_JOURNAL_H
+
+#include <stdint.h>
+
+#include <zipact/io.h>
+
+typedef struct ZpJournal ZpJournal;
+
+/* Open or make the journal of a `study` in `directory`. `keep`: that which is there is kept, but rows of numbers from
+ * `cases` on; ZP_BAD_INPUT if it is no journal of ours. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
+
+/* Commit, and close; NULL is allowed. */
+void zp_journal_close(ZpJournal *journal);
+
+/* Tell `visit` of every row that is there. */
+ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t number, uint64_t hash, bool good),
+                          void *user, ZpError *err);
+
+/* Put a row, replacing one of the same number. It is on the disk after the next zp_journal_commit. */
+ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpResult *result, ZpError *err);
+
+/* Bring what was put to the disk; nothing if nothing was. */
+ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err);
+
+/* Row `number`, valid until the next call. Where it cannot be read it is empty, and from then on zp_journal_status says
+ * so. */
+const ZpResult *zp_journal_get(ZpJournal *journal, size_t number);
+ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err);
+
+#endif

@@ -1,0 +1,12 @@
+#include <zipact/io.h>
+
+#include <sched.h>
+#include <unistd.h>
+
+/* Those that taskset or a batch system leave to this process; where there are more than a cpu_set_t holds, all. */
+int zp_processors(void) {
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
+  const long online = sysconf(_SC_NPROCESSORS_ONLN);
+  return online > 0 ? (int)online : 1;
+}

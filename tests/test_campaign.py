@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""Campaigns from outside:  python3 tests/test_campaign.py [--kills N] ZIPACT SCRATCH
+
+The same cases give the same bytes for any number of workers, and after any number of kills at random instants, each
+followed by --resume. What is compared: table.csv and results.h5 byte by byte, summary.json without what follows from
+wall time. N kills are made (default 10). Standard library only. Last line: "N passed, N failed".
+"""
+
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+
+passed = failed = 0
+
+
+def ok(what, done):
+    global passed, failed
+    passed += bool(done)
+    failed += not done
+    if not done:
+        print("FAILED: " + what)
+
+
+def listed(first, last, count, unit):
+    step = (last - first) / (count - 1)
+    return "[%s]" % ", ".join("%.6g %s" % (first + i * step, unit) for i in range(count))
+
+
+CASES = {
+    "rest": ["stationary", "--set", "load.mass=" + listed(1, 100, 30, "g"), "--set", "ribbon.thickness=" + listed(20, 200, 20, "um"), "--set", "mesh.nodes=31"],
+    "limits": ["limits", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
+    "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
+}
+
+
+class Zipact:
+    def __init__(self, program):
+        self.program = program
+
+    def command(self, case, folder, *more):
+        return [self.program, *CASES[case], "--no-plots", "--quiet", "-o", str(folder), *more]
+
+    def run(self, case, folder, *more):
+        return subprocess.run(self.command(case, folder, *more), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def timeless(value):
+    """A summary without what follows from wall time."""
+    if isinstance(value, dict):
+        return {name: timeless(item) for name, item in value.items() if name not in ("wall_time_s", "real_time_factor")}
+    return [timeless(item) for item in value] if isinstance(value, list) else value
+
+
+def results(folder):
+    files = [(folder / name).read_bytes() for name in ("table.csv", "results.h5", "scenario.yaml")]
+    return files, timeless(json.loads((folder / "summary.json").read_text()))
+
+
+def check_workers(zipact, scratch):
+    for case in CASES:
+        alone = scratch / (case + "-1")
+        ok("%s by one worker: done" % case, zipact.run(case, alone, "--jobs", "1").returncode == 0)
+        for jobs in (2, 7):
+            other = scratch / ("%s-%d" % (case, jobs))
+            ok("%s by %d workers: done" % (case, jobs), zipact.run(case, other, "--jobs", str(jobs)).returncode == 0)
+            ok("%s by %d workers: the same bytes" % (case, jobs), results(other) == results(alone))
+
+
+def rows_of(folder):
+    base = sqlite3.connect("file:%s?mode=ro" % (folder / "journal.sqlite"), uri=True)
+    with base:
+        rows = base.execute("SELECT number, outcome FROM row ORDER BY number").fetchall()
+    base.close()
+    return rows
+
+
+def check_kills(zipact, scratch, kills):
+    """kill -9 at random instants of a run that takes some seconds, and of what writes its files."""
+    chance = random.Random(20)
+    for case in ("rest", "limits"):
+        whole, torn = scratch / (case + "-1"), scratch / (case + "-torn")
+        begin = time.monotonic()
+        zipact.run(case, scratch / (case + "-timed"))
+        span = time.monotonic() - begin
+        for _ in range((kills + 1) // 2):
+            process = subprocess.Popen(zipact.command(case, torn, "--resume"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(chance.uniform(0, span))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        ok("%s after kills: done" % case, zipact.run(case, torn, "--resume").returncode == 0)
+        ok("%s after kills: the bytes of an uninterrupted run" % case, results(torn) == results(whole))
+        ok("%s after kills: no other file is left" % case, sorted(os.listdir(torn)) == sorted(os.listdir(whole)))
+
+
+def spoil(folder, sql):
+    base = sqlite3.connect(str(folder / "journal.sqlite"))
+    with base:
+        base.execute(sql)
+    base.close()
+
+
+def check_resume(zipact, scratch):
+    """Rows count for the same case only; what is missing is computed, nothing else."""
+    whole, part = scratch / "limits-1", scratch / "limits-part"
+    shutil.copytree(whole, part)
+    spoil(part, "DELETE FROM row WHERE number IN (3, 40)")
+    spoil(part, "UPDATE row SET message = 'kept' WHERE number = 59")
+    ok("a journal that lacks rows: done", zipact.run("limits", part, "--resume").returncode == 0)
+    ok("a journal that lacks rows: the same table", (part / "table.csv").read_bytes() == (whole / "table.csv").read_bytes())
+    ok("rows that are there are not computed again", json.loads((part / "summary.json").read_text())["rows"][59]["message"] == "kept")
+    other = zipact.run("limits", part, "--resume", "--set", "ribbon.width=13 mm")
+    ok("rows of another case do not count", other.returncode == 0 and (part / "table.csv").read_bytes() != (whole / "table.csv").read_bytes())
+    fresh = zipact.run("limits", part)
+    ok("without --resume all is computed", fresh.returncode == 0 and results(part) == results(whole))
+    (part / "journal.sqlite").write_text("no database\n" * 100)
+    refused = zipact.run("limits", part, "--resume")
+    ok("a file that is no journal is refused", refused.returncode in (2, 3) and "journal.sqlite" in refused.stderr)
+    single = subprocess.run([zipact.program, "stationary", "--resume", "-o", str(scratch / "single")], stderr=subprocess.PIPE, text=True)
+    ok("--resume of a single case is refused", single.returncode == 2 and "list" in single.stderr and not (scratch / "single").exists())
+
+
+def check_interrupt(zipact, scratch):
+    """Ctrl-C: 130, rows without a gap are reported, the rest is in the journal."""
+    whole, torn = scratch / "rest-1", scratch / "rest-interrupted"
+    process = subprocess.Popen(zipact.command("rest", torn), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not (torn / "journal.sqlite-wal").exists():
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    ok("interrupted: 130", process.wait() == 130)
+    if (torn / "summary.json").exists():
+        summary = json.loads((torn / "summary.json").read_text())
+        ok("interrupted: the summary says so", summary["outcome"] == "interrupted" and "cases" in summary["message"])
+        ok("interrupted: rows are in the journal", len(summary["rows"]) <= len(rows_of(torn)))
+    ok("interrupted: resumed", zipact.run("rest", torn, "--resume").returncode == 0)
+    ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
+
+
+def rows_so_far(folder):
+    try:
+        return [number for number, _ in rows_of(folder)]
+    except sqlite3.OperationalError:  # not made yet
+        return []
+
+
+def check_gap(zipact, scratch):
+    """Two workers: the third case is done while the second still runs. Files show rows up to that gap."""
+    folder = scratch / "gap"
+    words = [zipact.program, "actuate", "--set", "solver.end_time=[1 ms, 10000 s, 1 ms]", "--set", "mesh.nodes=11", "--set", "drive.voltage=1 kV",
+             "--set", "output.errors=false", "--no-plots", "--quiet", "--jobs", "2", "-o", str(folder)]
+    process = subprocess.Popen(words)
+    while rows_so_far(folder) != [0, 2] and process.poll() is None:
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    ok("a gap: 130", process.wait() == 130)
+    summary = json.loads((folder / "summary.json").read_text())
+    ok("a gap: rows before it", len(summary["rows"]) == 1 and summary["message"] == "stopped after 1 of 3 cases")
+    ok("a gap: the journal has those behind it", rows_so_far(folder) == [0, 2])
+
+
+def check_failures(zipact, scratch):
+    """A case whose solver fails is a row; the campaign goes on and its status says 1."""
+    folder = scratch / "failing"
+    run = subprocess.run([zipact.program, "actuate", "--set", "solver.max_steps=[3, 1000000]", "--set", "drive.voltage=[0, 8 kV]", "--set", "mesh.nodes=11",
+                          "--set", "solver.end_time=2 ms", "--set", "output.errors=false", "--no-plots", "--quiet", "-o", str(folder)])
+    outcomes = [outcome for _, outcome in rows_of(folder)]
+    ok("failures: status 1", run.returncode == 1)
+    ok("failures: all rows", len(outcomes) == 4 and outcomes.count("step_limit") == 2)
+    again = subprocess.run([zipact.program, "run", str(folder / "scenario.yaml"), "--resume", "--quiet", "-o", str(folder)])
+    ok("failures: a failed row counts when resumed", again.returncode == 1)
+
+
+def check_batch(zipact):
+    """Lines in, lines out: in order, as the command would answer, at once, whatever is wrong with others."""
+    good = [{"study": "stationary", "load.mass": "%d g" % mass, "mesh": {"nodes": 21}} for mass in range(1, 40)]
+    bad = ["", "hello", "[]", '{"load.mass": [1, 2]}', '{"load.mas": 1}', '{"load.mass": "1 m"}', '{"load.mass": 1', '{"study": "isometric", "isometric.separation": 1}']
+    lines = [json.dumps(case) for case in good] + bad + [json.dumps(good[0])]
+    command = [zipact.program, "batch", "--set", "output.errors=false", "--set", "load.mass=77 g"]
+    answers = {}
+    for jobs in ("1", "7"):
+        run = subprocess.run([*command, "--jobs", jobs], input="\n".join(lines), stdout=subprocess.PIPE, text=True)
+        answers[jobs] = [timeless(json.loads(line)) for line in run.stdout.splitlines()]
+        ok("batch by %s: status 0" % jobs, run.returncode == 0)
+        ok("batch by %s: an answer for each line" % jobs, len(answers[jobs]) == len(lines))
+    ok("batch: the same for any number of workers", answers["1"] == answers["7"])
+    ok("batch: errors where they belong", [list(a) == ["error"] for a in answers["1"]] == [False] * len(good) + [True] * len(bad) + [False])
+    ok("batch: a line wins over --set", answers["1"][0]["stroke_m"] < answers["1"][30]["stroke_m"] and answers["1"][-1] == answers["1"][0])
+    alone = subprocess.run([zipact.program, "stationary", "--set", "output.errors=false", "--set", "load.mass=5 g", "--set", "mesh.nodes=21", "--no-plots", "--json", "-o", "batch-alone"], stdout=subprocess.PIPE, text=True)
+    ok("batch: what the command answers", timeless(json.loads(alone.stdout)) == answers["1"][4])
+    dialog = subprocess.Popen([*command, "--jobs", "2"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    for line, answer in list(zip(lines, answers["1"]))[:5]:
+        dialog.stdin.write(line + "\n")
+        dialog.stdin.flush()
+        ok("batch: answers before the next line comes", timeless(json.loads(dialog.stdout.readline())) == answer)
+    dialog.stdin.close()
+    ok("batch: ends with its input", dialog.wait() == 0)
+    ok("batch: wrong common input is status 2", subprocess.run([zipact.program, "batch", "--set", "load.mas=1"], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 2)
+    with open("/dev/full", "w") as full:
+        broken = subprocess.run(command, input="\n".join(lines), stdout=full, stderr=subprocess.PIPE, text=True)
+    ok("batch: a full disk is status 3", broken.returncode == 3)
+
+
+def main():
+    kills = 10
+    arguments = sys.argv[1:]
+    if arguments[:1] == ["--kills"]:
+        kills = int(arguments[1])
+        arguments = arguments[2:]
+    program, scratch = os.path.abspath(arguments[0]), pathlib.Path(arguments[1]).resolve()
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    zipact = Zipact(program)
+    check_workers(zipact, scratch)
+    check_kills(zipact, scratch, kills)
+    check_resume(zipact, scratch)
+    check_interrupt(zipact, scratch)
+    check_gap(zipact, scratch)
+    check_failures(zipact, scratch)
+    os.chdir(scratch)
+    check_batch(zipact)
+    print("%d passed, %d failed" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
