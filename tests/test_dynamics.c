@@ -568,8 +568,8 @@ static Zip zip(ZpActuatorDef def) {
 static void check_zip(const char *name, const Zip *zip) {
   printf("%s: %.3f ms, energy off by %.1e, faces overlap by %.2g um, %.3f of the work lost where they meet\n", name,
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
-  ck_below(zip->energy_error, 1e-5); /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
-  ck_below(zip->overlap, 0.03 * 260e-6);        /* of both insulators, where the platform lands */
+  ck_below(zip->energy_error, 1e-5);     /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
+  ck_below(zip->overlap, 0.03 * 260e-6); /* of both insulators, where the platform lands */
   ck_assert_double_gt(zip->contact_loss, 0.05); /* 0.09 undamped: what bounces on loses it later */
   ck_assert_double_gt(zip->contraction, 0.99);
 }
