@@ -39,6 +39,11 @@
   "study=actuate initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 electro.breakdown_cap=false "              \
   "drive.voltage=50V solver.tolerance=1e-6 source.model=amplifier solver.end_time=1ms"
 
+/* The same at a constant voltage, for a time that is short for what leaks. */
+#define LEAKING                                                                                                        \
+  "study=actuate initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 electro.breakdown_cap=false "              \
+  "drive.voltage=50V solver.end_time=50ms"
+
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
@@ -228,6 +233,8 @@ static const Row rows[] = {
      "20MV/m",
      {{TIMES, "force_N", 4, 1e-6}, {TIMES, "charge_C", 2, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
 
+    {"insulator.resistivity", LEAKING, "1e12", "2e12", {{TIMES, "leak_loss_J", 0.5, 1e-4}}},
+    {"medium.resistivity", LEAKING, "1e12", "2e12", {{TIMES, "interface_voltage_V", 0.5, 2e-3}}},
     {"medium.kinematic_viscosity", VISCOUS, "1000mm2/s", "2000mm2/s", {{TIMES, "zip_time_s", 2, 1e-2}}},
     {"medium.density", VISCOUS, "500kg/m3", "1000kg/m3", {{TIMES, "zip_time_s", 2, 1e-2}}},
     {"medium.drag_coefficient",

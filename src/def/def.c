@@ -573,6 +573,29 @@ static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
   return check_needs(def, "liquid.model = submerged", needs, sizeof needs / sizeof needs[0], "liquid.model none", err);
 }
 
+/* Interface charge is that of the plates law in implicit steps, of real insulators and a real liquid. */
+static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
+  static const Need needs[] = {{"electro.model", ZP_ELECTRO_PLATES},
+                               {"electro.surface", ZP_SURFACE_POLYLINE},
+                               {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+  const ZpKey *given =
+      &keys[zp_key_find(isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity")];
+  if (isnan(def->insulator.resistivity) && isnan(def->medium.resistivity)) return ZP_OK;
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electrodes; actuator.kind is ribbon", given->name);
+  if (def->insulator.thickness == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "insulator.thickness = 0 m: %s requires an insulator, on whose face charge gathers", given->name);
+  if (def->electro.force_scale != 1 || def->electro.voltage_share != 1 || !isnan(def->electro.insulator_offset))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%s: requires electro.force_scale 1, electro.voltage_share 1 and electro.insulator_offset auto",
+                   given->name);
+  if (def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electro.edges false: no charge gathers in the field at the edges",
+                   given->name);
+  return check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err);
+}
+
 /* What is asked of the model of the field. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
@@ -622,5 +645,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = check_initial(def, err);
   if (status == ZP_OK) status = check_symmetry(def, err);
   if (status == ZP_OK) status = check_liquid(def, err);
+  if (status == ZP_OK) status = check_leak(def, err);
   return status == ZP_OK ? check_electro(def, err) : status;
 }

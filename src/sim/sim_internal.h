@@ -97,6 +97,9 @@ void zp_sim_glide(ZpSim *sim, double voltage);
 /* The mean current and power of the next row count from here. */
 void zp_sim_start_row(ZpSim *sim);
 
+/* What leaks now, of one part; all 0 where nothing does. */
+ZpLeakNow zp_sim_leak(ZpSim *sim);
+
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);
 void zp_sim_close_record(ZpSim *sim);

@@ -133,11 +133,19 @@ static void summarize_liquid(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "outer_drag_loss_J", "J", at_end(sim, result, "outer_drag_loss"));
 }
 
+/* What has leaked, and the charge that is left. */
+static void summarize_leak(ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "leak_loss_J", "J", at_end(sim, result, "leak_loss"));
+  zp_result_add(result, "leak_current_A", "A", at_end(sim, result, "leak_current"));
+  zp_result_add(result, "interface_voltage_V", "V", at_end(sim, result, "interface_voltage"));
+}
+
 static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
   if (model->has_film) summarize_liquid(sim, result);
+  if (model->leaks) summarize_leak(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   if (model->field) summarize_source(sim, model, info, result);
@@ -156,7 +164,7 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
 static bool ends_when_zipped(const ZpModel *model) {
   const ZpActuatorDef *def = zp_model_def(model);
   if (def->solver.stop_when_zipped != ZP_WHEN_AUTO) return def->solver.stop_when_zipped == ZP_WHEN_TRUE;
-  return zp_waveform_is_constant(&model->waveform) && def->source.model == ZP_SOURCE_IDEAL;
+  return zp_waveform_is_constant(&model->waveform) && def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
 }
 
 /* A run that continues after it has zipped does not end for that. */
