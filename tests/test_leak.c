@@ -251,6 +251,24 @@ START_TEST(test_an_hour_of_drift) {
 }
 END_TEST
 
+/* The insulator's field is that of what is left for it, eqs. (4.10) and (25.2): with a liquid that conducts, all of the
+ * voltage; and that of the charge alone once the voltage is off. */
+START_TEST(test_insulator_sees_the_charge) {
+  ZpActuatorDef def = DEF(HELD_PLATE, {"medium.resistivity", 1e9});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpError err;
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T + GAP * EPS_I / EPS_M), 1e-4);
+  ck_assert(zp_outcome_good(zp_sim_step(sim, 10, NULL, NULL)));
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T), 1e-4);
+  ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
+  double E_m = VOLTS / (GAP + 2 * T * EPS_M / EPS_I);
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T) - E_m * EPS_M / EPS_I, 1e-4);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* -- input ----------------------------------------------------------------------------------------- */
 
 /* What the interface charge is not known with is refused, with the key that asks for it. */
@@ -282,6 +300,7 @@ int main(void) {
   tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 0, 5);
   tcase_add_test(tcase, test_charge_that_stays);
   tcase_add_test(tcase, test_an_hour_of_drift);
+  tcase_add_test(tcase, test_insulator_sees_the_charge);
   tcase_add_loop_test(tcase, test_refused, 0, 6);
   suite_add_tcase(suite, tcase);
   return run_suite(suite);

@@ -223,17 +223,19 @@ ZpPlatesTotals zp_leak_totals(const ZpLeakParams *p, const ZpPlatesParams *plate
 
 ZpLeakNow zp_leak_now(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesEval *gaps, double U,
                       const double *Z) {
-  ZpLeakNow now = {0, 0, 0};
+  ZpLeakNow now = {0, 0, 0, 0};
   double all = 0;
   for (size_t k = 0; k < places(plates); k++) {
     ZpPlatesPlace place = zp_plates_place(plates, k);
     if (!is_face(&place)) continue;
     double length = zp_plates_place_length(&place, gaps);
-    Charge charge = charge_of(plates, zp_plates_place_gap(&place, gaps));
+    double gap = zp_plates_place_gap(&place, gaps);
+    Charge charge = charge_of(plates, gap);
     Conduction here = conduction(p, at(charge, U + Z[k]), Z[k]);
     all += length;
     now.mean += length * Z[k];
     now.current += length * here.insulators;
+    now.liquid = fmax(now.liquid, fabs(U + Z[k]) / (fmax(gap, 0) + plates->d));
     now.fastest = fmax(now.fastest, fabs(here.gathers) / p->insulators);
   }
   now.mean = all > 0 ? now.mean / all : 0;

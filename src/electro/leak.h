@@ -71,6 +71,7 @@ typedef struct ZpLeakNow {
   double mean;    /* of Z over the faces, V */
   double fastest; /* change of Z anywhere, V/s */
   double current; /* through the insulators, A */
+  double liquid;  /* strongest field of the liquid, before any cap, V/m */
 } ZpLeakNow;
 ZpLeakNow zp_leak_now(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpPlatesEval *gaps, double U,
                       const double *Z);

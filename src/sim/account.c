@@ -26,7 +26,7 @@ ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now) {
 ZpLeakNow zp_sim_leak(ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
-  if (!model->leaks) return (ZpLeakNow){0, 0, 0};
+  if (!model->leaks) return (ZpLeakNow){0, 0, 0, 0};
   ZpMotion m = zp_state_motion(model, state);
   zp_plates_gaps(&model->plates, m.x, m.y, &sim->eval.plates);
   return zp_leak_now(&model->leak, &model->plates, &sim->eval.plates, state->U,

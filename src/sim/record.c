@@ -139,6 +139,7 @@ static double fill_electric(ZpSim *sim, double *row) {
 static void fill_margins(ZpSim *sim, double *row) {
   ZpShape shape = zp_sim_shape(sim);
   sim->now = zp_margins_of(sim->model, &shape);
+  if (sim->model->leaks) sim->now.liquid = zp_sim_leak(sim).liquid;
   row[SIGNAL_insulator_field] = sim->now.insulator;
   row[SIGNAL_max_stress] = sim->now.stress;
 }
@@ -223,6 +224,7 @@ ZpShape zp_sim_shape(ZpSim *sim) {
     zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);
     shape.gap = sim->eval.plates.gap;
   }
+  if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
   zp_shape_fill(model, &sim->shape_room, &shape);
   return shape;
 }
