@@ -396,6 +396,11 @@ static const Row rows[] = {
      {{TIMES, "voltage_V", 0.5, 1e-6}}},
     /* 1 / (1 + exp(-2 pi 0.05)) */
     {"source.bandwidth", FED, "100Hz", "50Hz", {{TIMES, "voltage_V", 0.57790, 1e-4}}},
+    {"source.voltage_limit",
+     FED " source.bandwidth=1kHz",
+     "100V",
+     "200V",
+     {{TIMES, "source_voltage_margin", 2, 1e-12}}},
 
     /* at v = g t each of the 20 free particles loses c v^3 a second */
     {"damping.drag", STRAND, "0", "1e-5", {{PLUS, "drag_loss_J", 20e-5 * CUBE(9.81) * 625e-12 / 4, 1e-2}}},

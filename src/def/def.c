@@ -419,7 +419,7 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
 /* Keys of a source that would do nothing. */
 static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
-                                             "capacitance", "bleeder",       "bandwidth"};
+                                             "capacitance", "bleeder",       "bandwidth",  "voltage_limit"};
   for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++) {
     char name[32];
     snprintf(name, sizeof name, "source.%s", of_amplifier[i]);
@@ -429,6 +429,21 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
     if (given) return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", name);
   }
   return ZP_OK;
+}
+
+/* Closed faces hold one charge at any voltage while the cap acts: where it cannot flow back, something else must say
+ * what the voltage is. */
+static ZpStatus check_undecided(const ZpActuatorDef *def, ZpError *err) {
+  static const double least = 0.1e-12; /* F: a few millimetres of wire */
+  double sinks = isnan(def->source.sink_limit) ? def->source.current_limit : def->source.sink_limit;
+  bool leaks = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity);
+  if (sinks != 0 || !def->electro.breakdown_cap || leaks || def->source.capacitance >= least) return ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "source.sink_limit = 0 A: with electro.breakdown_cap closed faces hold their charge at any voltage, and "
+      "nothing decides which; give source.capacitance of output and cable (some 10 pF, at least %g F), "
+      "source.bleeder or insulator.resistivity",
+      least);
 }
 
 /* Values with which an amplifier never charges, or faster than any step of time. */
@@ -450,7 +465,7 @@ static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires solver.integrator implicit");
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires electrodes; actuator.kind is ribbon");
-  return ZP_OK;
+  return check_undecided(def, err);
 }
 
 static ZpStatus check_source(const ZpActuatorDef *def, ZpError *err) {
@@ -518,6 +533,9 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   ZpStatus ours = check_layout(def, err);
   if (ours != ZP_OK) return ours;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V is more than the source gives, source.voltage_limit = %g V",
+                   voltage, def->source.voltage_limit);
   bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
   if (voltage == 0 || def->insulator.thickness > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
