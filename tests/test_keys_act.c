@@ -44,6 +44,9 @@
   "study=actuate initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 electro.breakdown_cap=false "              \
   "drive.voltage=50V solver.end_time=50ms"
 
+/* The same with a meter of its capacitance. */
+#define METERED LEAKING " solver.end_time=2s sense.frequency=1kHz sense.amplitude=50V sense.sampling_rate=16kHz"
+
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
@@ -396,6 +399,19 @@ static const Row rows[] = {
      {{TIMES, "voltage_V", 0.5, 1e-6}}},
     /* 1 / (1 + exp(-2 pi 0.05)) */
     {"source.bandwidth", FED, "100Hz", "50Hz", {{TIMES, "voltage_V", 0.57790, 1e-4}}},
+    /* windows are of whole periods; white noise leaves its share over the root of the samples */
+    {"sense.frequency", METERED " sense.bandwidth=100Hz", "1kHz", "2kHz", {{TIMES, "sense_window_s", 1.125, 1e-12}}},
+    {"sense.bandwidth", METERED, "20Hz", "40Hz", {{TIMES, "sense_window_s", 0.5, 1e-12}}},
+    {"sense.amplitude", METERED " sense.noise=1nA", "50V", "100V", {{TIMES, "sense_capacitance_error_F", 0.5, 0.02}}},
+    {"sense.noise", METERED, "1nA", "2nA", {{TIMES, "sense_capacitance_error_F", 2, 0.02}}},
+    {"sense.sampling_rate",
+     METERED " sense.noise=1nA",
+     "16kHz",
+     "64kHz",
+     {{TIMES, "sense_capacitance_error_F", 0.5, 0.2}}},
+    {"sense.bits", METERED, "8", "16", {{LESS, "sense_capacitance_error_F", 0.1, 0}}},
+    {"sense.range", METERED " sense.bits=12", "1mA", "8mA", {{MORE, "sense_capacitance_error_F", 2, 0}}},
+    {"sense.seed", METERED " sense.noise=1nA", "1", "2", {{MORE, "sense_capacitance_error_F", 1.001, 0}}},
     {"source.voltage_limit",
      FED " source.bandwidth=1kHz",
      "100V",

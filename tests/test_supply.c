@@ -337,8 +337,8 @@ START_TEST(test_voltage_beyond_the_supply) {
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   ZpError err;
-  ck_assert_int_eq(zp_sim_set_voltage(sim, -6e3, &err), ZP_OK);
-  ck_assert_int_eq(zp_sim_set_voltage(sim, -6001, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 6e3, &err), ZP_OK);
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 6001, &err), ZP_BAD_INPUT);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }

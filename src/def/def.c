@@ -614,6 +614,45 @@ static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
   return check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err);
 }
 
+/* Keys of a meter that is not there, or that it lacks. */
+static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
+  static const struct {
+    const char *name;
+    bool needed;
+  } of[] = {{"sense.amplitude", true}, {"sense.sampling_rate", true}, {"sense.bits", false}, {"sense.noise", false}};
+  bool on = !isnan(def->sense.frequency);
+  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+    bool given = !isnan(zp_def_get(def, zp_key_find(of[i].name)));
+    if (given && !on) return zp_fail(err, ZP_BAD_INPUT, "%s: requires sense.frequency", of[i].name);
+    if (on && of[i].needed && !given)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: sense.frequency is given, which requires it", of[i].name);
+  }
+  return ZP_OK;
+}
+
+/* A reading takes whole periods of whole samples. */
+static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
+  static const double fewest = 4, most = 1e8; /* samples in a period, and in a run */
+  double samples = def->sense.sampling_rate / def->sense.frequency;
+  ZpStatus status = check_meter_keys(def, err);
+  if (status != ZP_OK || isnan(def->sense.frequency)) return status;
+  if (samples < fewest || fabs(samples - round(samples)) > 1e-9 * samples)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "sense.sampling_rate = %g Hz: must be a whole number, at least %g, of sense.frequency = %g Hz",
+                   def->sense.sampling_rate, fewest, def->sense.frequency);
+  if (def->sense.sampling_rate * def->solver.end_time > most)
+    return zp_fail(err, ZP_BAD_INPUT, "sense.sampling_rate = %g Hz: more than %g samples until solver.end_time = %g s",
+                   def->sense.sampling_rate, most, def->solver.end_time);
+  if (def->sense.bandwidth > def->sense.frequency / 2)
+    return zp_fail(err, ZP_BAD_INPUT, "sense.bandwidth = %g Hz: at most half of sense.frequency = %g Hz",
+                   def->sense.bandwidth, def->sense.frequency);
+  if (!isnan(def->sense.bits) && def->sense.bits != floor(def->sense.bits))
+    return zp_fail(err, ZP_BAD_INPUT, "sense.bits = %g: not a whole number", def->sense.bits);
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "sense.frequency: requires electrodes; actuator.kind is ribbon");
+  return ZP_OK;
+}
+
 /* What is asked of the model of the field. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
@@ -664,5 +703,6 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = check_symmetry(def, err);
   if (status == ZP_OK) status = check_liquid(def, err);
   if (status == ZP_OK) status = check_leak(def, err);
+  if (status == ZP_OK) status = check_meter(def, err);
   return status == ZP_OK ? check_electro(def, err) : status;
 }

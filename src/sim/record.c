@@ -30,6 +30,16 @@ const ZpColumn *zp_signal_columns(size_t *count) {
   return columns;
 }
 
+const ZpColumn *zp_trace_columns(size_t *count) {
+  static const ZpColumn trace[ZP_TRACE_COLUMNS] = {{"time_s", "s", "time since the start"},
+                                                   {"voltage_V", "V", "voltage between the electrodes"},
+                                                   {"charge_C", "C", "charge given to electrodes and insulators"},
+                                                   {"capacitance_F", "F", "capacitance of the electrodes"},
+                                                   {"stroke_m", "m", "stroke"}};
+  *count = ZP_TRACE_COLUMNS;
+  return trace;
+}
+
 double zp_energy_without_field(const ZpEnergies *e) {
   return e->kinetic + e->axial + e->bending + e->gravity + e->liquid;
 }
@@ -171,6 +181,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   const ZpState *state = sim->state;
   double *row = sim->row, stored = 0, kept = 0;
   fill_state(sim, row);
+  row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = NAN; /* a study adds them where there is a meter */
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
   if (what & MARGINS) fill_margins(sim, row);
@@ -239,8 +250,27 @@ static void look(ZpSim *sim) {
   zp_margins_join(&sim->margins, sim->now);
 }
 
+void zp_sim_trace(ZpSim *sim, ZpTable *trace) {
+  sim->trace = trace;
+}
+
+static void offer_trace(const ZpSim *sim, bool last) {
+  const double *row = sim->row;
+  double values[ZP_TRACE_COLUMNS] = {[ZP_TRACE_TIME] = row[SIGNAL_time],
+                                     [ZP_TRACE_VOLTAGE] = row[SIGNAL_voltage],
+                                     [ZP_TRACE_CHARGE] = row[SIGNAL_charge] + sim->model->parts * sim->state->leaked,
+                                     [ZP_TRACE_CAPACITANCE] = row[SIGNAL_capacitance],
+                                     [ZP_TRACE_STROKE] = row[SIGNAL_stroke]};
+  if (!sim->trace) return;
+  if (last)
+    zp_table_keep_last(sim->trace, values);
+  else
+    zp_table_offer(sim->trace, values);
+}
+
 void zp_sim_offer_record(ZpSim *sim) {
   if (sim->series || sim->shapes) look(sim);
+  offer_trace(sim, false);
   if (sim->series) zp_table_offer(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);
@@ -249,6 +279,7 @@ void zp_sim_offer_record(ZpSim *sim) {
 
 void zp_sim_close_record(ZpSim *sim) {
   if (sim->series || sim->shapes) look(sim);
+  offer_trace(sim, true);
   if (sim->series) zp_table_keep_last(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);

@@ -9,6 +9,7 @@
 #include "sim/feed.h"
 #include "sim/margins.h"
 #include "study/notes.h"
+#include "study/sense.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
@@ -185,8 +186,19 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 
-static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks, ZpResult *result,
-                    ZpError *err) {
+/* With a meter: its readings, of a run from the start. */
+static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
+  ZpTable *trace = zp_sense_trace();
+  if (!trace) return zp_fail_memory(err);
+  zp_sim_trace(sim, trace);
+  ZpStatus status = simulate(sim, model, task->input.start, task->hooks, result, err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome)) status = zp_sense(task, model, trace, result, err);
+  zp_sim_trace(sim, NULL);
+  zp_table_destroy(trace);
+  return status;
+}
+
+static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = zp_model_def(model);
   ZpModelInfo size = zp_model_info(model);
   size_t columns;
@@ -195,9 +207,12 @@ static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHoo
   result->shapes = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
   ZpSim *sim;
-  ZpStatus status = zp_sim_create(model, hooks, &sim, err);
+  ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;
-  status = simulate(sim, model, start, hooks, result, err);
+  if (zp_senses(def))
+    status = simulate_sensed(sim, task, model, result, err);
+  else
+    status = simulate(sim, model, task->input.start, task->hooks, result, err);
   zp_sim_destroy(sim);
   return status;
 }
@@ -214,7 +229,7 @@ ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpStatus status = check_start(task->def, task->input.start, err);
   if (status == ZP_OK) status = zp_model_create_driven(task->def, task->input.table, &model, err);
   if (status != ZP_OK) return status;
-  status = run(model, task->input.start, task->hooks, result, err);
+  status = run(task, model, result, err);
   zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;
