@@ -163,8 +163,7 @@ static bool has_interface(const ZpPlot *plot) {
 }
 
 static void script_interface(const ZpPlot *plot, FILE *file) {
-  const char *const voltages[][2] = {{"voltage_V", "voltage"},
-                                     {"interface_voltage_V", "charge on the faces, as a voltage"}},
+  const char *const voltages[][2] = {{"voltage_V", "voltage"}, {"interface_voltage_V", "interface"}},
                     *const openings[][2] = {{"opening_m", "opening"}, {"stroke_m", "stroke"}};
   ZpPlotUnit time = time_unit(plot);
   ZpPlotUnit voltage =
