@@ -181,7 +181,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   const ZpState *state = sim->state;
   double *row = sim->row, stored = 0, kept = 0;
   fill_state(sim, row);
-  row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = NAN; /* a study adds them where there is a meter */
+  row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
   if (what & MARGINS) fill_margins(sim, row);

@@ -32,6 +32,7 @@ typedef struct Cycles {
   double far, fast;           /* what distances and rates are compared with, m, m/s */
   Mark mark[HISTORY];         /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before */
+  double least[2];            /* least distance in this quarter of the cycles, and in the one before */
   ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
   double *start, *end, *next; /* [4 stride] positions and velocities of a cycle's start and end, and of the next start,
                                  in units of far and fast */
@@ -167,9 +168,24 @@ static int look(Cycles *c) {
   return repeats;
 }
 
+/* Where starts of cycles come no nearer to each other in a quarter of the cycles than half of what they did in the one
+ * before, the cycles that are left lead nowhere. */
+static bool leads_nowhere(Cycles *c) {
+  enum { FEWEST = 6 };
+  int quarter = (c->model->def.cycle.most_cycles + 3) / 4;
+  if (quarter < FEWEST) quarter = FEWEST;
+  c->least[0] = fmin(c->least[0], c->moved[0]);
+  if (c->done % quarter != 0) return false;
+  bool nowhere = c->alike == 0 && !stays_open(c) && c->least[0] > 0.5 * c->least[1];
+  c->least[1] = c->least[0];
+  c->least[0] = INFINITY;
+  return nowhere;
+}
+
 /* Until the motion is periodic, a few times in a row where that takes several cycles. */
 static bool settle(Cycles *c) {
   read_state(c, c->start);
+  c->least[0] = c->least[1] = INFINITY;
   while (c->done < c->model->def.cycle.most_cycles) {
     if (!run_cycle(c)) return false;
     take_mark(c);
@@ -177,6 +193,7 @@ static bool settle(Cycles *c) {
     c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
     c->repeats = repeats;
     if (repeats == 1 || c->alike > 2 * HISTORY) return true;
+    if (leads_nowhere(c)) break;
   }
   c->repeats = 0;
   return true;

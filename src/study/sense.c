@@ -180,9 +180,9 @@ static void fill_columns(const Sensing *s, ZpTable *series) {
     double *row = series->value + k * series->columns;
     while (next < s->readings->rows && s->readings->value[next * COLUMNS + TIME] <= row[0])
       next++;
-    if (next == 0) continue;
-    row[at_capacitance] = s->readings->value[(next - 1) * COLUMNS + CAPACITANCE];
-    row[at_stroke] = s->readings->value[(next - 1) * COLUMNS + STROKE];
+    const double *reading = next > 0 ? s->readings->value + (next - 1) * COLUMNS : NULL;
+    row[at_capacitance] = reading ? reading[CAPACITANCE] : NAN;
+    row[at_stroke] = reading ? reading[STROKE] : NAN;
   }
 }
 
