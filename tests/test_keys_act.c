@@ -412,6 +412,12 @@ static const Row rows[] = {
     {"sense.bits", METERED, "8", "16", {{LESS, "sense_capacitance_error_F", 0.1, 0}}},
     {"sense.range", METERED " sense.bits=12", "1mA", "8mA", {{MORE, "sense_capacitance_error_F", 2, 0}}},
     {"sense.seed", METERED " sense.noise=1nA", "1", "2", {{MORE, "sense_capacitance_error_F", 1.001, 0}}},
+    {"cycle.closing_frequency",
+     "study=cycle mesh.nodes=7 drive.voltage=8kV drive.waveform=sine drive.frequency=4Hz damping.internal=20ms "
+     "cycle.most_cycles=4",
+     "false",
+     "true",
+     {{SAME, "opening_min_m", 0, 0}, {BECOMES, "closing_frequency_Hz", 2.48, 0.1}}},
     {"source.voltage_limit",
      FED " source.bandwidth=1kHz",
      "100V",

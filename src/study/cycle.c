@@ -399,6 +399,60 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
   return status;
 }
 
+/* -- the largest frequency at which it closes ------------------------------------------------------- */
+
+/* How a cycle at a frequency ends: does the actuator close fully? `outcome` is that of the run. */
+typedef struct Tried {
+  ZpOutcome outcome;
+  bool closes;
+} Tried;
+
+static ZpStatus try_frequency(const ZpTask *task, double frequency, Tried *tried, ZpError *err) {
+  ZpActuatorDef def = *task->def;
+  def.drive.frequency = frequency;
+  ZpModel *model = NULL;
+  ZpResult *result = zp_result_create(ZP_STUDY_CYCLE);
+  ZpStatus status = result ? zp_model_create(&def, &model, err) : zp_fail_memory(err);
+  if (status == ZP_OK) status = run(model, task->hooks, result, err);
+  if (status == ZP_OK) *tried = (Tried){result->outcome, zp_result_get(result, "closes") == 1};
+  zp_model_destroy(model);
+  zp_result_destroy(result);
+  return status;
+}
+
+/* Frequencies, Hz: at `low` it closes, at `high` it does not. NAN: none is known yet. */
+typedef struct Between {
+  double low, high;
+} Between;
+
+static bool is_near(Between between) {
+  static const double near = 1.02;
+  return between.high < near * between.low;
+}
+
+/* From the frequency of the Def upwards by octaves, or downwards where it does not close there; then by halving =>
+ * closing_frequency_Hz. */
+static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpError *err) {
+  enum { MOST = 24 };
+  Between between = {NAN, NAN};
+  double f = task->def->drive.frequency;
+  bool closes = zp_result_get(result, "closes") == 1;
+  for (int k = 0; k < MOST; k++) {
+    *(closes ? &between.low : &between.high) = f;
+    if (is_near(between)) break;
+    bool enclosed = !isnan(between.low) && !isnan(between.high);
+    f = enclosed ? sqrt(between.low * between.high) : closes ? 2 * f : f / 2;
+    Tried tried;
+    ZpStatus status = try_frequency(task, f, &tried, err);
+    if (status != ZP_OK) return status;
+    if (tried.outcome == ZP_INTERRUPTED) result->outcome = ZP_INTERRUPTED;
+    if (tried.outcome != ZP_REACHED_END) break;
+    closes = tried.closes;
+  }
+  zp_result_add(result, "closing_frequency_Hz", "Hz", is_near(between) ? between.low : NAN);
+  return ZP_OK;
+}
+
 /* A step is repeated as a sine. */
 static ZpActuatorDef periodic(ZpActuatorDef def) {
   if (def.drive.waveform == ZP_WAVEFORM_STEP) def.drive.waveform = ZP_WAVEFORM_SINE;
@@ -421,10 +475,13 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef def = periodic(*task->def);
+  ZpTask repeated = {.def = &def, .hooks = task->hooks};
   ZpModel *model;
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   status = run(model, task->hooks, result, err);
+  bool ended = status == ZP_OK && result->outcome == ZP_REACHED_END;
+  if (ended && def.cycle.closing_frequency) status = find_closing_frequency(&repeated, result, err);
   zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;
