@@ -65,9 +65,9 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   zp_result_add(result, "peak_current_A", "A", currents.peak);
   zp_result_add(result, "rms_current_A", "A", currents.rms);
   zp_result_add(result, "source_energy_J", "J", energy);
-  if (model->supply.acts)
-    zp_result_add(result, "source_voltage_margin", "1",
-                  model->def.source.voltage_limit / zp_waveform_largest(&model->waveform));
+  double highest = zp_waveform_largest(&model->waveform), limit = model->def.source.voltage_limit;
+  if (model->supply.acts && isfinite(limit) && highest > 0)
+    zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (zp_model_info(model).ribbons < 2) return;
   double work = work_on_load(sim, model, result);
   zp_result_add(result, "mechanical_work_J", "J", work);

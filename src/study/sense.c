@@ -62,12 +62,13 @@ static bool read_all(Sensing *s) {
   size_t rows = trace->rows, n = trace->columns;
   double window = zp_meter_window(&s->meter), end = trace->value[(rows - 1) * n];
   size_t windows = (size_t)floor(end / window * (1 + 1e-12));
-  double *block = zp_calloc(3 * rows + windows + 1, sizeof *block), *capacitance = block + 3 * rows;
+  double *block = zp_calloc(3 * rows + windows + 1, sizeof *block);
   s->readings = zp_table_create(columns, COLUMNS, windows > 2 ? windows : 2);
   if (!block || !s->readings) {
     zp_free(block);
     return false;
   }
+  double *capacitance = block + 3 * rows;
   for (size_t k = 0; k < rows; k++) {
     block[k] = trace->value[k * n + ZP_TRACE_TIME];
     block[rows + k] = trace->value[k * n + ZP_TRACE_CHARGE];
