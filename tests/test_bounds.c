@@ -46,7 +46,7 @@ static bool has_insulators(const ZpActuatorDef *def) {
  * rest, no step taken, a voltage that jumps; no voltage or stress that a margin could be of, no insulators; an
  * estimated error where a coarser mesh has no such number, or where there is none. */
 static bool scalar_may_be_missing(const char *name, const ZpActuatorDef *def) {
-  if (strstr(name, "_error_")) return true;
+  if (strstr(name, "_error_") || strncmp(name, "sense_", 6) == 0) return true; /* of windows that a run has none of */
   static const char *const of_insulators[] = {"insulator_field_V_per_m", "insulator_field_place_m",
                                               "allowed_voltage_V"};
   static const char *const names[] = {
@@ -66,6 +66,7 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
   if (strcmp(name, "insulator_field_V_per_m") == 0) return !has_insulators(def);
   for (size_t i = 0; i < sizeof of_two / sizeof of_two[0]; i++)
     if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON && strcmp(name, of_two[i]) == 0) return true;
+  if (strncmp(name, "sensed_", 7) == 0) return !isnan(def->sense.frequency); /* before its first reading */
   return strcmp(name, "contraction") == 0;
 }
 
@@ -155,6 +156,16 @@ static ZpOutcome run_and_check(ZpStudy study, const ZpActuatorDef *def, const ch
 
 /* -- one key at a time --------------------------------------------------------------------------------- */
 
+/* A meter around one of its keys, of whole samples in whole periods. */
+static void make_meter(ZpActuatorDef *def, const char *key, double value) {
+  bool of_rate = strcmp(key, "sense.sampling_rate") == 0, of_bandwidth = strcmp(key, "sense.bandwidth") == 0;
+  double f = strcmp(key, "sense.frequency") == 0 ? value : of_rate ? fmin(value / 8, 1e7) : of_bandwidth ? 4e6 : 1e5;
+  def->sense.frequency = f;
+  def->sense.sampling_rate = of_rate ? value : 8 * f;
+  def->sense.bandwidth = of_bandwidth ? value : fmin(f / 4, 1e6);
+  if (isnan(def->sense.amplitude)) def->sense.amplitude = 10;
+}
+
 /* What keys ask of one another, so that one of them can stand at its bound. */
 static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
@@ -165,6 +176,10 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     implicit = true;
     def->source.model = ZP_SOURCE_AMPLIFIER;
   }
+  if (strcmp(key, "source.sink_limit") == 0) def->source.capacitance = 10e-12;
+  if (strcmp(key, "source.voltage_limit") == 0) def->drive.voltage = fmin(value, def->drive.voltage);
+  if (strncmp(key, "sense.", 6) == 0) make_meter(def, key, value);
+  if (strstr(key, ".resistivity")) implicit = true;
   if (unilateral || implicit || (strcmp(key, "damping.internal") == 0 && value > 0)) {
     def->contact.model = ZP_CONTACT_UNILATERAL;
     def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;
@@ -201,8 +216,10 @@ static void run_each_study(void) {
     run_and_check((ZpStudy)study, &def, zp_study_name((ZpStudy)study));
 }
 
-/* Ends of ranges that get a sentence of their own: a source that never charges, or that is faster than any step. */
+/* Ends of ranges that get a sentence of their own: a source that never charges, or that is faster than any step; a
+ * meter without a whole period or with fewer samples. */
 static bool has_its_own_words(const char *key, double value) {
+  if (strcmp(key, "sense.sampling_rate") == 0) return value < 8;
   if (strcmp(key, "source.bandwidth") == 0) return value > 1e9;
   return value == 0 && (strcmp(key, "source.slew_rate") == 0 || strcmp(key, "source.current_limit") == 0);
 }

@@ -125,6 +125,25 @@ START_TEST(test_impacts_are_not_periodic) {
 }
 END_TEST
 
+/* Where it says that the actuator just closes it does, and 3 % above it does not. */
+START_TEST(test_closing_frequency) {
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 8e3}, {"drive.frequency", 3}, {"damping.internal", 5e-3},
+                          {"cycle.closing_frequency", 1});
+  ZpResult *result = cycle_of(&def);
+  double f = zp_result_get(result, "closing_frequency_Hz"), opening[2];
+  zp_result_destroy(result);
+  def.cycle.closing_frequency = false;
+  for (int k = 0; k < 2; k++) {
+    def.drive.frequency = f * (1 + 0.03 * k);
+    result = cycle_of(&def);
+    opening[k] = zp_result_get(result, "closes");
+    zp_result_destroy(result);
+  }
+  printf("closes up to %.3g Hz\n", f);
+  ck_assert(opening[0] == 1 && opening[1] == 0);
+}
+END_TEST
+
 START_TEST(test_refusals) {
   static const struct {
     Setting set;
@@ -147,6 +166,7 @@ int main(void) {
   tcase_add_test(cycles, test_energy_of_a_cycle);
   tcase_add_test(cycles, test_shooting_finds_what_waiting_leads_to);
   tcase_add_test(cycles, test_impacts_are_not_periodic);
+  tcase_add_test(cycles, test_closing_frequency);
   tcase_add_loop_test(cycles, test_refusals, 0, 3);
   suite_add_tcase(suite, points);
   suite_add_tcase(suite, cycles);

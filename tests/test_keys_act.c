@@ -39,6 +39,14 @@
   "study=actuate initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 electro.breakdown_cap=false "              \
   "drive.voltage=50V solver.tolerance=1e-6 source.model=amplifier solver.end_time=1ms"
 
+/* The same at a constant voltage, for a time that is short for what leaks. */
+#define LEAKING                                                                                                        \
+  "study=actuate initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 electro.breakdown_cap=false "              \
+  "drive.voltage=50V solver.end_time=50ms"
+
+/* The same with a meter of its capacitance. */
+#define METERED LEAKING " solver.end_time=2s sense.frequency=1kHz sense.amplitude=50V sense.sampling_rate=16kHz"
+
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
@@ -228,6 +236,8 @@ static const Row rows[] = {
      "20MV/m",
      {{TIMES, "force_N", 4, 1e-6}, {TIMES, "charge_C", 2, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
 
+    {"insulator.resistivity", LEAKING, "1e12", "2e12", {{TIMES, "leak_loss_J", 0.5, 1e-4}}},
+    {"medium.resistivity", LEAKING, "1e12", "2e12", {{TIMES, "interface_voltage_V", 0.5, 2e-3}}},
     {"medium.kinematic_viscosity", VISCOUS, "1000mm2/s", "2000mm2/s", {{TIMES, "zip_time_s", 2, 1e-2}}},
     {"medium.density", VISCOUS, "500kg/m3", "1000kg/m3", {{TIMES, "zip_time_s", 2, 1e-2}}},
     {"medium.drag_coefficient",
@@ -389,6 +399,30 @@ static const Row rows[] = {
      {{TIMES, "voltage_V", 0.5, 1e-6}}},
     /* 1 / (1 + exp(-2 pi 0.05)) */
     {"source.bandwidth", FED, "100Hz", "50Hz", {{TIMES, "voltage_V", 0.57790, 1e-4}}},
+    /* windows are of whole periods; white noise leaves its share over the root of the samples */
+    {"sense.frequency", METERED " sense.bandwidth=100Hz", "1kHz", "2kHz", {{TIMES, "sense_window_s", 1.125, 1e-12}}},
+    {"sense.bandwidth", METERED, "20Hz", "40Hz", {{TIMES, "sense_window_s", 0.5, 1e-12}}},
+    {"sense.amplitude", METERED " sense.noise=1nA", "50V", "100V", {{TIMES, "sense_capacitance_error_F", 0.5, 0.02}}},
+    {"sense.noise", METERED, "1nA", "2nA", {{TIMES, "sense_capacitance_error_F", 2, 0.02}}},
+    {"sense.sampling_rate",
+     METERED " sense.noise=1nA",
+     "16kHz",
+     "64kHz",
+     {{TIMES, "sense_capacitance_error_F", 0.5, 0.2}}},
+    {"sense.bits", METERED, "8", "16", {{LESS, "sense_capacitance_error_F", 0.1, 0}}},
+    {"sense.range", METERED " sense.bits=12", "1mA", "8mA", {{MORE, "sense_capacitance_error_F", 2, 0}}},
+    {"sense.seed", METERED " sense.noise=1nA", "1", "2", {{MORE, "sense_capacitance_error_F", 1.001, 0}}},
+    {"cycle.closing_frequency",
+     "study=cycle mesh.nodes=7 drive.voltage=8kV drive.waveform=sine drive.frequency=4Hz damping.internal=20ms "
+     "cycle.most_cycles=4",
+     "false",
+     "true",
+     {{SAME, "opening_min_m", 0, 0}, {BECOMES, "closing_frequency_Hz", 2.48, 0.1}}},
+    {"source.voltage_limit",
+     FED " source.bandwidth=1kHz",
+     "100V",
+     "200V",
+     {{TIMES, "source_voltage_margin", 2, 1e-12}}},
 
     /* at v = g t each of the 20 free particles loses c v^3 a second */
     {"damping.drag", STRAND, "0", "1e-5", {{PLUS, "drag_loss_J", 20e-5 * CUBE(9.81) * 625e-12 / 4, 1e-2}}},

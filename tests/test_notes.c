@@ -149,6 +149,20 @@ START_TEST(front_length_is_that_of_a_peeled_ribbon) {
 }
 END_TEST
 
+/* States of rest know neither a supply's limits nor charge that gathers: they left both out without a word. */
+START_TEST(what_rest_leaves_out_is_noted) {
+  static const ZpStudy at_rest[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
+  ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.current_limit", 1e-3});
+  ck_assert(notes(at_rest[_i], &def, "source.model = amplifier is left out"));
+  ck_assert(!notes(at_rest[_i], &def, "resistivities are left out"));
+  def.source.model = ZP_SOURCE_IDEAL;
+  def.source.current_limit = NAN;
+  def.insulator.resistivity = 1e12;
+  ck_assert(notes(at_rest[_i], &def, "resistivities are left out"));
+  ck_assert(!notes(at_rest[_i], &def, "amplifier"));
+}
+END_TEST
+
 /* 139 ms instead of 75.7 with N = 4, without a word; also where nothing zips. */
 START_TEST(few_elements_are_noted_in_every_study) {
   ZpActuatorDef def = DEF({"mesh.nodes", 6}, {"solver.end_time", 1e-3});
@@ -235,6 +249,7 @@ int main(void) {
   tcase_add_test(c, nearly_closed_start_is_noted);
   if (!SANITIZED) tcase_add_loop_test(c, coarse_front_is_noted, 0, 2);
   tcase_add_test(c, front_length_is_that_of_a_peeled_ribbon);
+  tcase_add_loop_test(c, what_rest_leaves_out_is_noted, 0, 4);
   tcase_add_loop_test(c, few_elements_are_noted_in_every_study, 0, ZpStudy_COUNT);
   tcase_add_loop_test(c, bare_flange_ends_where_it_touches, 0, 2);
   tcase_add_test(c, no_voltage_by_hand_on_bare_electrodes);

@@ -271,9 +271,9 @@ static Books books_of(ZpSim *sim) {
  * 2.8e-8. */
 START_TEST(test_energy_behind_supplies) {
   static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV};
-  ZpActuatorDef def =
-      DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
-          {"drive.frequency", 2}, {"drive.duty", 0.4}, {"source.capacitance", 20e-12}, {"solver.tolerance", 3e-6});
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.voltage", _i == 0 ? 6e3 : 10e3},
+                          {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 2}, {"drive.duty", 0.4},
+                          {"source.capacitance", 20e-12}, {"solver.tolerance", 3e-6});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   double start = books_of(sim).mechanical, off = 0;
@@ -313,6 +313,54 @@ START_TEST(test_loss_is_heat_of_the_resistance) {
   printf("loss of the source against R I^2, steps of 800, 200, 50 us: %.2e, %.2e, %.2e\n", coarse, fine, finest);
   ck_below(finest, 1e-6);
   ck_below(fine, 0.1 * coarse); /* of second order; measured 0.047 */
+}
+END_TEST
+
+/* -- what cannot be -------------------------------------------------------------------------------- */
+
+static const char *refusal(ZpActuatorDef def) {
+  static ZpError err;
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpStatus status = zp_model_create(&def, &model, &err);
+  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, &err);
+  ck_assert_int_eq(status, ZP_BAD_INPUT);
+  zp_model_destroy(model);
+  return err.message;
+}
+
+/* A pocket supply to 6 kV gave 10 kV when it was asked to. */
+START_TEST(test_voltage_beyond_the_supply) {
+  const char *says = refusal(DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_POCKET_6KV}));
+  ck_assert_str_eq(says, "drive.voltage: 10000 V is more than the source gives, source.voltage_limit = 6000 V");
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_POCKET_6KV}, {"drive.voltage", 5e3});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpError err;
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 6e3, &err), ZP_OK);
+  ck_assert_int_eq(zp_sim_set_voltage(sim, 6001, &err), ZP_BAD_INPUT);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A source of 10 kV that cannot sink, with nothing but a wire of 1 fF beside faces whose charge the cap holds, drove
+ * their voltage to 250 kV: nothing decides it. With 10 pF it stays below 14 kV. */
+START_TEST(test_undecided_voltage) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.sink_limit", 0},
+                          {"source.current_limit", 0.3e-3});
+  ck_assert_ptr_nonnull(strstr(refusal(def), "nothing decides which"));
+  def.source.capacitance = 10e-12;
+  double U = 0;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  for (int i = 1; i <= 100; i++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 2e-3 * i, false, NULL, NULL)));
+    U = fmax(U, zp_sim_get(sim, "voltage"));
+  }
+  ck_below(U, 14e3);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
 }
 END_TEST
 
@@ -425,6 +473,8 @@ int main(void) {
   tcase_add_test(charges, test_slew_rate_alone);
   tcase_add_test(charges, test_discharge_through_the_bleeder);
   tcase_add_test(motion, test_without_limits_it_is_ideal);
+  tcase_add_test(keys, test_voltage_beyond_the_supply);
+  tcase_add_test(keys, test_undecided_voltage);
   tcase_add_loop_test(motion, test_energy_behind_supplies, 0, 3);
   tcase_add_test(motion, test_loss_is_heat_of_the_resistance);
   tcase_add_test(motion, test_charge_drive_of_plates_has_no_pull_in);

@@ -175,6 +175,15 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .flat_height = def->electro.gap_offset};
 }
 
+/* Eq. (25.3). Of what is no conductor the resistivity is NAN. */
+static ZpLeakParams leak_of(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double insulators = def->insulator.resistivity, liquid = def->medium.resistivity, both = 2 * def->insulator.thickness;
+  return (ZpLeakParams){.insulators = 2 * model->plates.k / model->plates.d,
+                        .conductance = isnan(insulators) ? 0 : def->ribbon.width / (insulators * both),
+                        .discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity)};
+}
+
 /* Grid columns enough that 60 elements lie along a ribbon even where it has few nodes. */
 static size_t columns_per_edge(size_t nodes) {
   enum { ALONG = 60 };
@@ -507,7 +516,11 @@ static void derive(ZpModel *model, const ZpActuatorDef *lower) {
   model->has_film = model->field && def->liquid.model != ZP_LIQUID_NONE;
   model->outer = outer_of(def);
   model->own = model->has_film ? ZP_FILM_MODES : 0;
+  model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));
+  if (model->leaks) model->leak = leak_of(model);
+  model->leak_at = model->has_film ? ZP_FILM_STATE * model->nodes : 0;
   model->kept = model->has_film ? ZP_FILM_STATE : 0;
+  if (model->leaks) model->kept += ZP_PLATES_PLACES;
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part

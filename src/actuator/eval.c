@@ -26,7 +26,10 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   zp_plates_by_voltage_carve(&model->plates, &e->by_voltage, &carver);
   zp_film_carve(&model->film, &e->film, &carver);
   e->own_residual = e->film.r;
-  e->memory_end = e->film.end;
+  zp_leak_carve(&model->plates, &e->leak, &carver);
+  e->memory_end = zp_carve(&carver, model->kept * model->nodes);
+  e->film.end = model->has_film ? e->memory_end : NULL;
+  e->leak.Z = model->leaks ? e->memory_end + model->leak_at : NULL;
   zp_faces_carve(&model->faces, &e->faces, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   double **stations[] = {&e->gaps.own, &e->gaps.next, &e->gaps.along0, &e->gaps.along1};

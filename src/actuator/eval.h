@@ -37,6 +37,7 @@ typedef struct ZpEval {
   ZpPlatesByVoltage by_voltage;
   ZpFacesEval faces; /* of unilateral contact */
   ZpFilmEval film;
+  ZpLeakEval leak;
   double *own_residual;    /* [own N] what is left of the equations of the laws' own unknowns */
   double *memory_end;      /* [kept N] state of the laws where the span ends */
   bool solves;             /* it can solve the field, not only hold what was found */
@@ -89,6 +90,7 @@ typedef struct ZpLosses {
   double drag, internal;      /* J */
   double along, across, jets; /* in the film of liquid, J */
   double outer;               /* to the form drag of the liquid outside, J */
+  double leak;                /* heat of conduction through insulators and liquid, J */
 } ZpLosses;
 
 /* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */
@@ -97,6 +99,7 @@ typedef struct ZpElectric {
   double charge;      /* C */
   double potential;   /* at constant voltage, J: its gradient is the force; charge = -d/dU */
   double capacitance; /* F */
+  double passed;      /* of the end of a step: charge that insulators have conducted over it, C */
 } ZpElectric;
 
 /* Energy of the field, with what the breakdown cap takes, J. */

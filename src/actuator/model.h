@@ -15,6 +15,7 @@
 #include "drive/supply.h"
 #include "electro/edges.h"
 #include "electro/field.h"
+#include "electro/leak.h"
 #include "electro/plates_step.h"
 #include "liquid/film.h"
 #include "liquid/outer.h"
@@ -64,7 +65,10 @@ struct ZpModel {
   ZpFacesParams faces; /* of unilateral contact */
   bool has_film;       /* of liquid between the faces */
   ZpFilmParams film;
-  ZpOuterParams outer;     /* of liquid outside */
+  ZpOuterParams outer; /* of liquid outside */
+  bool leaks;          /* insulators or liquid conduct */
+  ZpLeakParams leak;
+  size_t leak_at;          /* where its interface voltages begin in the laws' state */
   size_t own, kept;        /* unknowns, and numbers of state, of the laws at each station, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
@@ -122,6 +126,8 @@ typedef struct ZpState {
   double across_loss;      /* and across it */
   double jet_loss;         /* per part: to jets from the film and its cavities, J */
   double outer_drag_loss;  /* per part: to the form drag of the liquid outside, J */
+  double leak_loss;        /* per part: heat of conduction through insulators and liquid, J, */
+  double leaked;           /* and charge that has passed through the insulators, C */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
@@ -214,9 +220,14 @@ static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride;
 }
 
-/* State of the laws, [kept N] station by station. */
+/* State of the laws, [kept N]: of the film, then of what leaks, each station by station. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
   return state->data + 12 * model->stride + zp_own_unknowns(model);
+}
+
+/* Interface voltages [ZP_PLATES_PLACES N] in a state of the laws; NULL of none. */
+static inline const double *zp_leak_memory(const ZpModel *model, const double *memory) {
+  return memory ? memory + model->leak_at : NULL;
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

@@ -10,14 +10,27 @@ void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
   room->stress = zp_carve(carver, model->count);
 }
 
+/* What of charge between insulators and liquid is at station i, as a voltage: that of the nearest place. */
+static double interface_at(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
+  bool last = i + 1 == model->nodes;
+  if (!room->interface) return 0;
+  return room->interface[last ? ZP_PLATES_PLACES * i - 2 : ZP_PLATES_PLACES * i];
+}
+
+/* Eqs. (4.10) and (25.2). */
+static void fill_fields(const ZpModel *model, const ZpShapeRoom *room, const ZpShape *shape, size_t i) {
+  double Z = interface_at(model, room, i), Y = shape->voltage + Z, gap = shape->gap[i];
+  double field = zp_series_at(&model->def, Y, gap).insulator;
+  room->line_force[i] = zp_plates_law(&model->plates, Y, gap).W;
+  room->insulator_field[i] = Z == 0 ? field : fabs(copysign(field, Y) - Z / (2 * model->def.insulator.thickness));
+}
+
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape) {
   zp_stress(&model->stress, shape->x, shape->y, room->stress);
   shape->stress = room->stress;
   if (!model->field) return;
-  for (size_t i = 0; i < model->nodes; i++) {
-    room->line_force[i] = zp_plates_law(&model->plates, shape->voltage, shape->gap[i]).W;
-    room->insulator_field[i] = zp_series_at(&model->def, shape->voltage, shape->gap[i]).insulator;
-  }
+  for (size_t i = 0; i < model->nodes; i++)
+    fill_fields(model, room, shape, i);
   shape->line_force = room->line_force;
   shape->insulator_field = room->insulator_field;
 }
@@ -52,8 +65,11 @@ ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
   ZpMargins worst = zp_margins_none();
   for (size_t j = 0; j < model->count; j++)
     zp_margins_join(&worst, (ZpMargins){NAN, NAN, 0, shape->stress[j], zp_straight_x(model, j / model->s)});
-  for (size_t i = 0; model->field && i < model->nodes; i++)
-    zp_margins_join(&worst, fields_at(model, shape->voltage, shape->gap[i], zp_straight_x(model, i)));
+  for (size_t i = 0; model->field && i < model->nodes; i++) {
+    ZpMargins at = fields_at(model, shape->voltage, shape->gap[i], zp_straight_x(model, i));
+    at.insulator = shape->insulator_field[i];
+    zp_margins_join(&worst, at);
+  }
   return worst;
 }
 

@@ -8,6 +8,7 @@
 
 /* Room for what follows from a shape. */
 typedef struct ZpShapeRoom {
+  const double *interface; /* [ZP_PLATES_PLACES N] interface voltages of what leaks; NULL: there is no charge */
   double *line_force;      /* [nodes] */
   double *insulator_field; /* [nodes] */
   double *stress;          /* [count] */

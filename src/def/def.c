@@ -419,7 +419,7 @@ static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
 /* Keys of a source that would do nothing. */
 static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
-                                             "capacitance", "bleeder",       "bandwidth"};
+                                             "capacitance", "bleeder",       "bandwidth",  "voltage_limit"};
   for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++) {
     char name[32];
     snprintf(name, sizeof name, "source.%s", of_amplifier[i]);
@@ -429,6 +429,21 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
     if (given) return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", name);
   }
   return ZP_OK;
+}
+
+/* Closed faces hold one charge at any voltage while the cap acts: where it cannot flow back, something else must say
+ * what the voltage is. */
+static ZpStatus check_undecided(const ZpActuatorDef *def, ZpError *err) {
+  static const double least = 0.1e-12; /* F: a few millimetres of wire */
+  double sinks = isnan(def->source.sink_limit) ? def->source.current_limit : def->source.sink_limit;
+  bool leaks = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity);
+  if (sinks != 0 || !def->electro.breakdown_cap || leaks || def->source.capacitance >= least) return ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "source.sink_limit = 0 A: with electro.breakdown_cap closed faces hold their charge at any voltage, and "
+      "nothing decides which; give source.capacitance of output and cable (some 10 pF, at least %g F), "
+      "source.bleeder or insulator.resistivity",
+      least);
 }
 
 /* Values with which an amplifier never charges, or faster than any step of time. */
@@ -450,7 +465,7 @@ static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires solver.integrator implicit");
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires electrodes; actuator.kind is ribbon");
-  return ZP_OK;
+  return check_undecided(def, err);
 }
 
 static ZpStatus check_source(const ZpActuatorDef *def, ZpError *err) {
@@ -518,6 +533,9 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   ZpStatus ours = check_layout(def, err);
   if (ours != ZP_OK) return ours;
   bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
+    return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V is more than the source gives, source.voltage_limit = %g V",
+                   voltage, def->source.voltage_limit);
   bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
   if (voltage == 0 || def->insulator.thickness > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
@@ -573,6 +591,68 @@ static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
   return check_needs(def, "liquid.model = submerged", needs, sizeof needs / sizeof needs[0], "liquid.model none", err);
 }
 
+/* Interface charge is that of the plates law in implicit steps, of real insulators and a real liquid. */
+static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
+  static const Need needs[] = {{"electro.model", ZP_ELECTRO_PLATES},
+                               {"electro.surface", ZP_SURFACE_POLYLINE},
+                               {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+  const ZpKey *given =
+      &keys[zp_key_find(isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity")];
+  if (isnan(def->insulator.resistivity) && isnan(def->medium.resistivity)) return ZP_OK;
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electrodes; actuator.kind is ribbon", given->name);
+  if (def->insulator.thickness == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "insulator.thickness = 0 m: %s requires an insulator, on whose face charge gathers", given->name);
+  if (def->electro.force_scale != 1 || def->electro.voltage_share != 1 || !isnan(def->electro.insulator_offset))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%s: requires electro.force_scale 1, electro.voltage_share 1 and electro.insulator_offset auto",
+                   given->name);
+  if (def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electro.edges false: no charge gathers in the field at the edges",
+                   given->name);
+  return check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err);
+}
+
+/* Keys of a meter that is not there, or that it lacks. */
+static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
+  static const struct {
+    const char *name;
+    bool needed;
+  } of[] = {{"sense.amplitude", true}, {"sense.sampling_rate", true}, {"sense.bits", false}, {"sense.noise", false}};
+  bool on = !isnan(def->sense.frequency);
+  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+    bool given = !isnan(zp_def_get(def, zp_key_find(of[i].name)));
+    if (given && !on) return zp_fail(err, ZP_BAD_INPUT, "%s: requires sense.frequency", of[i].name);
+    if (on && of[i].needed && !given)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: sense.frequency is given, which requires it", of[i].name);
+  }
+  return ZP_OK;
+}
+
+/* A reading takes whole periods of whole samples. */
+static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
+  static const double fewest = 4, most = 1e8; /* samples in a period, and in a run */
+  double samples = def->sense.sampling_rate / def->sense.frequency;
+  ZpStatus status = check_meter_keys(def, err);
+  if (status != ZP_OK || isnan(def->sense.frequency)) return status;
+  if (samples < fewest || fabs(samples - round(samples)) > 1e-9 * samples)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "sense.sampling_rate = %g Hz: must be a whole number, at least %g, of sense.frequency = %g Hz",
+                   def->sense.sampling_rate, fewest, def->sense.frequency);
+  if (def->sense.sampling_rate * def->solver.end_time > most)
+    return zp_fail(err, ZP_BAD_INPUT, "sense.sampling_rate = %g Hz: more than %g samples until solver.end_time = %g s",
+                   def->sense.sampling_rate, most, def->solver.end_time);
+  if (def->sense.bandwidth > def->sense.frequency / 2)
+    return zp_fail(err, ZP_BAD_INPUT, "sense.bandwidth = %g Hz: at most half of sense.frequency = %g Hz",
+                   def->sense.bandwidth, def->sense.frequency);
+  if (!isnan(def->sense.bits) && def->sense.bits != floor(def->sense.bits))
+    return zp_fail(err, ZP_BAD_INPUT, "sense.bits = %g: not a whole number", def->sense.bits);
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "sense.frequency: requires electrodes; actuator.kind is ribbon");
+  return ZP_OK;
+}
+
 /* What is asked of the model of the field. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
@@ -622,5 +702,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = check_initial(def, err);
   if (status == ZP_OK) status = check_symmetry(def, err);
   if (status == ZP_OK) status = check_liquid(def, err);
+  if (status == ZP_OK) status = check_leak(def, err);
+  if (status == ZP_OK) status = check_meter(def, err);
   return status == ZP_OK ? check_electro(def, err) : status;
 }

@@ -348,3 +348,48 @@ void zp_plates_rest(const ZpPlatesParams *p, const double *x, const double *y, d
   zp_plates_gaps(p, x, y, e);
   zp_plates_step(p, e, e, U, U, s);
 }
+
+/* -- pieces from outside --------------------------------------------------------------------------- */
+
+_Static_assert(ZP_PLATES_PLACES == GAUSS + 1, "the sampled points of an element and the platform's electrode");
+
+ZpPlatesPiece zp_plates_between(const ZpPlatesParams *p, double U0, double U1, double g0, double g1) {
+  Laws laws = laws_of(p, U0, U1);
+  Between law = mean_between(p, &laws, g0, g1);
+  return (ZpPlatesPiece){law.W, law.slope, law.P, law.W1};
+}
+
+ZpPlatesPiece zp_plates_between_by_voltage(const ZpPlatesParams *p, double U1, double g0, double g1) {
+  Charges at = charges_between(p, U1, g0, g1); /* the law at the end is half of the mean */
+  return (ZpPlatesPiece){0.5 * at.W, 0, 0.5 * at.P, 0};
+}
+
+double zp_plates_capacitance(const ZpPlatesParams *p, double U, double g) {
+  return capacitance_at(p, U, g);
+}
+
+ZpPlatesPlace zp_plates_place(const ZpPlatesParams *p, size_t at) {
+  size_t i = at / ZP_PLATES_PLACES, q = at % ZP_PLATES_PLACES;
+  if (q == GAUSS) return (ZpPlatesPlace){i, 0, 0, i >= p->platform && i <= p->platform_end ? p->flat_length : 0};
+  if (i + 1 == p->nodes) return (ZpPlatesPlace){i, 0, 0, 0};
+  return (ZpPlatesPlace){i, zp_gauss_shares(&p->level, i)[q], gauss_weight[q], 0};
+}
+
+void zp_plates_step_of(const ZpPlatesParams *p, const ZpPlatesPiece *piece, const ZpPlatesEval *e0,
+                       const ZpPlatesEval *e1, ZpPlatesStep *s) {
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    Parts parts = {0};
+    const double *at = zp_gauss_shares(&p->level, i);
+    for (int q = 0; q < GAUSS; q++) {
+      ZpPlatesPiece of = piece[ZP_PLATES_PLACES * i + (size_t)q];
+      add_point(&parts, (Between){of.W, of.slope, of.P, of.W1}, 0.5 * (e0->dx[i] + e1->dx[i]), at[q], q);
+    }
+    put(s, i, parts);
+  }
+  stations(p, s);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+    ZpPlatesPiece of = piece[ZP_PLATES_PLACES * i + GAUSS];
+    attract(s->Fy, i, p->flat_length * of.W);
+    s->own[i] += p->flat_length * of.slope;
+  }
+}

@@ -40,6 +40,50 @@ void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *star
 void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
                                double *Fx, double *Fy);
 
+/* The law between two gaps and two voltages at one place, where voltages differ from place to place. */
+typedef struct ZpPlatesPiece {
+  double W;     /* mean force on the gap per length, N/m; of a charge: minus its derivative by the gap */
+  double slope; /* derivative of W by the gap at the end, N/m^2 */
+  double P;     /* mean potential per length, J/m; of a charge: minus the charge, C/m */
+  double W1;    /* force at the gap of the end, N/m */
+} ZpPlatesPiece;
+
+/* Places of a station: the sampled points of the element on its right, then the platform's electrode. */
+enum { ZP_PLATES_PLACES = 4 };
+
+/* (voltages and gaps at both ends) => the mean law of (18.3); and how it goes with the voltage U1 alone, without its
+ * derivatives by the gap. */
+ZpPlatesPiece zp_plates_between(const ZpPlatesParams *params, double U0, double U1, double g0, double g1);
+ZpPlatesPiece zp_plates_between_by_voltage(const ZpPlatesParams *params, double U1, double g0, double g1);
+
+/* dq/dU at a gap, F/m: 0 where the cap holds the charge. */
+double zp_plates_capacitance(const ZpPlatesParams *params, double voltage, double gap);
+
+/* A place: where on the faces it is, and how much of them it stands for. */
+typedef struct ZpPlatesPlace {
+  size_t left;   /* station, */
+  double right;  /* and the share of the next one in what is sampled */
+  double weight; /* of the element's x-length; 0: it has a length of its own, */
+  double length; /* m; 0 as well: there are no faces */
+} ZpPlatesPlace;
+
+/* Place `at` of [ZP_PLATES_PLACES N]. */
+ZpPlatesPlace zp_plates_place(const ZpPlatesParams *params, size_t at);
+
+/* There: the gap, m, and the length of faces, m. */
+static inline double zp_plates_place_gap(const ZpPlatesPlace *place, const ZpPlatesEval *e) {
+  if (place->weight == 0) return e->gap[place->left];
+  return (1 - place->right) * e->gap[place->left] + place->right * e->gap[place->left + 1];
+}
+
+static inline double zp_plates_place_length(const ZpPlatesPlace *place, const ZpPlatesEval *e) {
+  return place->weight == 0 ? place->length : place->weight * e->dx[place->left];
+}
+
+/* (pieces [ZP_PLATES_PLACES N], gaps and dx at both ends) => all of `step`. */
+void zp_plates_step_of(const ZpPlatesParams *params, const ZpPlatesPiece *piece, const ZpPlatesEval *start,
+                       const ZpPlatesEval *end, ZpPlatesStep *step);
+
 /* At rest: (x, y of interleaved upper and lower nodes, voltage) => gaps and all of `step`. */
 void zp_plates_rest(const ZpPlatesParams *params, const double *x, const double *y, double voltage, ZpPlatesEval *eval,
                     ZpPlatesStep *step);

@@ -156,6 +156,7 @@ void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *
 }
 
 const char *zp_plot_drag_note(const ZpPlot *plot) {
+  if (plot->def.liquid.model != ZP_LIQUID_NONE) return "times have not been compared with measured ones";
   return plot->def.damping.drag > 0
              ? "the only drag is c |v| v on each particle, not that of the liquid: times are not predictions"
              : "the drag of the liquid is not modelled: times are not predictions";

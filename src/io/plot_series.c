@@ -156,6 +156,51 @@ static void script_source(const ZpPlot *plot, FILE *file) {
   fputs("unset multiplot\n", file);
 }
 
+/* Of what leaks. */
+static bool has_interface(const ZpPlot *plot) {
+  bool leaks = isfinite(plot->def.insulator.resistivity) || isfinite(plot->def.medium.resistivity);
+  return leaks && is_film(plot) && zp_plot_has(series(plot), "interface_voltage_V");
+}
+
+static void script_interface(const ZpPlot *plot, FILE *file) {
+  const char *const voltages[][2] = {{"voltage_V", "voltage"}, {"interface_voltage_V", "interface"}},
+                    *const openings[][2] = {{"opening_m", "opening"}, {"stroke_m", "stroke"}};
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit voltage =
+      zp_plot_table_unit(series(plot), (const char *const[]){"voltage_V", "interface_voltage_V", NULL}, "V");
+  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"opening_m", "stroke_m", NULL}, "m");
+  zp_plot_head(plot, file, "interface", "Charge between insulators and liquid over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  zp_plot_upper_panel(file);
+  plot_columns(plot, file, time, voltage, "voltage", voltages, 2);
+  lower_panel(file, time);
+  plot_columns(plot, file, time, length, "length", openings, 1);
+  fputs("unset multiplot\n", file);
+}
+
+/* Of a meter of the capacitance. */
+static bool has_sense(const ZpPlot *plot) {
+  return is_film(plot) && isfinite(plot->def.sense.frequency) && zp_plot_has(series(plot), "sensed_stroke_m");
+}
+
+static void script_sense(const ZpPlot *plot, FILE *file) {
+  const char *const strokes[][2] = {{"stroke_m", "stroke"}, {"sensed_stroke_m", "stroke by capacitance"}},
+                    *const capacitances[][2] = {{"capacitance_F", "capacitance"},
+                                                {"sensed_capacitance_F", "as it is read"}};
+  ZpPlotUnit time = time_unit(plot);
+  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"stroke_m", NULL}, "m");
+  ZpPlotUnit farad = zp_plot_table_unit(series(plot), (const char *const[]){"capacitance_F", NULL}, "F");
+  zp_plot_head(plot, file, "sense", "Stroke by its capacitance over time", RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  zp_plot_upper_panel(file);
+  plot_columns(plot, file, time, length, "stroke", strokes, 2);
+  lower_panel(file, time);
+  plot_columns(plot, file, time, farad, "capacitance", capacitances, 2);
+  fputs("unset multiplot\n", file);
+}
+
 /* Of a cycle. */
 static bool has_loops(const ZpPlot *plot) {
   return is_film(plot) && isfinite(zp_result_get(plot->single, "energy_per_cycle_J")) &&
@@ -277,6 +322,8 @@ const ZpPicture zp_series_pictures[] = {
     {"zipped_length", "svg", has_zipped_length, script_zipped_length, NULL},
     {"voltage", "svg", has_voltage, script_voltage, NULL},
     {"source", "svg", has_source, script_source, NULL},
+    {"interface", "svg", has_interface, script_interface, NULL},
+    {"sense", "svg", has_sense, script_sense, NULL},
     {"loops", "svg", has_loops, script_loops, NULL},
     {"energies", "svg", has_energies, script_energies, NULL},
     {"electric", "svg", has_electric, script_electric, NULL},

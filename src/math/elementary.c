@@ -43,6 +43,13 @@ double zp_decay(double x) {
   return n == 0 ? small_decay(x) : ldexp(1 + small_decay(left), -n) - 1;
 }
 
+/* By its series where the difference would lose digits. */
+double zp_decay_weight(double x) {
+  double x2 = x * x;
+  if (x < 0.5) return 0.5 + x / 12 * (1 - x2 / 60 * (1 - x2 / 42 * (1 - x2 / 40)));
+  return -1 / zp_decay(x) - 1 / x;
+}
+
 /* By its series: of + and x only. */
 double zp_sine_squared(double p) {
   enum { TERMS = 12 }; /* the first left out is below 1e-20 */

@@ -73,7 +73,8 @@ static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
   double held;
   if (is_held(d, &held)) return holding * (held - d->U1);
   double flowed = d->source->flow(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
-  return flowed - (zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1).charge - d->charge0);
+  ZpElectric end = zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1);
+  return flowed - (end.charge + end.passed - d->charge0);
 }
 
 /* => energies of bending and field: an imbalance is small or large beside them. */
@@ -382,9 +383,16 @@ static void load(ZpDynamics *d, ZpState *state) {
   d->history.next = state->next_step;
 }
 
-static double charge_at_end(ZpDynamics *d) {
+static ZpElectric electric_at_end(ZpDynamics *d) {
   ZpSpan span = span_of(d);
-  return zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, d->U1).charge;
+  return zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, d->U1);
+}
+
+/* The source's work on what has been conducted over the step. */
+static void book_conduction(ZpDynamics *d, ZpState *state) {
+  double passed = electric_at_end(d).passed;
+  state->leaked += passed;
+  state->work += 0.5 * (d->U0 + d->U1) * passed;
 }
 
 static void book_losses(ZpDynamics *d, ZpState *state) {
@@ -397,6 +405,7 @@ static void book_losses(ZpDynamics *d, ZpState *state) {
   state->across_loss += losses.across;
   state->jet_loss += losses.jets;
   state->outer_drag_loss += losses.outer;
+  state->leak_loss += losses.leak;
 }
 
 /* And where it has ended, back. */
@@ -428,7 +437,8 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
   book_losses(d, state);
-  if (d->source) d->charge1 = charge_at_end(d);
+  if (d->source) d->charge1 = electric_at_end(d).charge;
+  if (model->leaks) book_conduction(d, state);
   if (model->field) {
     book_work(d, state);
     state->contact_loss += impact(d);

@@ -73,9 +73,7 @@ static bool holds_voltage(const ZpSim *sim) {
 /* Weight of a step's end in the drop over the resistance: with it a constant capacitance charges exactly, whatever the
  * step, eq. (23.5). */
 static double weight_of_end(const ZpSim *sim, double h) {
-  double x = h / (sim->model->supply.resistance * sim->feed.capacitance), x2 = x * x;
-  if (x < 0.5) return 0.5 + x / 12 * (1 - x2 / 60 * (1 - x2 / 42 * (1 - x2 / 40)));
-  return -1 / zp_decay(x) - 1 / x;
+  return zp_decay_weight(h / (sim->model->supply.resistance * sim->feed.capacitance));
 }
 
 /* Mean current over a step, A. */
@@ -186,7 +184,7 @@ static void jump(ZpSim *sim, double V) {
 /* Charge that the supply has given over the step that has just been taken, C. */
 static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
-  double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0);
+  double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
   double bled = (state->t - before->t) * sim->model->supply.conductance * 0.5 * (before->U + state->U);
   return taken + cable_of(sim) * (state->U - before->U) + bled;
 }

@@ -30,6 +30,16 @@ const ZpColumn *zp_signal_columns(size_t *count) {
   return columns;
 }
 
+const ZpColumn *zp_trace_columns(size_t *count) {
+  static const ZpColumn trace[ZP_TRACE_COLUMNS] = {{"time_s", "s", "time since the start"},
+                                                   {"voltage_V", "V", "voltage between the electrodes"},
+                                                   {"charge_C", "C", "charge given to electrodes and insulators"},
+                                                   {"capacitance_F", "F", "capacitance of the electrodes"},
+                                                   {"stroke_m", "m", "stroke"}};
+  *count = ZP_TRACE_COLUMNS;
+  return trace;
+}
+
 double zp_energy_without_field(const ZpEnergies *e) {
   return e->kinetic + e->axial + e->bending + e->gravity + e->liquid;
 }
@@ -91,6 +101,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_viscous_loss] = parts * (state->along_loss + state->across_loss);
   row[SIGNAL_jet_loss] = parts * state->jet_loss;
   row[SIGNAL_outer_drag_loss] = parts * state->outer_drag_loss;
+  row[SIGNAL_leak_loss] = parts * state->leak_loss;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
 }
 
@@ -106,6 +117,14 @@ static double fill_mechanics(ZpSim *sim, double *row) {
   return zp_energy_without_field(&e) - sim->state->base_energy;
 }
 
+/* What the insulators conduct, and the charge on their faces. */
+static void fill_leak(ZpSim *sim, double *row) {
+  const ZpModel *model = sim->model;
+  ZpLeakNow now = zp_sim_leak(sim);
+  row[SIGNAL_leak_current] = model->parts * now.current;
+  row[SIGNAL_interface_voltage] = now.mean;
+}
+
 /* => what the source has given less what the field has kept and jumps have lost, of one part, J. */
 static double fill_electric(ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
@@ -113,7 +132,8 @@ static double fill_electric(ZpSim *sim, double *row) {
   ZpAccount account = zp_sim_account(sim, e);
   bool fed = zp_sim_is_fed(sim);
   double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
-  double given = fed ? state->source_charge / parts : e.charge;
+  double given = fed ? state->source_charge / parts : e.charge + state->leaked;
+  fill_leak(sim, row);
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
   row[SIGNAL_capacitance] = parts * e.capacitance;
@@ -129,30 +149,44 @@ static double fill_electric(ZpSim *sim, double *row) {
 static void fill_margins(ZpSim *sim, double *row) {
   ZpShape shape = zp_sim_shape(sim);
   sim->now = zp_margins_of(sim->model, &shape);
+  if (sim->model->leaks) sim->now.liquid = zp_sim_leak(sim).liquid;
   row[SIGNAL_insulator_field] = sim->now.insulator;
   row[SIGNAL_max_stress] = sim->now.stress;
 }
 
 /* Which of these a signal takes, what they cost being far more than that of the state. */
 enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, MARGINS = 4, ENERGY = MECHANICS | ELECTRIC, ALL = ENERGY | MARGINS };
-static const unsigned char takes[SIGNAL_COUNT] = {
-    [SIGNAL_force] = ELECTRIC,           [SIGNAL_charge] = ELECTRIC,         [SIGNAL_capacitance] = ELECTRIC,
-    [SIGNAL_current] = ELECTRIC,         [SIGNAL_electric_work] = ELECTRIC,  [SIGNAL_charging_loss] = ELECTRIC,
-    [SIGNAL_field_energy] = ELECTRIC,    [SIGNAL_source_energy] = ELECTRIC,  [SIGNAL_power] = ELECTRIC,
-    [SIGNAL_kinetic_energy] = MECHANICS, [SIGNAL_axial_energy] = MECHANICS,  [SIGNAL_bending_energy] = MECHANICS,
-    [SIGNAL_gravity_energy] = MECHANICS, [SIGNAL_energy_imbalance] = ENERGY, [SIGNAL_insulator_field] = MARGINS,
-    [SIGNAL_liquid_energy] = MECHANICS,  [SIGNAL_max_stress] = MARGINS};
+static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
+                                                  [SIGNAL_charge] = ELECTRIC,
+                                                  [SIGNAL_capacitance] = ELECTRIC,
+                                                  [SIGNAL_current] = ELECTRIC,
+                                                  [SIGNAL_electric_work] = ELECTRIC,
+                                                  [SIGNAL_charging_loss] = ELECTRIC,
+                                                  [SIGNAL_field_energy] = ELECTRIC,
+                                                  [SIGNAL_source_energy] = ELECTRIC,
+                                                  [SIGNAL_power] = ELECTRIC,
+                                                  [SIGNAL_leak_current] = ELECTRIC,
+                                                  [SIGNAL_interface_voltage] = ELECTRIC,
+                                                  [SIGNAL_kinetic_energy] = MECHANICS,
+                                                  [SIGNAL_axial_energy] = MECHANICS,
+                                                  [SIGNAL_bending_energy] = MECHANICS,
+                                                  [SIGNAL_gravity_energy] = MECHANICS,
+                                                  [SIGNAL_energy_imbalance] = ENERGY,
+                                                  [SIGNAL_insulator_field] = MARGINS,
+                                                  [SIGNAL_liquid_energy] = MECHANICS,
+                                                  [SIGNAL_max_stress] = MARGINS};
 
 /* Signals that take no more than `what` => sim->row. */
 static void fill_row(ZpSim *sim, unsigned what) {
   const ZpState *state = sim->state;
   double *row = sim->row, stored = 0, kept = 0;
   fill_state(sim, row);
+  row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);
   if (what & MARGINS) fill_margins(sim, row);
   double in_liquid = state->along_loss + state->across_loss + state->jet_loss + state->outer_drag_loss;
-  double lost = state->drag_loss + state->internal_loss + state->contact_loss + in_liquid;
+  double lost = state->drag_loss + state->internal_loss + state->contact_loss + in_liquid + state->leak_loss;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 
@@ -164,8 +198,8 @@ static void make_row(ZpSim *sim) {
   if (!(state->t > sim->row_time)) return;
   if (!zp_sim_is_fed(sim)) zp_feed_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
   sim->row_time = state->t;
-  sim->row_charge =
-      zp_sim_is_fed(sim) ? state->source_charge / sim->model->parts : sim->row[SIGNAL_charge] / sim->model->parts;
+  sim->row_charge = zp_sim_is_fed(sim) ? state->source_charge / sim->model->parts
+                                       : sim->row[SIGNAL_charge] / sim->model->parts + state->leaked;
   sim->row_energy = sim->row[SIGNAL_source_energy];
 }
 
@@ -174,7 +208,7 @@ void zp_sim_start_row(ZpSim *sim) {
   bool fed = zp_sim_is_fed(sim);
   double charge = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
   sim->row_time = state->t;
-  sim->row_charge = fed ? state->source_charge / sim->model->parts : charge;
+  sim->row_charge = fed ? state->source_charge / sim->model->parts : charge + state->leaked;
   sim->row_energy = fed ? state->source_energy : zp_sim_get(sim, "source_energy");
 }
 
@@ -201,6 +235,7 @@ ZpShape zp_sim_shape(ZpSim *sim) {
     zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);
     shape.gap = sim->eval.plates.gap;
   }
+  if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
   zp_shape_fill(model, &sim->shape_room, &shape);
   return shape;
 }
@@ -215,8 +250,27 @@ static void look(ZpSim *sim) {
   zp_margins_join(&sim->margins, sim->now);
 }
 
+void zp_sim_trace(ZpSim *sim, ZpTable *trace) {
+  sim->trace = trace;
+}
+
+static void offer_trace(const ZpSim *sim, bool last) {
+  const double *row = sim->row;
+  double values[ZP_TRACE_COLUMNS] = {[ZP_TRACE_TIME] = row[SIGNAL_time],
+                                     [ZP_TRACE_VOLTAGE] = row[SIGNAL_voltage],
+                                     [ZP_TRACE_CHARGE] = row[SIGNAL_charge] + sim->model->parts * sim->state->leaked,
+                                     [ZP_TRACE_CAPACITANCE] = row[SIGNAL_capacitance],
+                                     [ZP_TRACE_STROKE] = row[SIGNAL_stroke]};
+  if (!sim->trace) return;
+  if (last)
+    zp_table_keep_last(sim->trace, values);
+  else
+    zp_table_offer(sim->trace, values);
+}
+
 void zp_sim_offer_record(ZpSim *sim) {
   if (sim->series || sim->shapes) look(sim);
+  offer_trace(sim, false);
   if (sim->series) zp_table_offer(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);
@@ -225,6 +279,7 @@ void zp_sim_offer_record(ZpSim *sim) {
 
 void zp_sim_close_record(ZpSim *sim) {
   if (sim->series || sim->shapes) look(sim);
+  offer_trace(sim, true);
   if (sim->series) zp_table_keep_last(sim->series, sim->row);
   if (!sim->shapes) return;
   ZpShape shape = zp_sim_shape(sim);

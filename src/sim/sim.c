@@ -147,7 +147,7 @@ static double hand_resolution(const ZpRamp *ramp, double least, double t) {
 }
 
 /* Longest step for all that changes from outside, s. */
-static double resolution(const ZpSim *sim) {
+static double resolution(ZpSim *sim) {
   static const double least_voltage = 1e3; /* V */
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
@@ -156,6 +156,7 @@ static double resolution(const ZpSim *sim) {
   double voltage =
       state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
   if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_feed_resolution(sim, usual));
+  if (model->leaks) voltage = fmin(voltage, zp_ramp_resolution(usual, zp_sim_leak(sim).fastest));
   return fmin(voltage, hand_resolution(&state->load_input, zp_eval_weight_scale(model), t));
 }
 

@@ -44,6 +44,7 @@ struct ZpSim {
   double *relax_work;          /* [12 stride] work space of settling */
   ZpTable *series;             /* the caller's; NULL: no record */
   ZpShapes *shapes;            /* the caller's; NULL: no record */
+  ZpTable *trace;              /* likewise */
   double *row;                 /* one value per signal */
   ZpShapeRoom shape_room;      /* of the shape handed out, */
   void *shape_memory;          /* and where it is */
@@ -96,6 +97,17 @@ void zp_sim_glide(ZpSim *sim, double voltage);
 
 /* The mean current and power of the next row count from here. */
 void zp_sim_start_row(ZpSim *sim);
+
+/* What a trace of a run has, in columns of a table. */
+enum { ZP_TRACE_TIME, ZP_TRACE_VOLTAGE, ZP_TRACE_CHARGE, ZP_TRACE_CAPACITANCE, ZP_TRACE_STROKE, ZP_TRACE_COLUMNS };
+const ZpColumn *zp_trace_columns(size_t *count);
+
+/* From now on rows are offered to this trace, too, as often as to the records; NULL: to none. The charge is that which
+ * the source has given to electrodes and insulators, C. */
+void zp_sim_trace(ZpSim *sim, ZpTable *trace);
+
+/* What leaks now, of one part; all 0 where nothing does. */
+ZpLeakNow zp_sim_leak(ZpSim *sim);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);

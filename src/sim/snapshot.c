@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 4
+ *   8 .. 11         version of the format, 5
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -14,7 +14,8 @@
  *   state.names     the numbers of the state, one a line
  *   state.values    these numbers
  *   position ...    its arrays, each all x, then all y
- *   liquid          what the liquid has, station by station: heads, then flows and cavities; empty without liquid
+ *   laws            what laws have beyond positions: heads of the liquid, its flows and cavities, each station by
+ *                   station, then interface voltages, place by place; empty without liquid and leak
  *
  * A number that comes, goes or means something else raises the version. */
 #include "sim/snapshot.h"
@@ -28,7 +29,7 @@
 
 #include "base/fail.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 4, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 5, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -66,6 +67,8 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, across_loss),
                                 NUMBER(REAL, jet_loss),
                                 NUMBER(REAL, outer_drag_loss),
+                                NUMBER(REAL, leak_loss),
+                                NUMBER(REAL, leaked),
                                 NUMBER(REAL, last_step),
                                 NUMBER(REAL, next_step),
                                 NUMBER(REAL, refreshed),
@@ -93,7 +96,7 @@ static const Number number[] = {NUMBER(REAL, t),
 #undef NUMBER
 
 static const char *const array[] = {"position",      "velocity",    "held force", "held at",
-                                    "mean velocity", "mean accel.", "liquid"};
+                                    "mean velocity", "mean accel.", "laws"};
 
 enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0, VOLTAGE = 1 };
 

@@ -17,6 +17,8 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   memcpy(state, from->state, size < known ? size : known);
   if (known < size) memset((char *)state + known, 0, size - known); /* a liquid that comes is at rest */
   double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
+  if (model->own != other->own)
+    memset(zp_state_own(model, state), 0, (model->own + model->kept) * model->nodes * sizeof(double));
   zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
     for (size_t j = 0; j < 2 * model->stride; j++)

@@ -9,6 +9,7 @@
 #include "sim/feed.h"
 #include "sim/margins.h"
 #include "study/notes.h"
+#include "study/sense.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
@@ -64,6 +65,9 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   zp_result_add(result, "peak_current_A", "A", currents.peak);
   zp_result_add(result, "rms_current_A", "A", currents.rms);
   zp_result_add(result, "source_energy_J", "J", energy);
+  double highest = zp_waveform_largest(&model->waveform), limit = model->def.source.voltage_limit;
+  if (model->supply.acts && isfinite(limit) && highest > 0)
+    zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (zp_model_info(model).ribbons < 2) return;
   double work = work_on_load(sim, model, result);
   zp_result_add(result, "mechanical_work_J", "J", work);
@@ -133,11 +137,19 @@ static void summarize_liquid(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "outer_drag_loss_J", "J", at_end(sim, result, "outer_drag_loss"));
 }
 
+/* What has leaked, and the charge that is left. */
+static void summarize_leak(ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "leak_loss_J", "J", at_end(sim, result, "leak_loss"));
+  zp_result_add(result, "leak_current_A", "A", at_end(sim, result, "leak_current"));
+  zp_result_add(result, "interface_voltage_V", "V", at_end(sim, result, "interface_voltage"));
+}
+
 static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
   if (model->has_film) summarize_liquid(sim, result);
+  if (model->leaks) summarize_leak(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   if (model->field) summarize_source(sim, model, info, result);
@@ -156,7 +168,7 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
 static bool ends_when_zipped(const ZpModel *model) {
   const ZpActuatorDef *def = zp_model_def(model);
   if (def->solver.stop_when_zipped != ZP_WHEN_AUTO) return def->solver.stop_when_zipped == ZP_WHEN_TRUE;
-  return zp_waveform_is_constant(&model->waveform) && def->source.model == ZP_SOURCE_IDEAL;
+  return zp_waveform_is_constant(&model->waveform) && def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
 }
 
 /* A run that continues after it has zipped does not end for that. */
@@ -174,8 +186,19 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 
-static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks, ZpResult *result,
-                    ZpError *err) {
+/* With a meter: its readings, of a run from the start. */
+static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
+  ZpTable *trace = zp_sense_trace();
+  if (!trace) return zp_fail_memory(err);
+  zp_sim_trace(sim, trace);
+  ZpStatus status = simulate(sim, model, task->input.start, task->hooks, result, err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome)) status = zp_sense(task, model, trace, result, err);
+  zp_sim_trace(sim, NULL);
+  zp_table_destroy(trace);
+  return status;
+}
+
+static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = zp_model_def(model);
   ZpModelInfo size = zp_model_info(model);
   size_t columns;
@@ -184,9 +207,12 @@ static ZpStatus run(const ZpModel *model, const ZpCheckpoint *start, const ZpHoo
   result->shapes = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
   ZpSim *sim;
-  ZpStatus status = zp_sim_create(model, hooks, &sim, err);
+  ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;
-  status = simulate(sim, model, start, hooks, result, err);
+  if (zp_senses(def))
+    status = simulate_sensed(sim, task, model, result, err);
+  else
+    status = simulate(sim, model, task->input.start, task->hooks, result, err);
   zp_sim_destroy(sim);
   return status;
 }
@@ -203,7 +229,7 @@ ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpStatus status = check_start(task->def, task->input.start, err);
   if (status == ZP_OK) status = zp_model_create_driven(task->def, task->input.table, &model, err);
   if (status != ZP_OK) return status;
-  status = run(model, task->input.start, task->hooks, result, err);
+  status = run(task, model, result, err);
   zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;

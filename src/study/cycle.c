@@ -32,6 +32,7 @@ typedef struct Cycles {
   double far, fast;           /* what distances and rates are compared with, m, m/s */
   Mark mark[HISTORY];         /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before */
+  double least[2];            /* least distance in this quarter of the cycles, and in the one before */
   ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
   double *start, *end, *next; /* [4 stride] positions and velocities of a cycle's start and end, and of the next start,
                                  in units of far and fast */
@@ -167,9 +168,24 @@ static int look(Cycles *c) {
   return repeats;
 }
 
+/* Where starts of cycles come no nearer to each other in a quarter of the cycles than half of what they did in the one
+ * before, the cycles that are left lead nowhere. */
+static bool leads_nowhere(Cycles *c) {
+  enum { FEWEST = 6 };
+  int quarter = (c->model->def.cycle.most_cycles + 3) / 4;
+  if (quarter < FEWEST) quarter = FEWEST;
+  c->least[0] = fmin(c->least[0], c->moved[0]);
+  if (c->done % quarter != 0) return false;
+  bool nowhere = c->alike == 0 && !stays_open(c) && c->least[0] > 0.5 * c->least[1];
+  c->least[1] = c->least[0];
+  c->least[0] = INFINITY;
+  return nowhere;
+}
+
 /* Until the motion is periodic, a few times in a row where that takes several cycles. */
 static bool settle(Cycles *c) {
   read_state(c, c->start);
+  c->least[0] = c->least[1] = INFINITY;
   while (c->done < c->model->def.cycle.most_cycles) {
     if (!run_cycle(c)) return false;
     take_mark(c);
@@ -177,6 +193,7 @@ static bool settle(Cycles *c) {
     c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
     c->repeats = repeats;
     if (repeats == 1 || c->alike > 2 * HISTORY) return true;
+    if (leads_nowhere(c)) break;
   }
   c->repeats = 0;
   return true;
@@ -382,6 +399,60 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
   return status;
 }
 
+/* -- the largest frequency at which it closes ------------------------------------------------------- */
+
+/* How a cycle at a frequency ends: does the actuator close fully? `outcome` is that of the run. */
+typedef struct Tried {
+  ZpOutcome outcome;
+  bool closes;
+} Tried;
+
+static ZpStatus try_frequency(const ZpTask *task, double frequency, Tried *tried, ZpError *err) {
+  ZpActuatorDef def = *task->def;
+  def.drive.frequency = frequency;
+  ZpModel *model = NULL;
+  ZpResult *result = zp_result_create(ZP_STUDY_CYCLE);
+  ZpStatus status = result ? zp_model_create(&def, &model, err) : zp_fail_memory(err);
+  if (status == ZP_OK) status = run(model, task->hooks, result, err);
+  if (status == ZP_OK) *tried = (Tried){result->outcome, zp_result_get(result, "closes") == 1};
+  zp_model_destroy(model);
+  zp_result_destroy(result);
+  return status;
+}
+
+/* Frequencies, Hz: at `low` it closes, at `high` it does not. NAN: none is known yet. */
+typedef struct Between {
+  double low, high;
+} Between;
+
+static bool is_near(Between between) {
+  static const double near = 1.02;
+  return between.high < near * between.low;
+}
+
+/* From the frequency of the Def upwards by octaves, or downwards where it does not close there; then by halving =>
+ * closing_frequency_Hz. */
+static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpError *err) {
+  enum { MOST = 24 };
+  Between between = {NAN, NAN};
+  double f = task->def->drive.frequency;
+  bool closes = zp_result_get(result, "closes") == 1;
+  for (int k = 0; k < MOST; k++) {
+    *(closes ? &between.low : &between.high) = f;
+    if (is_near(between)) break;
+    bool enclosed = !isnan(between.low) && !isnan(between.high);
+    f = enclosed ? sqrt(between.low * between.high) : closes ? 2 * f : f / 2;
+    Tried tried;
+    ZpStatus status = try_frequency(task, f, &tried, err);
+    if (status != ZP_OK) return status;
+    if (tried.outcome == ZP_INTERRUPTED) result->outcome = ZP_INTERRUPTED;
+    if (tried.outcome != ZP_REACHED_END) break;
+    closes = tried.closes;
+  }
+  zp_result_add(result, "closing_frequency_Hz", "Hz", is_near(between) ? between.low : NAN);
+  return ZP_OK;
+}
+
 /* A step is repeated as a sine. */
 static ZpActuatorDef periodic(ZpActuatorDef def) {
   if (def.drive.waveform == ZP_WAVEFORM_STEP) def.drive.waveform = ZP_WAVEFORM_SINE;
@@ -404,10 +475,13 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef def = periodic(*task->def);
+  ZpTask repeated = {.def = &def, .hooks = task->hooks};
   ZpModel *model;
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   status = run(model, task->hooks, result, err);
+  bool ended = status == ZP_OK && result->outcome == ZP_REACHED_END;
+  if (ended && def.cycle.closing_frequency) status = find_closing_frequency(&repeated, result, err);
   zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;

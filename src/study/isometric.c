@@ -249,6 +249,7 @@ static void note(Holder *h) {
   zp_margins_join(&h->margins, zp_margins_at_clip(h->model, h->model->def.drive.voltage));
   zp_add_margins(r, h->model, &h->margins);
   zp_note_mesh(r, h->model, h->model->def.drive.voltage);
+  zp_note_rest(r, h->model);
   if (h->jumps > 0)
     zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "

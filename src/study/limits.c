@@ -348,6 +348,7 @@ static void run(Finder *f, ZpResult *r) {
   look_at_ends(f);
   zp_add_margins(r, f->model, &f->margins);
   zp_note_mesh(r, f->model, f->model->def.drive.voltage);
+  zp_note_rest(r, f->model);
   if (hangs) zp_note_start(r, f->model, f->limits->hanging);
 }
 

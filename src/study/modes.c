@@ -279,6 +279,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
     zp_margins_join(&p->margins, zp_margins_at_clip(model, task->def->modes.voltage));
     zp_add_margins(result, model, &p->margins);
     zp_note_mesh(result, model, task->def->modes.voltage);
+    zp_note_rest(result, model);
     if (result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&p->rest, derive, p, result, err);
   } else {
     status = zp_fail_memory(err);

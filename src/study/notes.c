@@ -88,6 +88,17 @@ void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest
   zp_note_mesh(result, model, highest);
 }
 
+/* -- what rest leaves out -------------------------------------------------------------------------- */
+
+void zp_note_rest(ZpResult *result, const ZpModel *model) {
+  if (model->supply.acts)
+    zp_result_note(result, "source.model = amplifier is left out: at rest the electrodes have drive.voltage, whatever "
+                           "its current is; study actuate has the supply");
+  if (model->leaks)
+    zp_result_note(result, "resistivities are left out: these are states of a voltage that has just been switched on, "
+                           "before charge gathers between insulators and liquid; study actuate follows it");
+}
+
 /* -- the start ------------------------------------------------------------------------------------- */
 
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening) {

@@ -24,6 +24,9 @@ void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *see
 /* The mesh for `voltage`, the highest (V), 0 for none => result->resolution, with a note where it is too coarse. */
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);
 
+/* Note what studies of rest leave out: the supply's own limits, and charge that gathers. */
+void zp_note_rest(ZpResult *result, const ZpModel *model);
+
 /* Note a start that is nearly closed: opening of the platforms (m; NAN: there are none). */
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening);
 

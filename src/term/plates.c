@@ -2,7 +2,7 @@
 #include "term/term.h"
 
 static bool acts(const ZpModel *model) {
-  return model->field;
+  return model->field && !model->leaks;
 }
 
 static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {

@@ -1,0 +1,79 @@
+/* Insulators and liquid that conduct, in series at each place (Maxwell and Wagner). Charge gathers on the faces between
+ * them, slowly, and stays when the voltage goes. Per area over the capacitance of both insulators it is the interface
+ * voltage Z: the liquid has the field, and attracts, as if the electrodes had U + Z. docs/theory.md, section 25.
+ *
+ * Arrays are over the places of plates_step.h, [ZP_PLATES_PLACES N]. Their Z is the state; what it is where a step ends
+ * follows from gap and voltage there, place by place.
+ */
+#ifndef ZP_ELECTRO_LEAK_H
+#define ZP_ELECTRO_LEAK_H
+
+#include "electro/plates_step.h"
+
+typedef struct ZpLeakParams {
+  double insulators;  /* capacitance of both insulators per length, F/m */
+  double conductance; /* of both insulators per length, S/m */
+  double discharge;   /* conductivity over permittivity of the liquid, 1/s */
+} ZpLeakParams;
+
+/* Charge that has passed through the insulators over a step, per length, and how it goes with gap and voltage at the
+ * end. */
+typedef struct ZpLeakPassed {
+  double charge;     /* C/m */
+  double by_gap;     /* C/m^2 */
+  double by_voltage; /* F/m */
+} ZpLeakPassed;
+
+typedef struct ZpLeakEval {
+  double *Z;          /* interface voltages where the span ends, V */
+  double *by_gap;     /* U + Z there by the gap, V/m, */
+  double *by_voltage; /* and by the voltage */
+  ZpLeakPassed *passed;
+  ZpPlatesPiece *piece; /* work space */
+  ZpPlatesStep work;
+} ZpLeakEval;
+
+/* Z is the caller's. */
+void zp_leak_carve(const ZpPlatesParams *plates, ZpLeakEval *eval, ZpCarver *carver);
+
+/* A step. At an instant both ends are one, and h is 0. */
+typedef struct ZpLeakStep {
+  const ZpPlatesEval *start, *end; /* gaps and dx */
+  double U0, U1, h;                /* voltages, V, and length, s */
+  const double *Z;                 /* interface voltages at its start, V */
+} ZpLeakStep;
+
+/* => all of eval, which the following functions ask at the last step. */
+void zp_leak_step(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *eval);
+
+/* => mean forces and their derivatives by the end's gaps, with those of Z. */
+void zp_leak_forces(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *eval,
+                    ZpPlatesStep *forces);
+
+/* => how the step goes with the voltage at its end; the charge is that of the electrodes at the end and what has passed
+ * through the insulators. */
+void zp_leak_by_voltage(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step,
+                        ZpLeakEval *eval, ZpPlatesByVoltage *by);
+
+/* Charge that has passed through the insulators, C. */
+double zp_leak_passed(const ZpPlatesParams *plates, const ZpLeakStep *step, const ZpLeakEval *eval);
+
+/* Heat of the conduction, eq. (25.8), J. */
+double zp_leak_heat(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step,
+                    const ZpLeakEval *eval);
+
+/* Totals at some gaps, a voltage and interface voltages Z. */
+ZpPlatesTotals zp_leak_totals(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpPlatesEval *gaps,
+                              double U, const double *Z);
+
+/* Of the same. */
+typedef struct ZpLeakNow {
+  double mean;    /* of Z over the faces, V */
+  double fastest; /* change of Z anywhere, V/s */
+  double current; /* through the insulators, A */
+  double liquid;  /* strongest field of the liquid, before any cap, V/m */
+} ZpLeakNow;
+ZpLeakNow zp_leak_now(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpPlatesEval *gaps, double U,
+                      const double *Z);
+
+#endif

@@ -1,0 +1,221 @@
+#include "study/sense.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "drive/meter.h"
+
+/* Of one run. */
+typedef struct Sensing {
+  const ZpTable *trace, *path; /* of the run; of the states of rest */
+  ZpMeter meter;
+  ZpTable *readings;
+  double zipped, released; /* when, s; INFINITY: never */
+} Sensing;
+
+static const ZpColumn columns[] = {
+    {"time_s", "s", "end of a reading's window"},
+    {"capacitance_F", "F", "as it is read"},
+    {"stroke_m", "m", "as it follows from that along the states of rest"},
+    {"true_capacitance_F", "F", "in the middle of the window"},
+    {"true_stroke_m", "m", "in the middle of the window"},
+};
+enum { TIME, CAPACITANCE, STROKE, TRUE_CAPACITANCE, TRUE_STROKE, COLUMNS };
+
+bool zp_senses(const ZpActuatorDef *def) {
+  return !isnan(def->sense.frequency);
+}
+
+ZpTable *zp_sense_trace(void) {
+  enum { ROWS = 1 << 16 };
+  size_t count;
+  const ZpColumn *column = zp_trace_columns(&count);
+  return zp_table_create(column, count, ROWS);
+}
+
+/* -- the trace ------------------------------------------------------------------------------------- */
+
+/* Of a table whose first column is the time: the value of column `column` at time t, straight between rows. */
+static double value_at(const ZpTable *table, double t, size_t column) {
+  size_t low = 0, high = table->rows - 1, n = table->columns;
+  while (high - low > 1) {
+    size_t middle = (low + high) / 2;
+    *(table->value[middle * n] <= t ? &low : &high) = middle;
+  }
+  const double *a = table->value + low * n, *b = table->value + high * n;
+  double share = b[0] > a[0] ? fmin(fmax((t - a[0]) / (b[0] - a[0]), 0), 1) : 1;
+  return a[column] + share * (b[column] - a[column]);
+}
+
+static double largest(const ZpTable *table, size_t column) {
+  double most = 0;
+  for (size_t k = 0; k < table->rows; k++)
+    most = fmax(most, fabs(table->value[k * table->columns + column]));
+  return most;
+}
+
+/* The readings of all windows of the run. */
+static bool read_all(Sensing *s) {
+  const ZpTable *trace = s->trace;
+  size_t rows = trace->rows, n = trace->columns;
+  double window = zp_meter_window(&s->meter), end = trace->value[(rows - 1) * n];
+  size_t windows = (size_t)floor(end / window * (1 + 1e-12));
+  double *block = zp_calloc(3 * rows + windows + 1, sizeof *block);
+  s->readings = zp_table_create(columns, COLUMNS, windows > 2 ? windows : 2);
+  if (!block || !s->readings) {
+    zp_free(block);
+    return false;
+  }
+  double *capacitance = block + 3 * rows;
+  for (size_t k = 0; k < rows; k++) {
+    block[k] = trace->value[k * n + ZP_TRACE_TIME];
+    block[rows + k] = trace->value[k * n + ZP_TRACE_CHARGE];
+    block[2 * rows + k] = trace->value[k * n + ZP_TRACE_CAPACITANCE];
+  }
+  ZpMeterTrace of = {rows, block, block + rows, block + 2 * rows};
+  zp_meter_read(&s->meter, &of, windows, capacitance);
+  for (size_t w = 0; w < windows; w++) {
+    double middle = ((double)w + 0.5) * window;
+    zp_table_offer(s->readings, (double[COLUMNS]){[TIME] = ((double)w + 1) * window,
+                                                  [CAPACITANCE] = capacitance[w],
+                                                  [TRUE_CAPACITANCE] = value_at(trace, middle, ZP_TRACE_CAPACITANCE),
+                                                  [TRUE_STROKE] = value_at(trace, middle, ZP_TRACE_STROKE)});
+  }
+  zp_free(block);
+  return true;
+}
+
+/* -- the inverse ----------------------------------------------------------------------------------- */
+
+/* A piece of the path of rest that comes as near to a capacitance as any. */
+typedef struct Near {
+  double miss;   /* F */
+  double stroke; /* m */
+} Near;
+
+/* On the piece between two rows. */
+static Near nearest_on(double C, double C0, double C1, double stroke0, double stroke1) {
+  double share = C1 != C0 ? fmin(fmax((C - C0) / (C1 - C0), 0), 1) : 0;
+  return (Near){fabs(C - C0 - share * (C1 - C0)), stroke0 + share * (stroke1 - stroke0)};
+}
+
+/* The stroke at rest with this capacitance; of several that of the branch that one is on, the nearest to `last`. */
+static double stroke_of(const ZpTable *path, double C, double last) {
+  static const double alike = 1e-17; /* F */
+  Near best = {INFINITY, NAN};
+  for (size_t k = 0; k + 1 < path->rows; k++) {
+    if (zp_table_get(path, k, "branch") != zp_table_get(path, k + 1, "branch")) continue;
+    Near here = nearest_on(C, zp_table_get(path, k, "capacitance_F"), zp_table_get(path, k + 1, "capacitance_F"),
+                           zp_table_get(path, k, "stroke_m"), zp_table_get(path, k + 1, "stroke_m"));
+    bool tie = fabs(here.miss - best.miss) <= alike, nearer = fabs(here.stroke - last) < fabs(best.stroke - last);
+    if (here.miss < best.miss - alike || (tie && nearer)) best = here;
+  }
+  return best.stroke;
+}
+
+static void invert(Sensing *s) {
+  double last = s->trace->value[ZP_TRACE_STROKE];
+  for (size_t k = 0; k < s->readings->rows; k++) {
+    double *row = s->readings->value + k * COLUMNS;
+    last = row[STROKE] = stroke_of(s->path, row[CAPACITANCE], last);
+  }
+}
+
+/* -- what came of it ------------------------------------------------------------------------------- */
+
+/* Root mean square of the error of the stroke in windows whose middle is in a time, m; NAN: there are none. */
+static double rms_error(const Sensing *s, double from, double to) {
+  double sum = 0, count = 0;
+  for (size_t k = 0; k < s->readings->rows; k++) {
+    const double *row = s->readings->value + k * COLUMNS;
+    double middle = row[TIME] - 0.5 * zp_meter_window(&s->meter), off = row[STROKE] - row[TRUE_STROKE];
+    if (middle < from || middle >= to) continue;
+    sum += off * off;
+    count++;
+  }
+  return count > 0 ? sqrt(sum / count) : NAN;
+}
+
+static double rms_capacitance(const Sensing *s) {
+  double sum = 0;
+  for (size_t k = 0; k < s->readings->rows; k++) {
+    const double *row = s->readings->value + k * COLUMNS;
+    double off = row[CAPACITANCE] - row[TRUE_CAPACITANCE];
+    sum += off * off;
+  }
+  return s->readings->rows ? sqrt(sum / (double)s->readings->rows) : NAN;
+}
+
+/* When the voltage has fallen to half of its largest for good after the zip, s. */
+static double released_at(const ZpTable *trace, double zipped) {
+  double most = largest(trace, ZP_TRACE_VOLTAGE), t = INFINITY;
+  for (size_t k = trace->rows; k-- > 0;) {
+    const double *row = trace->value + k * trace->columns;
+    if (fabs(row[ZP_TRACE_VOLTAGE]) > 0.5 * most || row[0] <= zipped) break;
+    t = row[0];
+  }
+  return t;
+}
+
+static void summarize(const Sensing *s, ZpResult *result) {
+  double all = rms_error(s, 0, INFINITY), range = largest(s->trace, ZP_TRACE_STROKE);
+  zp_result_add(result, "sense_window_s", "s", zp_meter_window(&s->meter));
+  zp_result_add(result, "sense_capacitance_error_F", "F", rms_capacitance(s));
+  zp_result_add(result, "sense_stroke_error_m", "m", all);
+  zp_result_add(result, "sense_stroke_error", "1", range > 0 ? all / range : NAN);
+  zp_result_add(result, "sense_zip_error_m", "m", rms_error(s, 0, s->zipped));
+  zp_result_add(result, "sense_hold_error_m", "m", rms_error(s, s->zipped, s->released));
+  zp_result_add(result, "sense_release_error_m", "m", rms_error(s, s->released, INFINITY));
+}
+
+/* Each row gets the reading of the last window that has ended by then. */
+static void fill_columns(const Sensing *s, ZpTable *series) {
+  size_t next = 0, at_capacitance = 0, at_stroke = 0;
+  for (size_t c = 0; c < series->columns; c++) {
+    if (strcmp(series->column[c].name, "sensed_capacitance_F") == 0) at_capacitance = c;
+    if (strcmp(series->column[c].name, "sensed_stroke_m") == 0) at_stroke = c;
+  }
+  for (size_t k = 0; k < series->rows; k++) {
+    double *row = series->value + k * series->columns;
+    while (next < s->readings->rows && s->readings->value[next * COLUMNS + TIME] <= row[0])
+      next++;
+    const double *reading = next > 0 ? s->readings->value + (next - 1) * COLUMNS : NULL;
+    row[at_capacitance] = reading ? reading[CAPACITANCE] : NAN;
+    row[at_stroke] = reading ? reading[STROKE] : NAN;
+  }
+}
+
+/* The states of rest up to the largest voltage of the run. */
+static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **path, ZpError *err) {
+  ZpActuatorDef def = *task->def, fresh = zp_actuator_def_default();
+  def.drive = fresh.drive;
+  def.drive.voltage = zp_waveform_largest(&model->waveform);
+  def.source = fresh.source;
+  def.sense = fresh.sense;
+  def.sensitivity = fresh.sensitivity;
+  def.initial = fresh.initial;
+  def.insulator.resistivity = def.medium.resistivity = NAN;
+  def.output.errors = false;
+  return zp_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, task->hooks, path, err);
+}
+
+ZpStatus zp_sense(const ZpTask *task, const ZpModel *model, const ZpTable *trace, ZpResult *result, ZpError *err) {
+  ZpResult *path = NULL;
+  ZpStatus status = find_path(task, model, &path, err);
+  if (status != ZP_OK) return status;
+  double zipped = zp_result_get(result, "zip_time_s");
+  Sensing s = {.trace = trace, .path = path->series, .zipped = isfinite(zipped) ? zipped : INFINITY};
+  s.released = released_at(trace, s.zipped);
+  s.meter = zp_meter_of(task->def, largest(trace, ZP_TRACE_CAPACITANCE));
+  if (trace->rows > 1 && path->series->rows > 1 && read_all(&s)) {
+    invert(&s);
+    summarize(&s, result);
+    fill_columns(&s, result->series);
+  } else
+    status = zp_fail_memory(err);
+  zp_table_destroy(s.readings);
+  zp_result_destroy(path);
+  return status;
+}

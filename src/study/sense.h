@@ -1,0 +1,18 @@
+/* The stroke from a measured capacitance, and how far from the true one it is. docs/theory.md, section 26. */
+#ifndef ZP_STUDY_SENSE_H
+#define ZP_STUDY_SENSE_H
+
+#include "sim/sim_internal.h"
+#include "study/studies.h"
+
+/* Is a meter asked for? */
+bool zp_senses(const ZpActuatorDef *def);
+
+/* What a simulation has to keep for it, from its start on; NULL if there is no memory. */
+ZpTable *zp_sense_trace(void);
+
+/* (trace of a whole run, sim at its end) => numbers of the summary, columns of the series. Finds the states of rest,
+ * along which a capacitance says a stroke. */
+ZpStatus zp_sense(const ZpTask *task, const ZpModel *model, const ZpTable *trace, ZpResult *result, ZpError *err);
+
+#endif

@@ -1,0 +1,82 @@
+/* Attraction between insulators and through a liquid that conduct: the plates law with the charge that has gathered on
+ * their faces, in place of `plates`. Eqs. (25.1) to (25.8). At rest, where a span has no memory, none has gathered. */
+#include "term/term.h"
+
+static bool acts(const ZpModel *model) {
+  return model->leaks;
+}
+
+static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
+  return zp_span_is_still(span) ? &e->plates : &e->plates_start;
+}
+
+static ZpLeakStep step_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e) {
+  return (ZpLeakStep){start_of(span, e), &e->plates, span->U0, span->U1, span->h, zp_leak_memory(model, span->memory)};
+}
+
+static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  zp_term_plates.begin(model, span, e);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  if (!span->memory) {
+    zp_term_plates.force(model, span, e, F);
+    return;
+  }
+  zp_plates_gaps(&model->plates, span->end, span->end + model->stride, &e->plates);
+  ZpLeakStep step = step_of(model, span, e);
+  zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
+  zp_leak_forces(&model->leak, &model->plates, &step, &e->leak, &e->attraction);
+  zp_term_add(model->stride, e->attraction.Fx, e->attraction.Fy, F);
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  zp_term_plates.stiffness(model, span, assembly, e, K);
+}
+
+/* Faces have been corrected since the last force. */
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+  ZpLeakStep step = step_of(model, span, e);
+  zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
+  sum->leak += zp_leak_heat(&model->leak, &model->plates, &step, &e->leak);
+}
+
+static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
+                     ZpElectric *sum) {
+  if (!span->memory) {
+    zp_term_plates.electric(model, span, e, at, U, sum);
+    return;
+  }
+  const ZpActuatorDef *def = &model->def;
+  bool later = at == ZP_SPAN_END && !zp_span_is_still(span);
+  ZpLeakStep step = step_of(model, span, e);
+  const ZpPlatesEval *gaps = at == ZP_SPAN_START ? step.start : step.end;
+  ZpPlatesTotals totals = zp_leak_totals(&model->leak, &model->plates, gaps, U, later ? e->leak.Z : step.Z);
+  sum->force += totals.force;
+  sum->charge += totals.charge;
+  sum->potential += totals.potential;
+  sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  if (later) sum->passed += zp_leak_passed(&model->plates, &step, &e->leak);
+}
+
+static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
+  if (!span->memory || zp_span_is_still(span)) {
+    zp_term_plates.by_voltage(model, span, e, sum);
+    return;
+  }
+  ZpPlatesByVoltage *by = &e->by_voltage;
+  ZpLeakStep step = step_of(model, span, e);
+  zp_leak_by_voltage(&model->leak, &model->plates, &step, &e->leak, by);
+  zp_term_add(model->stride, by->Fx, by->Fy, sum->force);
+  zp_term_add(model->stride, by->Qx, by->Qy, sum->charge);
+  sum->capacitance += by->capacitance;
+}
+
+const ZpTerm zp_term_leak = {.name = "leak",
+                             .acts = acts,
+                             .begin = begin,
+                             .force = force,
+                             .stiffness = stiffness,
+                             .loss = loss,
+                             .electric = electric,
+                             .by_voltage = by_voltage};

@@ -1,0 +1,307 @@
+/* Insulators and liquid that conduct: charge on the faces between them against closed forms, decay of what is left
+ * alone, derivatives, energy over zip, hold and release, what stays after switching off, and an hour of it. */
+#include "check_util.h"
+
+#include "electro/leak.h"
+#include "sim/sim_internal.h"
+
+static const double EPS_M = 2.75, EPS_I = 4.62, T = 130e-6; /* the defaults */
+
+/* -- a held shape ---------------------------------------------------------------------------------- */
+
+/* A stiff plate over a flat electrode: its gap stays. */
+static const double GAP = 260e-6, VOLTS = 100, RHO_I = 3e10, RHO_M = 1e10;
+#define HELD_PLATE                                                                                                     \
+  {"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"electro.gap_offset", GAP},              \
+      {"ribbon.thickness", 5e-3}, {"ribbon.young_modulus", 1e12}, {"ribbon.length", 0.02}, {"gravity", 0},             \
+      {"load.mass", 0}, {"electro.breakdown_cap", 0}, {"initial.state", ZP_INITIAL_STRAIGHT}, {"mesh.nodes", 9}, {     \
+    "drive.voltage", VOLTS                                                                                             \
+  }
+
+/* Two layers in series at a constant voltage: the liquid's field at time t, V/m. */
+static double field_at(double t) {
+  double a = 2 * T, tau = ZP_EPS0 * (EPS_I * GAP + EPS_M * a) / (GAP / RHO_I + a / RHO_M);
+  double first = VOLTS * EPS_I / (EPS_I * GAP + EPS_M * a), last = VOLTS / RHO_I / (GAP / RHO_I + a / RHO_M);
+  return last + (first - last) * exp(-t / tau);
+}
+
+/* Power of the conduction per area of the faces, W/m2. */
+static double power_at(double t) {
+  double a = 2 * T, E = field_at(t), E_i = (VOLTS - E * GAP) / a;
+  return E_i * E_i * a / RHO_I + E * E * GAP / RHO_M;
+}
+
+/* Maxwell and Wagner: field, charge, current and heat of a step of the voltage, in steps of a sixth, a half and 5 of
+ * the time constant: a shape that stays relaxes exactly, whatever the step. */
+START_TEST(test_step_of_the_voltage) {
+  static const double step[] = {0.1, 0.3, 3};
+  ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double a = 2 * T, area = 0.02 * 12.7e-3, heat = 0, start = zp_sim_get(sim, "electric_work");
+  enum { PARTS = 1000 };
+  for (int i = 1; i <= 10; i++) {
+    double dt = step[_i], before = zp_sim_get(sim, "time");
+    ck_assert(zp_outcome_good(zp_sim_step(sim, dt, NULL, NULL)));
+    double t = zp_sim_get(sim, "time"), E = field_at(t), E_i = (VOLTS - E * GAP) / a;
+    for (int k = 0; k < PARTS; k++)
+      heat += area * power_at(before + (k + 0.5) * dt / PARTS) * dt / PARTS;
+    ck_below(fabs(zp_sim_get(sim, "interface_voltage") + VOLTS - E * (GAP + a * EPS_M / EPS_I)), 1e-4 * VOLTS);
+    ck_near(zp_sim_get(sim, "charge"), area * ZP_EPS0 * EPS_I * E_i, 1e-4);
+    ck_near(zp_sim_get(sim, "leak_current"), area * E_i / RHO_I, 1e-4);
+    ck_near(zp_sim_get(sim, "leak_loss"), heat, 1e-6);
+  }
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-9 * (zp_sim_get(sim, "electric_work") - start));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Left alone, behind a supply that cannot sink, closed electrodes discharge through their insulators, in the time
+ * constant of those: the liquid between them has no thickness. */
+START_TEST(test_leakage_alone) {
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
+          {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 50}, {"solver.tolerance", 1e-6},
+          {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.sink_limit", 0}, {"insulator.resistivity", 1e11});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpError err;
+  double tau = 1e11 * EPS_I * ZP_EPS0;
+  ck_assert(zp_outcome_good(zp_sim_step(sim, 1e-6, NULL, NULL)));
+  ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
+  for (int i = 1; i <= 20; i++) {
+    ck_assert(zp_outcome_good(zp_sim_step(sim, 0.2 * tau, NULL, NULL)));
+    ck_below(fabs(zp_sim_get(sim, "voltage") / 50 - exp(-0.2 * i)), 1e-4);
+  }
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* -- derivatives ----------------------------------------------------------------------------------- */
+
+/* A hanging actuator's faces at the start and the end of a step, the interface voltages of the start different at each
+ * place. */
+typedef struct Faces {
+  ZpModel *model;
+  ZpPlatesEval start, end;
+  ZpPlatesStep forces;
+  ZpPlatesByVoltage by;
+  ZpLeakEval leak;
+  double Z[4 * 8], Z1[4 * 8];
+  ZpLeakStep step;
+  void *memory;
+} Faces;
+
+static void carve(Faces *f, void *block) {
+  ZpCarver carver = {block, 0};
+  const ZpPlatesParams *p = &f->model->plates;
+  zp_plates_carve(p, &f->start, &carver);
+  zp_plates_carve(p, &f->end, &carver);
+  zp_plates_step_carve(p, &f->forces, &carver);
+  zp_plates_by_voltage_carve(p, &f->by, &carver);
+  zp_leak_carve(p, &f->leak, &carver);
+  f->memory = block ? block : zp_calloc(1, carver.used);
+}
+
+static void make_faces(Faces *f, const ZpActuatorDef *def) {
+  uint64_t seed = 5;
+  f->model = model_of(def);
+  carve(f, NULL);
+  carve(f, f->memory);
+  f->leak.Z = f->Z1;
+  for (size_t i = 0; i < f->model->nodes; i++) {
+    double s = (double)i / 7;
+    f->start.gap[i] = 2e-3 * s * s + 1e-6;
+    f->end.gap[i] = f->start.gap[i] * (1 + 0.2 * noise(&seed));
+    f->start.dx[i] = f->end.dx[i] = i + 1 < f->model->nodes ? f->model->l * (0.98 + 0.01 * noise(&seed)) : 0;
+  }
+  for (size_t k = 0; k < LENGTH_OF(f->Z); k++)
+    f->Z[k] = 800 * noise(&seed);
+  f->step = (ZpLeakStep){&f->start, &f->end, 5000, 5400, 0.3, f->Z};
+}
+
+static void solve(Faces *f) {
+  zp_leak_step(&f->model->leak, &f->model->plates, &f->step, &f->leak);
+  zp_leak_forces(&f->model->leak, &f->model->plates, &f->step, &f->leak, &f->forces);
+}
+
+/* Charge of the electrodes at the end and what has passed. */
+static double charge(Faces *f) {
+  return zp_leak_totals(&f->model->leak, &f->model->plates, &f->end, f->step.U1, f->Z1).charge +
+         zp_leak_passed(&f->model->plates, &f->step, &f->leak);
+}
+
+/* What a step's force and charge go with: the voltage and the gaps at its end, against differences, with the cap and
+ * without. */
+START_TEST(test_derivatives) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", _i}, {"insulator.resistivity", 1e10},
+                          {"medium.resistivity", 3e10});
+  Faces f;
+  make_faces(&f, &def);
+  size_t N = f.model->nodes, stride = f.model->stride;
+  double Fy[64], own[8], next[8], little = 1e-3;
+  ck_assert_uint_le(stride, LENGTH_OF(Fy));
+  solve(&f);
+  zp_leak_by_voltage(&f.model->leak, &f.model->plates, &f.step, &f.leak, &f.by);
+  memcpy(own, f.forces.own, sizeof own);
+  memcpy(next, f.forces.next, (N - 1) * sizeof *next);
+  double C = f.by.capacitance, q;
+  f.step.U1 += little, solve(&f), q = charge(&f), memcpy(Fy, f.forces.Fy, stride * sizeof *Fy);
+  f.step.U1 -= 2 * little, solve(&f);
+  ck_near((q - charge(&f)) / (2 * little), C, 1e-6);
+  double most = 0;
+  for (size_t i = 0; i < N; i++)
+    most = fmax(most, fabs(f.by.Fy[2 * i + 1]));
+  for (size_t i = 0; i < N; i++)
+    ck_below(fabs((Fy[2 * i + 1] - f.forces.Fy[2 * i + 1]) / (2 * little) - f.by.Fy[2 * i + 1]), 1e-6 * most);
+  f.step.U1 += little;
+  for (size_t i = 1; i < N; i++) {
+    double d = 1e-4 * f.end.gap[i], gap = f.end.gap[i];
+    f.end.gap[i] = gap + d, solve(&f), q = charge(&f), memcpy(Fy, f.forces.Fy, stride * sizeof *Fy);
+    f.end.gap[i] = gap - d, solve(&f);
+    ck_near((q - charge(&f)) / (2 * d), f.by.Qy[2 * i], 1e-4);
+    ck_near((Fy[2 * i + 1] - f.forces.Fy[2 * i + 1]) / (2 * d), own[i], 1e-4);
+    if (i + 1 < N) ck_near((Fy[2 * i + 3] - f.forces.Fy[2 * i + 3]) / (2 * d), next[i], 1e-4);
+    f.end.gap[i] = gap;
+  }
+  zp_free(f.memory);
+  zp_model_destroy(f.model);
+}
+END_TEST
+
+/* -- motion ---------------------------------------------------------------------------------------- */
+
+/* Zip, hold and release: what the source gives is stored, moves something, or is heat of a known kind. */
+START_TEST(test_energy_of_zip_hold_and_release) {
+  static const struct {
+    int supply, liquid;
+    double voltage, rho_i, rho_m, most;
+  } of[] = {{ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 1e-8},
+            {ZP_SUPPLY_NONE, ZP_LIQUID_NONE, 6e3, 1e11, NAN, 1e-8},
+            {ZP_SUPPLY_POCKET_6KV, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 1e-8},
+            {ZP_SUPPLY_CONVERTER_10KV, ZP_LIQUID_NONE, 6e3, 3e11, 1e11, 1e-8},
+            {ZP_SUPPLY_NONE, ZP_LIQUID_SUBMERGED, 10e3, 3e11, 1e11, 1e-6}};
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.supply", of[_i].supply}, {"liquid.model", of[_i].liquid},
+                          {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1},
+                          {"drive.voltage", of[_i].voltage}, {"drive.duty", 0.6}, {"solver.tolerance", 3e-6},
+                          {"insulator.resistivity", of[_i].rho_i}, {"medium.resistivity", of[_i].rho_m});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double off = 0, heat = 0, closest = 0;
+  for (int i = 0; i < 100; i++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 0.015 * (i + 1), false, NULL, NULL)));
+    off = fmax(off, fabs(zp_sim_get(sim, "energy_imbalance")));
+    ck_assert(zp_sim_get(sim, "leak_loss") >= heat);
+    heat = zp_sim_get(sim, "leak_loss");
+    closest = fmax(closest, zp_sim_get(sim, "contraction"));
+  }
+  printf("leak: closest %.3f, imbalance %.2e of the work, heat %.3g of it\n", closest,
+         off / zp_sim_get(sim, "electric_work"), heat / zp_sim_get(sim, "electric_work"));
+  ck_assert(closest > 0.95 && heat > 0);
+  ck_below(off / zp_sim_get(sim, "electric_work"), of[_i].most);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Opening over the hanging one, a second after 4 s at 6 kV of constant or of alternating polarity have ended, and
+ * charge that is left then, as a voltage. */
+static double left_open(int waveform, double *left) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"drive.waveform", waveform}, {"drive.voltage", 6e3},
+                          {"drive.offset", waveform == ZP_WAVEFORM_SQUARE ? -6e3 : 0}, {"medium.resistivity", 2e11});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpError err;
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 4, false, NULL, NULL)));
+  ck_assert(zp_sim_get(sim, "contraction") > 0.99);
+  ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 5, false, NULL, NULL)));
+  *left = fabs(zp_sim_get(sim, "interface_voltage"));
+  double open = 1 - zp_sim_get(sim, "contraction");
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return open;
+}
+
+/* Charge that stays holds the actuator closed at 0 V; with a drive that alternates it does not gather. */
+START_TEST(test_charge_that_stays) {
+  double constant, alternating;
+  ck_below(fabs(left_open(ZP_WAVEFORM_STEP, &constant)), 0.01);
+  ck_assert(constant > 850);
+  ck_assert(left_open(ZP_WAVEFORM_SQUARE, &alternating) > 0.5);
+  ck_below(alternating, 0.1 * constant);
+}
+END_TEST
+
+/* Once at rest, steps follow the time constant of the leak: an hour takes as many as its voltage has fortieths, and
+ * ends where the closed form does. */
+START_TEST(test_an_hour_of_drift) {
+  ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", 1e3 * RHO_I}, {"medium.resistivity", 1e3 * RHO_M});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpRunInfo info;
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 3600, false, NULL, &info)));
+  double end = field_at(3.6) * (GAP + 2 * T * EPS_M / EPS_I) - VOLTS;
+  ck_below((double)info.steps, 300);
+  ck_near(zp_sim_get(sim, "interface_voltage"), end, 1e-4);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The insulator's field is that of what is left for it, eqs. (4.10) and (25.2): with a liquid that conducts, all of the
+ * voltage; and that of the charge alone once the voltage is off. */
+START_TEST(test_insulator_sees_the_charge) {
+  ZpActuatorDef def = DEF(HELD_PLATE, {"medium.resistivity", 1e9});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpError err;
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T + GAP * EPS_I / EPS_M), 1e-4);
+  ck_assert(zp_outcome_good(zp_sim_step(sim, 10, NULL, NULL)));
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T), 1e-4);
+  ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
+  double E_m = VOLTS / (GAP + 2 * T * EPS_M / EPS_I);
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T) - E_m * EPS_M / EPS_I, 1e-4);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* -- input ----------------------------------------------------------------------------------------- */
+
+/* What the interface charge is not known with is refused, with the key that asks for it. */
+START_TEST(test_refused) {
+  static const struct {
+    Setting with;
+    const char *says;
+  } of[] = {{{"electro.edges", 1}, "electro.edges"},
+            {{"electro.model", ZP_ELECTRO_FIELD}, "electro.model"},
+            {{"electro.force_scale", 2}, "electro.force_scale"},
+            {{"insulator.thickness", 0}, "insulator.thickness"},
+            {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, "solver.integrator"},
+            {{"actuator.kind", ZP_KIND_RIBBON}, "actuator.kind"}};
+  ZpActuatorDef def;
+  ZpError err = {ZP_OK, ""};
+  Setting all[] = {{"medium.resistivity", 1e10}, of[_i].with};
+  ck_assert_msg(resolve(&def, all, 2, &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, of[_i].says) != NULL, "%s", err.message);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("leak");
+  TCase *tcase = tcase_create("leak");
+  tcase_add_loop_test(tcase, test_step_of_the_voltage, 0, 3);
+  tcase_add_test(tcase, test_leakage_alone);
+  tcase_add_loop_test(tcase, test_derivatives, 0, 2);
+  tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 0, 5);
+  tcase_add_test(tcase, test_charge_that_stays);
+  tcase_add_test(tcase, test_an_hour_of_drift);
+  tcase_add_test(tcase, test_insulator_sees_the_charge);
+  tcase_add_loop_test(tcase, test_refused, 0, 6);
+  suite_add_tcase(suite, tcase);
+  return run_suite(suite);
+}

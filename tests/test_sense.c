@@ -1,0 +1,143 @@
+/* A capacitance meter and the stroke that follows from it: readings in closed form, what drifts, resolution and noise
+ * do to them, the inverse of the states of rest, refusals. */
+#include "check_util.h"
+
+#include "drive/meter.h"
+
+static const double PI = 3.14159265358979323846;
+
+#define METER                                                                                                          \
+  {"sense.frequency", 1e3}, {"sense.amplitude", 50}, {                                                                 \
+    "sense.sampling_rate", 16e3                                                                                        \
+  }
+
+/* Reading of `windows` windows of a charge and a capacitance that go straight over a second. */
+static void read_line(const ZpMeter *meter, const double charge[2], const double C[2], size_t windows,
+                      double *reading) {
+  double time[] = {0, 1};
+  ZpMeterTrace trace = {2, time, charge, C};
+  zp_meter_read(meter, &trace, windows, reading);
+}
+
+/* A capacitance that stays is read to rounding, whatever constant current flows beside. One that grows evenly is read
+ * in the middle of the window, but for what the last sample misses of it. */
+START_TEST(test_reading) {
+  ZpActuatorDef def = DEF(METER);
+  ZpMeter meter = zp_meter_of(&def, 1e-9);
+  double reading[3], window = zp_meter_window(&meter);
+  ck_near(window, 0.022, 1e-12);
+  read_line(&meter, (double[]){0, 1e-3}, (double[]){2e-10, 2e-10}, 3, reading);
+  for (int i = 0; i < 3; i++)
+    ck_near(reading[i], 2e-10, 1e-10);
+  read_line(&meter, (double[]){0, 0}, (double[]){1e-10, 2e-10}, 3, reading);
+  for (int i = 0; i < 3; i++)
+    ck_near(reading[i], 1e-10 * (1 + (i + 0.5) * window - 1 / 16e3), 1e-6);
+}
+END_TEST
+
+/* A current beyond the range of the samples is cut: the reading of a capacitance with twice the current of the range is
+ * the first harmonic of a cut sine, 2/3 + sqrt(3) / pi of the range's. */
+START_TEST(test_range) {
+  ZpActuatorDef def = DEF(METER, {"sense.bits", 24}, {"sense.sampling_rate", 4e6});
+  double most = 2 * PI * 1e3 * 50 * 1e-10, reading;
+  def.sense.range = most;
+  ZpMeter meter = zp_meter_of(&def, 1);
+  read_line(&meter, (double[]){0, 0}, (double[]){2e-10, 2e-10}, 1, &reading);
+  ck_near(reading, 1e-10 * (2.0 / 3 + sqrt(3) / PI), 1e-4);
+}
+END_TEST
+
+static double spread(const ZpMeter *meter, double *first) {
+  enum { WINDOWS = 40 };
+  double reading[WINDOWS], sum = 0;
+  read_line(meter, (double[]){0, 0}, (double[]){1e-10, 1e-10}, WINDOWS, reading);
+  for (int i = 0; i < WINDOWS; i++)
+    sum += (reading[i] - 1e-10) * (reading[i] - 1e-10) / WINDOWS;
+  *first = reading[0];
+  return sqrt(sum);
+}
+
+/* White noise of n samples leaves sqrt(2 / n) of it in the amplitude of the current. One seed gives one noise. */
+START_TEST(test_noise) {
+  ZpActuatorDef def = DEF(METER, {"sense.noise", 1e-7});
+  ZpMeter meter = zp_meter_of(&def, 1e-9), other = meter;
+  double first, again, different;
+  other.seed = 2;
+  ck_near(spread(&meter, &first), 1e-7 * sqrt(2.0 / (22 * 16)) / (2 * PI * 1e3 * 50), 0.2);
+  spread(&meter, &again);
+  spread(&other, &different);
+  ck_assert(first == again && first != different);
+}
+END_TEST
+
+/* Few bits: every sample is off by at most half of a step, and so is the amplitude by little more than that; with two
+ * more bits by about a quarter. */
+START_TEST(test_resolution) {
+  double off[2];
+  for (int k = 0; k < 2; k++) {
+    ZpActuatorDef def = DEF(METER, {"sense.bits", 6 + 4 * k});
+    ZpMeter meter = zp_meter_of(&def, 1e-10);
+    double reading;
+    read_line(&meter, (double[]){0, 0}, (double[]){0.731e-10, 0.731e-10}, 1, &reading);
+    off[k] = fabs(reading - 0.731e-10);
+    ck_below(off[k], 2 / PI * meter.step / (2 * PI * 1e3 * 50));
+  }
+  ck_below(off[1], off[0]);
+}
+END_TEST
+
+/* Slowly up to below pull-in and back, damped: the actuator goes along its states of rest, and the meter says where it
+ * is, to well below a hundredth of the stroke. */
+START_TEST(test_stroke_along_the_states_of_rest) {
+  ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 0.2},
+                          {"drive.voltage", 5e3}, {"solver.end_time", 5}, {"damping.internal", 5e-3},
+                          {"sense.bits", 12}, {"sense.noise", 1e-9});
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  double off = zp_result_get(result, "sense_stroke_error"), moved = 0;
+  for (size_t k = 0; k < result->series->rows; k++)
+    moved = fmax(moved, zp_table_get(result->series, 0, "stroke_m") - zp_table_get(result->series, k, "stroke_m"));
+  printf("stroke by capacitance: off by %.2e of the stroke, which changes by %.2g mm\n", off, 1e3 * moved);
+  ck_assert(moved > 0.5e-3);
+  ck_below(off, 1e-3);
+  ck_assert(isnan(zp_table_get(result->series, 0, "sensed_stroke_m")));
+  ck_near(zp_table_get(result->series, result->series->rows - 1, "sensed_stroke_m"),
+          zp_table_get(result->series, 0, "stroke_m"), 1e-2);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* What cannot be read, with the key that says why. */
+START_TEST(test_refused) {
+  static const struct {
+    Setting with[3];
+    const char *says;
+  } of[] = {{{{"sense.frequency", 1e3}}, "sense.amplitude: sense.frequency is given"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}}, "sense.sampling_rate: sense.frequency is given"},
+            {{{"sense.noise", 1e-9}}, "sense.noise: requires sense.frequency"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 3e3}}, "at least 4"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 4500}}, "a whole number"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 1e9}}, "samples until"},
+            {{{"sense.frequency", 10}, {"sense.amplitude", 1}, {"sense.sampling_rate", 100}}, "sense.bandwidth"}};
+  ZpActuatorDef def;
+  ZpError err = {ZP_OK, ""};
+  size_t count = 0;
+  while (count < 3 && of[_i].with[count].key)
+    count++;
+  ck_assert_msg(resolve(&def, of[_i].with, count, &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, of[_i].says) != NULL, "%s", err.message);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("sense");
+  TCase *tcase = tcase_create("sense");
+  tcase_add_test(tcase, test_reading);
+  tcase_add_test(tcase, test_range);
+  tcase_add_test(tcase, test_noise);
+  tcase_add_test(tcase, test_resolution);
+  tcase_add_test(tcase, test_stroke_along_the_states_of_rest);
+  tcase_add_loop_test(tcase, test_refused, 0, 7);
+  suite_add_tcase(suite, tcase);
+  return run_suite(suite);
+}
