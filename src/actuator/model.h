@@ -16,6 +16,7 @@
 #include "electro/edges.h"
 #include "electro/field.h"
 #include "electro/plates_step.h"
+#include "liquid/bead.h"
 #include "liquid/film.h"
 #include "liquid/outer.h"
 #include "paper/massspring.h"
@@ -64,6 +65,9 @@ struct ZpModel {
   ZpFacesParams faces; /* of unilateral contact */
   bool has_film;       /* of liquid between the faces */
   ZpFilmParams film;
+  bool has_bead; /* the film ends, and beyond it is air */
+  ZpBeadParams bead;
+  ZpPlatesParams air;      /* the law there */
   ZpOuterParams outer;     /* of liquid outside */
   size_t own, kept;        /* unknowns, and numbers of state, of the laws at each station, in motion */
   double internal_damping; /* s */
@@ -122,6 +126,9 @@ typedef struct ZpState {
   double across_loss;      /* and across it */
   double jet_loss;         /* per part: to jets from the film and its cavities, J */
   double outer_drag_loss;  /* per part: to the form drag of the liquid outside, J */
+  double meniscus_loss;    /* per part: by menisci that move, J */
+  ZpBead bead[ZP_BEADS];   /* of each half */
+  double starved_time;     /* when a zip front had outrun its bead, s; NAN: it has not */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],

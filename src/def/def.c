@@ -24,6 +24,8 @@
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name), NULL},
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help)                                                \
+  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, field), NULL},
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), "auto"},
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help)                                                          \
@@ -44,6 +46,7 @@ static const ZpKey keys[] = {
 #undef ZP_GROUP
 #undef ZP_GROUP_END
 #undef ZP_REAL
+#undef ZP_REAL_AS
 #undef ZP_REAL_AUTO
 #undef ZP_REAL_NONE
 #undef ZP_INT
@@ -562,6 +565,19 @@ static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
                      err);
 }
 
+/* Beyond a bead the local law of plates goes on with air. */
+static ZpStatus check_bead(const ZpActuatorDef *def, ZpError *err) {
+  if (def->electro.model == ZP_ELECTRO_FIELD)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = bead: requires electro.model plates, but it is field: a solved field has one liquid "
+                   "everywhere; use liquid.model submerged");
+  if (def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges = true: what lateral edges add is known for one liquid everywhere; use false with "
+                   "liquid.model bead");
+  return ZP_OK;
+}
+
 /* The film lies between two ribbons, and its heads are unknowns of implicit steps. */
 static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
@@ -570,7 +586,10 @@ static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
                                {"contact.model", ZP_CONTACT_UNILATERAL},
                                {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
   if (def->liquid.model == ZP_LIQUID_NONE) return ZP_OK;
-  return check_needs(def, "liquid.model = submerged", needs, sizeof needs / sizeof needs[0], "liquid.model none", err);
+  bool bead = def->liquid.model == ZP_LIQUID_BEAD;
+  ZpStatus status = check_needs(def, bead ? "liquid.model = bead" : "liquid.model = submerged", needs,
+                                sizeof needs / sizeof needs[0], "liquid.model none", err);
+  return status == ZP_OK && bead ? check_bead(def, err) : status;
 }
 
 /* What is asked of the model of the field. */

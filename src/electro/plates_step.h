@@ -40,6 +40,13 @@ void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *star
 void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
                                double *Fx, double *Fy);
 
+/* At rest: how the parts of the force of element i go with the part of it that is covered by liquid. */
+typedef struct ZpPlatesByCover {
+  double A, B; /* closing force on its left and its right station, N */
+  double P;    /* mean potential per length, J/m */
+} ZpPlatesByCover;
+ZpPlatesByCover zp_plates_by_cover(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage, size_t i);
+
 /* At rest: (x, y of interleaved upper and lower nodes, voltage) => gaps and all of `step`. */
 void zp_plates_rest(const ZpPlatesParams *params, const double *x, const double *y, double voltage, ZpPlatesEval *eval,
                     ZpPlatesStep *step);

@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 4
+ *   8 .. 11         version of the format, 5
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -28,7 +28,7 @@
 
 #include "base/fail.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 4, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 5, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -66,6 +66,18 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, across_loss),
                                 NUMBER(REAL, jet_loss),
                                 NUMBER(REAL, outer_drag_loss),
+                                NUMBER(REAL, meniscus_loss),
+                                NUMBER(REAL, bead[0].reach),
+                                NUMBER(REAL, bead[0].rate),
+                                NUMBER(REAL, bead[0].outside),
+                                NUMBER(REAL, bead[0].lost),
+                                NUMBER(REAL, bead[0].supply),
+                                NUMBER(REAL, bead[1].reach),
+                                NUMBER(REAL, bead[1].rate),
+                                NUMBER(REAL, bead[1].outside),
+                                NUMBER(REAL, bead[1].lost),
+                                NUMBER(REAL, bead[1].supply),
+                                NUMBER(REAL, starved_time),
                                 NUMBER(REAL, last_step),
                                 NUMBER(REAL, next_step),
                                 NUMBER(REAL, refreshed),

@@ -253,9 +253,9 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
   if (def->liquid.model != ZP_LIQUID_NONE)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "liquid.model = submerged: the study modes finds frequencies without the mass of a liquid; use none");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = %s: the study modes finds frequencies without the mass of a liquid; use none",
+                   zp_word_of("liquid.model", (int)def->liquid.model));
   if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
