@@ -5,6 +5,7 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "base/kernel.h"
+#include "def/check.h"
 #include "math/elementary.h"
 
 static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
@@ -462,7 +463,7 @@ static ZpFilmParams film_of(const ZpModel *model) {
 
 /* A bead has air outside. */
 static ZpOuterParams outer_of(const ZpActuatorDef *def) {
-  if (def->liquid.model == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
+  if (zp_liquid_of(def) == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
   return (ZpOuterParams){.w = def->ribbon.width,
                          .rho = def->liquid.inertia ? def->medium.density : 0,
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};
@@ -515,8 +516,8 @@ static void derive(ZpModel *model, const ZpActuatorDef *lower) {
   model->cross_section = cross_section_of(model);
   model->faces = faces_of(model);
   model->film = film_of(model);
-  model->has_film = model->field && def->liquid.model != ZP_LIQUID_NONE;
-  model->has_bead = model->has_film && def->liquid.model == ZP_LIQUID_BEAD;
+  model->has_film = model->field && zp_liquid_of(def) != ZP_LIQUID_NONE;
+  model->has_bead = model->has_film && zp_liquid_of(def) == ZP_LIQUID_BEAD;
   model->bead = bead_of(def);
   model->air = air_of(model);
   if (model->has_bead) model->plates.air = &model->air;

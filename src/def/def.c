@@ -565,31 +565,43 @@ static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
                      err);
 }
 
+/* What the film of liquid asks for: it lies between two ribbons, and its heads are unknowns of implicit steps. */
+static const Need film_needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
+                                  {"ribbon.model", ZP_RIBBON_ROD},
+                                  {"electro.surface", ZP_SURFACE_POLYLINE},
+                                  {"contact.model", ZP_CONTACT_UNILATERAL},
+                                  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+enum { FILM_NEEDS = sizeof film_needs / sizeof film_needs[0] };
+
 /* Beyond a bead the local law of plates goes on with air. */
 static ZpStatus check_bead(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = check_needs(def, "liquid.model = bead", film_needs, FILM_NEEDS, "liquid.model none", err);
+  if (status != ZP_OK) return status;
   if (def->electro.model == ZP_ELECTRO_FIELD)
     return zp_fail(err, ZP_BAD_INPUT,
                    "liquid.model = bead: requires electro.model plates, but it is field: a solved field has one liquid "
                    "everywhere; use liquid.model submerged");
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.edges = true: what lateral edges add is known for one liquid everywhere; use false with "
-                   "liquid.model bead");
+                   "liquid.model = bead: requires electro.edges false, but it is true: what lateral edges add is known "
+                   "for one liquid everywhere; use liquid.model submerged");
   return ZP_OK;
 }
 
-/* The film lies between two ribbons, and its heads are unknowns of implicit steps. */
+ZpLiquidModel zp_liquid_of(const ZpActuatorDef *def) {
+  if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
+  return check_bead(def, NULL) == ZP_OK ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
+}
+
 static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
-  static const Need needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
-                               {"ribbon.model", ZP_RIBBON_ROD},
-                               {"electro.surface", ZP_SURFACE_POLYLINE},
-                               {"contact.model", ZP_CONTACT_UNILATERAL},
-                               {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
-  if (def->liquid.model == ZP_LIQUID_NONE) return ZP_OK;
-  bool bead = def->liquid.model == ZP_LIQUID_BEAD;
-  ZpStatus status = check_needs(def, bead ? "liquid.model = bead" : "liquid.model = submerged", needs,
-                                sizeof needs / sizeof needs[0], "liquid.model none", err);
-  return status == ZP_OK && bead ? check_bead(def, err) : status;
+  switch (zp_liquid_of(def)) {
+  case ZP_LIQUID_SUBMERGED:
+    return check_needs(def, "liquid.model = submerged", film_needs, FILM_NEEDS, "liquid.model none", err);
+  case ZP_LIQUID_BEAD:
+    return check_bead(def, err);
+  default:
+    return ZP_OK;
+  }
 }
 
 /* What is asked of the model of the field. */
