@@ -104,7 +104,7 @@ static bool is_wet(const ZpFilmParams *p, const ZpCover *cover, size_t i) {
 
 ZpFilmPiece zp_film_piece(double l, double part, bool right) {
   double far = part * l, a = part < 1 ? 0.5 * far : 0.5 * l, second = a * a / (2 * l);
-  ZpFilmPiece piece = {.length = far, .mean = {1 - 0.5 * part, 0.5 * part}};
+  ZpFilmPiece piece = {.length = fmax(far, shortest * l), .mean = {1 - 0.5 * part, 0.5 * part}};
   piece.cell[0][0] = a - second;
   piece.cell[0][1] = second;
   if (part < 1) {
@@ -200,9 +200,10 @@ typedef struct Momentum {
   double inertia; /* of the momentum's mean, and what resists to it, kg/m^3 */
 } Momentum;
 
-/* `depth` is H or E, mean over the step. */
-static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h) {
-  double B = 6 * p->mu * h, inertia = p->rho * thick * thick, theta = 0.5 * (1 + B / (B + inertia));
+/* `depth` is H or E, mean over the step. What begins to flow, where a bead has just come, does so at once: theta is 1,
+ * for with 1/2 a flow that the gap's motion prescribes would begin with twice of it, and turn round in every step. */
+static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h, bool begins) {
+  double B = 6 * p->mu * h, inertia = p->rho * thick * thick, theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
   return (Momentum){theta, p->rho + 2 * theta * B * depth / (thick * thick * thick)};
 }
 
@@ -252,8 +253,8 @@ static Tip tip_of(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEva
 static void flow_along(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, int k, double h, const double *start,
                        const double *heads, const ZpFilmEval *e) {
   size_t at = at_mode(i, k), u = along_at(i, k);
-  double H = element_mean(e, i), length = fmax(e->piece[i].length, shortest * p->l);
-  Momentum m = momentum_of(p, element_middle(e, i), H, h);
+  double H = element_mean(e, i), length = e->piece[i].length;
+  Momentum m = momentum_of(p, element_middle(e, i), H, h, ends->cover && start[u] == 0);
   Tip tip = tip_of(p, ends, e, i, start[u]);
   double left = tip.is_left ? tip.head : heads[at], right = tip.is_right ? tip.head : heads[at + ZP_FILM_MODES];
   double inertia = m.inertia + m.theta * h * tip.per_speed / length;
@@ -288,10 +289,10 @@ static void flow_in(const ZpFilmParams *p, size_t i, double share, const double 
 
 /* The flow out at the long edges is linear in the heads but for that of the jets, D = rho v^2 / 2 at speed v outwards:
  * together v + C rho v^2 / 2 = A. */
-static void flow_across(const ZpFilmParams *p, size_t i, double h, const double *start, const double *heads,
-                        const ZpFilmEval *e) {
+static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, double h, const double *start,
+                        const double *heads, const ZpFilmEval *e) {
   double E = mean(e->depth0, e->depth1, i), per_speed = 0.5 * p->w / mean(e->H0, e->H1, i), A = 0, C = 0;
-  Momentum m = momentum_of(p, e->middle[i], E, h);
+  Momentum m = momentum_of(p, e->middle[i], E, h, ends->cover && start[across_at(i, 0)] == 0);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     size_t at = at_mode(i, k);
     e->leak_conductance[at] = E * m.theta * h * p->kappa2[k] / m.inertia;
@@ -375,7 +376,7 @@ static void flows(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const
   for (size_t i = 0; i < p->nodes; i++) {
     double share = open_share(ends, e, i);
     if (share >= 1)
-      flow_across(p, i, h, start, heads, e);
+      flow_across(p, ends, i, h, start, heads, e);
     else
       flow_in(p, i, share, heads, e);
     for (int k = 0; k < ZP_FILM_MODES; k++) {
@@ -457,8 +458,9 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
 }
 
 /* Of one momentum over the step, per length and width, J/m^2: drag, and what theta takes beyond the mean. */
-static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h) {
-  Momentum m = momentum_of(p, thick, depth, h);
+static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h,
+                   bool begins) {
+  Momentum m = momentum_of(p, thick, depth, h, begins);
   return 12 * p->mu * h * flow * flow / (thick * thick * thick) + p->rho * depth * (m.theta - 0.5) * change * change;
 }
 
@@ -479,12 +481,16 @@ static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double 
   double share = open_share(ends, e, i), H = e->middle[i], leak = e->leak[at_mode(i, k)];
   double stops = 0.5 * p->rho * E * b * b / p->kappa2[k];
   if (share < 1) return stops + (share > 0 ? 12 * p->mu * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
-  return lost(p, e->middle[i], E, e->leak[at_mode(i, k)], change(start, e, across_at(i, k)), h) / p->kappa2[k];
+  return lost(p, e->middle[i], E, e->leak[at_mode(i, k)], change(start, e, across_at(i, k)), h,
+              ends->cover && start[across_at(i, 0)] == 0) /
+         p->kappa2[k];
 }
 
-static double lost_along(const ZpFilmParams *p, double h, const double *start, const ZpFilmEval *e, size_t i, int k) {
+static double lost_along(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start,
+                         const ZpFilmEval *e, size_t i, int k) {
   if (!(e->piece[i].length > 0)) return 0;
-  return lost(p, element_middle(e, i), element_mean(e, i), e->flow[at_mode(i, k)], change(start, e, along_at(i, k)), h);
+  return lost(p, element_middle(e, i), element_mean(e, i), e->flow[at_mode(i, k)], change(start, e, along_at(i, k)), h,
+              ends->cover && start[along_at(i, k)] == 0);
 }
 
 /* By what passes the film's end in element i, over w and the share of the mode, J/m. */
@@ -503,8 +509,7 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *p, const ZpFilmEnds *ends, double h,
     for (int k = 0; k < ZP_FILM_MODES; k++) {
       sum.across += length * p->share[k] * lost_across(p, ends, h, start, e, i, k);
       if (i + 1 == p->nodes) continue;
-      double along = fmax(e->piece[i].length, shortest * p->l * (e->piece[i].length > 0));
-      sum.along += p->w * along * p->share[k] * lost_along(p, h, start, e, i, k);
+      sum.along += p->w * e->piece[i].length * p->share[k] * lost_along(p, ends, h, start, e, i, k);
       sum.carried += p->w * p->share[k] * carried(p, ends, h, start, e, i, k);
     }
     sum.jets += length * (h * p->rho * out * out * out * H / p->w + lost_by_cavity(start, e, i));
@@ -543,7 +548,7 @@ double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size
 
 double zp_film_inertia(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i) {
   double E = mean(e->depth0, e->depth1, i), flow = 0;
-  Momentum m = momentum_of(p, e->middle[i], E, h);
+  Momentum m = momentum_of(p, e->middle[i], E, h, false);
   for (int k = 0; k < ZP_FILM_MODES; k++)
     flow += p->kappa2[k] > 0 ? p->share[k] / p->kappa2[k] : 0;
   return p->w * wet(e, i) * flow * m.inertia / (2 * m.theta * E);
