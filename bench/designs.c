@@ -105,11 +105,11 @@ static double contact_depth(const ZpActuatorDef *def) {
   return fmax(fmin(0.5e-6, insulators(def) / 150), 1e-8);
 }
 
-/* How far faces may overlap, m: 1 um, 1 % of the insulators, or three times what the attraction of closed faces makes
+/* How far faces may overlap, m: 1 um, 2 % of the insulators, or three times what the attraction of closed faces makes
  * of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press
  * on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
 static double deepest(const ZpActuatorDef *def) {
-  static const double micrometre = 1e-6, of_insulators = 0.01, lever = 3;
+  static const double micrometre = 1e-6, of_insulators = 0.02, lever = 3;
   double depth = contact_depth(def);
   double at_breakdown = 2 * def->insulator.thickness * def->insulator.breakdown_field;
   double over = def->electro.breakdown_cap ? 1 : pow(def->drive.voltage / at_breakdown, 2);

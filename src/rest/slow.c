@@ -91,12 +91,21 @@ static bool has_opened(void *user) {
   return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
 }
 
-/* Fall from the limit point that the march ended at to what is beyond it. */
+/* Fall from the limit point that the march ended at to what is beyond it. A fall that comes to no end is tried again
+ * from further on. */
 static bool fall(ZpSlow *f, double sign) {
-  static const double beyond = 1e-4; /* of the voltage or the load: a crest that is higher by more is still met */
+  static const double beyond[] = {1e-4, 3e-4, 1e-3}; /* of the voltage or the load: a higher crest is still met */
+  ZpStatics *s = f->statics;
+  double m = parameter(f);
+  bool found = false;
   f->was_closed = zp_slow_is_closed(f);
-  f->march.fold.system->set(f->statics, changed(f, parameter(f), sign * beyond));
-  return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
+  f->square.save(s, f->held);
+  for (size_t k = 0; k < sizeof beyond / sizeof beyond[0] && !found; k++) {
+    if (k > 0) zp_slow_go_to(f, f->held);
+    f->march.fold.system->set(s, changed(f, m, sign * beyond[k]));
+    found = zp_newton_good(zp_statics_fall_until(s, has_opened, f, f->newton).end);
+  }
+  return found;
 }
 
 /* Does the branch that the state fell to, from the limit point at m and `gap`, end so close below it that both are a
@@ -179,6 +188,12 @@ static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
   return around;
 }
 
+/* The march has lost the branch while it was stable: fall to what is a little further. False where that would change
+ * what is closed: no limit point was found there. */
+static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
+  return fall(f, sign) && zp_slow_is_closed(f) == was_closed;
+}
+
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
@@ -191,7 +206,8 @@ static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
     if (f->stop(f->caller)) return ZP_SLOW_STOPPED;
     ZpMarchEnd end = zp_march(&f->march, target);
     if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
-    if (end == ZP_MARCH_LOST) return ZP_SLOW_LOST;
+    if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;
+    if (end == ZP_MARCH_LOST) continue;
     zp_slow_note(f, at, end);
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;

@@ -157,14 +157,19 @@ static End follow(Holder *h) {
   return turned ? TURNED_FOR_GOOD : LOST;
 }
 
-/* Release at the last turn, or where the branch was lost, just above the voltage there. */
+/* Release at the last turn, or where the branch was lost, just above the voltage there. A fall that comes to no end, or
+ * to a state that cannot be, is tried again from further above. */
 static bool fall(Holder *h, bool turned) {
-  static const double above = 1e-3, least = 1e-5; /* of that voltage, of drive.voltage */
+  static const double above[] = {1e-3, 3e-3, 1e-2}, least = 1e-5; /* of that voltage, of drive.voltage */
   ZpStatics *s = &h->rest.statics;
   double top = h->model->def.drive.voltage;
-  h->rest.system.restore(s, h->edge);
-  ZpNewtonInfo info = zp_statics_fall(s, fmin((1 + above) * h->highest + least * top, top), &h->rest.branch.newton);
-  if (!zp_newton_good(info.end) || !is_possible(h)) return false;
+  bool found = false;
+  for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
+    h->rest.system.restore(s, h->edge);
+    double U = fmin((1 + above[k]) * h->highest + least * top, top);
+    found = zp_newton_good(zp_statics_fall(s, U, &h->rest.branch.newton).end) && is_possible(h);
+  }
+  if (!found) return false;
   pass(h, turned);
   record(h, true, false);
   return true;
@@ -201,6 +206,13 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
     if (settle(h, info)) return true;
   }
   return false;
+}
+
+/* Where that fails, too, a limit point is just below: what is left there, at rest again at drive.voltage. */
+static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
+  h->rest.system.restore(&h->rest.statics, h->before);
+  *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage, &h->rest.branch.newton);
+  return zp_newton_good(info->end) && is_possible(h);
 }
 
 /* Further along the branch: other stable states at drive.voltage. */
@@ -278,7 +290,7 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
   double taken = h->rest.branch.taken;
   count_others(h);
   h->rest.system.restore(&h->rest.statics, h->near);
-  if (settle(h, info) || settle_closer(h, taken, info))
+  if (settle(h, info) || settle_closer(h, taken, info) || settle_beyond(h, info))
     record(h, true, true);
   else
     h->outcome = ZP_BRANCH_LOST;
