@@ -5,6 +5,7 @@
 #include <string.h>
 
 enum { BAND = 2 * UNKNOWNS };
+static const ZpFilmEnds everywhere = {0};
 
 static size_t carve(Front *f, void *memory) {
   ZpCarver carver = {memory, 0};
@@ -88,7 +89,7 @@ static void film_at(Front *f, size_t i) {
 
 static void evaluate(Front *f) {
   zp_band_clear(&f->J);
-  zp_film_step(&f->film, f->g0, f->g1, f->h, f->start, f->heads, &f->eval);
+  zp_film_step(&f->film, &everywhere, f->g0, f->g1, f->h, f->start, f->heads, &f->eval);
   memcpy(f->force, f->eval.force, sizeof f->force);
   for (size_t i = 0; i < STATIONS; i++) {
     bend(f, i);

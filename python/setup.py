@@ -104,9 +104,11 @@ def keywords():
         "class Keywords(TypedDict, total=False):",
         '    """Keys, the dot written as two underscores."""',
     ]
-    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
+    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AS|REAL_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
         if kind == "OF_SCENARIO":  # a choice key without a group
             kind, given = "ENUM", ["", *given]
+        if kind == "REAL_AS":  # the field has another name
+            kind, given = "REAL", [given[0], *given[2:]]
         type_ = "Literal[%s]" % ", ".join(words[given[2]]) if kind == "ENUM" else types[kind]
         unit = ast.literal_eval(given[2]) if kind.startswith("REAL") else "1"
         help_ = ast.literal_eval(given[-1]) + (" [%s]" % unit if unit != "1" else "")

@@ -199,6 +199,8 @@ def keys_of(repo):
         yield found.group(1), line_at(text, found.start())
     for found in re.finditer(r"^ZP_(?:REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT)\(\s*([\w.]*)\s*,\s*(\w+)\s*,", text, re.M):
         yield found.group(1) + found.group(2), line_at(text, found.start())
+    for found in re.finditer(r"^ZP_REAL_AS\(\s*([\w.]*)\s*,\s*\w+\s*,\s*(\w+)\s*,", text, re.M):
+        yield found.group(1) + found.group(2), line_at(text, found.start())
 
 
 def rule_keys_documented(repo, files):

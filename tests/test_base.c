@@ -241,6 +241,8 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help) check_key(&i, #path #name, d.path name, def, min, max);
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help)                                                \
+  check_key(&i, #path #name, d.path field, def, min, max);
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
 #define ZP_INT(path, name, def, min, max, help)               check_key(&i, #path #name, d.path name, def, min, max);
@@ -254,6 +256,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #undef ZP_GROUP
 #undef ZP_GROUP_END
 #undef ZP_REAL
+#undef ZP_REAL_AS
 #undef ZP_REAL_AUTO
 #undef ZP_REAL_NONE
 #undef ZP_INT

@@ -53,7 +53,7 @@ static bool scalar_may_be_missing(const char *name, const ZpActuatorDef *def) {
       "pull_in_voltage_V",      "release_voltage_V",      "zip_time_s",       "contraction",
       "energy_error",           "real_time_factor",       "mean_time_step_s", "smallest_drag_bound_s",
       "smallest_axial_bound_s", "smallest_shear_bound_s", "breakdown_margin", "yield_margin",
-      "peak_current_A",         "rms_current_A",          "efficiency"};
+      "peak_current_A",         "rms_current_A",          "efficiency",       "starved_time_s"};
   for (size_t i = 0; i < sizeof of_insulators / sizeof of_insulators[0]; i++)
     if (strcmp(name, of_insulators[i]) == 0) return !has_insulators(def);
   for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
@@ -74,6 +74,7 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
  * to get there. */
 static bool is_of_the_end(const char *name) {
   size_t length = strlen(name);
+  if (length > 3 && strcmp(name + length - 3, "_m3") == 0) return true;
   return length > 2 && (strcmp(name + length - 2, "_m") == 0 || strcmp(name + length - 2, "_J") == 0);
 }
 

@@ -17,6 +17,8 @@ typedef struct Film {
   void *memory;
 } Film;
 
+static const ZpFilmEnds everywhere = {0};
+
 static size_t carve(Film *f, void *memory) {
   ZpCarver carver = {memory, 0};
   zp_film_carve(&f->params, &f->eval, &carver);
@@ -59,7 +61,7 @@ static void solve(Film *f) {
   size_t n = ZP_FILM_MODES * f->params.nodes;
   memset(f->p, 0, sizeof f->p);
   for (int round = 0; round < ROUNDS; round++) {
-    zp_film_step(&f->params, f->g0, f->g1, f->h, f->start, f->p, &f->eval);
+    zp_film_step(&f->params, &everywhere, f->g0, f->g1, f->h, f->start, f->p, &f->eval);
     assemble(f);
     memcpy(f->r, f->eval.r, n * sizeof *f->r);
     ck_assert(zp_band_factor(&f->A));
@@ -72,7 +74,7 @@ static void solve(Film *f) {
     }
     if (most <= 1e-14 * largest) break;
   }
-  zp_film_step(&f->params, f->g0, f->g1, f->h, f->start, f->p, &f->eval);
+  zp_film_step(&f->params, &everywhere, f->g0, f->g1, f->h, f->start, f->p, &f->eval);
 }
 
 static double force(const Film *f) {
@@ -193,9 +195,9 @@ START_TEST(test_work_is_energy_and_loss) {
     double size = 0;
     draw(f, &seed, change[_i]);
     solve(f);
-    ZpFilmLoss loss = zp_film_loss(&f->params, f->h, f->start, &f->eval);
-    double before = zp_film_energy(&f->params, f->g0, f->start), after = zp_film_energy(&f->params, f->g1, f->eval.end),
-           work = work_of(f, &size);
+    ZpFilmLoss loss = zp_film_loss(&f->params, &everywhere, f->h, f->start, &f->eval);
+    double before = zp_film_energy(&f->params, NULL, f->g0, f->start),
+           after = zp_film_energy(&f->params, NULL, f->g1, f->eval.end), work = work_of(f, &size);
     ck_assert_double_gt(loss.along, 0);
     ck_assert_double_gt(loss.across, 0);
     ck_assert_double_ge(loss.jets, 0);

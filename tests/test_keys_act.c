@@ -51,8 +51,13 @@
 #define HANGING "study=actuate mesh.nodes=11"
 
 /* The same in a bath, and in one so viscous that nothing else counts. */
-#define BATH    "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s"
-#define VISCOUS BATH " medium.kinematic_viscosity=1000mm2/s liquid.inertia=false medium.drag_coefficient=0"
+#define BATH "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s"
+
+/* The default actuator with a bead at its fronts; faces pressed flat on a drop of it, and parted by it. */
+#define BEAD      "study=actuate mesh.nodes=11 liquid.model=bead solver.end_time=0.5s"
+#define DROP      "study=actuate mesh.nodes=11 liquid.model=bead bead.volume=1uL solver.end_time=1ns"
+#define CAPILLARY DROP
+#define VISCOUS   BATH " medium.kinematic_viscosity=1000mm2/s liquid.inertia=false medium.drag_coefficient=0"
 
 /* The paper's particles, zipping one after the other. */
 #define PARTICLES                                                                                                      \
@@ -245,6 +250,16 @@ static const Row rows[] = {
      "1.5",
      "0",
      {{BECOMES, "outer_drag_loss_J", 0, 0}, {LESS, "zip_time_s", 0.97, 0}}},
+    {"medium.surface_tension", CAPILLARY " bead.suction=1", "10mN/m", "20mN/m", {{TIMES, "liquid_energy_J", 2, 1e-3}}},
+    /* the bead of closed faces that hardly have a gap reaches the platform; a drop does not */
+    {"air.breakdown_field",
+     DROP " drive.voltage=10kV",
+     "3MV/m",
+     "1MV/m",
+     {{LESS, "force_N", 1, 0}, {LESS, "charge_C", 1, 0}}},
+    {"bead.volume", DROP, "1uL", "2uL", {{MORE, "wet_length_m", 1.2, 0}}},
+    {"bead.suction", BEAD, "0", "1", {{LESS, "zip_time_s", 0.9, 0}, {LESS, "meniscus_loss_J", 0.2, 0}}},
+    {"bead.return", BEAD, "1", "0", {{BECOMES, "bead_outside_m3", 0, 0}, {MORE, "bead_lost_m3", 0, 0}}},
     {"liquid.model", BATH, "none", "submerged", {{MORE, "zip_time_s", 2, 0}, {MORE, "viscous_loss_J", 0, 0}}},
     {"liquid.lateral_flow",
      BATH,

@@ -46,13 +46,14 @@ extern "C" {
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \
   group;
-#define ZP_REAL(path, name, unit, shown, def, min, max, help) double name;
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) double name;
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) double name;
-#define ZP_INT(path, name, def, min, max, help)               int name;
-#define ZP_BOOL(path, name, def, help)                        bool name;
-#define ZP_ENUM(path, name, type, def, help)                  type name;
-#define ZP_TEXT(path, name, def, help)                        char name[ZP_TEXT_SIZE];
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           double name;
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) double field;
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           double name;
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           double name;
+#define ZP_INT(path, name, def, min, max, help)                         int name;
+#define ZP_BOOL(path, name, def, help)                                  bool name;
+#define ZP_ENUM(path, name, type, def, help)                            type name;
+#define ZP_TEXT(path, name, def, help)                                  char name[ZP_TEXT_SIZE];
 #define ZP_OF_SCENARIO(name, type, def, help)
 typedef struct ZpActuatorDef {
   uint64_t layout; /* zp_def_layout of the headers that the program was compiled with; not to be changed */
@@ -61,6 +62,7 @@ typedef struct ZpActuatorDef {
 #undef ZP_GROUP
 #undef ZP_GROUP_END
 #undef ZP_REAL
+#undef ZP_REAL_AS
 #undef ZP_REAL_AUTO
 #undef ZP_REAL_NONE
 #undef ZP_INT

@@ -26,14 +26,15 @@ static inline uint64_t zp_def_layout(void) {
       (offsetof(ZpActuatorDef, field) + 31 * ZP_NAME_TERM(name) + UINT64_C(7) * (type))
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
-#define ZP_REAL(path, name, unit, shown, def, min, max, help) ZP_KEY_TERM(path name, #path #name, 1)
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) ZP_KEY_TERM(path name, #path #name, 2)
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) ZP_KEY_TERM(path name, #path #name, 2)
-#define ZP_INT(path, name, def, min, max, help)               ZP_KEY_TERM(path name, #path #name, 3)
-#define ZP_BOOL(path, name, def, help)                        ZP_KEY_TERM(path name, #path #name, 4)
-#define ZP_ENUM(path, name, type, def, help)                  ZP_KEY_TERM(path name, #path #name, 5 + (uint64_t)type##_COUNT)
-#define ZP_TEXT(path, name, def, help)                        ZP_KEY_TERM(path name, #path #name, 4 + ZP_TEXT_SIZE)
-#define ZP_OF_SCENARIO(name, type, def, help)                 +(uint64_t)type##_COUNT *ZP_NAME_TERM(#name)
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           ZP_KEY_TERM(path name, #path #name, 1)
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) ZP_KEY_TERM(path field, #path #name, 1)
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           ZP_KEY_TERM(path name, #path #name, 2)
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           ZP_KEY_TERM(path name, #path #name, 2)
+#define ZP_INT(path, name, def, min, max, help)                         ZP_KEY_TERM(path name, #path #name, 3)
+#define ZP_BOOL(path, name, def, help)                                  ZP_KEY_TERM(path name, #path #name, 4)
+#define ZP_ENUM(path, name, type, def, help)                            ZP_KEY_TERM(path name, #path #name, 5 + (uint64_t)type##_COUNT)
+#define ZP_TEXT(path, name, def, help)                                  ZP_KEY_TERM(path name, #path #name, 4 + ZP_TEXT_SIZE)
+#define ZP_OF_SCENARIO(name, type, def, help)                           +(uint64_t)type##_COUNT *ZP_NAME_TERM(#name)
   return (uint64_t)ZP_ABI << 48 ^ ((uint64_t)sizeof(ZpActuatorDef)
 #include <zipact/keys.def>
                                   );
@@ -43,6 +44,7 @@ static inline uint64_t zp_def_layout(void) {
 #undef ZP_GROUP
 #undef ZP_GROUP_END
 #undef ZP_REAL
+#undef ZP_REAL_AS
 #undef ZP_REAL_AUTO
 #undef ZP_REAL_NONE
 #undef ZP_INT

@@ -141,6 +141,9 @@ ZP_API ZpShape zp_sim_shape(ZpSim *sim);
  * if not yet. */
 ZP_API double zp_sim_zip_time(const ZpSim *sim);
 
+/* When a zip front had outrun the liquid of its bead (liquid.model bead), s; NAN if none has. */
+ZP_API double zp_sim_starved_time(const ZpSim *sim);
+
 /* All that evolves, as a snapshot: bytes that may be stored anywhere and given to anyone, the same for equal states on
  * every machine. They hold the version, the keys that make the model and a checksum; docs/interface.md has the format.
  * `bytes` takes zp_sim_state_size bytes, as many for each state of one model. */

@@ -42,9 +42,14 @@ void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
 /* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and at c and coordinate
- * k. Of a symmetric matrix. */
+ * k, of a symmetric matrix. One that keeps both triangles takes c and d in any order. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
+
+/* K += value at one place: in the row of a coordinate and the column of another; in that of an own unknown c and the
+ * column of coordinate k, or, `of_coordinate`, the other way round. Of a matrix that keeps both triangles. */
+void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);
+void zp_assemble_cross(const ZpAssembly *assembly, size_t c, size_t k, bool of_coordinate, double value, ZpBand *K);
 
 /* K += values at the heights of both nodes of a station, and between them. Of a symmetric matrix. */
 void zp_assemble_heights(const ZpAssembly *assembly, size_t station, double upper, double lower, double both,

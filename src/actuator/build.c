@@ -5,6 +5,7 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "base/kernel.h"
+#include "def/check.h"
 #include "math/elementary.h"
 
 static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
@@ -444,6 +445,23 @@ static ZpFacesParams faces_of(const ZpModel *model) {
                          .flat_length = platform_length(model)};
 }
 
+/* Air beyond a bead; eq. (8) of the paper holds it back whatever the liquid's does. */
+static ZpPlatesParams air_of(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  ZpPlatesParams air = model->plates;
+  air.k /= def->medium.permittivity;
+  air.d /= def->medium.permittivity;
+  air.h_per_volt = def->electro.voltage_share / def->air.breakdown_field;
+  return air;
+}
+
+static ZpBeadParams bead_of(const ZpActuatorDef *def) {
+  return (ZpBeadParams){.volume = def->bead.volume,
+                        .suction = def->bead.suction,
+                        .returned = def->bead.returned,
+                        .tension = def->medium.surface_tension};
+}
+
 /* Eqs. (22.1) to (22.3). */
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
@@ -460,7 +478,9 @@ static ZpFilmParams film_of(const ZpModel *model) {
   return film;
 }
 
+/* A bead has air outside. */
 static ZpOuterParams outer_of(const ZpActuatorDef *def) {
+  if (zp_liquid_of(def) == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
   return (ZpOuterParams){.w = def->ribbon.width,
                          .rho = def->liquid.inertia ? def->medium.density : 0,
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};
@@ -513,7 +533,11 @@ static void derive(ZpModel *model, const ZpActuatorDef *lower) {
   model->cross_section = cross_section_of(model);
   model->faces = faces_of(model);
   model->film = film_of(model);
-  model->has_film = model->field && def->liquid.model != ZP_LIQUID_NONE;
+  model->has_film = model->field && zp_liquid_of(def) != ZP_LIQUID_NONE;
+  model->has_bead = model->has_film && zp_liquid_of(def) == ZP_LIQUID_BEAD;
+  model->bead = bead_of(def);
+  model->air = air_of(model);
+  if (model->has_bead) model->plates.air = &model->air;
   model->outer = outer_of(def);
   model->own = model->has_film ? ZP_FILM_MODES : 0;
   model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));

@@ -25,6 +25,8 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   zp_plates_step_carve(&model->plates, &e->attraction, &carver);
   zp_plates_by_voltage_carve(&model->plates, &e->by_voltage, &carver);
   zp_film_carve(&model->film, &e->film, &carver);
+  e->cover.part = zp_carve(&carver, model->nodes);
+  e->open = zp_carve(&carver, model->nodes);
   e->own_residual = e->film.r;
   zp_leak_carve(&model->plates, &e->leak, &carver);
   e->memory_end = zp_carve(&carver, model->kept * model->nodes);
@@ -46,6 +48,7 @@ bool zp_eval_create(const ZpModel *model, ZpEval *e) {
   e->memory = zp_calloc(1, carve(model, e, NULL));
   if (!e->memory) return false;
   carve(model, e, e->memory);
+  if (model->has_bead) e->plates_start.cover = e->plates.cover = &e->cover;
   return true;
 }
 
@@ -64,6 +67,17 @@ ZpHeld zp_eval_beyond(const ZpEval *e) {
   const ZpSurplus *surplus = &e->surplus;
   if (surplus->solutions == 0) return (ZpHeld){0};
   return (ZpHeld){surplus->F, surplus->q, surplus->energy, surplus->charge, surplus->capacitance};
+}
+
+void zp_eval_cover(const ZpModel *model, const double reach[ZP_BEADS], ZpEval *e) {
+  if (model->has_bead) zp_bead_cover(&model->film, reach, &e->cover);
+}
+
+void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, double reach[ZP_BEADS]) {
+  for (int half = 0; half < zp_beads(&model->film); half++) {
+    double gone = bead ? bead[half].outside + bead[half].lost : 0;
+    reach[half] = zp_bead_reach(&model->film, gap, half, model->bead.volume - gone);
+  }
 }
 
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {

@@ -38,24 +38,35 @@ typedef struct ZpEval {
   ZpFacesEval faces; /* of unilateral contact */
   ZpFilmEval film;
   ZpLeakEval leak;
-  double *own_residual;    /* [own N] what is left of the equations of the laws' own unknowns */
-  double *memory_end;      /* [kept N] state of the laws where the span ends */
-  bool solves;             /* it can solve the field, not only hold what was found */
-  ZpSurplus surplus;       /* where it does */
-  const char *fault;       /* why the last attempt to find a held force has failed; NULL: it has not */
-  ZpBezierSurface surface; /* for the free stations; remade when the front moves */
-  ZpGapDerivatives gaps;   /* sum of the terms that depend on gaps */
-  double (*D)[4];          /* [3 edges] stiffness of edges */
-  double *mean_v;          /* [2 stride] of a span, m/s */
-  const double *none;      /* [stride] zeros */
-  double drag_power;       /* lost now, W */
-  double drag_rate;        /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
+  ZpCover cover;             /* where liquid is between the faces, with a bead */
+  double reach[ZP_BEADS];    /* wet length over the span, m */
+  double *open;              /* [N] of a step: share of the long edges at a station where liquid can pass */
+  double meniscus[ZP_BEADS]; /* head at the meniscus, Pa */
+  ZpBead bead_end[ZP_BEADS]; /* where the step ends */
+  double *own_residual;      /* [own N] what is left of the equations of the laws' own unknowns */
+  double *memory_end;        /* [kept N] state of the laws where the span ends */
+  bool solves;               /* it can solve the field, not only hold what was found */
+  ZpSurplus surplus;         /* where it does */
+  const char *fault;         /* why the last attempt to find a held force has failed; NULL: it has not */
+  ZpBezierSurface surface;   /* for the free stations; remade when the front moves */
+  ZpGapDerivatives gaps;     /* sum of the terms that depend on gaps */
+  double (*D)[4];            /* [3 edges] stiffness of edges */
+  double *mean_v;            /* [2 stride] of a span, m/s */
+  const double *none;        /* [stride] zeros */
+  double drag_power;         /* lost now, W */
+  double drag_rate;          /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
   void *memory;
 } ZpEval;
 
 /* Allocate the arrays of `eval`, without terms; false if there is no memory. */
 bool zp_eval_create(const ZpModel *model, ZpEval *eval);
 void zp_eval_destroy(ZpEval *eval);
+
+/* Lay the cover: liquid as far as `reach` from each clip, m. Nothing of models without a bead. */
+void zp_eval_cover(const ZpModel *model, const double reach[ZP_BEADS], ZpEval *eval);
+
+/* (gaps [N]; what of each bead is outside and lost, NULL: nothing) => wet lengths, m. */
+void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, double reach[ZP_BEADS]);
 
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
@@ -91,6 +102,7 @@ typedef struct ZpLosses {
   double along, across, jets; /* in the film of liquid, J */
   double outer;               /* to the form drag of the liquid outside, J */
   double leak;                /* heat of conduction through insulators and liquid, J */
+  double meniscus;            /* by menisci that move, J, of any sign */
 } ZpLosses;
 
 /* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */

@@ -17,6 +17,7 @@
 #include "electro/field.h"
 #include "electro/leak.h"
 #include "electro/plates_step.h"
+#include "liquid/bead.h"
 #include "liquid/film.h"
 #include "liquid/outer.h"
 #include "paper/massspring.h"
@@ -65,10 +66,13 @@ struct ZpModel {
   ZpFacesParams faces; /* of unilateral contact */
   bool has_film;       /* of liquid between the faces */
   ZpFilmParams film;
-  ZpOuterParams outer; /* of liquid outside */
-  bool leaks;          /* insulators or liquid conduct */
+  bool leaks; /* insulators or liquid conduct */
   ZpLeakParams leak;
-  size_t leak_at;          /* where its interface voltages begin in the laws' state */
+  size_t leak_at; /* where its interface voltages begin in the laws' state */
+  bool has_bead;  /* the film ends, and beyond it is air */
+  ZpBeadParams bead;
+  ZpPlatesParams air;      /* the law there */
+  ZpOuterParams outer;     /* of liquid outside */
   size_t own, kept;        /* unknowns, and numbers of state, of the laws at each station, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
@@ -128,6 +132,9 @@ typedef struct ZpState {
   double outer_drag_loss;  /* per part: to the form drag of the liquid outside, J */
   double leak_loss;        /* per part: heat of conduction through insulators and liquid, J, */
   double leaked;           /* and charge that has passed through the insulators, C */
+  double meniscus_loss;    /* per part: by menisci that move, J */
+  ZpBead bead[ZP_BEADS];   /* of each half */
+  double starved_time;     /* when a zip front had outrun its bead, s; NAN: it has not */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],

@@ -7,6 +7,9 @@
 /* (name of a choice key, place in its list) => the word. */
 const char *zp_word_of(const char *key, int choice);
 
+/* liquid.model, or what auto stands for. */
+ZpLiquidModel zp_liquid_of(const ZpActuatorDef *def);
+
 /* What moves needs a mass. */
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err);
 

@@ -24,6 +24,8 @@
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name), NULL},
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help)                                                \
+  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, field), NULL},
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), "auto"},
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help)                                                          \
@@ -44,6 +46,7 @@ static const ZpKey keys[] = {
 #undef ZP_GROUP
 #undef ZP_GROUP_END
 #undef ZP_REAL
+#undef ZP_REAL_AS
 #undef ZP_REAL_AUTO
 #undef ZP_REAL_NONE
 #undef ZP_INT
@@ -580,15 +583,43 @@ static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
                      err);
 }
 
-/* The film lies between two ribbons, and its heads are unknowns of implicit steps. */
+/* What the film of liquid asks for: it lies between two ribbons, and its heads are unknowns of implicit steps. */
+static const Need film_needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
+                                  {"ribbon.model", ZP_RIBBON_ROD},
+                                  {"electro.surface", ZP_SURFACE_POLYLINE},
+                                  {"contact.model", ZP_CONTACT_UNILATERAL},
+                                  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+enum { FILM_NEEDS = sizeof film_needs / sizeof film_needs[0] };
+
+/* Beyond a bead the local law of plates goes on with air. */
+static ZpStatus check_bead(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = check_needs(def, "liquid.model = bead", film_needs, FILM_NEEDS, "liquid.model none", err);
+  if (status != ZP_OK) return status;
+  if (def->electro.model == ZP_ELECTRO_FIELD)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = bead: requires electro.model plates, but it is field: a solved field has one liquid "
+                   "everywhere; use liquid.model submerged");
+  if (def->electro.edges)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = bead: requires electro.edges false, but it is true: what lateral edges add is known "
+                   "for one liquid everywhere; use liquid.model submerged");
+  return ZP_OK;
+}
+
+ZpLiquidModel zp_liquid_of(const ZpActuatorDef *def) {
+  if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
+  return check_bead(def, NULL) == ZP_OK ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
+}
+
 static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
-  static const Need needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
-                               {"ribbon.model", ZP_RIBBON_ROD},
-                               {"electro.surface", ZP_SURFACE_POLYLINE},
-                               {"contact.model", ZP_CONTACT_UNILATERAL},
-                               {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
-  if (def->liquid.model == ZP_LIQUID_NONE) return ZP_OK;
-  return check_needs(def, "liquid.model = submerged", needs, sizeof needs / sizeof needs[0], "liquid.model none", err);
+  switch (zp_liquid_of(def)) {
+  case ZP_LIQUID_SUBMERGED:
+    return check_needs(def, "liquid.model = submerged", film_needs, FILM_NEEDS, "liquid.model none", err);
+  case ZP_LIQUID_BEAD:
+    return check_bead(def, err);
+  default:
+    return ZP_OK;
+  }
 }
 
 /* Interface charge is that of the plates law in implicit steps, of real insulators and a real liquid. */
@@ -611,6 +642,11 @@ static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT, "%s: requires electro.edges false: no charge gathers in the field at the edges",
                    given->name);
+  if (zp_liquid_of(def) == ZP_LIQUID_BEAD)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "%s: requires liquid.model none or submerged, but it is bead: what leaks beyond a bead is not modelled",
+        given->name);
   return check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err);
 }
 

@@ -23,7 +23,7 @@ void zp_leak_carve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpCarver *carver
   e->by_gap = zp_carve(carver, count);
   e->by_voltage = zp_carve(carver, count);
   e->passed = (ZpLeakPassed *)(void *)zp_carve(carver, count * (sizeof *e->passed / sizeof(double)));
-  e->piece = (ZpPlatesPiece *)(void *)zp_carve(carver, count * (sizeof *e->piece / sizeof(double)));
+  e->piece = (ZpPlatesMean *)(void *)zp_carve(carver, count * (sizeof *e->piece / sizeof(double)));
   zp_plates_step_carve(plates, &e->work, carver);
 }
 
@@ -122,7 +122,7 @@ void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const Z
     if (!is_face(&place)) continue;
     double g0 = zp_plates_place_gap(&place, step->start), g1 = zp_plates_place_gap(&place, step->end);
     double Y1 = step->U1 + e->Z[k];
-    ZpPlatesPiece piece = zp_plates_between(plates, step->U0 + step->Z[k], Y1, g0, g1);
+    ZpPlatesMean piece = zp_plates_between(plates, step->U0 + step->Z[k], Y1, g0, g1);
     piece.slope += zp_plates_between_by_voltage(plates, Y1, g0, g1).W * e->by_gap[k];
     piece.P += 0.5 * (of_interface(p, step->U0, step->Z[k]) + of_interface(p, step->U1, e->Z[k]));
     e->piece[k] = piece;
@@ -133,22 +133,22 @@ void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const Z
 /* -- by the voltage -------------------------------------------------------------------------------- */
 
 /* Of the mean force: the law at the end is half of it. */
-static ZpPlatesPiece force_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
-                                      const ZpLeakEval *e, size_t k, double g0, double g1) {
+static ZpPlatesMean force_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
+                                     const ZpLeakEval *e, size_t k, double g0, double g1) {
   double Z = e->Z[k], U = step->U1, by_U = e->by_voltage[k];
-  ZpPlatesPiece piece = zp_plates_between_by_voltage(plates, U + Z, g0, g1);
+  ZpPlatesMean piece = zp_plates_between_by_voltage(plates, U + Z, g0, g1);
   piece.W *= by_U;
   piece.P = piece.P * by_U + 0.5 * p->insulators * ((U + Z) * by_U - U);
   return piece;
 }
 
 /* Of the charge q - C Z at the end with what has passed, of which half goes with the x-length there. */
-static ZpPlatesPiece charge_piece(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
-                                  const ZpLeakEval *e, size_t k, double g1) {
+static ZpPlatesMean charge_piece(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
+                                 const ZpLeakEval *e, size_t k, double g1) {
   double Z = e->Z[k], C = p->insulators, Y = step->U1 + Z;
-  ZpPlatesPiece at_rest = zp_plates_between_by_voltage(plates, Y, g1, g1); /* half of it */
+  ZpPlatesMean at_rest = zp_plates_between_by_voltage(plates, Y, g1, g1); /* half of it */
   double by_gap = (zp_plates_capacitance(plates, Y, g1) - C) * e->by_gap[k] - 2 * at_rest.W + e->passed[k].by_gap;
-  return (ZpPlatesPiece){-by_gap, 0, 2 * at_rest.P + C * Z - 0.5 * e->passed[k].charge, 0};
+  return (ZpPlatesMean){-by_gap, 0, 2 * at_rest.P + C * Z - 0.5 * e->passed[k].charge, 0};
 }
 
 void zp_leak_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *e,

@@ -29,7 +29,7 @@ typedef struct ZpLeakEval {
   double *by_gap;     /* U + Z there by the gap, V/m, */
   double *by_voltage; /* and by the voltage */
   ZpLeakPassed *passed;
-  ZpPlatesPiece *piece; /* work space */
+  ZpPlatesMean *piece; /* work space */
   ZpPlatesStep work;
 } ZpLeakEval;
 

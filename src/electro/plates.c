@@ -90,6 +90,23 @@ double zp_plates_least_gap(const ZpPlatesParams *p, const double *y) {
   return least;
 }
 
+int zp_plates_pieces(const ZpPlatesParams *p, double wet, size_t i, ZpPlatesPiece piece[2]) {
+  bool right = i >= p->platform_end; /* wet from its right end on */
+  int count = 0;
+  if (wet > 0) piece[count++] = (ZpPlatesPiece){p, right ? 1 - wet : 0, right ? 1 : wet};
+  if (wet < 1) piece[count++] = (ZpPlatesPiece){p->air, right ? 0 : wet, right ? 1 - wet : 1};
+  return count;
+}
+
+double zp_plates_share(const ZpPlatesParams *p, const ZpPlatesPiece *piece, size_t i, int q) {
+  if (piece->from == 0 && piece->to == 1) return zp_gauss_shares(&p->level, i)[q];
+  return zp_gauss_share(&p->level, i, piece->from + (piece->to - piece->from) * gauss_at[q]);
+}
+
+double zp_plates_flat(const ZpPlatesParams *p, const ZpCover *cover, size_t i) {
+  return cover ? cover->flat[i > p->platform] : 1;
+}
+
 double zp_plates_inverse_gap(const ZpPlatesParams *p, double gap) {
   double h = gap + p->d, inverse = 1 / (h > p->h_least ? h : p->h_least);
   if (!p->edges) return inverse;
@@ -173,13 +190,46 @@ static void add_elements_with_edges(const ZpPlatesParams *p, const ZpPlatesEval 
   }
 }
 
+/* Capacitance counts over that of the liquid. */
+static void add_part(const ZpPlatesParams *p, const ZpPlatesParams *law, double U, double gap, double length,
+                     ZpPlatesTotals *totals) {
+  ZpPlatesTotals part = {0, 0, 0, 0};
+  add_piece(law, U, gap, length, &part);
+  totals->force += part.force;
+  totals->potential += part.potential;
+  totals->charge += part.charge;
+  totals->inverse_gap += law->k / p->k * part.inverse_gap;
+}
+
+static void add_covered(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesTotals *totals) {
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    ZpPlatesPiece piece[2];
+    int pieces = zp_plates_pieces(p, zp_cover_part(e->cover, i), i, piece);
+    for (int k = 0; k < pieces; k++)
+      for (int q = 0; q < GAUSS; q++) {
+        double gap = e->gap[i] + (e->gap[i + 1] - e->gap[i]) * zp_plates_share(p, &piece[k], i, q);
+        double length = gauss_weight[q] * (piece[k].to - piece[k].from) * e->dx[i];
+        add_part(p, piece[k].law, U, gap, length, totals);
+      }
+  }
+}
+
+static void add_platform(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesTotals *totals) {
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+    double wet = zp_plates_flat(p, e->cover, i);
+    add_piece(p, U, e->gap[i], wet * p->flat_length, totals);
+    if (wet < 1) add_part(p, p->air, U, e->gap[i], (1 - wet) * p->flat_length, totals);
+  }
+}
+
 ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
   ZpPlatesTotals totals = {0, 0, 0, 0};
-  if (p->edges)
+  if (e->cover)
+    add_covered(p, e, U, &totals);
+  else if (p->edges)
     add_elements_with_edges(p, e, U, &totals);
   else
     add_elements(p, e, U, zp_plates_least_h(p, U), &totals);
-  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
-    add_piece(p, U, e->gap[i], p->flat_length, &totals);
+  add_platform(p, e, U, &totals);
   return totals;
 }

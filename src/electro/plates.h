@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "math/cover.h"
 #include "math/level.h"
 
 #define ZP_EPS0 8.8541878128e-12 /* electric constant, F/m, CODATA 2018 */
@@ -30,14 +31,32 @@ typedef struct ZpPlatesParams {
   ZpLevelEnds level;             /* elements with a level end */
   double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
 
-  const struct ZpEdgeLaw *edges; /* what lateral edges add, edges.h; NULL without */
+  const struct ZpEdgeLaw *edges;    /* what lateral edges add, edges.h; NULL without */
+  const struct ZpPlatesParams *air; /* the law where there is no liquid, of which k, d, h_per_volt and h_least count;
+                                       NULL: liquid is everywhere */
 } ZpPlatesParams;
 
 /* Written by zp_plates_gaps. */
 typedef struct ZpPlatesEval {
-  double *gap; /* [N] face distance, m */
-  double *dx;  /* [N-1] mean of both ribbons' x-lengths of an element, m */
+  double *gap;          /* [N] face distance, m */
+  double *dx;           /* [N-1] mean of both ribbons' x-lengths of an element, m */
+  const ZpCover *cover; /* the caller's, with a law of air: where liquid is; NULL: everywhere */
 } ZpPlatesEval;
+
+/* A part of an element in which one law holds. */
+typedef struct ZpPlatesPiece {
+  const ZpPlatesParams *law;
+  double from, to; /* 0 .. 1 */
+} ZpPlatesPiece;
+
+/* The pieces of element i, a part of which liquid covers => how many. */
+int zp_plates_pieces(const ZpPlatesParams *params, double covered, size_t i, ZpPlatesPiece piece[2]);
+
+/* The share of the right station in what is sampled at Gauss point q of a piece of element i. */
+double zp_plates_share(const ZpPlatesParams *params, const ZpPlatesPiece *piece, size_t i, int q);
+
+/* How much of the platform's faces at station i liquid wets. */
+double zp_plates_flat(const ZpPlatesParams *params, const ZpCover *cover, size_t i);
 
 /* The law at one gap. */
 typedef struct ZpPlatesLaw {

@@ -91,9 +91,9 @@ typedef struct Parts {
   double A, B, P, own_A, own_B, next, along0, along1;
 } Parts;
 
-/* r: the share of the right station in what is sampled at point q. */
-static inline void add_point(Parts *of, Between law, double dx, double r, int q) {
-  double l = 1 - r, w = gauss_weight[q];
+/* r: the share of the right station in what is sampled at a point of weight w. */
+static inline void add_point(Parts *of, Between law, double dx, double r, double w) {
+  double l = 1 - r;
   of->A += w * l * law.W * dx;
   of->B += w * r * law.W * dx;
   of->P += w * law.P;
@@ -128,7 +128,7 @@ ZP_INLINE void element_parts(size_t count, int laws, bool still, const Laws *law
     for (int q = 0; q < GAUSS; q++) {
       double r = gauss_at[q], l = 1 - r, h0 = l * g0[i] + r * g0[i + 1] + d, h1 = l * g1[i] + r * g1[i + 1] + d;
       for (int k = 0; k < laws; k++)
-        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, r, q);
+        add_point(&parts, between(of.K[k], of.h_c[k], h0, h1, still), dx, r, gauss_weight[q]);
     }
     put(&out, i, parts);
   }
@@ -158,9 +158,42 @@ static void element(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEva
   for (int q = 0; q < GAUSS; q++) {
     double r = at[q], l = 1 - r;
     double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
-    add_point(&parts, mean_between(p, laws, g0, g1), dx, r, q);
+    add_point(&parts, mean_between(p, laws, g0, g1), dx, r, gauss_weight[q]);
   }
   put(s, i, parts);
+}
+
+/* Element i, one law where liquid is, another beyond. */
+static Parts covered_element(const ZpPlatesParams *p, const Laws *wet, const Laws *dry, double covered,
+                             const ZpPlatesEval *e0, const ZpPlatesEval *e1, size_t i) {
+  double dx = 0.5 * (e0->dx[i] + e1->dx[i]);
+  Parts parts = {0};
+  ZpPlatesPiece piece[2];
+  int pieces = zp_plates_pieces(p, covered, i, piece);
+  for (int k = 0; k < pieces; k++)
+    for (int q = 0; q < GAUSS; q++) {
+      double r = zp_plates_share(p, &piece[k], i, q), l = 1 - r;
+      double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
+      Between law = mean_between(piece[k].law, piece[k].law == p ? wet : dry, g0, g1);
+      add_point(&parts, law, dx, r, gauss_weight[q] * (piece[k].to - piece[k].from));
+    }
+  return parts;
+}
+
+static void covered_elements(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U0,
+                             double U1, const ZpPlatesStep *s) {
+  Laws wet = laws_of(p, U0, U1), dry = laws_of(p->air, U0, U1);
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    put(s, i, covered_element(p, &wet, &dry, e1->cover->part[i], e0, e1, i));
+}
+
+/* A central difference, near the ends of the element one that stays inside: the sums over points are smooth. */
+ZpPlatesByCover zp_plates_by_cover(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, size_t i) {
+  static const double little = 1e-5;
+  Laws wet = laws_of(p, U, U), dry = laws_of(p->air, U, U);
+  double at = e->cover->part[i], less = fmax(at - little, 0), more = fmin(at + little, 1), over = 1 / (more - less);
+  Parts before = covered_element(p, &wet, &dry, less, e, e, i), after = covered_element(p, &wet, &dry, more, e, e, i);
+  return (ZpPlatesByCover){(after.A - before.A) * over, (after.B - before.B) * over, (after.P - before.P) * over};
 }
 
 static void elements_with_edges(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0,
@@ -212,12 +245,22 @@ static void attract(double *Fy, size_t i, double W) {
 }
 
 /* The platform's electrode, at both its ends where it has two. */
-static void add_platform(const ZpPlatesParams *p, const Laws *laws, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
+static void add_platform_of(const ZpPlatesParams *law, const Laws *laws, double length, size_t i,
+                            const ZpPlatesEval *e0, const ZpPlatesEval *e1, ZpPlatesStep *s) {
+  Between mean = mean_between(law, laws, e0->gap[i], e1->gap[i]);
+  attract(s->Fy, i, length * mean.W);
+  s->own[i] += length * mean.slope;
+}
+
+static void add_platform(const ZpPlatesParams *p, double U0, double U1, const ZpPlatesEval *e0, const ZpPlatesEval *e1,
                          ZpPlatesStep *s) {
+  Laws wet = laws_of(p, U0, U1);
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
-    Between law = mean_between(p, laws, e0->gap[i], e1->gap[i]);
-    attract(s->Fy, i, p->flat_length * law.W);
-    s->own[i] += p->flat_length * law.slope;
+    double part = zp_plates_flat(p, e1->cover, i);
+    add_platform_of(p, &wet, part * p->flat_length, i, e0, e1, s);
+    if (part == 1) continue;
+    Laws dry = laws_of(p->air, U0, U1);
+    add_platform_of(p->air, &dry, (1 - part) * p->flat_length, i, e0, e1, s);
   }
 }
 
@@ -225,7 +268,9 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
                     ZpPlatesStep *s) {
   Laws laws = laws_of(p, U0, U1);
   size_t last = p->nodes - 1;
-  if (p->edges)
+  if (e1->cover)
+    covered_elements(p, e0, e1, U0, U1, s);
+  else if (p->edges)
     elements_with_edges(p, &laws, e0, e1, s);
   else if (e0 == e1)
     elements_at_rest(last, &laws, p->d, e1, s);
@@ -233,9 +278,9 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
     elements_at_one(last, &laws, p->d, e0, e1, s);
   else
     elements_at_two(last, &laws, p->d, e0, e1, s);
-  if (!p->edges) level_elements(p, &laws, e0, e1, s);
+  if (!p->edges && !e1->cover) level_elements(p, &laws, e0, e1, s);
   stations(p, s);
-  add_platform(p, &laws, e0, e1, s);
+  add_platform(p, U0, U1, e0, e1, s);
 }
 
 /* -- by the voltage ------------------------------------------------------------------------------- */
@@ -287,15 +332,17 @@ static double capacitance_at(const ZpPlatesParams *p, double U, double g) {
 static void parts_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
                              double share, ZpPlatesStep *s) {
   for (size_t i = 0; i + 1 < p->nodes; i++) {
-    const double *shares = zp_gauss_shares(&p->level, i);
     double dx = 0.5 * (e0->dx[i] + e1->dx[i]), A = 0, B = 0, P = 0;
-    for (int q = 0; q < GAUSS; q++) {
-      double r = shares[q], l = 1 - r;
+    ZpPlatesPiece piece[2];
+    int pieces = zp_plates_pieces(p, zp_cover_part(e1->cover, i), i, piece);
+    for (int k = 0; k < pieces * GAUSS; k++) {
+      const ZpPlatesPiece *of = &piece[k / GAUSS];
+      double r = zp_plates_share(p, of, i, k % GAUSS), l = 1 - r, w = gauss_weight[k % GAUSS] * (of->to - of->from);
       double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
-      Charges at = charges_between(p, U, g0, g1);
-      A += gauss_weight[q] * l * at.W * dx;
-      B += gauss_weight[q] * r * at.W * dx;
-      P += gauss_weight[q] * at.P;
+      Charges at = charges_between(of->law, U, g0, g1);
+      A += w * l * at.W * dx;
+      B += w * r * at.W * dx;
+      P += w * at.P;
     }
     s->A[i] = share * A;
     s->B[i] = share * B;
@@ -308,19 +355,29 @@ static void forces_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, c
                               double share, ZpPlatesStep *s) {
   parts_of_charges(p, e0, e1, U, share, s);
   act_all(p, s);
-  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
-    attract(s->Fy, i, share * p->flat_length * charges_between(p, U, e0->gap[i], e1->gap[i]).W);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+    double part = zp_plates_flat(p, e1->cover, i), W = part * charges_between(p, U, e0->gap[i], e1->gap[i]).W;
+    if (part < 1) W += (1 - part) * charges_between(p->air, U, e0->gap[i], e1->gap[i]).W;
+    attract(s->Fy, i, share * p->flat_length * W);
+  }
 }
 
 static double capacitance(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
   double sum = 0;
   for (size_t i = 0; i + 1 < p->nodes; i++) {
-    const double *at = zp_gauss_shares(&p->level, i);
-    for (int q = 0; q < GAUSS; q++)
-      sum += gauss_weight[q] * e->dx[i] * capacitance_at(p, U, e->gap[i] + (e->gap[i + 1] - e->gap[i]) * at[q]);
+    ZpPlatesPiece piece[2];
+    int pieces = zp_plates_pieces(p, zp_cover_part(e->cover, i), i, piece);
+    for (int k = 0; k < pieces * GAUSS; k++) {
+      const ZpPlatesPiece *of = &piece[k / GAUSS];
+      double gap = e->gap[i] + (e->gap[i + 1] - e->gap[i]) * zp_plates_share(p, of, i, k % GAUSS);
+      sum += gauss_weight[k % GAUSS] * (of->to - of->from) * e->dx[i] * capacitance_at(of->law, U, gap);
+    }
   }
-  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
-    sum += p->flat_length * capacitance_at(p, U, e->gap[i]);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
+    double part = zp_plates_flat(p, e->cover, i);
+    sum += part * p->flat_length * capacitance_at(p, U, e->gap[i]);
+    if (part < 1) sum += (1 - part) * p->flat_length * capacitance_at(p->air, U, e->gap[i]);
+  }
   return sum;
 }
 
@@ -353,15 +410,15 @@ void zp_plates_rest(const ZpPlatesParams *p, const double *x, const double *y, d
 
 _Static_assert(ZP_PLATES_PLACES == GAUSS + 1, "the sampled points of an element and the platform's electrode");
 
-ZpPlatesPiece zp_plates_between(const ZpPlatesParams *p, double U0, double U1, double g0, double g1) {
+ZpPlatesMean zp_plates_between(const ZpPlatesParams *p, double U0, double U1, double g0, double g1) {
   Laws laws = laws_of(p, U0, U1);
   Between law = mean_between(p, &laws, g0, g1);
-  return (ZpPlatesPiece){law.W, law.slope, law.P, law.W1};
+  return (ZpPlatesMean){law.W, law.slope, law.P, law.W1};
 }
 
-ZpPlatesPiece zp_plates_between_by_voltage(const ZpPlatesParams *p, double U1, double g0, double g1) {
+ZpPlatesMean zp_plates_between_by_voltage(const ZpPlatesParams *p, double U1, double g0, double g1) {
   Charges at = charges_between(p, U1, g0, g1); /* the law at the end is half of the mean */
-  return (ZpPlatesPiece){0.5 * at.W, 0, 0.5 * at.P, 0};
+  return (ZpPlatesMean){0.5 * at.W, 0, 0.5 * at.P, 0};
 }
 
 double zp_plates_capacitance(const ZpPlatesParams *p, double U, double g) {
@@ -375,20 +432,20 @@ ZpPlatesPlace zp_plates_place(const ZpPlatesParams *p, size_t at) {
   return (ZpPlatesPlace){i, zp_gauss_shares(&p->level, i)[q], gauss_weight[q], 0};
 }
 
-void zp_plates_step_of(const ZpPlatesParams *p, const ZpPlatesPiece *piece, const ZpPlatesEval *e0,
+void zp_plates_step_of(const ZpPlatesParams *p, const ZpPlatesMean *piece, const ZpPlatesEval *e0,
                        const ZpPlatesEval *e1, ZpPlatesStep *s) {
   for (size_t i = 0; i + 1 < p->nodes; i++) {
     Parts parts = {0};
     const double *at = zp_gauss_shares(&p->level, i);
     for (int q = 0; q < GAUSS; q++) {
-      ZpPlatesPiece of = piece[ZP_PLATES_PLACES * i + (size_t)q];
+      ZpPlatesMean of = piece[ZP_PLATES_PLACES * i + (size_t)q];
       add_point(&parts, (Between){of.W, of.slope, of.P, of.W1}, 0.5 * (e0->dx[i] + e1->dx[i]), at[q], q);
     }
     put(s, i, parts);
   }
   stations(p, s);
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
-    ZpPlatesPiece of = piece[ZP_PLATES_PLACES * i + GAUSS];
+    ZpPlatesMean of = piece[ZP_PLATES_PLACES * i + GAUSS];
     attract(s->Fy, i, p->flat_length * of.W);
     s->own[i] += p->flat_length * of.slope;
   }

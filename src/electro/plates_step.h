@@ -41,20 +41,20 @@ void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval 
                                double *Fx, double *Fy);
 
 /* The law between two gaps and two voltages at one place, where voltages differ from place to place. */
-typedef struct ZpPlatesPiece {
+typedef struct ZpPlatesMean {
   double W;     /* mean force on the gap per length, N/m; of a charge: minus its derivative by the gap */
   double slope; /* derivative of W by the gap at the end, N/m^2 */
   double P;     /* mean potential per length, J/m; of a charge: minus the charge, C/m */
   double W1;    /* force at the gap of the end, N/m */
-} ZpPlatesPiece;
+} ZpPlatesMean;
 
 /* Places of a station: the sampled points of the element on its right, then the platform's electrode. */
 enum { ZP_PLATES_PLACES = 4 };
 
 /* (voltages and gaps at both ends) => the mean law of (18.3); and how it goes with the voltage U1 alone, without its
  * derivatives by the gap. */
-ZpPlatesPiece zp_plates_between(const ZpPlatesParams *params, double U0, double U1, double g0, double g1);
-ZpPlatesPiece zp_plates_between_by_voltage(const ZpPlatesParams *params, double U1, double g0, double g1);
+ZpPlatesMean zp_plates_between(const ZpPlatesParams *params, double U0, double U1, double g0, double g1);
+ZpPlatesMean zp_plates_between_by_voltage(const ZpPlatesParams *params, double U1, double g0, double g1);
 
 /* dq/dU at a gap, F/m: 0 where the cap holds the charge. */
 double zp_plates_capacitance(const ZpPlatesParams *params, double voltage, double gap);
@@ -81,8 +81,14 @@ static inline double zp_plates_place_length(const ZpPlatesPlace *place, const Zp
 }
 
 /* (pieces [ZP_PLATES_PLACES N], gaps and dx at both ends) => all of `step`. */
-void zp_plates_step_of(const ZpPlatesParams *params, const ZpPlatesPiece *piece, const ZpPlatesEval *start,
+void zp_plates_step_of(const ZpPlatesParams *params, const ZpPlatesMean *piece, const ZpPlatesEval *start,
                        const ZpPlatesEval *end, ZpPlatesStep *step);
+/* At rest: how the parts of the force of element i go with the part of it that is covered by liquid. */
+typedef struct ZpPlatesByCover {
+  double A, B; /* closing force on its left and its right station, N */
+  double P;    /* mean potential per length, J/m */
+} ZpPlatesByCover;
+ZpPlatesByCover zp_plates_by_cover(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage, size_t i);
 
 /* At rest: (x, y of interleaved upper and lower nodes, voltage) => gaps and all of `step`. */
 void zp_plates_rest(const ZpPlatesParams *params, const double *x, const double *y, double voltage, ZpPlatesEval *eval,

@@ -26,14 +26,15 @@ typedef struct Names {
     {"measured_N", "N", "force in data.file"},                                                                         \
     {"fitted_N", "N", "force_N of study isometric, computed with the fitted values; nan: no equilibrium"},             \
     {"residual_N", "N", "fitted minus measured"}}},
-#define ZP_REAL(path, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help) NAMES(#path #name, unit)
-#define ZP_INT(path, name, def, min, max, help)               NAMES(#path #name, "1")
-#define ZP_BOOL(path, name, def, help)                        NAMES(#path #name, "1")
-#define ZP_ENUM(path, name, type, def, help)                  NAMES(#path #name, "1")
-#define ZP_TEXT(path, name, def, help)                        NAMES(#path #name, "1")
-#define ZP_OF_SCENARIO(name, type, def, help)                 NAMES(#name, "1")
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name, unit)
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
+#define ZP_INT(path, name, def, min, max, help)                         NAMES(#path #name, "1")
+#define ZP_BOOL(path, name, def, help)                                  NAMES(#path #name, "1")
+#define ZP_ENUM(path, name, type, def, help)                            NAMES(#path #name, "1")
+#define ZP_TEXT(path, name, def, help)                                  NAMES(#path #name, "1")
+#define ZP_OF_SCENARIO(name, type, def, help)                           NAMES(#name, "1")
 static const Names names[] = {
 #include <zipact/keys.def>
 };

@@ -10,6 +10,7 @@
 
 static const double tension = 1e5;                  /* Pa: a liquid under an atmosphere cavitates */
 static const double give = 1e-6;                    /* m/Pa: a cavity as thick as a millimetre takes 1 % more */
+static const double shortest = 1e-3;                /* of an element: what flows past a meniscus is led so far */
 static const double isolated = 2.35619449019234493; /* 3 pi / 4: r / (H / w) of strips far from each other */
 
 void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
@@ -24,14 +25,17 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
 }
 
 void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
-  double **stations[] = {&e->rate,   &e->middle, &e->H0,       &e->H1,   &e->secant, &e->depth0,
-                         &e->depth1, &e->jet,    &e->coupling, &e->head, &e->force};
+  enum { DOUBLES = sizeof(ZpFilmPiece) / sizeof(double) };
+  double **stations[] = {&e->rate, &e->middle,   &e->H0,   &e->H1,    &e->secant, &e->depth0, &e->depth1,
+                         &e->jet,  &e->coupling, &e->head, &e->force, &e->flat,   &e->given};
   double **modes[] = {&e->flow, &e->conductance, &e->leak, &e->leak_conductance, &e->r};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(carver, p->nodes);
   for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++)
     *modes[k] = zp_carve(carver, ZP_FILM_MODES * p->nodes);
   e->end = zp_carve(carver, ZP_FILM_STATE * p->nodes);
+  e->piece = (ZpFilmPiece *)(void *)zp_carve(carver, DOUBLES * p->nodes);
+  e->out = zp_carve(carver, 2);
 }
 
 /* -- geometry -------------------------------------------------------------------------------------- */
@@ -44,6 +48,16 @@ static double root(const ZpFilmParams *p, double gap) {
 double zp_film_thickness(const ZpFilmParams *p, double gap) {
   double S = root(p, gap);
   return gap > 0 ? 0.5 * (gap + S) : S > gap ? 2 * p->roughness * p->roughness / (S - gap) : 0;
+}
+
+double zp_film_rise(const ZpFilmParams *p, double gap) {
+  double S = root(p, gap);
+  return S > 0 ? 0.5 * (1 + gap / S) : 0.5;
+}
+
+double zp_film_bend(const ZpFilmParams *p, double gap) {
+  double S = root(p, gap);
+  return S > 0 ? 2 * p->roughness * p->roughness / (S * S * S) : 0;
 }
 
 double zp_film_depth(const ZpFilmParams *p, double H) {
@@ -59,40 +73,123 @@ static double middle(const ZpFilmParams *p, double gap, double rate, double h) {
 
 /* Length of the element from station i on, m: the platform's counts at its stations. */
 static double element(const ZpFilmParams *p, size_t i) {
-  return i >= p->platform && i < p->platform_end ? 0 : p->l;
+  return i + 1 == p->nodes || (i >= p->platform && i < p->platform_end) ? 0 : p->l;
 }
 
-static double flat(const ZpFilmParams *p, size_t i) {
-  return i >= p->platform && i <= p->platform_end ? p->flat_length : 0;
-}
-
-/* Of the elements beside station i together, m. */
-static double beside(const ZpFilmParams *p, size_t i) {
-  return (i > 0 ? element(p, i - 1) : 0) + (i + 1 < p->nodes ? element(p, i) : 0);
+static bool is_platform(const ZpFilmParams *p, size_t i) {
+  return i >= p->platform && i <= p->platform_end;
 }
 
 double zp_film_length(const ZpFilmParams *p, size_t i) {
-  return 0.5 * beside(p, i) + flat(p, i);
+  double beside = (i > 0 ? element(p, i - 1) : 0) + element(p, i);
+  return 0.5 * beside + (is_platform(p, i) ? p->flat_length : 0);
+}
+
+/* -- where liquid is ------------------------------------------------------------------------------- */
+
+/* Is the element beyond the platform, and wet from its right end on? */
+static bool from_right(const ZpFilmParams *p, size_t i) {
+  return i >= p->platform_end;
+}
+
+/* Which half station i is of. */
+static int half_of(const ZpFilmParams *p, size_t i) {
+  return p->platform_end > p->platform && i >= p->platform_end;
+}
+
+static bool is_wet(const ZpFilmParams *p, const ZpCover *cover, size_t i) {
+  if (half_of(p, i)) return i + 1 == p->nodes || zp_cover_part(cover, i) >= 1;
+  return i == 0 || zp_cover_part(cover, i - 1) >= 1;
+}
+
+ZpFilmPiece zp_film_piece(double l, double part, bool right) {
+  double far = part * l, a = part < 1 ? 0.5 * far : 0.5 * l, second = a * a / (2 * l);
+  ZpFilmPiece piece = {.length = fmax(far, shortest * l), .mean = {1 - 0.5 * part, 0.5 * part}};
+  piece.cell[0][0] = a - second;
+  piece.cell[0][1] = second;
+  if (part < 1) {
+    piece.tip[0] = far - far * far / (2 * l) - piece.cell[0][0];
+    piece.tip[1] = far * far / (2 * l) - piece.cell[0][1];
+  } else {
+    piece.cell[1][0] = second;
+    piece.cell[1][1] = a - second;
+  }
+  if (!right) return piece;
+  return (ZpFilmPiece){.length = piece.length,
+                       .mean = {piece.mean[1], piece.mean[0]},
+                       .cell = {{piece.cell[1][1], piece.cell[1][0]}, {piece.cell[0][1], piece.cell[0][0]}},
+                       .tip = {piece.tip[1], piece.tip[0]}};
+}
+
+static ZpFilmPiece piece_of(const ZpFilmParams *p, const ZpCover *cover, size_t i) {
+  double l = element(p, i), part = l > 0 ? zp_cover_part(cover, i) : 0;
+  return part > 0 ? zp_film_piece(l, part, from_right(p, i)) : (ZpFilmPiece){0};
+}
+
+static double flat(const ZpFilmParams *p, const ZpCover *cover, size_t i) {
+  return is_platform(p, i) ? p->flat_length * (cover ? cover->flat[half_of(p, i)] : 1) : 0;
+}
+
+/* What two pieces beside a station, and its flat faces, have of it, m. */
+static double length_between(const ZpFilmPiece *left, const ZpFilmPiece *right, double flat_length) {
+  return left->cell[1][0] + left->cell[1][1] + right->cell[0][0] + right->cell[0][1] + flat_length;
+}
+
+/* The head that is given at station i, Pa: where no liquid is, beside a meniscus below the platform, at an outlet. */
+static double given_head(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i) {
+  int half = half_of(p, i);
+  if (!is_wet(p, ends->cover, i)) return 0;
+  if (is_platform(p, i) && ends->cover && ends->cover->flat[half] < 1) return ends->head[half];
+  return p->outlet && is_platform(p, i) ? 0 : NAN;
+}
+
+static void lay_pieces(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEval *e) {
+  for (size_t i = 0; i < p->nodes; i++) {
+    e->piece[i] = piece_of(p, ends->cover, i);
+    e->flat[i] = flat(p, ends->cover, i);
+    e->given[i] = given_head(p, ends, i);
+  }
+}
+
+static const ZpFilmPiece none = {0};
+
+static const ZpFilmPiece *left_of(const ZpFilmEval *e, size_t i) {
+  return i > 0 ? &e->piece[i - 1] : &none;
+}
+
+/* Length of the film in the cell of station i, m. */
+static double wet(const ZpFilmEval *e, size_t i) {
+  return length_between(left_of(e, i), &e->piece[i], e->flat[i]);
 }
 
 /* What the thickness at station j, i - 1 .. i + 1, counts in the cell of station i, m: half of each element beside it.
  */
-static double cell_share(const ZpFilmParams *p, size_t i, size_t j) {
-  if (i != j) return element(p, i < j ? i : j) / 8;
-  return 3 * beside(p, i) / 8 + flat(p, i);
+static double cell_share(const ZpFilmEval *e, size_t i, size_t j) {
+  if (i != j) return j < i ? e->piece[j].cell[1][0] : e->piece[i].cell[0][1];
+  return left_of(e, i)->cell[1][1] + e->piece[i].cell[0][0] + e->flat[i];
 }
 
 /* The integral of what is linear between stations over the cell of station i: half of each element beside it. */
-static double over_cell(const ZpFilmParams *p, const double *x, size_t i) {
-  double sum = cell_share(p, i, i) * x[i];
-  if (i > 0) sum += cell_share(p, i, i - 1) * x[i - 1];
-  if (i + 1 < p->nodes) sum += cell_share(p, i, i + 1) * x[i + 1];
+static double over_cell(const ZpFilmParams *p, const ZpFilmEval *e, const double *x, size_t i) {
+  double sum = cell_share(e, i, i) * x[i];
+  if (i > 0) sum += cell_share(e, i, i - 1) * x[i - 1];
+  if (i + 1 < p->nodes) sum += cell_share(e, i, i + 1) * x[i + 1];
+  return sum;
+}
+
+/* What the heads of cells and menisci press on the thickness at station i, over w, N/m. */
+static double pressed(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) {
+  double sum = cell_share(e, i, i) * e->head[i];
+  if (i > 0)
+    sum += left_of(e, i)->cell[0][1] * e->head[i - 1] + left_of(e, i)->tip[1] * ends->head[from_right(p, i - 1)];
+  if (i + 1 < p->nodes)
+    sum += e->piece[i].cell[1][0] * e->head[i + 1] + e->piece[i].tip[0] * ends->head[from_right(p, i)];
   return sum;
 }
 
 /* Does mode k have an equation at station i? */
-static bool is_free(const ZpFilmParams *p, size_t i, int k) {
-  return p->share[k] > 0 && !(p->outlet && i >= p->platform && i <= p->platform_end);
+static bool is_free(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
+  return p->share[k] > 0 && isnan(e->given[i]);
 }
 
 /* -- momentum -------------------------------------------------------------------------------------- */
@@ -103,9 +200,10 @@ typedef struct Momentum {
   double inertia; /* of the momentum's mean, and what resists to it, kg/m^3 */
 } Momentum;
 
-/* `depth` is H or E, mean over the step. */
-static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h) {
-  double B = 6 * p->mu * h, inertia = p->rho * thick * thick, theta = 0.5 * (1 + B / (B + inertia));
+/* `depth` is H or E, mean over the step. What begins to flow, where a bead has just come, does so at once: theta is 1,
+ * for with 1/2 a flow that the gap's motion prescribes would begin with twice of it, and turn round in every step. */
+static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h, bool begins) {
+  double B = 6 * p->mu * h, inertia = p->rho * thick * thick, theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
   return (Momentum){theta, p->rho + 2 * theta * B * depth / (thick * thick * thick)};
 }
 
@@ -113,13 +211,13 @@ static double mean(const double *x0, const double *x1, size_t i) {
   return 0.5 * (x0[i] + x1[i]);
 }
 
-/* Of the element from station i on: thickness in the middle, foreseen, and mean thickness. */
+/* Of what is wet of the element from station i on: thickness in the middle, foreseen, and mean thickness. */
 static double element_middle(const ZpFilmEval *e, size_t i) {
-  return 0.5 * (e->middle[i] + e->middle[i + 1]);
+  return e->piece[i].mean[0] * e->middle[i] + e->piece[i].mean[1] * e->middle[i + 1];
 }
 
 static double element_mean(const ZpFilmEval *e, size_t i) {
-  return 0.5 * (mean(e->H0, e->H1, i) + mean(e->H0, e->H1, i + 1));
+  return e->piece[i].mean[0] * mean(e->H0, e->H1, i) + e->piece[i].mean[1] * mean(e->H0, e->H1, i + 1);
 }
 
 static size_t at_mode(size_t i, int k) {
@@ -139,24 +237,62 @@ static size_t cavity_at(size_t i) {
   return ZP_FILM_STATE * i + ZP_FILM_CAVITY;
 }
 
-static void flow_along(const ZpFilmParams *p, size_t i, int k, double h, const double *start, const double *heads,
-                       const ZpFilmEval *e) {
+/* Where the film ends in an element: what passes its end takes its kinetic energy along, and what is drawn back brings
+ * none. */
+typedef struct Tip {
+  bool is_left, is_right; /* the station there has no liquid */
+  double head, per_speed; /* Pa; what it takes beyond that per mean speed, Pa s/m */
+} Tip;
+
+static Tip tip_of(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i, double u) {
+  bool right = from_right(p, i);
+  if (!(e->piece[i].length < p->l)) return (Tip){0};
+  return (Tip){right, !right, ends->head[right], 0.5 * p->rho * fmax(right ? -u : u, 0)};
+}
+
+static void flow_along(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, int k, double h, const double *start,
+                       const double *heads, const ZpFilmEval *e) {
   size_t at = at_mode(i, k), u = along_at(i, k);
-  double H = element_mean(e, i);
-  Momentum m = momentum_of(p, element_middle(e, i), H, h);
-  double drop = (heads[at] - heads[at + ZP_FILM_MODES]) / p->l;
-  double u_mean = (p->rho * start[u] + m.theta * h * drop) / m.inertia;
+  double H = element_mean(e, i), length = e->piece[i].length;
+  Momentum m = momentum_of(p, element_middle(e, i), H, h, ends->cover && start[u] == 0);
+  Tip tip = tip_of(p, ends, e, i, start[u]);
+  double left = tip.is_left ? tip.head : heads[at], right = tip.is_right ? tip.head : heads[at + ZP_FILM_MODES];
+  double inertia = m.inertia + m.theta * h * tip.per_speed / length;
+  double u_mean = (p->rho * start[u] + m.theta * h * (left - right) / length) / inertia;
   e->flow[at] = H * u_mean;
-  e->conductance[at] = H * m.theta * h / (p->l * m.inertia);
+  e->conductance[at] = H * m.theta * h / (length * inertia);
   e->end[u] = start[u] + (u_mean - start[u]) / m.theta;
+}
+
+/* Where no liquid is nothing flows. */
+static void no_flow_along(size_t i, int k, const ZpFilmEval *e) {
+  e->flow[at_mode(i, k)] = e->conductance[at_mode(i, k)] = e->end[along_at(i, k)] = 0;
+}
+
+/* The share of the long edges there where liquid can pass. */
+static double open_share(const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) {
+  if (!(wet(e, i) > 0)) return 0;
+  return ends->open ? ends->open[i] : 1;
+}
+
+/* Where only a part of the edges has liquid at hand it flows in so slowly that its inertia does not count. */
+static void flow_in(const ZpFilmParams *p, size_t i, double share, const double *heads, const ZpFilmEval *e) {
+  double H = e->middle[i], mobility = share > 0 ? share * H * H * H / (12 * p->mu) : 0;
+  e->jet[i] = e->coupling[i] = 0;
+  for (int k = 0; k < ZP_FILM_MODES; k++) {
+    size_t at = at_mode(i, k);
+    e->leak_conductance[at] = mobility * p->kappa2[k];
+    e->leak[at] = e->leak_conductance[at] * heads[at];
+    e->end[across_at(i, k)] = 0;
+  }
 }
 
 /* The flow out at the long edges is linear in the heads but for that of the jets, D = rho v^2 / 2 at speed v outwards:
  * together v + C rho v^2 / 2 = A. */
-static void flow_across(const ZpFilmParams *p, size_t i, double h, const double *start, const double *heads,
-                        const ZpFilmEval *e) {
+static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, double h, const double *start,
+                        const double *heads, const ZpFilmEval *e) {
   double E = mean(e->depth0, e->depth1, i), per_speed = 0.5 * p->w / mean(e->H0, e->H1, i), A = 0, C = 0;
-  Momentum m = momentum_of(p, e->middle[i], E, h);
+  Momentum m = momentum_of(p, e->middle[i], E, h, ends->cover && start[across_at(i, 0)] == 0);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     size_t at = at_mode(i, k);
     e->leak_conductance[at] = E * m.theta * h * p->kappa2[k] / m.inertia;
@@ -177,7 +313,9 @@ static void flow_across(const ZpFilmParams *p, size_t i, double h, const double 
 
 /* -- a step ---------------------------------------------------------------------------------------- */
 
-static void geometry(const ZpFilmParams *p, const double *g0, const double *g1, double h, const ZpFilmEval *e) {
+static void geometry(const ZpFilmParams *p, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
+                     const ZpFilmEval *e) {
+  lay_pieces(p, ends, e);
   for (size_t i = 0; i < p->nodes; i++) {
     double both = root(p, g0[i]) + root(p, g1[i]);
     e->middle[i] = middle(p, g0[i], e->rate[i], h);
@@ -214,44 +352,84 @@ static double suction(const ZpFilmParams *p, const double *start, const ZpFilmEv
   double slope = p->rho > 0 ? depth_slope(p, e, i) : 0, sum = 0;
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     double along = 0, across = p->kappa2[k] > 0 ? squares(start, e->end, across_at(i, k)) / p->kappa2[k] : 0;
-    if (i > 0) along += element(p, i - 1) * squares(start, e->end, along_at(i - 1, k));
-    if (i + 1 < p->nodes) along += element(p, i) * squares(start, e->end, along_at(i, k));
-    sum += p->share[k] * (along / 8 + zp_film_length(p, i) * slope * across / 4);
+    const ZpFilmPiece *left = left_of(e, i), *right = &e->piece[i];
+    if (i > 0) along += left->length * left->mean[1] * squares(start, e->end, along_at(i - 1, k));
+    if (i + 1 < p->nodes) along += right->length * right->mean[0] * squares(start, e->end, along_at(i, k));
+    sum += p->share[k] * (along + wet(e, i) * slope * across) / 4;
   }
   return p->rho * sum;
 }
 
 /* The growth of what the cell of station i holds, m^2. */
 static double grown(const ZpFilmParams *p, const double *rise, const double *start, const ZpFilmEval *e, size_t i) {
-  return over_cell(p, rise, i) - zp_film_length(p, i) * (e->end[cavity_at(i)] - start[cavity_at(i)]);
+  return over_cell(p, e, rise, i) - wet(e, i) * (e->end[cavity_at(i)] - start[cavity_at(i)]);
 }
 
 /* What flows out of it in mode k, m^2/s. */
-static double outflow(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
-  double sum = zp_film_length(p, i) * e->leak[at_mode(i, k)] + e->flow[at_mode(i, k)];
+static double outflow(const ZpFilmEval *e, size_t i, int k) {
+  double sum = wet(e, i) * e->leak[at_mode(i, k)] + e->flow[at_mode(i, k)];
   return i > 0 ? sum - e->flow[at_mode(i - 1, k)] : sum;
 }
 
-void zp_film_step(const ZpFilmParams *p, const double *g0, const double *g1, double h, const double *start,
-                  const double *heads, const ZpFilmEval *e) {
-  geometry(p, g0, g1, h, e);
-  cavities(p, heads, e);
+static void flows(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start, const double *heads,
+                  const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
-    flow_across(p, i, h, start, heads, e);
-    for (int k = 0; i + 1 < p->nodes && element(p, i) > 0 && k < ZP_FILM_MODES; k++)
-      flow_along(p, i, k, h, start, heads, e);
+    double share = open_share(ends, e, i);
+    if (share >= 1)
+      flow_across(p, ends, i, h, start, heads, e);
+    else
+      flow_in(p, i, share, heads, e);
+    for (int k = 0; k < ZP_FILM_MODES; k++) {
+      if (e->piece[i].length > 0)
+        flow_along(p, ends, i, k, h, start, heads, e);
+      else
+        no_flow_along(i, k, e);
+    }
   }
-  double *rise = e->force; /* in its place until it is known */
-  for (size_t i = 0; i < p->nodes; i++)
-    rise[i] = e->secant[i] * (g1[i] - g0[i]);
+}
+
+/* Volume that has left through the meniscus in the element from station i on, over w, m^2. */
+static double past_tip(const ZpFilmParams *p, const double *rise, double h, const ZpFilmEval *e, size_t i) {
+  const ZpFilmPiece *piece = &e->piece[i];
+  double flow = p->share[0] * e->flow[at_mode(i, 0)] + p->share[1] * e->flow[at_mode(i, 1)];
+  return h * (from_right(p, i) ? -flow : flow) - (piece->tip[0] * rise[i] + piece->tip[1] * rise[i + 1]);
+}
+
+/* What has left the film at its ends: what is missing in a cell whose head is given has passed its end. */
+static void passed(const ZpFilmParams *p, const double *rise, double h, const double *start, const ZpFilmEval *e) {
+  e->out[0] = e->out[1] = 0;
+  for (size_t i = 0; i < p->nodes; i++) {
+    double length = e->piece[i].length;
+    if (length > 0 && length < p->l) e->out[from_right(p, i)] += p->w * past_tip(p, rise, h, e, i);
+    if (isnan(e->given[i]) || !(wet(e, i) > 0)) continue;
+    for (int k = 0; k < ZP_FILM_MODES; k++)
+      e->out[half_of(p, i)] -= p->w * p->share[k] * (grown(p, rise, start, e, i) + h * outflow(e, i, k));
+  }
+}
+
+static void volumes(const ZpFilmParams *p, const double *rise, double h, const double *start, const double *heads,
+                    const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++)
     for (int k = 0; k < ZP_FILM_MODES; k++) {
       size_t at = at_mode(i, k);
-      double volume = grown(p, rise, start, e, i) + h * outflow(p, e, i, k);
-      e->r[at] = is_free(p, i, k) ? p->share[k] * p->w * volume : -heads[at];
+      double given = isnan(e->given[i]) ? 0 : e->given[i];
+      double volume = grown(p, rise, start, e, i) + h * outflow(e, i, k);
+      e->r[at] = is_free(p, e, i, k) ? p->share[k] * p->w * volume : given - heads[at];
     }
+}
+
+void zp_film_step(const ZpFilmParams *p, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
+                  const double *start, const double *heads, const ZpFilmEval *e) {
+  geometry(p, ends, g0, g1, h, e);
+  cavities(p, heads, e);
+  flows(p, ends, h, start, heads, e);
+  double *rise = e->force; /* in its place until it is known */
   for (size_t i = 0; i < p->nodes; i++)
-    e->force[i] = p->w * e->secant[i] * (over_cell(p, e->head, i) - suction(p, start, e, i));
+    rise[i] = e->secant[i] * (g1[i] - g0[i]);
+  volumes(p, rise, h, start, heads, e);
+  passed(p, rise, h, start, e);
+  for (size_t i = 0; i < p->nodes; i++)
+    e->force[i] = p->w * e->secant[i] * (pressed(p, ends, e, i) - suction(p, start, e, i));
 }
 
 /* -- energy ---------------------------------------------------------------------------------------- */
@@ -260,23 +438,29 @@ static double energy_of_cavity(double thickness) {
   return thickness * (tension + 0.5 * thickness / give);
 }
 
-double zp_film_energy(const ZpFilmParams *p, const double *gap, const double *state) {
+double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
   double sum = 0;
+  ZpFilmPiece left = none;
   for (size_t i = 0; i < p->nodes; i++) {
-    double H = zp_film_thickness(p, gap[i]), E = zp_film_depth(p, H), length = zp_film_length(p, i);
+    ZpFilmPiece piece = piece_of(p, cover, i);
+    double H = zp_film_thickness(p, gap[i]), E = zp_film_depth(p, H), next = 0;
+    double length = length_between(&left, &piece, flat(p, cover, i));
+    if (i + 1 < p->nodes) next = piece.mean[0] * H + piece.mean[1] * zp_film_thickness(p, gap[i + 1]);
     for (int k = 0; k < ZP_FILM_MODES; k++) {
       double u = state[along_at(i, k)], b = state[across_at(i, k)], half = 0.5 * p->rho * p->share[k];
-      if (i + 1 < p->nodes) sum += half * element(p, i) * 0.5 * (H + zp_film_thickness(p, gap[i + 1])) * u * u;
+      sum += half * piece.length * next * u * u;
       if (p->kappa2[k] > 0) sum += half * length * E * b * b / p->kappa2[k];
     }
     sum += length * energy_of_cavity(state[cavity_at(i)]);
+    left = piece;
   }
   return sum * p->w;
 }
 
 /* Of one momentum over the step, per length and width, J/m^2: drag, and what theta takes beyond the mean. */
-static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h) {
-  Momentum m = momentum_of(p, thick, depth, h);
+static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h,
+                   bool begins) {
+  Momentum m = momentum_of(p, thick, depth, h, begins);
   return 12 * p->mu * h * flow * flow / (thick * thick * thick) + p->rho * depth * (m.theta - 0.5) * change * change;
 }
 
@@ -289,30 +473,61 @@ static double lost_by_cavity(const double *start, const ZpFilmEval *e, size_t i)
   return energy_of_cavity(before) - energy_of_cavity(after) - e->head[i] * (after - before);
 }
 
-ZpFilmLoss zp_film_loss(const ZpFilmParams *p, double h, const double *start, const ZpFilmEval *e) {
-  ZpFilmLoss sum = {0, 0, 0};
+/* Across mode k at station i. Where the long edges are open in part only what flowed there stops. */
+static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start,
+                          const ZpFilmEval *e, size_t i, int k) {
+  double E = mean(e->depth0, e->depth1, i), b = start[across_at(i, k)];
+  if (!(p->kappa2[k] > 0)) return 0;
+  double share = open_share(ends, e, i), H = e->middle[i], leak = e->leak[at_mode(i, k)];
+  double stops = 0.5 * p->rho * E * b * b / p->kappa2[k];
+  if (share < 1) return stops + (share > 0 ? 12 * p->mu * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
+  return lost(p, e->middle[i], E, e->leak[at_mode(i, k)], change(start, e, across_at(i, k)), h,
+              ends->cover && start[across_at(i, 0)] == 0) /
+         p->kappa2[k];
+}
+
+static double lost_along(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start,
+                         const ZpFilmEval *e, size_t i, int k) {
+  if (!(e->piece[i].length > 0)) return 0;
+  return lost(p, element_middle(e, i), element_mean(e, i), e->flow[at_mode(i, k)], change(start, e, along_at(i, k)), h,
+              ends->cover && start[along_at(i, k)] == 0);
+}
+
+/* By what passes the film's end in element i, over w and the share of the mode, J/m. */
+static double carried(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start, const ZpFilmEval *e,
+                      size_t i, int k) {
+  if (!(e->piece[i].length > 0)) return 0;
+  double flow = e->flow[at_mode(i, k)];
+  return h * flow * flow * tip_of(p, ends, e, i, start[along_at(i, k)]).per_speed / element_mean(e, i);
+}
+
+ZpFilmLoss zp_film_loss(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start,
+                        const ZpFilmEval *e) {
+  ZpFilmLoss sum = {0};
   for (size_t i = 0; i < p->nodes; i++) {
-    double length = p->w * zp_film_length(p, i), E = mean(e->depth0, e->depth1, i), H = mean(e->H0, e->H1, i);
-    double out = fmax(e->jet[i], 0);
+    double length = p->w * wet(e, i), H = mean(e->H0, e->H1, i), out = fmax(e->jet[i], 0);
     for (int k = 0; k < ZP_FILM_MODES; k++) {
-      double leak = e->leak[at_mode(i, k)], across = change(start, e, across_at(i, k));
-      if (p->kappa2[k] > 0)
-        sum.across += length * p->share[k] * lost(p, e->middle[i], E, leak, across, h) / p->kappa2[k];
-      if (i + 1 < p->nodes && element(p, i) > 0)
-        sum.along += p->w * p->l * p->share[k] *
-                     lost(p, element_middle(e, i), element_mean(e, i), e->flow[at_mode(i, k)],
-                          change(start, e, along_at(i, k)), h);
+      sum.across += length * p->share[k] * lost_across(p, ends, h, start, e, i, k);
+      if (i + 1 == p->nodes) continue;
+      sum.along += p->w * e->piece[i].length * p->share[k] * lost_along(p, ends, h, start, e, i, k);
+      sum.carried += p->w * p->share[k] * carried(p, ends, h, start, e, i, k);
     }
     sum.jets += length * (h * p->rho * out * out * out * H / p->w + lost_by_cavity(start, e, i));
   }
+  for (int half = 0; half < 2; half++)
+    sum.given += ends->head[half] * e->out[half];
   return sum;
+}
+
+double zp_film_edge_flow(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return p->w * wet(e, i) * (p->share[0] * e->leak[at_mode(i, 0)] + p->share[1] * e->leak[at_mode(i, 1)]);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
 double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
-  if (!is_free(p, i, k) || !is_free(p, i, m)) return k == m ? 1 : 0;
-  double length = zp_film_length(p, i), leak = p->share[k] * e->leak_conductance[at_mode(i, k)], sum = 0;
+  if (!is_free(p, e, i, k) || !is_free(p, e, i, m)) return k == m ? 1 : 0;
+  double length = wet(e, i), leak = p->share[k] * e->leak_conductance[at_mode(i, k)], sum = 0;
   if (k == m) {
     sum = length * leak + p->share[k] * e->conductance[at_mode(i, k)];
     if (i > 0) sum += p->share[k] * e->conductance[at_mode(i - 1, k)];
@@ -323,18 +538,18 @@ double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t 
 }
 
 double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
-  if (!is_free(p, i, k) || !is_free(p, i + 1, k)) return 0;
+  if (!is_free(p, e, i, k) || !is_free(p, e, i + 1, k)) return 0;
   return p->share[k] * h * p->w * e->conductance[at_mode(i, k)];
 }
 
 double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
-  return is_free(p, i, k) ? p->share[k] * p->w * cell_share(p, i, j) * e->secant[j] : 0;
+  return is_free(p, e, i, k) ? p->share[k] * p->w * cell_share(e, i, j) * e->secant[j] : 0;
 }
 
 double zp_film_inertia(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i) {
   double E = mean(e->depth0, e->depth1, i), flow = 0;
-  Momentum m = momentum_of(p, e->middle[i], E, h);
+  Momentum m = momentum_of(p, e->middle[i], E, h, false);
   for (int k = 0; k < ZP_FILM_MODES; k++)
     flow += p->kappa2[k] > 0 ? p->share[k] / p->kappa2[k] : 0;
-  return p->w * zp_film_length(p, i) * flow * m.inertia / (2 * m.theta * E);
+  return p->w * wet(e, i) * flow * m.inertia / (2 * m.theta * E);
 }

@@ -16,6 +16,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "math/cover.h"
 
 enum { ZP_FILM_MODES = 2, ZP_FILM_CAVITY = 2 * ZP_FILM_MODES, ZP_FILM_STATE };
 
@@ -34,6 +35,24 @@ typedef struct ZpFilmParams {
 /* Both modes of a strip of that width; without lateral flow one mode, and an outlet at the platform. */
 void zp_film_modes(ZpFilmParams *params, bool lateral_flow);
 
+/* The wet part of an element, of its left [0] and its right station [1]. */
+typedef struct ZpFilmPiece {
+  double length;     /* m */
+  double mean[2];    /* share of each station's thickness in its mean thickness */
+  double cell[2][2]; /* [a][b]: what the thickness of station b counts in the cell of station a, m */
+  double tip[2]; /* what each counts between the last cell and a meniscus, m: there the head is that of the meniscus */
+} ZpFilmPiece;
+
+/* The piece of an element of length l of which `part` is wet, from its right end or its left one. */
+ZpFilmPiece zp_film_piece(double l, double part, bool from_right);
+
+/* What holds the film at its free ends over a step. */
+typedef struct ZpFilmEnds {
+  const ZpCover *cover; /* where liquid is; NULL: everywhere */
+  const double *open;   /* [N] share of the long edges at a station where liquid can pass, 0 to 1; NULL: 1 */
+  double head[2];       /* of the menisci: of the one from the left end on and of the other, Pa */
+} ZpFilmEnds;
+
 /* Of a step; [2 i + k] is mode k at station i, of what is along in the element from i to i + 1. A state [5 N] has for
  * each station u_0, u_1, m/s, b_0, b_1, 1/s, and the thickness of its cavity, m. */
 typedef struct ZpFilmEval {
@@ -47,6 +66,10 @@ typedef struct ZpFilmEval {
   double *coupling;                /* [N] how D couples the modes, Pa s/m */
   double *head;                    /* [N] mean head across the width, Pa */
   double *force;                   /* [N] on each station, N, positive opens */
+  ZpFilmPiece *piece;              /* [N] of the element from i to i + 1 */
+  double *flat;                    /* [N] length of wet flat faces at a station, m */
+  double *given;                   /* [N] head that is given there, Pa; NAN: none */
+  double *out;                     /* [2] volume that has left through the meniscus of either half, or an outlet, m^3 */
   double *r;                       /* [2 N] what is left of the volume's balance, times its share of the width, m^3 */
   double *end;                     /* [5 N] state at the end */
 } ZpFilmEval;
@@ -56,29 +79,39 @@ void zp_film_carve(const ZpFilmParams *params, ZpFilmEval *eval, ZpCarver *carve
 /* Thickness at a gap, which may be below 0 by rounding and contact, m. */
 double zp_film_thickness(const ZpFilmParams *params, double gap);
 
+/* Its first and second derivative by the gap, 1 and 1/m. */
+double zp_film_rise(const ZpFilmParams *params, double gap);
+double zp_film_bend(const ZpFilmParams *params, double gap);
+
 /* Depth that counts across at a thickness, m: as much less as the liquid beyond the edges has to move, too. */
 double zp_film_depth(const ZpFilmParams *params, double thickness);
 
 /* (gaps at both ends of a step of h, state at its start, heads) => all of eval, with eval->rate as it is. */
-void zp_film_step(const ZpFilmParams *params, const double *g0, const double *g1, double h, const double *start,
-                  const double *heads, const ZpFilmEval *eval);
+void zp_film_step(const ZpFilmParams *params, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
+                  const double *start, const double *heads, const ZpFilmEval *eval);
 
 /* What the film loses over that step, J: each is 0 or more. */
 typedef struct ZpFilmLoss {
   double along, across; /* to viscosity */
   double jets;          /* to jets at the long edges, and to cavities that collapse */
+  double carried;       /* kinetic energy that has gone out with what passed the menisci's places, J, of any sign */
+  double given;         /* work that the menisci's heads have taken, J, of any sign */
 } ZpFilmLoss;
-ZpFilmLoss zp_film_loss(const ZpFilmParams *params, double h, const double *start, const ZpFilmEval *eval);
+ZpFilmLoss zp_film_loss(const ZpFilmParams *params, const ZpFilmEnds *ends, double h, const double *start,
+                        const ZpFilmEval *eval);
 
 /* Mass by which the film at station i resists to a change of its gap over a step of h, inertia and viscosity together,
  * if all flows across, kg. */
 double zp_film_inertia(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i);
 
-/* Kinetic energy of the film at gaps [N] and a state, and what its cavities hold, J. */
-double zp_film_energy(const ZpFilmParams *params, const double *gap, const double *state);
+/* Kinetic energy of the film at gaps [N] and a state, as far as it is covered, and what its cavities hold, J. */
+double zp_film_energy(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state);
 
-/* Length of the film at station i, m. */
+/* Length of the faces at station i, m. */
 double zp_film_length(const ZpFilmParams *params, size_t i);
+
+/* What flows out at the long edges in the cell of station i, mean over the step, m^3/s. */
+double zp_film_edge_flow(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
 /* Derivative of r of mode k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
  * the head's force; m^2. */

@@ -55,6 +55,7 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .load = mean_load(d),
                   .own = d->own,
                   .memory = zp_state_memory(d->model, d->state),
+                  .bead = d->state->bead,
                   .v0 = zp_state_motion(d->model, d->state).vx,
                   .w = d->state->last_step > 0 ? d->mean_v : NULL,
                   .share = 1,
@@ -252,6 +253,15 @@ static double impact(ZpDynamics *d) {
   return loss - kinetic_energy(d);
 }
 
+/* A meniscus that passes a station gives it a film at once. Where a film resists far more than the ribbons' mass, what
+ * is left of their velocity beyond the mean of the step would turn round in every step: of that the part which is too
+ * fast for the step is taken out => the loss, J. */
+static double calm(ZpDynamics *d) {
+  double before = kinetic_energy(d);
+  zp_implicit_calm(&d->stepper, d->h, d->history.w, d->v);
+  return before - kinetic_energy(d);
+}
+
 /* -- creation and step ---------------------------------------------------------------------------- */
 
 /* Pressures are unknowns of one step, without memory. */
@@ -331,18 +341,28 @@ void zp_dynamics_destroy(ZpDynamics *d) {
   d->memory = NULL;
 }
 
+/* With the liquid where it is then. */
+static double charge_at_end(ZpDynamics *d) {
+  ZpSpan span = span_of(d);
+  const ZpBead *bead = d->eval.bead_end;
+  zp_eval_cover(d->model, (const double[ZP_BEADS]){bead[0].reach, bead[1].reach}, &d->eval);
+  return zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, d->U1).charge;
+}
+
 /* The source's work over a step in which the voltage has changed, eq. (18.4): the mean of "first the voltage, then the
  * gaps" and "first the gaps, then the voltage". */
-static void book_work(const ZpDynamics *d, ZpState *state) {
+static void book_work(ZpDynamics *d, ZpState *state) {
   double U0 = d->U0, U1 = d->U1;
   if (U0 == U1) return;
   ZpSpan span = span_of(d);
-  ZpElectric moved = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U1);
+  zp_eval_cover(d->model, d->eval.reach, &d->eval);
   double at_start = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_START, U1).potential -
                     zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_START, U0).potential;
-  double at_end = moved.potential - zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U0).potential;
-  state->work += U1 * moved.charge - U0 * state->base_charge + 0.5 * (at_start + at_end);
-  state->base_charge = moved.charge;
+  double at_end = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U1).potential -
+                  zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U0).potential;
+  double charge = charge_at_end(d);
+  state->work += U1 * charge - U0 * state->base_charge + 0.5 * (at_start + at_end);
+  state->base_charge = charge;
   state->base_U = state->U = U1;
 }
 
@@ -406,6 +426,7 @@ static void book_losses(ZpDynamics *d, ZpState *state) {
   state->jet_loss += losses.jets;
   state->outer_drag_loss += losses.outer;
   state->leak_loss += losses.leak;
+  state->meniscus_loss += losses.meniscus;
 }
 
 /* And where it has ended, back. */
@@ -419,6 +440,7 @@ static void store(ZpDynamics *d, ZpState *state) {
   memcpy(zp_state_own(model, state) + zp_own_unknowns(model), d->eval.memory_end,
          model->kept * model->nodes * sizeof *d->own);
   state->t = end_time(d);
+  if (model->has_bead) memcpy(state->bead, d->eval.bead_end, sizeof state->bead);
   if (d->source) {
     state->U_rate = d->history.w[d->assembly.n];
     state->U_change = d->history.a[d->assembly.n];
@@ -442,6 +464,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   if (model->field) {
     book_work(d, state);
     state->contact_loss += impact(d);
+    if (model->has_bead) state->across_loss += calm(d);
   }
   const double *hangs = zp_state_q(model, state) + model->stride + zp_load_node(&model->topology);
   double before = *hangs, hung = mean_load(d);

@@ -27,6 +27,8 @@ static void fill_model(const ZpModel *model, ZpStatics *s) {
   ZpModel *own = (ZpModel *)s->model;
   *own = *model;
   own->plates.h_least = fmax(model->plates.h_least, 0.5 * model->plates.d);
+  own->air.h_least = fmax(model->air.h_least, 0.5 * model->air.d);
+  if (own->plates.air) own->plates.air = &own->air;
   own->rod.k0 = s->k0_now;
   s->k0 = model->rod.k0;
 }
@@ -52,7 +54,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   if (s->memory) carve(model, s, s->memory);
   if (s->memory) fill_model(model, s);
   if (!s->memory || !zp_system_create(s->model, true, &s->eval) ||
-      !zp_assembly_create(s->model, 0, model->is_rod, &s->assembly)) {
+      !zp_assembly_create(s->model, model->has_bead ? 2 : 0, model->is_rod && !model->has_bead, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }

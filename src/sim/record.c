@@ -62,9 +62,16 @@ static double film_thickness(const ZpModel *model, const ZpState *state) {
   if (!model->has_film) return 0;
   size_t elements = zp_half_elements(&model->topology), i = elements / 4;
   double beyond = 0.25 * (double)(elements % 4);
+  if (model->has_bead && state->bead[0].reach < 0.25 * model->L) return 0;
   double here = zp_film_thickness(&model->film, zp_plates_gap(&model->plates, y, i)),
          next = zp_film_thickness(&model->film, zp_plates_gap(&model->plates, y, i + 1));
   return here + beyond * (next - here);
+}
+
+/* Of one half, m. */
+static double wet_length(const ZpModel *model, const ZpState *state) {
+  if (model->has_bead) return state->bead[0].reach;
+  return model->has_film ? zp_bead_longest(&model->film) : 0;
 }
 
 /* Lengths: of the lower ribbon and between the platforms, or of the one ribbon. */
@@ -77,6 +84,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_end_velocity] = motion.vy[zp_load_node(t)];
   row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
   row[SIGNAL_film_thickness] = film_thickness(model, state);
+  row[SIGNAL_wet_length] = wet_length(model, state);
   row[SIGNAL_opening] = zp_opening(t, motion.y);
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
@@ -102,6 +110,9 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_jet_loss] = parts * state->jet_loss;
   row[SIGNAL_outer_drag_loss] = parts * state->outer_drag_loss;
   row[SIGNAL_leak_loss] = parts * state->leak_loss;
+  row[SIGNAL_meniscus_loss] = parts * state->meniscus_loss;
+  row[SIGNAL_bead_outside] = state->bead[0].outside;
+  row[SIGNAL_bead_lost] = state->bead[0].lost;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
 }
 
@@ -186,6 +197,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   if (what & ELECTRIC) kept = fill_electric(sim, row);
   if (what & MARGINS) fill_margins(sim, row);
   double in_liquid = state->along_loss + state->across_loss + state->jet_loss + state->outer_drag_loss;
+  in_liquid += state->meniscus_loss;
   double lost = state->drag_loss + state->internal_loss + state->contact_loss + in_liquid + state->leak_loss;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }

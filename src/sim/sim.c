@@ -58,6 +58,18 @@ static void lay_straight(const ZpModel *model, double *q) {
     q[j] = zp_straight_x(model, j / model->s);
 }
 
+void zp_sim_lay_beads(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  double reach[ZP_BEADS];
+  ZpMotion now = zp_state_motion(model, state);
+  if (!model->has_bead) return;
+  zp_plates_gaps(&model->plates, now.x, now.y, &sim->eval.plates);
+  zp_eval_reach(model, sim->eval.plates.gap, state->bead, reach);
+  for (int half = 0; half < zp_beads(&model->film); half++)
+    state->bead[half].reach = reach[half], state->bead[half].rate = 0;
+}
+
 /* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
 static bool diverged(const ZpModel *model, const ZpState *state) {
   static const double speed_of_sound = 1e4; /* m/s, rounded up */
@@ -98,12 +110,13 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     return zp_fail_memory(err);
   }
   ZpState *state = sim->state;
-  state->zip_time = state->refreshed = NAN;
+  state->zip_time = state->refreshed = state->starved_time = NAN;
   lay_straight(model, zp_state_q(model, state));
   if (!zp_sim_settle(sim, hooks)) {
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
   }
+  zp_sim_lay_beads(sim);
   zp_sim_start_account(sim);
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
   zp_sim_start_row(sim);
@@ -242,6 +255,17 @@ static void note_closing(ZpSim *sim, Start start) {
   state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, start);
 }
 
+/* Has a zip front outrun its bead? Its meniscus then is where the film is thinner than what stands for the insulators.
+ */
+static void note_starving(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  ZpState *state = sim->state;
+  if (!model->has_bead || !isnan(state->starved_time) || state->U == 0 || !isnan(state->zip_time)) return;
+  const double *gap = sim->dynamics.eval.plates.gap;
+  for (int half = 0; half < zp_beads(&model->film); half++)
+    if (zp_bead_at(&model->film, gap, half, state->bead[half].reach) < model->plates.d) state->starved_time = state->t;
+}
+
 static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, double end_time) {
   if (sim->state->t >= corner) return ZP_LIMIT_EVENT;
   return limit != ZP_LIMIT_EVENT && sim->state->t >= end_time ? ZP_LIMIT_END : limit;
@@ -267,6 +291,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->limited[limit_of(sim, limit, corner, end_time)]++;
   follow_voltage(sim);
   if (two) note_closing(sim, start);
+  note_starving(sim);
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -431,6 +456,10 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
 }
 
 /* -- state ---------------------------------------------------------------------------------------- */
+
+double zp_sim_starved_time(const ZpSim *sim) {
+  return sim->state->starved_time;
+}
 
 double zp_sim_zip_time(const ZpSim *sim) {
   return sim->state->zip_time;

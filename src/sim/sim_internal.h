@@ -65,6 +65,9 @@ struct ZpSim {
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
+/* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
+void zp_sim_lay_beads(ZpSim *sim);
+
 /* Resume from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 

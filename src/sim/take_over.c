@@ -24,6 +24,7 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
     for (size_t j = 0; j < 2 * model->stride; j++)
       moving[k][j] *= stretch;
   state->opening0 = opening0;
+  zp_sim_lay_beads(sim);
   double voltage = zp_sim_is_fed(from) ? zp_sim_command(from) : state->U;
   if (!state->by_hand) state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
   state->by_hand = true;

@@ -236,7 +236,8 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
   s->counts.steps++;
 }
 
-void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
+/* The inertia beyond `mass` counts, too, or not. */
+static void smooth(ZpImplicit *s, double h, bool all, double *v) {
   enum { POWER = 3 };
   size_t n = s->system->n;
   double *fast = s->r, *slow = s->q;
@@ -244,13 +245,25 @@ void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
   for (int k = 0; k < POWER; k++) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
-    add_inertia(s, 2 / (h * h), fast, slow);
+    if (all) add_inertia(s, 2 / (h * h), fast, slow);
     zp_bordered_solve(&s->A, slow);
     for (size_t i = 0; i < n; i++)
       fast[i] = kind_of(s->system, i) == ZP_SECOND_ORDER ? fast[i] - slow[i] : 0;
   }
   for (size_t i = 0; i < n; i++)
     v[i] -= fast[i];
+}
+
+void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
+  smooth(s, h, true, v);
+}
+
+void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
+  for (size_t i = 0; i < s->system->n; i++)
+    v[i] -= w[i];
+  smooth(s, h, false, v);
+  for (size_t i = 0; i < s->system->n; i++)
+    v[i] += w[i];
 }
 
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {

@@ -86,6 +86,10 @@ void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCa
  * unknowns, v of first-order ones, too. => its length, 0 if none is found (see `end`); all is then as it was. */
 double zp_implicit_step(ZpImplicit *stepper, double longest, double *q, double *v, ZpImplicitHistory *history);
 
+/* The same of what velocities v have beyond the mean rates w of the last step, by the inertia `mass` alone: where a
+ * resistance is far above that, the step lets them turn round without end. */
+void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v);
+
 /* -d(r - M a)/dy1 at the last residual of the system, exactly, for a step of h => J, whose arrays
  * zp_implicit_carve_exact cuts. False if the system has no `exact`. */
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver);

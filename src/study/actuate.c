@@ -121,6 +121,12 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
     zp_add_stress(result, model, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
+  double starved = zp_result_get(result, "starved_time_s");
+  if (isfinite(starved))
+    zp_result_note(result,
+                   "the bead is too small: %.3g ms after the start the zip front has outrun its liquid, and closes in "
+                   "air from there; a larger bead.volume reaches further",
+                   1e3 * starved);
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_note(result, model->has_film
                                ? "the zip time has not been compared with a measured one"
@@ -144,12 +150,21 @@ static void summarize_leak(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "interface_voltage_V", "V", at_end(sim, result, "interface_voltage"));
 }
 
+static void summarize_bead(ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "meniscus_loss_J", "J", at_end(sim, result, "meniscus_loss"));
+  zp_result_add(result, "wet_length_m", "m", at_end(sim, result, "wet_length"));
+  zp_result_add(result, "bead_outside_m3", "m3", at_end(sim, result, "bead_outside"));
+  zp_result_add(result, "bead_lost_m3", "m3", at_end(sim, result, "bead_lost"));
+  zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
+}
+
 static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
+  if (model->has_bead) summarize_bead(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   if (model->field) summarize_source(sim, model, info, result);

@@ -252,10 +252,10 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   if (def->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
-  if (def->liquid.model != ZP_LIQUID_NONE)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "liquid.model = submerged: the study modes finds frequencies without the mass of a liquid; use none");
+  if (def->liquid.model != ZP_LIQUID_NONE && def->liquid.model != ZP_LIQUID_AUTO)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = %s: the study modes finds frequencies without the mass of a liquid; use none",
+                   zp_word_of("liquid.model", (int)def->liquid.model));
   if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
@@ -266,9 +266,17 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
+/* Frequencies are those without the mass of a liquid. */
+static ZpActuatorDef without_liquid(const ZpActuatorDef *def) {
+  ZpActuatorDef dry = *def;
+  dry.liquid.model = ZP_LIQUID_NONE;
+  return dry;
+}
+
 ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpStatus status = zp_model_create(task->def, &model, err);
+  ZpActuatorDef def = without_liquid(task->def);
+  ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   Problem *p = zp_calloc(1, sizeof *p);
   result->series = zp_table_create(columns, COLUMNS, MODES);

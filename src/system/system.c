@@ -40,6 +40,7 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
   span.load = zp_state_load(model, state, state->t);
   span.faces_pass = def->contact.model != ZP_CONTACT_UNILATERAL;
   span.memory = zp_state_memory(model, state);
+  span.bead = state->bead;
   span.beyond = zp_state_beyond(model, state);
   span.paper = def->electro.surface == ZP_SURFACE_POLYLINE ? NULL : state;
   return span;
@@ -119,7 +120,7 @@ ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const Zp
 ZpElectric zp_system_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *e) {
   ZpMotion m = zp_state_motion(model, state);
   ZpSpan now = zp_span_of(model, state, m.x, m.vx);
-  if (model->field) zp_plates_gaps(&model->plates, m.x, m.y, &e->plates);
+  if (model->field) zp_term_gaps(model, &now, e);
   return zp_system_electric(model, &now, e, ZP_SPAN_END, U);
 }
 

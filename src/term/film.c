@@ -5,16 +5,62 @@ static bool acts(const ZpModel *model) {
   return model->has_film;
 }
 
+/* Which half a station is of. */
+static size_t half_of(const ZpModel *model, size_t i) {
+  return i > model->topology.platform.first;
+}
+
+/* The share of the long edges at a station where liquid can pass: where the film pressed at the end of the last step,
+ * all; where it sucked, as far as there is some. */
+static double open_share(const ZpModel *model, const ZpSpan *span, size_t i) {
+  const double *heads = span->own + ZP_FILM_MODES * i;
+  const ZpBead *bead = &span->bead[half_of(model, i)];
+  bool presses = model->film.share[0] * heads[0] + model->film.share[1] * heads[1] > 0;
+  if (!model->has_bead || presses || bead->reach >= zp_bead_longest(&model->film)) return 1;
+  return bead->supply;
+}
+
 /* Gaps go on as they did over the last step. */
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  for (size_t i = 0; i < model->nodes; i++)
+    e->open[i] = open_share(model, span, i);
   for (size_t i = 0; i < model->nodes; i++) {
     const double *w = span->w ? span->w + model->stride : NULL;
     e->film.rate[i] = w ? w[zp_upper(&model->topology, i)] - w[zp_lower(&model->topology, i)] : 0;
   }
 }
 
+static ZpFilmEnds ends_of(const ZpModel *model, const ZpEval *e) {
+  const ZpCover *cover = model->has_bead ? &e->cover : NULL;
+  return (ZpFilmEnds){cover, e->open, {e->meniscus[0], e->meniscus[1]}};
+}
+
+/* Head at a meniscus, Pa, eq. (22.17): what the field and the surface of the liquid draw it on with. */
+static double meniscus_head(const ZpModel *model, double U0, double U1, double gap, double H) {
+  double drawn = 0;
+  const double U[] = {U0, U1};
+  for (int k = 0; k < 2; k++)
+    drawn += 0.5 * (zp_plates_law(&model->air, U[k], gap).P - zp_plates_law(&model->plates, U[k], gap).P);
+  return -model->bead.suction * (drawn / model->film.w + 2 * model->bead.tension) / H;
+}
+
+/* In the middle of the step, foreseen. */
+static void find_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  for (int half = 0; half < zp_beads(&model->film); half++) {
+    const double *start = e->plates_start.gap, reach = e->reach[half];
+    double gap = zp_bead_at(&model->film, start, half, reach), H = zp_bead_thickness(&model->film, start, half, reach);
+    double moved = fmax(0.5 * span->h * zp_bead_at(&model->film, e->film.rate, half, reach), -0.5 * H);
+    bool ends = model->has_bead && model->bead.suction > 0 && reach < zp_bead_longest(&model->film);
+    e->meniscus[half] = ends ? meniscus_head(model, span->U0, span->U1, gap + moved, H + moved) : 0;
+  }
+}
+
 static void solve_step(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  zp_film_step(&model->film, e->plates_start.gap, e->plates.gap, span->h, span->memory, span->own, &e->film);
+  ZpFilmEnds ends = ends_of(model, e);
+  find_menisci(model, span, e);
+  ends.head[0] = e->meniscus[0];
+  ends.head[1] = e->meniscus[1];
+  zp_film_step(&model->film, &ends, e->plates_start.gap, e->plates.gap, span->h, span->memory, span->own, &e->film);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -58,18 +104,71 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
+/* Of the surfaces that the liquid wets, J, as far as suction counts. */
+static double surface_energy(const ZpModel *model, const double reach[ZP_BEADS]) {
+  double length = 0;
+  for (int half = 0; half < zp_beads(&model->film); half++)
+    length += reach[half];
+  return model->has_bead ? -2 * model->bead.suction * model->bead.tension * model->film.w * length : 0;
+}
+
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
-  zp_plates_gaps(&model->plates, now->end, now->end + model->stride, &e->plates);
-  sum->liquid += zp_film_energy(&model->film, e->plates.gap, now->memory);
+  zp_term_gaps(model, now, e);
+  ZpFilmEnds ends = ends_of(model, e);
+  sum->liquid += zp_film_energy(&model->film, ends.cover, e->plates.gap, now->memory) + surface_energy(model, e->reach);
+}
+
+/* What presses out and draws in at the long edges over the step, m^3. */
+static void past_edges(const ZpModel *model, const ZpSpan *span, const ZpEval *e, double out[ZP_BEADS],
+                       double in[ZP_BEADS]) {
+  for (size_t i = 0; i < model->nodes; i++) {
+    double volume = span->h * zp_film_edge_flow(&model->film, &e->film, i);
+    out[half_of(model, i)] += fmax(volume, 0);
+    in[half_of(model, i)] += fmax(-volume, 0);
+  }
+}
+
+static void find_end(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  double out[ZP_BEADS] = {0}, in[ZP_BEADS] = {0};
+  past_edges(model, span, e, out, in);
+  for (int half = 0; half < zp_beads(&model->film); half++)
+    e->bead_end[half] =
+        zp_bead_after(&model->bead, &model->film, e->plates.gap, half, span->bead[half], out[half], in[half], span->h);
+}
+
+/* What lies between the faces at one end of the step, with the liquid as far as `reach`: the field's potential and the
+ * film's energy, J. */
+static double stored(const ZpModel *model, const ZpPlatesEval *gaps, double U, const double *memory,
+                     const double reach[ZP_BEADS], ZpEval *e) {
+  zp_eval_cover(model, reach, e);
+  return zp_plates_totals(&model->plates, gaps, U).potential +
+         zp_film_energy(&model->film, &e->cover, gaps->gap, memory) + surface_energy(model, reach);
+}
+
+/* The liquid moves to its place in the middle while nothing else does, and from there to that of the end: what that
+ * releases, less what the film has got of it, eq. (22.18). */
+static double lost_at_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e, const ZpFilmLoss *film) {
+  const ZpPlatesEval *start = &e->plates_start, *end = &e->plates;
+  const double before[ZP_BEADS] = {span->bead[0].reach, span->bead[1].reach},
+               after[ZP_BEADS] = {e->bead_end[0].reach, e->bead_end[1].reach};
+  double released = stored(model, start, span->U0, span->memory, before, e) -
+                    stored(model, start, span->U0, span->memory, e->reach, e);
+  released +=
+      stored(model, end, span->U1, e->film.end, e->reach, e) - stored(model, end, span->U1, e->film.end, after, e);
+  return released + film->given + film->carried;
 }
 
 /* The heads have been corrected since the last force. */
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
   solve_step(model, span, e);
-  ZpFilmLoss lost = zp_film_loss(&model->film, span->h, span->memory, &e->film);
+  ZpFilmEnds ends = ends_of(model, e);
+  ZpFilmLoss lost = zp_film_loss(&model->film, &ends, span->h, span->memory, &e->film);
   sum->along += lost.along;
   sum->across += lost.across;
   sum->jets += lost.jets;
+  if (!model->has_bead) return;
+  find_end(model, span, e);
+  sum->meniscus += lost_at_menisci(model, span, e, &lost);
 }
 
 /* What resists to a change of the gap: not more than where all flows across. */

@@ -9,13 +9,15 @@ static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
   return zp_span_is_still(span) ? &e->plates : &e->plates_start;
 }
 
+/* With the liquid where it is there. */
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  const double reach[ZP_BEADS] = {span->bead ? span->bead[0].reach : 0, span->bead ? span->bead[1].reach : 0};
+  zp_eval_cover(model, reach, e);
   zp_plates_gaps(&model->plates, span->start, span->start + model->stride, &e->plates_start);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
-  if (!span->paper || !span->faces_pass)
-    zp_plates_gaps(&model->plates, span->end, span->end + model->stride, &e->plates);
+  if (!span->paper || !span->faces_pass) zp_term_gaps(model, span, e);
   if (span->paper) return; /* its Bezier surface attracts instead */
   zp_plates_step(&model->plates, start_of(span, e), &e->plates, span->U0, span->U1, &e->attraction);
   zp_term_add(model->stride, e->attraction.Fx, e->attraction.Fy, F);

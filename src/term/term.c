@@ -1,6 +1,23 @@
 #include "term/term.h"
 
+#include <math.h>
+
 #include "base/kernel.h"
+
+/* Over a step the wet length in its middle counts, foreseen: it goes on as in the last step, by an element at most. */
+static double reach_in_middle(const ZpModel *model, const ZpBead *bead, double h) {
+  double moved = fmin(fmax(0.5 * h * bead->rate, -model->l), model->l);
+  return fmin(fmax(bead->reach + moved, 0), zp_bead_longest(&model->film));
+}
+
+void zp_term_gaps(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  zp_plates_gaps(&model->plates, span->end, span->end + model->stride, &e->plates);
+  if (!model->has_bead) return;
+  for (int half = 0; span->bead && half < ZP_BEADS; half++)
+    e->reach[half] = reach_in_middle(model, &span->bead[half], span->h);
+  if (!span->bead) zp_eval_reach(model, e->plates.gap, NULL, e->reach);
+  zp_eval_cover(model, e->reach, e);
+}
 
 ZP_KERNEL static void add(size_t stride, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
   ZP_SIMD

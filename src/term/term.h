@@ -17,6 +17,8 @@ typedef struct ZpSpan {
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
   const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
   const double *memory;      /* of a step, at its start, or of an instant: [kept N] the laws' own state */
+  const ZpBead *bead;        /* of a step: [ZP_BEADS] at its start; of an instant: there; NULL: all liquid lies between
+                                the faces */
   const double *v0;          /* of a step: velocities at its start [2 stride] */
   const double *w;           /* of a step: mean velocities over the last one [2 stride]; NULL: there was none */
   const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; else NULL */
@@ -83,6 +85,9 @@ void zp_weight_by_load(const ZpModel *model, double *F);
 #define ZP_TERM(name) extern const ZpTerm zp_term_##name;
 #include "term/terms.def"
 #undef ZP_TERM
+
+/* Gaps and, with a bead, where liquid is: at the end of a span, over a step in its middle => eval. */
+void zp_term_gaps(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);

@@ -1,0 +1,107 @@
+#include "liquid/bead.h"
+
+#include <float.h>
+#include <math.h>
+
+int zp_beads(const ZpFilmParams *p) {
+  return p->platform_end > p->platform ? 2 : 1;
+}
+
+/* Elements of a half. */
+static size_t elements(const ZpFilmParams *p) {
+  return p->platform;
+}
+
+static double flexible(const ZpFilmParams *p) {
+  return (double)elements(p) * p->l;
+}
+
+double zp_bead_longest(const ZpFilmParams *p) {
+  return flexible(p) + p->flat_length;
+}
+
+/* Station k of a half from its clip, and the element behind it, by its left station. */
+static size_t station(const ZpFilmParams *p, int half, size_t k) {
+  return half ? p->nodes - 1 - k : k;
+}
+
+static size_t element(const ZpFilmParams *p, int half, size_t k) {
+  return half ? p->nodes - 2 - k : k;
+}
+
+/* How far from its near end an element is wet that holds `area`: n d + (f - n) d^2 / (2 l) = area. */
+static double within(double near, double far, double l, double area) {
+  double slope = (far - near) / l;
+  return 2 * area / (near + sqrt(fmax(near * near + 2 * slope * area, 0)));
+}
+
+static double thickness(const ZpFilmParams *p, const double *gap, int half, size_t k) {
+  return zp_film_thickness(p, gap[station(p, half, k)]);
+}
+
+double zp_bead_reach(const ZpFilmParams *p, const double *gap, int half, double volume) {
+  double area = fmax(volume, 0) / p->w, near = thickness(p, gap, half, 0);
+  for (size_t k = 0; k < elements(p); k++) {
+    double far = thickness(p, gap, half, k + 1), all = 0.5 * p->l * (near + far);
+    if (area < all) return (double)k * p->l + fmin(within(near, far, p->l, area), p->l);
+    area -= all;
+    near = far;
+  }
+  double below = p->flat_length * near;
+  return area < below ? flexible(p) + p->flat_length * (area / below) : zp_bead_longest(p);
+}
+
+double zp_bead_volume(const ZpFilmParams *p, const double *gap, int half, double reach) {
+  double area = 0;
+  for (size_t k = 0; k < elements(p); k++) {
+    double near = thickness(p, gap, half, k), far = thickness(p, gap, half, k + 1);
+    double d = fmin(fmax(reach - (double)k * p->l, 0), p->l);
+    area += d * (near + 0.5 * (far - near) * (d / p->l));
+  }
+  double below = fmax(reach - flexible(p), 0);
+  return p->w * (area + below * thickness(p, gap, half, elements(p)));
+}
+
+void zp_bead_cover(const ZpFilmParams *p, const double reach[ZP_BEADS], ZpCover *cover) {
+  for (int half = 0; half < zp_beads(p); half++) {
+    double beyond = reach[half] - flexible(p);
+    for (size_t k = 0; k < elements(p); k++)
+      cover->part[element(p, half, k)] = fmin(fmax(reach[half] / p->l - (double)k, 0), 1);
+    cover->flat[half] = reach[half] >= zp_bead_longest(p) ? 1 : fmax(beyond, 0) / p->flat_length;
+  }
+}
+
+double zp_bead_at(const ZpFilmParams *p, const double *value, int half, double reach) {
+  double along = fmax(reach, 0) / p->l;
+  if (!(along < (double)elements(p))) return value[station(p, half, elements(p))];
+  size_t k = (size_t)along;
+  double near = value[station(p, half, k)], far = value[station(p, half, k + 1)];
+  return near + (far - near) * (along - (double)k);
+}
+
+double zp_bead_thickness(const ZpFilmParams *p, const double *gap, int half, double reach) {
+  double along = fmax(reach, 0) / p->l;
+  if (!(along < (double)elements(p))) return thickness(p, gap, half, elements(p));
+  size_t k = (size_t)along;
+  double near = thickness(p, gap, half, k), far = thickness(p, gap, half, k + 1);
+  return near + (far - near) * (along - (double)k);
+}
+
+/* What is at hand in a step like the last one, over what the film would take of it. */
+static double supply_of(double outside, double comes, double wanted) {
+  static const double least = 1e-3; /* so that what the film would take is seen */
+  double at_hand = 0.5 * outside + comes;
+  if (at_hand >= wanted) return at_hand > 0 ? 1 : least;
+  return fmax(at_hand / wanted, least);
+}
+
+ZpBead zp_bead_after(const ZpBeadParams *params, const ZpFilmParams *p, const double *gap, int half, ZpBead before,
+                     double pressed_out, double drawn_in, double h) {
+  double share = params->returned;
+  ZpBead after = {.outside = fmax(before.outside + share * pressed_out - drawn_in, 0),
+                  .lost = before.lost + (1 - share) * pressed_out};
+  after.reach = zp_bead_reach(p, gap, half, params->volume - after.outside - after.lost);
+  after.rate = (after.reach - before.reach) / h;
+  after.supply = supply_of(after.outside, share * pressed_out, drawn_in / fmax(before.supply, DBL_MIN));
+  return after;
+}

@@ -1,0 +1,278 @@
+/* A bead at rest: all of its liquid lies between the faces, and how far it reaches follows from the gaps. The film term
+ * has it in motion. What the reach does to the forces goes through two unknowns of each station, whose equations are
+ * always fulfilled, so that the stiffness stays banded: the area A that lies between the clip and the station, and the
+ * head p there, that of the meniscus as far as liquid reaches. Eqs. (22.19) to (22.21). */
+#include <math.h>
+
+#include "term/term.h"
+
+enum { AREA, HEAD };
+
+/* What counts as 1 m of a position: so little of it that arc lengths and corrections are those of positions. */
+static const double area_scale = 1e3;  /* m^2 */
+static const double head_scale = 1e12; /* Pa */
+
+static bool acts(const ZpModel *model) {
+  return model->has_bead;
+}
+
+static size_t station_of(const ZpModel *model, int half, size_t k) {
+  return half ? model->nodes - 1 - k : k;
+}
+
+static size_t elements_of(const ZpModel *model) {
+  return model->topology.platform.first;
+}
+
+/* Where a bead ends: behind station `near` of its half, by a part of the element there, or below the platform by a part
+ * of its flat faces, and how that part goes with the area to the station and the gaps of both. */
+typedef struct End {
+  bool ends;
+  int half;
+  size_t k, near, far; /* of the half; stations: the same one below the platform */
+  double part;
+  double g, H;            /* at the meniscus, m */
+  double by_area;         /* of the part, 1/m^2, */
+  double by_near, by_far; /* 1/m */
+  double length;          /* of what the part is of, m */
+} End;
+
+static double rise(const ZpModel *model, const ZpEval *e, size_t i) {
+  return zp_film_rise(&model->film, e->plates.gap[i]);
+}
+
+static End end_below_platform(const ZpModel *model, const ZpEval *e, End end, double beyond) {
+  double length = model->film.flat_length;
+  end.near = end.far = station_of(model, end.half, elements_of(model));
+  end.k = elements_of(model);
+  end.ends = e->reach[end.half] < zp_bead_longest(&model->film);
+  end.part = beyond / length;
+  end.length = length;
+  end.g = e->plates.gap[end.near];
+  end.H = zp_film_thickness(&model->film, end.g);
+  end.by_area = -1 / (end.H * length);
+  end.by_near = -end.part / end.H * rise(model, e, end.near);
+  return end;
+}
+
+static End end_of(const ZpModel *model, const ZpEval *e, int half) {
+  double l = model->film.l, along = e->reach[half] / l;
+  End end = {.half = half};
+  if (!(along < (double)elements_of(model)))
+    return end_below_platform(model, e, end, e->reach[half] - (double)elements_of(model) * l);
+  end.ends = true;
+  end.k = (size_t)along;
+  end.near = station_of(model, half, end.k);
+  end.far = station_of(model, half, end.k + 1);
+  end.part = along - (double)end.k;
+  end.length = l;
+  const double *gap = e->plates.gap;
+  double near = zp_film_thickness(&model->film, gap[end.near]), far = zp_film_thickness(&model->film, gap[end.far]);
+  end.g = gap[end.near] + (gap[end.far] - gap[end.near]) * end.part;
+  end.H = near + (far - near) * end.part;
+  end.by_area = -1 / (end.H * l);
+  end.by_near = -(end.part - 0.5 * end.part * end.part) / end.H * rise(model, e, end.near);
+  end.by_far = -0.5 * end.part * end.part / end.H * rise(model, e, end.far);
+  return end;
+}
+
+/* -- the head at the meniscus ---------------------------------------------------------------------- */
+
+static double released(const ZpModel *model, double U, double g) {
+  return zp_plates_law(&model->air, U, g).P - zp_plates_law(&model->plates, U, g).P;
+}
+
+static double head_of(const ZpModel *model, double U, const End *end) {
+  double drawn = released(model, U, end->g) / model->film.w + 2 * model->bead.tension;
+  return end->ends ? -model->bead.suction * drawn / end->H : 0;
+}
+
+/* => how it goes with the part, and with the gaps of both stations. */
+typedef struct HeadSlope {
+  double by_part, by_near, by_far;
+} HeadSlope;
+
+static HeadSlope head_slope(const ZpModel *model, const ZpEval *e, double U, const End *end, double head) {
+  double W = zp_plates_law(&model->air, U, end->g).W - zp_plates_law(&model->plates, U, end->g).W;
+  double by_g = -model->bead.suction * W / (model->film.w * end->H), by_H = -head / end->H;
+  const double *gap = e->plates.gap;
+  if (end->near == end->far) return (HeadSlope){0, by_g + by_H * rise(model, e, end->near), 0};
+  double dg = gap[end->far] - gap[end->near];
+  double dH = zp_film_thickness(&model->film, gap[end->far]) - zp_film_thickness(&model->film, gap[end->near]);
+  double l = 1 - end->part, r = end->part;
+  return (HeadSlope){by_g * dg + by_H * dH, l * (by_g + by_H * rise(model, e, end->near)),
+                     r * (by_g + by_H * rise(model, e, end->far))};
+}
+
+/* -- forces ---------------------------------------------------------------------------------------- */
+
+/* What the thickness at station k of a half counts in the wet area, m. */
+static double wet_share(const ZpModel *model, const End *end, size_t k) {
+  double l = model->film.l, part = end->part, sum = 0;
+  if (k > 0 && (k - 1 < end->k || !end->ends)) sum += 0.5 * l;
+  if (k > 0 && k - 1 == end->k && end->ends && end->near != end->far) sum += 0.5 * part * part * l;
+  if (k < elements_of(model) && (k < end->k || !end->ends)) sum += 0.5 * l;
+  if (k == end->k && end->ends && end->near != end->far) sum += (part - 0.5 * part * part) * l;
+  if (k == elements_of(model) && end->near == end->far) sum += part * end->length;
+  return sum;
+}
+
+static size_t last_of(const ZpModel *model, const End *end) {
+  size_t far = end->near == end->far ? end->k : end->k + 1;
+  return far < elements_of(model) ? far : elements_of(model);
+}
+
+/* F += head x how the wet area goes with each gap. */
+static void add_head(const ZpModel *model, const ZpEval *e, const End *end, double head, double *F) {
+  double *Fy = F + model->stride;
+  for (size_t k = 0; k <= last_of(model, end); k++) {
+    size_t i = station_of(model, end->half, k);
+    double push = model->film.w * head * wet_share(model, end, k) * rise(model, e, i);
+    Fy[zp_upper(&model->topology, i)] += push;
+    Fy[zp_lower(&model->topology, i)] -= push;
+  }
+}
+
+static bool draws(const ZpModel *model, const ZpSpan *span) {
+  return zp_span_is_still(span) && model->bead.suction > 0;
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  if (!draws(model, span)) return;
+  for (int half = 0; half < zp_beads(&model->film); half++) {
+    End end = end_of(model, e, half);
+    add_head(model, e, &end, head_of(model, span->U1, &end), F);
+  }
+}
+
+/* -- stiffness ------------------------------------------------------------------------------------- */
+
+/* Entries of a station's gap: a row or a column of both its nodes' heights. */
+static void at_gap(const ZpModel *model, const ZpAssembly *a, size_t own, size_t i, bool row, double value, ZpBand *K) {
+  zp_assemble_cross(a, own, 2 * zp_upper(&model->topology, i) + 1, row, value, K);
+  zp_assemble_cross(a, own, 2 * zp_lower(&model->topology, i) + 1, row, -value, K);
+}
+
+static size_t own_of(size_t i, int which) {
+  return 2 * i + (size_t)which;
+}
+
+/* The area to each station is that to the one before it and what lies between both. */
+static void areas(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, int half, ZpBand *K) {
+  double share = -0.5 * model->film.l / area_scale;
+  for (size_t k = 0; k <= elements_of(model); k++) {
+    size_t i = station_of(model, half, k), own = own_of(i, AREA);
+    zp_assemble_own(a, own, own, 1, K);
+    if (k == 0) continue;
+    size_t before = station_of(model, half, k - 1);
+    zp_assemble_own(a, own, own_of(before, AREA), -1, K);
+    at_gap(model, a, own, i, false, share * rise(model, e, i), K);
+    at_gap(model, a, own, before, false, share * rise(model, e, before), K);
+  }
+}
+
+/* Row `own` has, beside what stands there, -factor times the part where the bead ends. */
+static void follow_part(const ZpModel *model, const ZpAssembly *a, const End *end, size_t own, double factor,
+                        ZpBand *K) {
+  zp_assemble_own(a, own, own_of(end->near, AREA), -factor * end->by_area * area_scale, K);
+  at_gap(model, a, own, end->near, false, -factor * end->by_near, K);
+  if (end->far != end->near) at_gap(model, a, own, end->far, false, -factor * end->by_far, K);
+}
+
+/* The head at each wet station is that at the next one, at the last that of the meniscus; elsewhere it is 0. */
+static void heads(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end, ZpBand *K) {
+  double head = head_of(model, U, end);
+  for (size_t k = 0; k <= elements_of(model); k++) {
+    size_t own = own_of(station_of(model, end->half, k), HEAD);
+    zp_assemble_own(a, own, own, 1, K);
+    if (k < end->k) zp_assemble_own(a, own, own_of(station_of(model, end->half, k + 1), HEAD), -1, K);
+  }
+  if (!end->ends) return;
+  size_t own = own_of(end->near, HEAD);
+  HeadSlope slope = head_slope(model, e, U, end, head);
+  follow_part(model, a, end, own, slope.by_part / head_scale, K);
+  at_gap(model, a, own, end->near, false, -slope.by_near / head_scale, K);
+  if (end->far != end->near) at_gap(model, a, own, end->far, false, -slope.by_far / head_scale, K);
+}
+
+/* A force on coordinate c that goes with the part where the bead ends, N. */
+static void part_acts(const ZpModel *model, const ZpAssembly *a, const End *end, size_t c, double by_part, ZpBand *K) {
+  const ZpTopology *t = &model->topology;
+  const size_t station[] = {end->near, end->far};
+  const double by_gap[] = {end->by_near, end->by_far};
+  zp_assemble_cross(a, own_of(end->near, AREA), c, true, -by_part * end->by_area * area_scale, K);
+  for (int m = 0; m < (end->near == end->far ? 1 : 2); m++) {
+    zp_assemble_entry(a, c, 2 * zp_upper(t, station[m]) + 1, -by_part * by_gap[m], K);
+    zp_assemble_entry(a, c, 2 * zp_lower(t, station[m]) + 1, by_part * by_gap[m], K);
+  }
+}
+
+/* The attraction goes with the part, since one law follows the other there. */
+static void attraction(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end,
+                       ZpBand *K) {
+  const ZpTopology *t = &model->topology;
+  size_t left = end->near < end->far ? end->near : end->far, right = end->near < end->far ? end->far : end->near;
+  if (left == right) {
+    double W = zp_plates_law(&model->plates, U, end->g).W - zp_plates_law(&model->air, U, end->g).W;
+    part_acts(model, a, end, 2 * zp_upper(t, left) + 1, -model->plates.flat_length * W, K);
+    part_acts(model, a, end, 2 * zp_lower(t, left) + 1, model->plates.flat_length * W, K);
+    return;
+  }
+  ZpPlatesByCover by = zp_plates_by_cover(&model->plates, &e->plates, U, left);
+  const double closing[] = {by.A, by.B}, along[] = {0.5 * by.P, -0.5 * by.P};
+  const size_t station[] = {left, right};
+  for (int m = 0; m < 2; m++) {
+    size_t upper = 2 * zp_upper(t, station[m]), lower = 2 * zp_lower(t, station[m]);
+    part_acts(model, a, end, upper, along[m], K);
+    part_acts(model, a, end, lower, along[m], K);
+    part_acts(model, a, end, upper + 1, -closing[m], K);
+    part_acts(model, a, end, lower + 1, closing[m], K);
+  }
+}
+
+/* The suction on station k goes with the head, with its own gap, and where the bead ends with the part. */
+static void suction_at(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, const End *end, double head,
+                       size_t k, ZpBand *K) {
+  const ZpTopology *t = &model->topology;
+  size_t i = station_of(model, end->half, k), wet = k > end->k ? end->near : i;
+  double w = model->film.w, share = wet_share(model, end, k), gap = e->plates.gap[i];
+  double bend = -w * head * share * zp_film_bend(&model->film, gap), slope = rise(model, e, i);
+  zp_assemble_heights(a, i, bend, bend, 0, K);
+  zp_assemble_entry(a, 2 * zp_upper(t, i) + 1, 2 * zp_lower(t, i) + 1, -bend, K);
+  zp_assemble_entry(a, 2 * zp_lower(t, i) + 1, 2 * zp_upper(t, i) + 1, -bend, K);
+  at_gap(model, a, own_of(wet, HEAD), i, true, -w * share * slope * head_scale, K);
+  if (i != end->near && i != end->far) return;
+  double by_part = end->near == end->far ? end->length
+                   : i == end->near      ? end->length * (1 - end->part)
+                                         : end->length * end->part;
+  part_acts(model, a, end, 2 * zp_upper(t, i) + 1, w * head * slope * by_part, K);
+  part_acts(model, a, end, 2 * zp_lower(t, i) + 1, -w * head * slope * by_part, K);
+}
+
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
+  if (!zp_span_is_still(span) || a->own == 0) return;
+  for (int half = 0; half < zp_beads(&model->film); half++) {
+    End end = end_of(model, e, half);
+    double head = head_of(model, span->U1, &end);
+    areas(model, a, e, half, K);
+    heads(model, a, e, span->U1, &end, K);
+    if (!end.ends) continue;
+    attraction(model, a, e, span->U1, &end, K);
+    for (size_t k = 0; draws(model, span) && k <= last_of(model, &end); k++)
+      suction_at(model, a, e, &end, head, k, K);
+  }
+}
+
+/* Of the head's part. */
+static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
+  if (!draws(model, span)) return;
+  for (int half = 0; half < zp_beads(&model->film); half++) {
+    End end = end_of(model, e, half);
+    double charge = zp_plates_law(&model->plates, span->U1, end.g).q - zp_plates_law(&model->air, span->U1, end.g).q;
+    double by_U = end.ends ? -model->bead.suction * charge / (model->film.w * end.H) : 0;
+    add_head(model, e, &end, by_U, sum->force);
+  }
+}
+
+const ZpTerm zp_term_bead = {
+    .name = "bead", .acts = acts, .force = force, .stiffness = stiffness, .by_voltage = by_voltage};

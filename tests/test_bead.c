@@ -1,0 +1,425 @@
+/* A bead of liquid at each zip front and air beyond: how far it reaches, its forces at rest, what it does in motion;
+ * docs/theory.md, section 22. */
+#include "check_util.h"
+
+#include "rest/rest.h"
+
+/* -- geometry -------------------------------------------------------------------------------------- */
+
+/* In a wedge of angle a a volume V reaches sqrt(2 V / (w a)), and the volume of that reach is V again. */
+START_TEST(test_reach_in_a_wedge) {
+  enum { NODES = 61 };
+  const double w = 12.7e-3, angle = 0.1;
+  ZpFilmParams film = {.nodes = NODES, .l = 1e-3, .platform = NODES - 1, .platform_end = NODES - 1, .w = w};
+  double gap[NODES];
+  film.flat_length = 5e-3;
+  for (size_t i = 0; i < NODES; i++)
+    gap[i] = angle * film.l * (double)i;
+  for (double volume = 1e-10; volume < 2e-6; volume *= 1.7) {
+    double reach = zp_bead_reach(&film, gap, 0, volume);
+    ck_near(zp_bead_volume(&film, gap, 0, reach), volume, 1e-13);
+    ck_near(reach, sqrt(2 * volume / (w * angle)), 1e-13);
+  }
+  double all = w * angle * 0.06 * (0.03 + 5e-3);
+  ck_near(zp_bead_reach(&film, gap, 0, 0.999 * all), 0.06 + 5e-3 * (1 - 1e-3 * 35 / 5), 1e-12);
+  ck_assert_double_eq(zp_bead_reach(&film, gap, 0, 1.001 * all), zp_bead_longest(&film));
+}
+END_TEST
+
+/* -- at rest --------------------------------------------------------------------------------------- */
+
+typedef struct Case {
+  const char *name;
+  double volume, suction, U;
+  int symmetry;
+} Case;
+
+static const Case cases[] = {
+    {"all liquid", 1e-3, 0, 6e3, ZP_SYMMETRY_HALF},
+    {"local law", 50e-9, 0, 6e3, ZP_SYMMETRY_HALF},
+    {"suction", 50e-9, 1, 6e3, ZP_SYMMETRY_HALF},
+    {"suction, below the platform", 0.9e-6, 1, 6e3, ZP_SYMMETRY_HALF},
+    {"local law, whole", 60e-9, 0, 6e3, ZP_SYMMETRY_NONE},
+    {"suction, whole", 60e-9, 0.7, 6e3, ZP_SYMMETRY_NONE},
+    {"capillarity alone", 30e-9, 1, 0, ZP_SYMMETRY_HALF},
+};
+
+static ZpActuatorDef def_of(const Case *c, double nodes) {
+  return DEF({"mesh.nodes", nodes}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", c->volume},
+             {"bead.suction", c->suction}, {"actuator.symmetry", c->symmetry}, {"ribbon.young_modulus", 1e7});
+}
+
+/* Gaps from nothing at the clips to millimetres, a little at random. */
+static void bend(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  uint64_t seed = 5;
+  double *x = s->q, *y = s->q + model->stride, half = (double)model->topology.platform.first;
+  for (size_t i = 0; i < model->nodes; i++) {
+    double along = (double)zp_topology_station_image(&model->topology, i) / half, gap = 4e-3 * along * along;
+    y[zp_upper(&model->topology, i)] = 1e-4 * noise(&seed) * along;
+    y[zp_lower(&model->topology, i)] = y[zp_upper(&model->topology, i)] - gap * (1 + 0.1 * noise(&seed));
+    for (size_t j = zp_upper(&model->topology, i); j <= zp_lower(&model->topology, i); j++)
+      if (s->assembly.equation[2 * j] >= 0) x[j] += 0.05 * model->l * noise(&seed);
+  }
+  for (size_t j = 0; j < model->count; j++) {
+    size_t body = zp_topology_leader(&model->topology, 2 * j) / 2;
+    if (s->assembly.equation[2 * j] >= 0) x[j] = x[body];
+    y[j] = y[body];
+  }
+}
+
+static void shift(ZpStatics *s, size_t row, double by) {
+  for (size_t k = 0; k < 2 * s->model->count; k++)
+    if (s->assembly.equation[k] == (int)row) s->q[k / 2 + (k % 2) * s->model->stride] += by;
+}
+
+/* Which equations are the bead's own. */
+static void find_own(const ZpStatics *s, bool *own) {
+  memset(own, 0, s->assembly.n * sizeof *own);
+  for (size_t c = 0; c < s->assembly.own * s->model->nodes; c++)
+    own[s->assembly.own_equation[c]] = true;
+}
+
+/* Banded => full, the own unknowns eliminated: of all rows and columns only those of coordinates count then. */
+static double *without_own(const ZpBand *K, const bool *own) {
+  size_t n = K->n;
+  double *A = calloc(n * n, sizeof *A);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++)
+      if (i + K->upper >= j && j + K->lower >= i) A[i * n + j] = *zp_band_at(K, i, j);
+  for (size_t p = 0; p < n; p++)
+    for (size_t i = 0; own[p] && i < n; i++) {
+      double factor = i == p ? 0 : A[i * n + p] / A[p * n + p];
+      for (size_t j = 0; factor != 0 && j < n; j++)
+        A[i * n + j] -= factor * A[p * n + j];
+    }
+  return A;
+}
+
+/* The wet length follows from all gaps before it, and each force there from the wet length: that is in the stiffness,
+ * through unknowns of its own. */
+START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
+  const Case *c = &cases[_i];
+  ZpActuatorDef def = def_of(c, 7);
+  ZpModel *model = model_of(&def);
+  ZpRest rest;
+  ck_assert(zp_rest_open(&rest, model, NULL, NULL));
+  ZpStatics *s = &rest.statics;
+  ZpStaticSystem system = zp_statics_system(s);
+  size_t n = system.n;
+  bool *own = calloc(n, sizeof *own);
+  double *up = calloc(n, sizeof *up), *down = calloc(n, sizeof *down), worst = 0, largest = 0;
+  bend(s);
+  s->U = c->U;
+  s->contact_acts = true;
+  system.residual(s, up, NULL);
+  memcpy(s->tension, s->eval.edges.T, (model->count - model->s) * sizeof *s->tension);
+  system.stiffness(s, &rest.branch.newton.K, NULL);
+  find_own(s, own);
+  double *A = without_own(&rest.branch.newton.K, own);
+  for (size_t j = 0; j < n; j++) {
+    static const double by = 2e-8;
+    shift(s, j, by);
+    system.residual(s, up, NULL);
+    shift(s, j, -2 * by);
+    system.residual(s, down, NULL);
+    shift(s, j, by);
+    for (size_t i = 0; i < n && !own[j]; i++) {
+      if (own[i]) continue;
+      worst = fmax(worst, fabs(A[i * n + j] - (down[i] - up[i]) / (2 * by)));
+      largest = fmax(largest, fabs(A[i * n + j]));
+    }
+  }
+  printf("%s: stiffness off by %.1e\n", c->name, worst / largest);
+  ck_below(worst / largest, 1e-6);
+  free(A), free(own), free(up), free(down);
+  zp_rest_close(&rest);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Potential of the field and energy of the wetted surfaces, J: with the whole suction all forces of bead and field are
+ * minus their gradient at a fixed volume. */
+static double potential(ZpStatics *s, double *r) {
+  const ZpModel *model = s->model;
+  zp_statics_system(s).residual(s, r, NULL);
+  double surfaces = 0;
+  for (int half = 0; half < zp_beads(&model->film); half++)
+    surfaces -= 2 * model->bead.tension * model->film.w * s->eval.reach[half];
+  return zp_plates_totals(&model->plates, &s->eval.plates, s->U).potential + surfaces;
+}
+
+START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
+  static const double volumes[] = {20e-9, 50e-9, 200e-9, 0.9e-6};
+  Case c = {"", volumes[_i], 1, 8e3, ZP_SYMMETRY_HALF};
+  ZpActuatorDef def = def_of(&c, 61), dry;
+  def.electro.breakdown_cap = false; /* no corner of a law between the points where it is sampled */
+  dry = def;
+  dry.medium.surface_tension = 0;
+  ZpModel *model = model_of(&def), *without = model_of(&dry);
+  ZpRest rest, none;
+  ck_assert(zp_rest_open(&rest, model, NULL, NULL));
+  ck_assert(zp_rest_open(&none, without, NULL, NULL));
+  ZpStatics *s = &rest.statics;
+  size_t n = s->assembly.n;
+  double *r = calloc(n, sizeof *r), *other = calloc(n, sizeof *other), *scratch = calloc(n, sizeof *scratch);
+  bend(s);
+  bend(&none.statics);
+  s->U = c.U;
+  potential(s, r);
+  potential(&none.statics, other); /* without voltage and surface: what is not of bead and field */
+  double worst = 0, largest = 0;
+  for (size_t j = 0; j < n; j++) {
+    static const double by = 1e-7;
+    shift(s, j, by);
+    double up = potential(s, scratch);
+    shift(s, j, -2 * by);
+    double down = potential(s, scratch);
+    shift(s, j, by);
+    worst = fmax(worst, fabs(r[j] - other[j] + (up - down) / (2 * by)));
+    largest = fmax(largest, fabs(r[j] - other[j]));
+  }
+  printf("%g uL: force off -dW/dq by %.1e of the largest\n", 1e9 * c.volume, worst / largest);
+  ck_below(worst / largest, 1e-3); /* three points an element: the sum over them has the slope of the law to that */
+  free(r), free(other), free(scratch);
+  zp_rest_close(&rest);
+  zp_rest_close(&none);
+  zp_model_destroy(model);
+  zp_model_destroy(without);
+}
+END_TEST
+
+static double isometric(const Setting *list, size_t count) {
+  ZpActuatorDef def = def_with(list, count);
+  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+  double force = zp_result_get(result, "force_N");
+  zp_result_destroy(result);
+  return force;
+}
+#define ISOMETRIC(...)                                                                                                 \
+  isometric((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
+#define BEAD                                                                                                           \
+  { "liquid.model", ZP_LIQUID_BEAD }
+
+/* A bead that fills all is the liquid that is everywhere; the volumes that give 92 % of that at 1 and 2 mm, 6 and 10
+ * kV, are those of an independent code with cubic wedges. */
+START_TEST(test_isometric_force) {
+  static const struct {
+    double U, separation, volume;
+  } row[] = {{6e3, 1e-3, 83e-9}, {6e3, 2e-3, 51e-9}, {6e3, 4e-3, 30e-9}, {10e3, 2e-3, 132e-9}, {10e3, 4e-3, 76e-9}};
+  Setting U = {"drive.voltage", row[_i].U}, held = {"isometric.separation", row[_i].separation};
+  double all = ISOMETRIC(U, held), full = ISOMETRIC(U, held, BEAD, {"bead.volume", 1e-3});
+  double some = ISOMETRIC(U, held, BEAD, {"bead.volume", row[_i].volume});
+  double drawn = ISOMETRIC(U, held, BEAD, {"bead.volume", row[_i].volume}, {"bead.suction", 1});
+  printf("%g kV, %g mm: %.1f %% of the force, with suction %.1f %%\n", 1e-3 * row[_i].U, 1e3 * row[_i].separation,
+         100 * some / all, 100 * drawn / all);
+  ck_near(full, all, 1e-6);
+  ck_near(some / all, 0.92, 0.04);
+  ck_assert_double_gt(drawn, 1.05 * some);
+}
+END_TEST
+
+/* -- in motion ------------------------------------------------------------------------------------- */
+
+static ZpSim *zip_hold_release(ZpModel **model, const Setting *list, size_t count) {
+  Setting all[16] = {BEAD, {"mesh.nodes", 31}};
+  memcpy(all + 2, list, count * sizeof *list);
+  ZpActuatorDef def = def_with(all, count + 2);
+  def.drive.waveform = ZP_WAVEFORM_TABLE;
+  snprintf(def.drive.table, sizeof def.drive.table, "0 s = 10 kV, 0.3 s = 10 kV, 0.3 s = 0 kV");
+  static const double time[] = {0, 0.3, 0.3}, voltage[] = {10e3, 10e3, 0};
+  ZpDriveTable table = {3, time, voltage};
+  ZpError err;
+  ck_assert_msg(zp_model_create_driven(&def, &table, model, &err) == ZP_OK, "%s", err.message);
+  return sim_of(*model);
+}
+#define ZIP_HOLD_RELEASE(model, ...)                                                                                   \
+  zip_hold_release(model, (const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
+
+/* What lies between the faces of the left half, m^3. */
+static double volume_between(ZpSim *sim, const ZpModel *model) {
+  ZpShape shape = zp_sim_shape(sim);
+  return zp_bead_volume(&model->film, shape.gap, 0, zp_sim_get(sim, "wet_length"));
+}
+
+/* Behind sealed edges the bead keeps its volume to rounding; with open ones what is outside and lost is missing. */
+START_TEST(test_volume_is_kept) {
+  static const struct { double lateral, share; } row[] = {{0, 1}, {1, 1}, {1, 0.5}, {1, 0}};
+  ZpModel *model;
+  ZpSim *sim = ZIP_HOLD_RELEASE(&model, {"liquid.lateral_flow", row[_i].lateral}, {"bead.return", row[_i].share});
+  for (int k = 1; k <= 30; k++) {
+    ck_assert_int_eq(zp_sim_run(sim, 0.02 * k, false, NULL, NULL), ZP_REACHED_END);
+    double outside = zp_sim_get(sim, "bead_outside"), lost = zp_sim_get(sim, "bead_lost");
+    ck_near(volume_between(sim, model) + outside + lost, 50e-9, 1e-12);
+    ck_assert_double_ge(outside, 0);
+    if (row[_i].lateral == 0 && k < 8) ck_assert_double_eq(outside, 0);
+    if (row[_i].share == 1) ck_assert_double_eq(lost, 0);
+    if (row[_i].share == 0) ck_assert_double_eq(outside, 0);
+  }
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Energy closes over closing, holding and opening, with and without suction, and what is pressed out comes back. */
+START_TEST(test_energy_of_zip_hold_and_release) {
+  static const struct {
+    double viscosity, suction, share, volume;
+  } row[] = {{50e-6, 0, 1, 50e-9}, {5e-6, 0, 1, 30e-9}, {1e-3, 0, 1, 200e-9}};
+  ZpModel *model;
+  ZpSim *sim =
+      ZIP_HOLD_RELEASE(&model, {"medium.kinematic_viscosity", row[_i].viscosity}, {"bead.suction", row[_i].suction},
+                       {"bead.return", row[_i].share}, {"bead.volume", row[_i].volume});
+  double worst = 0, most = 0;
+  for (int k = 1; k <= 20; k++) {
+    ck_assert_int_eq(zp_sim_run(sim, 0.2 * k, false, NULL, NULL), ZP_REACHED_END);
+    worst = fmax(worst, fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work"));
+    most = fmax(most, zp_sim_get(sim, "bead_outside"));
+  }
+  printf("suction %g, return %g, %g mm2/s: energy off by %.1e, %.1f uL outside at most, %.1f in the end, opening %.2f "
+         "mm\n",
+         row[_i].suction, row[_i].share, 1e6 * row[_i].viscosity, worst, 1e9 * most,
+         1e9 * zp_sim_get(sim, "bead_outside"), 1e3 * zp_sim_get(sim, "opening"));
+  ck_below(worst, 1e-6);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+typedef struct Run {
+  ZpOutcome outcome;
+  double zip_time, energy_error, starved, meniscus;
+} Run;
+
+static Run run_with(const Setting *list, size_t count) {
+  ZpActuatorDef def = def_with(list, count);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  Run run = {result->outcome, zp_result_get(result, "zip_time_s"), zp_result_get(result, "energy_error"),
+             zp_result_get(result, "starved_time_s"), zp_result_get(result, "meniscus_loss_J")};
+  zp_result_destroy(result);
+  return run;
+}
+#define RUN(...) run_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
+
+/* A bead that fills all closes as in a bath that has no mass outside and drags no outer face: the same film. */
+START_TEST(test_much_liquid_is_a_bath) {
+  Run bath = RUN({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", 31}, {"liquid.inertia", 0},
+                 {"medium.drag_coefficient", 0}, {"solver.tolerance", 1e-6}),
+      bead = RUN(BEAD, {"mesh.nodes", 31}, {"liquid.inertia", 0}, {"bead.volume", 1e-5}, {"solver.tolerance", 1e-6});
+  printf("bath: %.3f ms, bead: %.3f ms\n", 1e3 * bath.zip_time, 1e3 * bead.zip_time);
+  ck_near(bead.zip_time, bath.zip_time, 2e-4);
+}
+END_TEST
+
+/* With the whole suction menisci lose nothing: what the field gives them the film gets. */
+START_TEST(test_suction_takes_what_menisci_lose) {
+  Run local = RUN(BEAD, {"mesh.nodes", 31}),
+      drawn = RUN(BEAD, {"mesh.nodes", 31}, {"bead.suction", 1}, {"solver.tolerance", 1e-5}, {"liquid.inertia", 0});
+  printf("lost by menisci: %.3f mJ, with suction %.4f mJ\n", 1e3 * local.meniscus, 1e3 * drawn.meniscus);
+  ck_assert_double_gt(local.meniscus, 3e-4);
+  ck_below(fabs(drawn.meniscus), 0.05 * local.meniscus);
+  ck_assert_double_lt(drawn.zip_time, local.zip_time);
+}
+END_TEST
+
+/* A small bead is used up by the film that it leaves behind, and the run says so. */
+START_TEST(test_small_bead_starves) {
+  Run small = RUN(BEAD, {"mesh.nodes", 31}, {"bead.volume", 30e-9}, {"solver.end_time", 0.3}),
+      large = RUN(BEAD, {"mesh.nodes", 31}, {"bead.volume", 200e-9});
+  ck_assert(isfinite(small.starved));
+  ck_assert(isnan(large.starved));
+  ck_assert_int_eq(large.outcome, ZP_ZIPPED);
+}
+END_TEST
+
+/* Neither the roughness nor the mesh decides when it closes. */
+START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
+#define LARGE                                                                                                          \
+  BEAD, {                                                                                                              \
+    "bead.volume", 150e-9                                                                                              \
+  } /* it does not starve before it has closed */
+  double time = RUN(BEAD).zip_time, rough = RUN(LARGE, {"film.roughness", 10e-6}).zip_time,
+         fine = RUN(LARGE, {"film.roughness", 0.5e-6}).zip_time, mesh = RUN(BEAD, {"mesh.nodes", 121}).zip_time,
+         exact = RUN(BEAD, {"solver.tolerance", 1e-5}).zip_time;
+  printf("bead: %.2f ms; roughness 0.5 and 10 um %.2f, %.2f ms; 121 nodes %.2f ms; finer steps %.2f ms\n", 1e3 * time,
+         1e3 * fine, 1e3 * rough, 1e3 * mesh, 1e3 * exact);
+  ck_near(rough, fine, 0.015);
+  ck_near(mesh, time, 0.011);
+  ck_near(exact, time, 3e-3);
+}
+END_TEST
+
+/* The whole actuator is two halves. */
+START_TEST(test_whole_is_two_halves) {
+  ZpModel *models[2];
+  ZpSim *sims[2] = {ZIP_HOLD_RELEASE(&models[0], {"actuator.symmetry", ZP_SYMMETRY_HALF}),
+                    ZIP_HOLD_RELEASE(&models[1], {"actuator.symmetry", ZP_SYMMETRY_NONE})};
+  static const char *const signals[] = {"opening", "film_across_loss", "wet_length", "meniscus_loss", "bead_outside"};
+  for (int k = 0; k < 2; k++)
+    ck_assert_int_eq(zp_sim_run(sims[k], 0.28, false, NULL, NULL), ZP_REACHED_END);
+  for (size_t k = 0; k < LENGTH_OF(signals); k++)
+    ck_near(zp_sim_get(sims[1], signals[k]), zp_sim_get(sims[0], signals[k]), 1e-3);
+  for (int k = 0; k < 2; k++) {
+    zp_sim_destroy(sims[k]);
+    zp_model_destroy(models[k]);
+  }
+}
+END_TEST
+
+/* A run that is saved and restored on the way takes the very steps of one that is not. */
+START_TEST(test_bead_is_kept_in_a_snapshot) {
+  ZpModel *model;
+  ZpSim *sim = ZIP_HOLD_RELEASE(&model, {"bead.suction", 0.5}), *other = sim_of(model);
+  static const char *const signals[] = {"opening", "wet_length", "bead_outside", "meniscus_loss", "liquid_energy"};
+  size_t size = zp_sim_state_size(sim);
+  void *bytes = malloc(size);
+  ck_assert_int_eq(zp_sim_run(sim, 0.08, false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_save(sim, bytes);
+  ck_assert_int_eq(zp_sim_restore(other, bytes, size, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(sim, 0.11, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_run(other, 0.11, false, NULL, NULL), ZP_REACHED_END);
+  for (size_t k = 0; k < LENGTH_OF(signals); k++)
+    ck_assert_double_eq(zp_sim_get(sim, signals[k]), zp_sim_get(other, signals[k]));
+  free(bytes);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+}
+END_TEST
+
+START_TEST(test_what_is_refused) {
+  static const struct {
+    const char *key;
+    double value;
+  } other[] = {{"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
+               {"electro.model", ZP_ELECTRO_FIELD},     {"electro.edges", 1},
+               {"actuator.kind", ZP_KIND_FLANGE},       {"bead.volume", 0}};
+  Setting list[] = {BEAD, {other[_i].key, other[_i].value}};
+  ZpActuatorDef def;
+  ZpError err;
+  ZpStatus status = resolve(&def, list, 2, &err);
+  if (status == ZP_OK) status = zp_def_check(&def, &err);
+  ck_assert_int_eq(status, ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, other[_i].key));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("bead");
+  TCase *c = tcase_create("bead");
+  tcase_add_test(c, test_reach_in_a_wedge);
+  tcase_add_loop_test(c, test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
+  tcase_add_loop_test(c, test_force_of_a_fixed_volume_has_an_energy, 0, 4);
+  tcase_add_loop_test(c, test_isometric_force, 0, 5);
+  tcase_add_loop_test(c, test_volume_is_kept, 0, 4);
+  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, 3);
+  tcase_add_test(c, test_much_liquid_is_a_bath);
+  tcase_add_test(c, test_suction_takes_what_menisci_lose);
+  tcase_add_test(c, test_small_bead_starves);
+  tcase_add_test(c, test_time_does_not_depend_on_roughness_and_mesh);
+  tcase_add_test(c, test_whole_is_two_halves);
+  tcase_add_test(c, test_bead_is_kept_in_a_snapshot);
+  tcase_add_loop_test(c, test_what_is_refused, 0, 6);
+  suite_add_tcase(suite, c);
+  return run_suite(suite);
+}
