@@ -439,7 +439,7 @@ void zp_plates_step_of(const ZpPlatesParams *p, const ZpPlatesMean *piece, const
     const double *at = zp_gauss_shares(&p->level, i);
     for (int q = 0; q < GAUSS; q++) {
       ZpPlatesMean of = piece[ZP_PLATES_PLACES * i + (size_t)q];
-      add_point(&parts, (Between){of.W, of.slope, of.P, of.W1}, 0.5 * (e0->dx[i] + e1->dx[i]), at[q], q);
+      add_point(&parts, (Between){of.W, of.slope, of.P, of.W1}, 0.5 * (e0->dx[i] + e1->dx[i]), at[q], gauss_weight[q]);
     }
     put(s, i, parts);
   }
