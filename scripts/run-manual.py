@@ -34,6 +34,7 @@ PICTURES = {
     "reproduce.svg": "reproduce/plots/fig-8.svg",
     "sweep.svg": "sweep/plots/contraction.svg",
     "release.svg": "release/plots/stroke.svg",
+    "bead.svg": "bead/plots/forces.svg",
     "hold.svg": "hold/plots/interface.svg",
     "meter.svg": "meter/plots/sense.svg",
     "demo.gif": "motion/plots/animation.gif",
