@@ -33,7 +33,7 @@ static double unit_noise(uint64_t *seed) {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;
     sum += (double)(*seed >> 11) * 0x1p-53;
   }
-  return sum - TERMS / 2;
+  return sum - 0.5 * TERMS;
 }
 
 /* A current as it is read. */

@@ -106,10 +106,9 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 
 /* Of the surfaces that the liquid wets, J, as far as suction counts. */
 static double surface_energy(const ZpModel *model, const double reach[ZP_BEADS]) {
-  double length = 0;
-  for (int half = 0; half < zp_beads(&model->film); half++)
-    length += reach[half];
-  return model->has_bead ? -2 * model->bead.suction * model->bead.tension * model->film.w * length : 0;
+  if (!model->has_bead) return 0;
+  double length = zp_beads(&model->film) > 1 ? reach[0] + reach[1] : reach[0];
+  return -2 * model->bead.suction * model->bead.tension * model->film.w * length;
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
