@@ -114,10 +114,11 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
 }
 
 /* Has Newton's method found an equilibrium, and none of folded ribbons? Its last stiffness tells, or that of the
- * equilibrium itself. */
+ * equilibrium itself; not where laws have unknowns of their own, whose suction may turn the sign. */
 static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   if (!zp_newton_good(info.end)) return false;
-  return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
+  bool tells = info.iterations > 0 && s->assembly.own == 0;
+  return !tells || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
 }
 
 /* The equilibrium found without contact, now with it, where there are faces. */
@@ -141,7 +142,7 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   s->contact_acts = false;
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
-  if (zp_newton_good(info.end) && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work);
+  if (s->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
   return let_faces_push(s, info, work);
 }
 
