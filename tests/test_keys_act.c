@@ -250,7 +250,7 @@ static const Row rows[] = {
      "1.5",
      "0",
      {{BECOMES, "outer_drag_loss_J", 0, 0}, {LESS, "zip_time_s", 0.97, 0}}},
-    {"medium.surface_tension", CAPILLARY " bead.suction=1", "10mN/m", "20mN/m", {{TIMES, "liquid_energy_J", 2, 1e-3}}},
+    {"medium.surface_tension", CAPILLARY " bead.suction=0.1", "10mN/m", "20mN/m", {{TIMES, "liquid_energy_J", 2, 1e-3}}},
     /* the bead of closed faces that hardly have a gap reaches the platform; a drop does not */
     {"air.breakdown_field",
      DROP " drive.voltage=10kV",
@@ -615,9 +615,18 @@ END_TEST
 
 /* -- every key has a row --------------------------------------------------------------------------- */
 
+/* What is written or drawn, which no study knows: test_report and test_campaign.py. */
+static bool is_of_files(const char *key) {
+  static const char *const files[] = {"output.series", "output.plots", "output.animation"};
+  bool found = false;
+  for (size_t i = 0; i < LENGTH_OF(files); i++)
+    found |= strcmp(files[i], key) == 0;
+  return found;
+}
+
 START_TEST(key_has_a_row) {
   const char *key = zp_key(_i)->name;
-  bool found = false;
+  bool found = is_of_files(key);
   for (size_t i = 0; i < LENGTH_OF(rows); i++)
     found |= strcmp(rows[i].key, key) == 0 && rows[i].effect[0].output;
   ck_assert_msg(found, "%s has no row: which output does it change, by how much?", key);
