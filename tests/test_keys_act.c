@@ -250,7 +250,11 @@ static const Row rows[] = {
      "1.5",
      "0",
      {{BECOMES, "outer_drag_loss_J", 0, 0}, {LESS, "zip_time_s", 0.97, 0}}},
-    {"medium.surface_tension", CAPILLARY " bead.suction=0.1", "10mN/m", "20mN/m", {{TIMES, "liquid_energy_J", 2, 1e-3}}},
+    {"medium.surface_tension",
+     CAPILLARY " bead.suction=0.1",
+     "10mN/m",
+     "20mN/m",
+     {{TIMES, "liquid_energy_J", 2, 1e-3}}},
     /* the bead of closed faces that hardly have a gap reaches the platform; a drop does not */
     {"air.breakdown_field",
      DROP " drive.voltage=10kV",
