@@ -158,7 +158,7 @@ static void check_motion(const ZpActuatorDef *def, double allowed) {
 }
 
 /* Rounding grows from bounce to bounce; until it has closed it is 1e-9. */
-static const double after_impacts = 1e-6;
+static const double after_impacts = 5e-7;
 
 START_TEST(motion_is_that_of_the_half) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_HALF, meshes[_i]);
