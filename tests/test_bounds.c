@@ -4,6 +4,7 @@
  * with an outcome, soon, and no number in the result is infinite, or NAN where signals.def and study.h do
  * not say that it may not exist. That the numbers are also right is for other tests. */
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -317,14 +318,15 @@ START_TEST(bad_fields_are_refused) {
     return;
   }
   double real[] = {INFINITY, -INFINITY, nextafter(key->max, INFINITY), nextafter(key->min, -INFINITY)};
-  int whole[] = {(int)key->min - 1, (int)key->max + 1};
+  double whole[] = {key->min - 1, key->max + 1}; /* what no int can hold cannot be given */
   bool is_real = key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO;
   for (size_t k = 0; is_real && k < 4; k++) {
     memcpy(field, &real[k], sizeof real[k]);
     refuse_field(&def, key->name);
   }
   for (size_t k = 0; !is_real && key->type != ZP_KEY_BOOL && k < 2; k++) {
-    memcpy(field, &whole[k], sizeof whole[k]);
+    if (whole[k] < INT_MIN || whole[k] > INT_MAX) continue;
+    memcpy(field, &(int){(int)whole[k]}, sizeof(int));
     refuse_field(&def, key->name);
   }
 }
