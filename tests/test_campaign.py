@@ -142,6 +142,20 @@ def check_interrupt(zipact, scratch):
     ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
 
 
+def check_unfinished(zipact, scratch):
+    """The journal of an unfinished campaign was replaced without a word when --resume was forgotten."""
+    whole, torn = scratch / "limits-1", scratch / "limits-forgotten"
+    shutil.copytree(whole, torn)
+    spoil(torn, "DELETE FROM row WHERE number IN (3, 40)")
+    before = rows_of(torn)
+    forgotten = zipact.run("limits", torn)
+    ok("unfinished, without --resume: refused", forgotten.returncode == 2 and "58 of 60 cases" in forgotten.stderr and "--resume" in forgotten.stderr)
+    ok("unfinished, without --resume: all rows are kept", rows_of(torn) == before)
+    ok("unfinished, with --resume: done", zipact.run("limits", torn, "--resume").returncode == 0 and results(torn) == results(whole))
+    spoil(torn, "DELETE FROM row")
+    ok("a journal without rows is replaced", zipact.run("limits", torn).returncode == 0)
+
+
 def rows_so_far(folder):
     try:
         return [number for number, _ in rows_of(folder)]
@@ -219,6 +233,7 @@ def main():
     check_workers(zipact, scratch)
     check_kills(zipact, scratch, kills)
     check_resume(zipact, scratch)
+    check_unfinished(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_gap(zipact, scratch)
     check_failures(zipact, scratch)

@@ -24,7 +24,7 @@ typedef struct ZpCampaignState {
 /* How it is run. */
 typedef struct ZpCampaignOptions {
   int jobs;    /* threads that compute, 1 or more; 0: as many as there are processors. Results do not depend on it */
-  bool resume; /* keep the rows of the journal that is there; else it is replaced */
+  bool resume; /* keep the rows of the journal that is there; else it is replaced, if its campaign is finished */
   void *user;  /* handed to the functions below */
   /* Called some times a second, by the thread that runs the campaign; true stops it. May be NULL. */
   bool (*progress)(void *user, const ZpCampaignState *state);
@@ -33,7 +33,8 @@ typedef struct ZpCampaignOptions {
 
 /* Open DIRECTORY/journal.sqlite for `scenario`, which must have passed zp_batch_check and outlive the campaign.
  * `directory` must exist and be the caller's own (zp_folder_open). ZP_BAD_INPUT if `resume` finds a file that is no
- * journal; ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ * journal, or a campaign without `resume` finds the journal of an unfinished one; ZP_MACHINE if it cannot be written.
+ * *out is NULL on failure. */
 ZP_API ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,
                                  ZpCampaign **out, ZpError *err);
 

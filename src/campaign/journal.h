@@ -9,7 +9,8 @@
 typedef struct ZpJournal ZpJournal;
 
 /* Open or make the journal of a `study` in `directory`. `keep`: that which is there is kept, but rows of numbers from
- * `cases` on; ZP_BAD_INPUT if it is no journal of ours. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ * `cases` on; ZP_BAD_INPUT if it is no journal of ours. Else it is replaced; ZP_BAD_INPUT if it lacks
+ * rows that its campaign has not computed yet. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
 
 /* Commit, and close; NULL is allowed. */
