@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/* A scenario: values for keys, some of them lists. Its product of lists is a set of Defs. */
+/* A scenario: values for keys, some of them lists or distributions. The product of its lists and the samples of its
+ * distributions are a set of Defs. */
 typedef struct ZpScenario ZpScenario;
 
 /* A new scenario in which every key has its default. NULL if there is no memory. */
@@ -34,10 +35,11 @@ ZP_API ZpStatus zp_scenario_override(ZpScenario *scenario, const char *text, siz
 /* Set from "KEY=VALUE" as --set gives it; wins over the file. VALUE as in YAML, a list "[1, 2]" too. */
 ZP_API ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
 
-/* How many Defs the scenario stands for: the product of the lengths of its lists (1 without lists). */
+/* How many Defs the scenario stands for: the product of the lengths of its lists (1 without lists), of those of
+ * sampling.together once, times the samples of its distributions. */
 ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 
-/* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
+/* Keys that have lists or distributions, in key order; *count of them. Valid until the scenario changes. */
 ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
 /* Whether the results of a sweep keep their series: output.series. */
@@ -49,7 +51,8 @@ ZP_API ZpStudy zp_scenario_study(const ZpScenario *scenario);
 /* As zp_scenario_def, where def->layout is set already: for that function. ZP_BAD_INPUT if it is not the library's. */
 ZP_API ZpStatus zp_scenario_fill(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
 
-/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). The last list key varies fastest. */
+/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). Samples vary fastest,
+ * then the last list key. */
 static inline ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err) {
   def->layout = zp_def_layout();
   return zp_scenario_fill(scenario, index, def, err);
