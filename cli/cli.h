@@ -8,6 +8,7 @@
 
 #include <zipact/campaign.h>
 #include <zipact/io.h>
+#include <zipact/optimize.h>
 
 /* Exit statuses; docs/interface.md. */
 enum { EXIT_DONE = 0, EXIT_NUMERICS = 1, EXIT_INPUT = 2, EXIT_MACHINE = 3, EXIT_INTERRUPTED = 130 };
@@ -36,6 +37,7 @@ int cli_flush(int status);
 
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
+int cli_optimize(const Options *options);
 int cli_batch(const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);

@@ -36,6 +36,7 @@ MAY_INCLUDE = {
     "io": ["sample", "base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
     "campaign": ["fit", "io", "sample", "base"],
+    "optimize": ["campaign", "fit", "io", "sample", "base"],
     "reproduce": ["fit", "io", "base"],
     "cli": [],
 }
@@ -65,9 +66,10 @@ PUBLIC = {
     "calibrate.h": "fit",
     "batch.h": "fit",
     "campaign.h": "campaign",
+    "optimize.h": "optimize",
 }
 
-ABOVE_CORE = ("sample", "io", "fit", "campaign", "reproduce", "cli")  # may use libraries, files and streams
+ABOVE_CORE = ("sample", "io", "fit", "campaign", "optimize", "reproduce", "cli")  # may use libraries, files and streams
 
 LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
 

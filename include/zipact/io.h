@@ -110,6 +110,18 @@ typedef struct ZpRows {
   void *user;                                       /* handed to the functions above */
 } ZpRows;
 
+/* What an optimisation found among the cases of its report. */
+typedef struct ZpOptimum {
+  const size_t *row; /* [count] the best case; with several objectives those of the Pareto front, in the order of the
+                      * first objective */
+  size_t count;
+  bool feasible;                /* they satisfy all constraints; else row[0] misses them least */
+  ZpOutcome outcome;            /* ZP_CONVERGED, ZP_INTERRUPTED */
+  char message[256];            /* one sentence on what was found */
+  const char *const *objective; /* [objectives] names of outputs */
+  size_t objectives;
+} ZpOptimum;
+
 /* Where results go, and what was run. */
 typedef struct ZpReport {
   const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
@@ -121,6 +133,7 @@ typedef struct ZpReport {
   const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
   const ZpRows *rows;         /* in place of `result`; NULL: there is none */
   int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
+  const ZpOptimum *optimum;   /* of an optimisation; else NULL */
 } ZpReport;
 
 /* Write summary.json (also what --json prints) to `file`. */

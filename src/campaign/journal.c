@@ -242,6 +242,10 @@ ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err) {
   return run(journal, "COMMIT", err);
 }
 
+ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err) {
+  return run(journal, "UPDATE about SET value = (SELECT count(*) FROM row) WHERE name = 'cases'", err);
+}
+
 /* False if there is no such row, or it is damaged. */
 static bool read_row(ZpJournal *journal, size_t number) {
   sqlite3_stmt *query = journal->get;

@@ -26,6 +26,9 @@ ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const 
 /* Bring what was put to the disk; nothing if nothing was. */
 ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err);
 
+/* Say that no more rows will come than there are: the journal may be replaced. */
+ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err);
+
 /* Row `number`, valid until the next call. Where it cannot be read it is empty, and from then on zp_journal_status says
  * so. */
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number);

@@ -44,8 +44,8 @@ static bool is_monotonic(const ZpPlot *plot, int key, size_t count, size_t strid
 static bool find_grid(const ZpPlot *plot, Grid *grid) {
   size_t count = plot->report->count, found = 0;
   bool drawn = zp_sweep_answer(plot) || plot->shows == ZP_SHOWS_held_branch;
-  if (plot->single || zp_scenario_design(plot->report->scenario) || !drawn || zp_sweep_key(plot, 1) < 0 ||
-      zp_sweep_key(plot, 2) >= 0)
+  if (plot->single || zp_scenario_design(plot->report->scenario) || plot->report->optimum || !drawn ||
+      zp_sweep_key(plot, 1) < 0 || zp_sweep_key(plot, 2) >= 0)
     return false;
   *grid = (Grid){.x = zp_sweep_key(plot, 0), .y = zp_sweep_key(plot, 1), .columns = 1};
   while (grid->columns < count && zp_sweep_value(plot, grid->columns, grid->y) == zp_sweep_value(plot, 0, grid->y))

@@ -198,7 +198,8 @@ static size_t points(const ZpPlot *plot, size_t curve) {
 
 /* Are there runs to draw against a key? */
 static bool has_axis(const ZpPlot *plot) {
-  return !plot->single && plot->report->count > 0 && x_key(plot) >= 0 && !zp_scenario_design(plot->report->scenario);
+  return !plot->single && plot->report->count > 0 && x_key(plot) >= 0 && !zp_scenario_design(plot->report->scenario) &&
+         !plot->report->optimum;
 }
 
 static bool has_answer(const ZpPlot *plot, ZpStudy study) {

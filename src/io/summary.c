@@ -126,6 +126,12 @@ static const ZpResult *spokesman(const ZpReport *report) {
 }
 
 static bool set_outcome(json_t *object, const ZpReport *report) {
+  const ZpOptimum *optimum = report->optimum;
+  if (optimum) {
+    bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(optimum->outcome)));
+    done = zp_json_set(object, "message", json_string(optimum->message)) && done;
+    return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
+  }
   const ZpResult *result = spokesman(report);
   const size_t cases = zp_scenario_count(report->scenario);
   const bool stopped = !result || report->count < cases;
@@ -134,6 +140,19 @@ static bool set_outcome(json_t *object, const ZpReport *report) {
   bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(stopped ? ZP_INTERRUPTED : result->outcome)));
   done = zp_json_set(object, "message", json_string(stopped ? message : result->message)) && done;
   return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
+}
+
+/* {"feasible": true, "cases": [...]}: the best cases, as rows have them. */
+static json_t *optimum_of(const ZpReport *report) {
+  const ZpOptimum *optimum = report->optimum;
+  json_t *object = json_object(), *cases = json_array();
+  bool done = zp_json_set(object, "feasible", json_boolean(optimum->feasible));
+  for (size_t i = 0; i < optimum->count; i++)
+    done = json_array_append_new(cases, row_of(report, optimum->row[i])) == 0 && done;
+  done = zp_json_set(object, "cases", cases) && done;
+  if (done) return object;
+  json_decref(object);
+  return NULL;
 }
 
 static json_t *summary_of(const ZpReport *report) {
@@ -148,6 +167,7 @@ static json_t *summary_of(const ZpReport *report) {
   done = zp_json_set(object, "notes", notes) && done;
   if (zp_scenario_design(report->scenario))
     done = zp_json_set(object, "statistics", zp_sample_statistics(report)) && done;
+  if (report->optimum) done = zp_json_set(object, "optimum", optimum_of(report)) && done;
   if (done) return object;
   json_decref(object);
   return NULL;
