@@ -13,6 +13,14 @@
 /* Exit statuses; docs/interface.md. */
 enum { EXIT_DONE = 0, EXIT_NUMERICS = 1, EXIT_INPUT = 2, EXIT_MACHINE = 3, EXIT_INTERRUPTED = 130 };
 
+/* Processes that compute cases in place of threads: zipact-mpi has them. */
+typedef struct Crew {
+  int size;                                                    /* how many */
+  ZpStatus (*begin)(const ZpScenario *scenario, ZpError *err); /* tell them which cases there are */
+  ZpStatus (*compute)(void *unused, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+                      ZpError *err); /* as ZpCampaignOptions.remote */
+} Crew;
+
 /* What the words of the command line say. */
 typedef struct Options {
   const char *scenario; /* NULL: the defaults */
@@ -21,7 +29,11 @@ typedef struct Options {
   const char *directory; /* NULL: out/STUDY */
   int jobs;              /* processors to use; 0: all */
   bool resume, no_plots, json, yaml, quiet, help;
+  const Crew *crew; /* NULL: threads of this process compute */
 } Options;
+
+/* Do what the words of the command line say => exit status. `crew` may be NULL. */
+int cli_main(int argc, char **argv, const Crew *crew);
 
 /* Say something on stderr. */
 void cli_notice(const char *message);

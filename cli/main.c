@@ -175,7 +175,7 @@ static int dispatch(const char *word, const Options *o) {
   return is_keys ? cli_keys(o) : is_reproduce ? cli_reproduce(o) : cli_bench(o);
 }
 
-int main(int argc, char **argv) {
+int cli_main(int argc, char **argv, const Crew *crew) {
   ZpError err;
   if (zp_hdf5_skip_exit(&err) != ZP_OK) return cli_fail(&err);
   if (argc < 2) return fail_usage("a study or command is missing", "");
@@ -191,6 +191,7 @@ int main(int argc, char **argv) {
   if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   Options options;
   int status = read_options(argc - 1, argv + 1, set, &options);
+  options.crew = crew;
   if (status == EXIT_DONE) status = dispatch(argv[1], &options);
   free(set);
   return cli_flush(status);

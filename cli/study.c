@@ -163,6 +163,15 @@ static bool on_campaign(void *user, const ZpCampaignState *state) {
   return cli_interrupted();
 }
 
+static ZpCampaignOptions campaign_options(const Options *o, Progress *progress) {
+  return (ZpCampaignOptions){.jobs = o->crew ? o->crew->size : o->jobs,
+                             .resume = o->resume,
+                             .user = progress,
+                             .progress = on_campaign,
+                             .clock = cli_wall_clock,
+                             .remote = o->crew ? o->crew->compute : NULL};
+}
+
 static int report_campaign(ZpCampaign *campaign, const ZpScenario *scenario, const Options *o, const char *directory,
                            const ZpFolder *folder, double wall_time) {
   const ZpCampaignState state = zp_campaign_state(campaign);
@@ -182,7 +191,8 @@ static int run_many(const ZpScenario *scenario, const Options *o, const char *di
   ZpError err;
   ZpCampaign *campaign;
   Progress progress = begin_progress(o);
-  const ZpCampaignOptions options = {o->jobs, o->resume, &progress, on_campaign, cli_wall_clock};
+  const ZpCampaignOptions options = campaign_options(o, &progress);
+  if (o->crew && o->crew->begin(scenario, &err) != ZP_OK) return cli_fail(&err);
   if (zp_campaign_open(scenario, directory, &options, &campaign, &err) != ZP_OK) return cli_fail(&err);
   ZpStatus status = zp_campaign_run(campaign, &err);
   cli_progress_end(&progress);
@@ -200,7 +210,9 @@ static int optimize_in_folder(const ZpScenario *scenario, const Options *o, cons
   ZpError err;
   ZpOptimization *optimization;
   Progress progress = begin_progress(o);
-  const ZpCampaignOptions options = {o->jobs, o->resume, &progress, on_campaign, cli_wall_clock};
+  ZpCampaignOptions options = campaign_options(o, &progress);
+  options.remote = NULL; /* its cases follow from each other */
+  options.jobs = o->jobs;
   ZpStatus status = zp_optimize(scenario, directory, &options, &optimization, &err);
   cli_progress_end(&progress);
   if (status != ZP_OK) return cli_fail(&err);

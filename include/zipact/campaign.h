@@ -29,7 +29,18 @@ typedef struct ZpCampaignOptions {
   /* Called some times a second, by the thread that runs the campaign; true stops it. May be NULL. */
   bool (*progress)(void *user, const ZpCampaignState *state);
   double (*clock)(void *user); /* wall clock in s; called by all threads. NULL: wall times are NAN */
+  /* Have cases from .. to - 1 computed by process `worker`, below `jobs`, by zp_campaign_compute there => what that has
+   * written, to be freed; *byte NULL: that process is lost, and others take its cases. Called by a thread per worker.
+   * NULL: threads of this process compute. */
+  ZpStatus (*remote)(void *remote_user, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+                     ZpError *err);
+  void *remote_user; /* handed to it */
 } ZpCampaignOptions;
+
+/* Compute cases from .. to - 1 of `scenario`, one after the other, for a campaign of another process (`remote`) =>
+ * bytes that this reads, to be freed. `from` must be where a call of `remote` says. `hooks` may be NULL. */
+ZP_API ZpStatus zp_campaign_compute(const ZpScenario *scenario, size_t from, size_t to, const ZpHooks *hooks,
+                                    unsigned char **byte, size_t *size, ZpError *err);
 
 /* Open DIRECTORY/journal.sqlite for `scenario`, which must have passed zp_batch_check and outlive the campaign.
  * `directory` must exist and be the caller's own (zp_folder_open). ZP_BAD_INPUT if `resume` finds a file that is no

@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "campaign/case_hash.h"
+#include "fit/case.h"
 #include "sample/design.h"
 
 /* How often progress is told, and for how long rows may wait for their commit, ms. */
@@ -76,21 +77,15 @@ static double read_clock(void *user) {
   return options->clock(options->user);
 }
 
-/* Values that do not fit each other are a case without an answer. */
-static ZpStatus impossible(const ZpSearch *s, const ZpError *why, ZpResult **result, ZpError *err) {
-  *result = zp_result_create(s->study);
-  if (!*result) return zp_fail_memory(err);
-  (*result)->outcome = ZP_BAD_ARGUMENT;
-  snprintf((*result)->message, sizeof(*result)->message, "%.255s", why->message);
-  return ZP_OK;
-}
-
 /* Run a case => its result, without series. */
 static ZpStatus run(ZpSearch *s, const ZpActuatorDef *def, ZpResult **result, ZpError *err) {
   const ZpHooks hooks = {s, on_progress, s->options->clock ? read_clock : NULL};
   ZpError why;
   ZpStatus status = zp_data_study_run(s->study, def, &hooks, result, &why);
-  if (status == ZP_BAD_INPUT) return impossible(s, &why, result, err);
+  if (status == ZP_BAD_INPUT) { /* values that do not fit each other */
+    *result = zp_case_impossible(s->study, &why);
+    return *result ? ZP_OK : zp_fail_memory(err);
+  }
   if (status != ZP_OK) return zp_fail(err, status, "%s", why.message);
   zp_table_destroy((*result)->series);
   (*result)->series = NULL;
