@@ -12,7 +12,7 @@
 
 /* Curves that the legend names, and rows that all curves together may have: a picture of more is slow to
  * look at and shows no more. */
-#define LEGEND 12
+#define LEGEND 10
 #define ROWS   200000
 
 #define RIGHT 0.76
