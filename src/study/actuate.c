@@ -118,7 +118,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   if (model->field)
     zp_add_margins(result, model, zp_sim_margins(sim));
   else
-    zp_add_stress(result, model, zp_sim_margins(sim));
+    zp_add_stress(result, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   double starved = zp_result_get(result, "starved_time_s");
