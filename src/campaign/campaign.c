@@ -223,7 +223,7 @@ static bool read_span(ZpCampaign *c, const unsigned char *byte, size_t size, siz
 /* Hand over the results of a span that another process has computed. False if there will be no more of it. */
 static bool run_span(Worker *worker, size_t from, size_t to) {
   ZpCampaign *c = worker->campaign;
-  uint64_t hash[SPAN_MOST];
+  uint64_t hash[SPAN_MOST] = {0};
   ZpResult *result[SPAN_MOST] = {NULL};
   unsigned char *byte = NULL;
   size_t size = 0;

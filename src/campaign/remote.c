@@ -27,14 +27,14 @@ static void put_names(FILE *out, const ZpNames *names) {
     put_text(out, names->item[i].name);
     put_text(out, names->item[i].unit);
     put_text(out, names->item[i].help ? names->item[i].help : "");
-    fputc(names->item[i].timing, out);
+    fputc(names->item[i].timing ? 1 : 0, out);
   }
 }
 
 /* Append a result to what is written; its names to `names`. False if there is no memory. */
 static bool put_result(FILE *out, ZpRecord *record, ZpNames *names, const ZpResult *result) {
   if (!zp_record_write(record, names, result)) return false;
-  fputc(result->outcome, out);
+  fputc((int)result->outcome, out);
   put_text(out, result->message);
   put_count(out, record->used);
   return fwrite(record->byte, 1, record->used, out) == record->used;

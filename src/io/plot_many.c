@@ -192,8 +192,8 @@ static ZpPlotUnit unit_of(const ZpPlot *plot, size_t k) {
     if (strcmp(result->scalar[i].name, plot->report->optimum->objective[k]) == 0) unit = result->scalar[i].unit;
   for (size_t run = 0; run < plot->report->count; run++)
     largest = fmax(largest, fabs(objective(plot, run, k)));
-  const bool bare = strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0;
-  return bare ? (ZpPlotUnit){.factor = 1} : zp_plot_unit(largest, unit);
+  if (strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0) return (ZpPlotUnit){.factor = 1};
+  return zp_plot_unit(largest, unit);
 }
 
 /* "mass / g" of mass_kg. */

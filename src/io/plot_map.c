@@ -201,8 +201,9 @@ static bool has_maps(const ZpPlot *plot) {
 /* Where panel `k` is, with axes named at the edges of the picture only; over it the value of the third key. */
 static void put_panel(const ZpPlot *plot, FILE *file, const Grid *grid, size_t k) {
   const size_t panels = drawn_panels(grid), across = panels <= 4 ? 2 : 3, down = (panels + across - 1) / across;
+  const size_t row = k / across;
   const double width = 0.71 / (double)across, height = 0.70 / (double)down;
-  const double left = 0.11 + width * (double)(k % across), top = 0.86 - height * (double)(k / across);
+  const double left = 0.11 + width * (double)(k % across), top = 0.86 - height * (double)row;
   const double value = zp_sweep_value(plot, chosen_panel(grid, k) * grid->rows * grid->columns, grid->z);
   fprintf(file,
           "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n"

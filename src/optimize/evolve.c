@@ -128,7 +128,7 @@ static void make_child(const Population *p, size_t number, double *z) {
 
 static void breed(void *user, size_t index) {
   Population *p = user;
-  double z[ZP_VARIABLES_MOST];
+  double z[ZP_VARIABLES_MOST] = {0};
   make_child(p, p->first + index, z);
   zp_search_evaluate(p->search, p->first + index, z);
 }

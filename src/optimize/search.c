@@ -171,7 +171,7 @@ static void *labour(void *user) {
 /* Tell how far it is until all have ended. */
 static void look_around(ZpSearch *s, Crew *crew) {
   const ZpCampaignOptions *o = s->options;
-  const struct timespec pause = {.tv_nsec = 2 * 1000000};
+  const struct timespec pause = {.tv_nsec = 2000000};
   for (double told = 0; atomic_load(&crew->busy) > 0; nanosleep(&pause, NULL)) {
     if (now() - told < PULSE) continue;
     told = now();
@@ -206,7 +206,7 @@ ZpStatus zp_search_parallel(ZpSearch *s, size_t count, void (*work)(void *user, 
 
 static void sample(void *user, size_t index) {
   ZpSearch *s = user;
-  double z[ZP_VARIABLES_MOST];
+  double z[ZP_VARIABLES_MOST] = {0};
   const ZpDesign design = {.method = ZP_SAMPLING_SOBOL,
                            .count = s->problem.evaluations,
                            .seed = (uint32_t)s->def.sampling.seed,

@@ -39,7 +39,7 @@ uint32_t zp_sobol(uint32_t index, int dimension) {
   if (dimension == 0) return reverse(index);
   const Dimension *d = &dimensions[dimension - 1];
   const int degree = degree_of(d->polynomial);
-  uint32_t m[BITS], x = 0;
+  uint32_t m[BITS] = {0}, x = 0;
   for (int i = 0; i < BITS && index >> i; i++) {
     m[i] = i < degree ? d->first[i] : next_direction(d->polynomial, degree, &m[i - degree]);
     if (index >> i & 1) x ^= m[i] << (BITS - 1 - i);
