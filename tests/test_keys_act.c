@@ -365,6 +365,9 @@ static const Row rows[] = {
     {"film.roughness", CLOSED " liquid.model=submerged", "1um", "2um", {{TIMES, "film_thickness_m", 2, 1e-3}}},
 
     {"load.mass", STRIP, "10mg", "5mg", {{TIMES, "y_m", 0.5, 1e-4}}},
+    /* a spring that hardly gives way is a force */
+    {"load.stiffness", SLIGHT " load.mass=0 load.rest_opening=10m", "1e-6", "2e-6", {{TIMES, "opening_m", 2, 1e-4}}},
+    {"load.rest_opening", SLIGHT " load.mass=0 load.stiffness=1e-6", "5m", "10m", {{TIMES, "opening_m", 2, 1e-4}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
     /* a discrete cantilever of rods is too soft by 1 / (2 (N - 1)^2) */

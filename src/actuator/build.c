@@ -527,6 +527,13 @@ static double contact_frequency(const ZpModel *model) {
   return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
+/* Of the platform on the spring beside the load, rad/s. */
+static double spring_frequency(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + def->load.share * def->load.mass;
+  return sqrt(def->load.share * def->load.stiffness / mass);
+}
+
 static void derive(ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const ZpTopology *t = &model->topology;
@@ -573,7 +580,8 @@ static void derive(ZpModel *model) {
    * from step to step pump energy into what is near the limit */
   bool joins_at_will = two && def->contact.model == ZP_CONTACT_UNILATERAL;
   double fastest = frequency_bound(model), contact = joins_at_will ? contact_frequency(model) : 0;
-  model->stable_step = (joins_at_will ? 0.5 : 0.8) * 2 / sqrt(fastest * fastest + contact * contact);
+  double spring = spring_frequency(model);
+  model->stable_step = (joins_at_will ? 0.5 : 0.8) * 2 / sqrt(fastest * fastest + contact * contact + spring * spring);
 }
 
 static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err) {

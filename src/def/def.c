@@ -696,6 +696,20 @@ static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+/* The spring beside the load. */
+static ZpStatus check_spring(const ZpActuatorDef *def, ZpError *err) {
+  bool given = !isnan(def->load.rest_opening);
+  if (def->load.stiffness == 0 && given)
+    return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: requires load.stiffness above 0 N/m");
+  if (def->load.stiffness == 0) return ZP_OK;
+  if (!given) return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: load.stiffness is given, which requires it");
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "load.stiffness: requires actuator.kind electro_ribbon, whose platforms it parts");
+  if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
+    return zp_fail(err, ZP_BAD_INPUT, "load.stiffness: requires contact.model unilateral");
+  return ZP_OK;
+}
+
 /* What is asked of the model of the field. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
@@ -732,6 +746,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: requires electro.surface bezier",
                    def->electro.refresh_period);
   ZpStatus status = zp_check_ribbons(def, err);
+  if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_drive(def, err);
   if (status == ZP_OK) status = check_source(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
