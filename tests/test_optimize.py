@@ -132,6 +132,10 @@ def check_refusals(zipact, scratch):
         run = zipact.run([*LIGHTEST, text], scratch / "refused")
         ok("%s: refused" % text, run.returncode == 2 and reason in run.stderr)
         ok("%s: nothing is written" % text, not any((scratch / "refused").glob("*.sqlite")))
+    for bound in ("99 %", "99%", "0.99", "9.9e-1"):
+        run = zipact.run(["study=actuate", "mesh.nodes=5", "output.errors=false", "liquid.model=none", "solver.end_time=1 ms", "optimize.variables=drive.voltage = 6 kV .. 10 kV",
+                          "optimize.objective=max contraction", "optimize.constraints=contraction <= " + bound, "optimize.evaluations=10"], scratch / "bound")
+        ok("%s is a bound" % bound, run.returncode == 0)
     several = zipact.run([*LIGHTEST, "optimize.objective=min mass_kg; max travel_m", "optimize.method=slsqp"], scratch / "refused")
     ok("several objectives by slsqp: refused", several.returncode == 2 and "nsga2" in several.stderr)
 

@@ -139,21 +139,27 @@ ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *
 
 /* -- outputs ---------------------------------------------------------------------------------------- */
 
+/* The unit of a bound, of an output in the unit `of`. A pure number takes per cent, as keys do. */
+static ZpStatus read_unit(const char *unit, const char *of, ZpUnitScale *scale, ZpError *err) {
+  const bool pure = strcmp(of, "1") == 0 || strcmp(of, "count") == 0;
+  *scale = (ZpUnitScale){.decimal = true, .exponent = pure && strcmp(unit, "%") == 0 ? -2 : 0};
+  if (!*unit || scale->exponent != 0) return ZP_OK;
+  return pure ? zp_fail(err, ZP_BAD_INPUT, "a pure number takes no unit") : zp_unit_scale(unit, of, scale, err);
+}
+
+/* "15 mm": a number and, where letters end it, a unit. */
 static ZpStatus read_bound(ZpGoal *goal, const ZpScalar *scalar, ZpError *err) {
   ZpUnitScale scale = {.decimal = true};
   ZpError reason = {ZP_BAD_INPUT, "not a number"};
-  char copy[sizeof goal->bound_text];
-  snprintf(copy, sizeof copy, "%s", goal->bound_text);
-  size_t digits = strcspn(copy, " ");
-  while (digits > 0 && isalpha((unsigned char)copy[digits - 1]))
+  char number[sizeof goal->bound_text];
+  snprintf(number, sizeof number, "%s", goal->bound_text);
+  size_t digits = strcspn(number, " ");
+  while (digits > 0 && (isalpha((unsigned char)number[digits - 1]) || number[digits - 1] == '%'))
     digits--;
-  const char *unit = copy + digits + strspn(copy + digits, " ");
-  const bool pure = strcmp(scalar->unit, "1") == 0 || strcmp(scalar->unit, "count") == 0;
-  ZpStatus status = !*unit || digits == 0 ? ZP_OK
-                    : pure                ? zp_fail(&reason, ZP_BAD_INPUT, "a pure number takes no unit")
-                                          : zp_unit_scale(unit, scalar->unit, &scale, &reason);
-  copy[digits] = 0;
-  if (status == ZP_OK && zp_number_read(copy, &goal->bound) && isfinite(goal->bound)) {
+  const char *unit = goal->bound_text + digits + strspn(goal->bound_text + digits, " ");
+  number[digits] = 0;
+  ZpStatus status = digits > 0 ? read_unit(unit, scalar->unit, &scale, &reason) : ZP_OK;
+  if (status == ZP_OK && zp_number_read(number, &goal->bound) && isfinite(goal->bound)) {
     goal->bound = zp_rounded(goal->bound * (scale.decimal ? pow(10, scale.exponent) : scale.factor));
     return ZP_OK;
   }
