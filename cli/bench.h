@@ -34,6 +34,11 @@ ZpStatus bench_strip(int nodes, Row *row, ZpError *err);
 ZpStatus bench_table2(int nodes, Row *row, ZpError *err);
 ZpStatus bench_field(int nodes, Row *row, ZpError *err);
 
+/* What a case of a sweep costs (bench_cases.c). */
+ZpStatus bench_rests(int nodes, Row *row, ZpError *err);
+ZpStatus bench_limits(int nodes, Row *row, ZpError *err);
+ZpStatus bench_zips(int nodes, Row *row, ZpError *err);
+
 /* Add a key and its value to a list. */
 void bench_set(ZpAssignment *list, size_t *count, const char *key, double value);
 

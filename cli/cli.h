@@ -8,9 +8,18 @@
 
 #include <zipact/campaign.h>
 #include <zipact/io.h>
+#include <zipact/optimize.h>
 
 /* Exit statuses; docs/interface.md. */
 enum { EXIT_DONE = 0, EXIT_NUMERICS = 1, EXIT_INPUT = 2, EXIT_MACHINE = 3, EXIT_INTERRUPTED = 130 };
+
+/* Processes that compute cases in place of threads: zipact-mpi has them. */
+typedef struct Crew {
+  int size;                                                    /* how many */
+  ZpStatus (*begin)(const ZpScenario *scenario, ZpError *err); /* tell them which cases there are */
+  ZpStatus (*compute)(void *unused, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+                      ZpError *err); /* as ZpCampaignOptions.remote */
+} Crew;
 
 /* What the words of the command line say. */
 typedef struct Options {
@@ -20,7 +29,11 @@ typedef struct Options {
   const char *directory; /* NULL: out/STUDY */
   int jobs;              /* processors to use; 0: all */
   bool resume, no_plots, json, yaml, quiet, help;
+  const Crew *crew; /* NULL: threads of this process compute */
 } Options;
+
+/* Do what the words of the command line say => exit status. `crew` may be NULL. */
+int cli_main(int argc, char **argv, const Crew *crew);
 
 /* Say something on stderr. */
 void cli_notice(const char *message);
@@ -36,6 +49,7 @@ int cli_flush(int status);
 
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
+int cli_optimize(const Options *options);
 int cli_batch(const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);

@@ -13,6 +13,8 @@ enum { JOBS_MOST = 1024 };
 static const char usage[] =
     "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n"
     "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
+    "zipact optimize SCENARIO.yaml       best values of some keys (keys `optimize.*`), for any study; options as "
+    "above\n"
     "zipact batch [SCENARIO.yaml] [--set KEY=VALUE]... [--jobs N]   cases as JSON on standard input, one per line;\n"
     "                                    results as JSON on standard output\n"
     "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
@@ -141,6 +143,15 @@ static int dispatch_batch(const Options *o) {
   return cli_batch(o);
 }
 
+static int dispatch_optimize(const Options *o) {
+  if (o->help) {
+    print_help();
+    return EXIT_DONE;
+  }
+  if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", "optimize");
+  return cli_optimize(o);
+}
+
 static int dispatch(const char *word, const Options *o) {
   bool is_study = zp_key_choice(zp_key_find("study"), word) >= 0, is_run = strcmp(word, "run") == 0;
   if (is_study || is_run) {
@@ -150,6 +161,7 @@ static int dispatch(const char *word, const Options *o) {
     return cli_study(is_run ? NULL : word, o);
   }
   if (strcmp(word, "batch") == 0) return dispatch_batch(o);
+  if (strcmp(word, "optimize") == 0) return dispatch_optimize(o);
   bool is_keys = strcmp(word, "keys") == 0, is_reproduce = strcmp(word, "reproduce") == 0;
   if (!is_keys && !is_reproduce && strcmp(word, "bench") != 0) return fail_usage("unknown study or command: ", word);
   if (o->help) {
@@ -163,7 +175,7 @@ static int dispatch(const char *word, const Options *o) {
   return is_keys ? cli_keys(o) : is_reproduce ? cli_reproduce(o) : cli_bench(o);
 }
 
-int main(int argc, char **argv) {
+int cli_main(int argc, char **argv, const Crew *crew) {
   ZpError err;
   if (zp_hdf5_skip_exit(&err) != ZP_OK) return cli_fail(&err);
   if (argc < 2) return fail_usage("a study or command is missing", "");
@@ -179,6 +191,7 @@ int main(int argc, char **argv) {
   if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   Options options;
   int status = read_options(argc - 1, argv + 1, set, &options);
+  options.crew = crew;
   if (status == EXIT_DONE) status = dispatch(argv[1], &options);
   free(set);
   return cli_flush(status);

@@ -65,6 +65,18 @@ static void print_row(const ZpReport *report, size_t index) {
   printf("\n");
 }
 
+/* The best cases of an optimisation. */
+static void print_optimum(const ZpReport *report) {
+  printf("%s\n", report->optimum->message);
+  for (size_t i = 0; i < report->optimum->count; i++) {
+    print_row(report, report->optimum->row[i]);
+    for (size_t k = 0; k < report->optimum->objectives; k++)
+      printf(
+          "    %s = %.6g\n", report->optimum->objective[k],
+          zp_result_get(report->rows->get(report->rows->user, report->optimum->row[i]), report->optimum->objective[k]));
+  }
+}
+
 static void print_rows(const ZpReport *report) {
   enum { PRINTED = 100 };
   for (size_t i = 0; i < report->count && i < PRINTED; i++)
@@ -81,7 +93,9 @@ static void print_result(const ZpResult *result) {
 }
 
 static void print_summary(const ZpReport *report, bool plots) {
-  if (report->rows)
+  if (report->optimum)
+    print_optimum(report);
+  else if (report->rows)
     print_rows(report);
   else if (report->count > 0)
     print_result(report->result[0]);
@@ -149,6 +163,15 @@ static bool on_campaign(void *user, const ZpCampaignState *state) {
   return cli_interrupted();
 }
 
+static ZpCampaignOptions campaign_options(const Options *o, Progress *progress) {
+  return (ZpCampaignOptions){.jobs = o->crew ? o->crew->size : o->jobs,
+                             .resume = o->resume,
+                             .user = progress,
+                             .progress = on_campaign,
+                             .clock = cli_wall_clock,
+                             .remote = o->crew ? o->crew->compute : NULL};
+}
+
 static int report_campaign(ZpCampaign *campaign, const ZpScenario *scenario, const Options *o, const char *directory,
                            const ZpFolder *folder, double wall_time) {
   const ZpCampaignState state = zp_campaign_state(campaign);
@@ -168,7 +191,8 @@ static int run_many(const ZpScenario *scenario, const Options *o, const char *di
   ZpError err;
   ZpCampaign *campaign;
   Progress progress = begin_progress(o);
-  const ZpCampaignOptions options = {o->jobs, o->resume, &progress, on_campaign, cli_wall_clock};
+  const ZpCampaignOptions options = campaign_options(o, &progress);
+  if (o->crew && o->crew->begin(scenario, &err) != ZP_OK) return cli_fail(&err);
   if (zp_campaign_open(scenario, directory, &options, &campaign, &err) != ZP_OK) return cli_fail(&err);
   ZpStatus status = zp_campaign_run(campaign, &err);
   cli_progress_end(&progress);
@@ -177,6 +201,43 @@ static int run_many(const ZpScenario *scenario, const Options *o, const char *di
     code = report_campaign(campaign, scenario, o, directory, folder, cli_wall_clock(NULL) - progress.start);
   zp_campaign_close(campaign);
   return status == ZP_OK ? code : cli_fail(&err);
+}
+
+/* -- the best case ---------------------------------------------------------------------------------- */
+
+static int optimize_in_folder(const ZpScenario *scenario, const Options *o, const char *directory,
+                              const ZpFolder *folder) {
+  ZpError err;
+  ZpOptimization *optimization;
+  Progress progress = begin_progress(o);
+  ZpCampaignOptions options = campaign_options(o, &progress);
+  options.remote = NULL; /* its cases follow from each other */
+  options.jobs = o->jobs;
+  ZpStatus status = zp_optimize(scenario, directory, &options, &optimization, &err);
+  cli_progress_end(&progress);
+  if (status != ZP_OK) return cli_fail(&err);
+  ZpReport report = *zp_optimization_report(optimization);
+  report.directory = directory;
+  report.folder = folder;
+  report.wall_time = cli_wall_clock(NULL) - progress.start;
+  const bool interrupted = cli_interrupted();
+  int code = exit_status(write_report(&report, o), interrupted, true);
+  zp_optimization_destroy(optimization);
+  return code;
+}
+
+int cli_optimize(const Options *o) {
+  ZpError err;
+  ZpFolder *folder;
+  ZpScenario *scenario = zp_scenario_create();
+  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
+  const char *directory = o->directory ? o->directory : "out/optimize";
+  ZpStatus status = cli_read_scenario(NULL, o, scenario, &err);
+  if (status == ZP_OK) status = zp_folder_open(directory, &folder, &err);
+  int code = status == ZP_OK ? optimize_in_folder(scenario, o, directory, folder) : cli_fail(&err);
+  if (status == ZP_OK) zp_folder_close(folder);
+  zp_scenario_destroy(scenario);
+  return code;
 }
 
 /* -- a scenario ------------------------------------------------------------------------------------- */

@@ -10,7 +10,7 @@
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
 #   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
 set -eu
-packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev check liblapack-dev gnuplot-nox
+packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev libopenmpi-dev openmpi-bin check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 ca-certificates"
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
  python3-matplotlib python3-pandas python3-pytest python3-distributed python3-mpi4py openmpi-bin"

@@ -32,9 +32,11 @@ MAY_INCLUDE = {
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "sim": ["rest", "paper/motion", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "io": ["base"],
+    "sample": [],
+    "io": ["sample", "base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
-    "campaign": ["fit", "io", "base"],
+    "campaign": ["fit", "io", "sample", "base"],
+    "optimize": ["campaign", "fit", "io", "sample", "base"],
     "reproduce": ["fit", "io", "base"],
     "cli": [],
 }
@@ -64,9 +66,10 @@ PUBLIC = {
     "calibrate.h": "fit",
     "batch.h": "fit",
     "campaign.h": "campaign",
+    "optimize.h": "optimize",
 }
 
-ABOVE_CORE = ("io", "fit", "campaign", "reproduce", "cli")  # may use libraries, files and streams
+ABOVE_CORE = ("sample", "io", "fit", "campaign", "optimize", "reproduce", "cli")  # may use libraries, files and streams
 
 LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
 

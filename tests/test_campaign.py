@@ -13,6 +13,7 @@ import random
 import shutil
 import signal
 import sqlite3
+import statistics
 import subprocess
 import sys
 import time
@@ -36,6 +37,8 @@ def listed(first, last, count, unit):
 CASES = {
     "rest": ["stationary", "--set", "load.mass=" + listed(1, 100, 30, "g"), "--set", "ribbon.thickness=" + listed(20, 200, 20, "um"), "--set", "mesh.nodes=31"],
     "limits": ["limits", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
+    "samples": ["limits", "--set", "load.mass=[8 g, 9 g]", "--set", "ribbon.thickness=normal(50 um, 1 um)", "--set", "insulator.thickness=uniform(120 um, 140 um)",
+                "--set", "sampling.count=8", "--set", "sampling.indices=true", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
 
@@ -126,6 +129,29 @@ def check_resume(zipact, scratch):
     ok("--resume of a single case is refused", single.returncode == 2 and "list" in single.stderr and not (scratch / "single").exists())
 
 
+def check_samples(zipact, scratch):
+    """Statistics are those of the rows; a longer sequence begins with the same samples, whose rows are kept."""
+    folder, longer = scratch / "samples-1", scratch / "samples-longer"
+    summary = json.loads((folder / "summary.json").read_text())
+    for k, mass in enumerate((0.008, 0.009)):
+        of_mass = [row for row in summary["rows"] if row["load.mass"] == mass]
+        ok("samples: all rows of %g kg" % mass, len(of_mass) == 8 * 4)
+        drawn = [row["pull_in_voltage_V"] for i, row in enumerate(of_mass) if i % 4 < 2]
+        found = summary["statistics"][k]["outputs"]["pull_in_voltage_V"]
+        ok("samples: mean of the rows", abs(found["mean"] / statistics.fmean(drawn) - 1) < 1e-14 and found["count"] == 16)
+        ok("samples: deviation of the rows", abs(found["standard_deviation"] / statistics.stdev(drawn) - 1) < 1e-12)
+        ok("samples: indices by key", set(found["total_indices"]) == {"ribbon.thickness", "insulator.thickness"} and found["total_indices"]["ribbon.thickness"] > 0.5)
+    words = [zipact.program, "stationary", "--set", "ribbon.thickness=normal(50 um, 1 um)", "--set", "mesh.nodes=11", "--set", "output.errors=false", "--no-plots", "--quiet", "-o", str(longer), "--resume"]
+    ok("samples: 8", subprocess.run([*words, "--set", "sampling.count=8"]).returncode == 0)
+    spoil(longer, "UPDATE row SET message = 'kept'")
+    ok("samples: 16", subprocess.run([*words, "--set", "sampling.count=16"]).returncode == 0)
+    ok("samples: the first 8 are kept", [row["message"] == "kept" for row in json.loads((longer / "summary.json").read_text())["rows"]] == [True] * 8 + [False] * 8)
+    missing = subprocess.run([zipact.program, "limits", "--set", "drive.voltage=uniform(4 kV, 7 kV)", "--set", "mesh.nodes=21", "--set", "sampling.count=16",
+                              "--set", "output.errors=false", "--no-plots", "--json", "-o", str(scratch / "censored")], stdout=subprocess.PIPE, text=True)
+    found = json.loads(missing.stdout)["statistics"][0]["outputs"]["pull_in_voltage_V"]
+    ok("samples: those that do not pull in are counted", missing.returncode == 0 and 0 < found["missing"] < 16 and found["count"] + found["missing"] == 16)
+
+
 def check_interrupt(zipact, scratch):
     """Ctrl-C: 130, rows without a gap are reported, the rest is in the journal."""
     whole, torn = scratch / "rest-1", scratch / "rest-interrupted"
@@ -140,6 +166,20 @@ def check_interrupt(zipact, scratch):
         ok("interrupted: rows are in the journal", len(summary["rows"]) <= len(rows_of(torn)))
     ok("interrupted: resumed", zipact.run("rest", torn, "--resume").returncode == 0)
     ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
+
+
+def check_unfinished(zipact, scratch):
+    """The journal of an unfinished campaign was replaced without a word when --resume was forgotten."""
+    whole, torn = scratch / "limits-1", scratch / "limits-forgotten"
+    shutil.copytree(whole, torn)
+    spoil(torn, "DELETE FROM row WHERE number IN (3, 40)")
+    before = rows_of(torn)
+    forgotten = zipact.run("limits", torn)
+    ok("unfinished, without --resume: refused", forgotten.returncode == 2 and "58 of 60 cases" in forgotten.stderr and "--resume" in forgotten.stderr)
+    ok("unfinished, without --resume: all rows are kept", rows_of(torn) == before)
+    ok("unfinished, with --resume: done", zipact.run("limits", torn, "--resume").returncode == 0 and results(torn) == results(whole))
+    spoil(torn, "DELETE FROM row")
+    ok("a journal without rows is replaced", zipact.run("limits", torn).returncode == 0)
 
 
 def rows_so_far(folder):
@@ -219,6 +259,8 @@ def main():
     check_workers(zipact, scratch)
     check_kills(zipact, scratch, kills)
     check_resume(zipact, scratch)
+    check_samples(zipact, scratch)
+    check_unfinished(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_gap(zipact, scratch)
     check_failures(zipact, scratch)

@@ -445,6 +445,52 @@ START_TEST(largest_load_does_not_depend_on_the_load) {
 }
 END_TEST
 
+/* -- what it is for ---------------------------------------------------------------------------------- */
+
+/* Strips and insulators from clip to clip, for a half and for a whole alike. */
+START_TEST(mass_in_closed_form) {
+  ZpActuatorDef def = DEF({"insulator.density", 1390}, {"mesh.nodes", 31},
+                          {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
+  ZpResult *result = limits_of(&def);
+  ck_near(zp_result_get(result, "mass_kg"), 2 * 0.1 * 12.7e-3 * (50e-6 * 7850 + 130e-6 * 1390), 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
+static double travel_at(const ZpActuatorDef *def, int key, double value) {
+  ZpActuatorDef other = *def;
+  ck_assert_int_eq(zp_def_set(&other, key, value, NULL), ZP_OK);
+  ZpResult *result = limits_of(&other);
+  const double travel = zp_result_get(result, "travel_m");
+  zp_result_destroy(result);
+  return travel;
+}
+
+/* travel_m is what the opening loses, and its derivatives are those of differences. */
+START_TEST(travel_and_its_derivatives) {
+  static const char *const keys[] = {"ribbon.thickness", "ribbon.length", "load.mass", "insulator.thickness"};
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"output.errors", 0}, {"solver.tolerance", 1e-9}), hung = def;
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by,
+           "ribbon.thickness, ribbon.length, load.mass, insulator.thickness");
+  hung.drive.voltage = 0;
+  ZpResult *result = limits_of(&def), *open = run(ZP_STUDY_STATIONARY, &hung, NULL);
+  ck_near(zp_result_get(result, "travel_m"), zp_result_get(open, "opening_m"),
+          1e-4); /* closed, contact gives by less than 1 um */
+  size_t found = 0;
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    if (strcmp(s->output, "travel_m") != 0) continue;
+    const double value = zp_def_get(&def, s->key), step = 1e-3 * value;
+    const double slope = (travel_at(&def, s->key, value + step) - travel_at(&def, s->key, value - step)) / (2 * step);
+    ck_assert_int_eq(s->key, zp_key_find(keys[found++]));
+    ck_assert_double_eq_tol(s->value * value, slope * value, 1e-5 * zp_result_get(result, "travel_m"));
+  }
+  ck_assert_uint_eq(found, LENGTH_OF(keys));
+  zp_result_destroy(result);
+  zp_result_destroy(open);
+}
+END_TEST
+
 /* -- from a neighbour -------------------------------------------------------------------------------- */
 
 /* Where a search begins does not change what it finds; of the largest load only on which of two crests of the mesh's
@@ -526,6 +572,8 @@ int main(void) {
   tcase_add_test(study, test_scaling);
   tcase_add_test(study, test_largest_load);
   tcase_add_test(study, largest_load_does_not_depend_on_the_load);
+  tcase_add_loop_test(study, mass_in_closed_form, 0, 2);
+  tcase_add_test(study, travel_and_its_derivatives);
   tcase_add_loop_test(study, test_limits_from_a_neighbour, 0, 4);
   tcase_add_test(study, test_no_neighbour);
   tcase_add_test(study, test_no_limit);

@@ -188,7 +188,7 @@ static ZpScenario *scenario_of(const char *assignment) {
 static void write_single(const char *name, const char *assignment, ZpResult *result, double wall_time) {
   ZpScenario *scenario = scenario_of(assignment);
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL, NULL, 0};
+  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL, NULL, 0, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   zp_result_destroy(result);
@@ -206,7 +206,7 @@ static void write_sweep(const char *name, const char *assignment, size_t count) 
   if (count > 1) result[1]->outcome = ZP_DIVERGED;
   if (count > 1) result[1]->scalar[1].value = NAN;
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL, NULL, 0};
+  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL, NULL, 0, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
@@ -227,7 +227,7 @@ static void write_scenario(const char *name, ZpScenario *scenario) {
     ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
                   err.message);
   }
-  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0};
+  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
     zp_result_destroy(result[i]);
@@ -546,7 +546,7 @@ END_TEST
 START_TEST(interrupted_before_the_first_run) {
   ZpScenario *scenario = scenario_of("drive.voltage=[6 kV, 8 kV]");
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL, NULL, 0};
+  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL, NULL, 0, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   json_t *json = load_json("out/summary.json");
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "interrupted");
@@ -801,7 +801,7 @@ START_TEST(name_taken_by_a_folder) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL};
   ck_assert_int_eq(mkdir(in_base("out"), 0777), 0);
   ck_assert_int_eq(mkdir(in_base("out/results.h5"), 0777), 0);
   ck_assert_int_eq(zp_report_write(&report, note, &err), ZP_MACHINE);
@@ -817,7 +817,7 @@ START_TEST(summary_to_a_full_device) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL, NULL, 0};
+  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL};
   FILE *full = fopen("/dev/full", "w");
   if (full) {
     ck_assert_int_eq(zp_summary_write(&report, full, &err), ZP_MACHINE);
@@ -847,7 +847,7 @@ static bool write_on_small_disk(int kilobytes) {
   ZpError err = {0};
   snprintf(option, sizeof option, "size=%dk", kilobytes);
   ck_assert_int_eq(mount("none", in_base("disk"), "tmpfs", 0, option), 0);
-  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0};
+  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK || strstr(err.message, strerror(ENOSPC)), "%s", err.message);
   ck_assert_msg(status == ZP_OK || strstr(err.message, "disk/out"), "no file name: %s", err.message);
@@ -1018,7 +1018,7 @@ START_TEST(numbers_come_before_pictures) {
   ZpResult *result = made_up(50, 10, false, 8e3, 1);
   ZpError err = {0};
   const ZpHooks hooks = {.progress = stop_with_numbers};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks, NULL, 0};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks, NULL, 0, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   ck_assert_ptr_nonnull(strstr(notices, "was not drawn: interrupted; the rest are not drawn either"));
   ck_assert(nothing_runs("out/plots/started"));

@@ -440,6 +440,93 @@ START_TEST(test_lists) {
 }
 END_TEST
 
+/* Distributions, as a mapping, as a word, in --set: the same values, which survive writing. */
+START_TEST(distributions_are_sampled) {
+  ZpError err = {0};
+  size_t count = 0;
+  ZpScenario *s = scenario_of("load.mass: [8 g, 20 g]\nribbon.thickness: {normal: 50 um, sigma: 1 um}\n"
+                              "ribbon.width: uniform(10 mm, 12 mm)\nsampling.count: 64");
+  zp_scenario_lists(s, &count);
+  ck_assert_uint_eq(count, 3);
+  ck_assert_uint_eq(zp_scenario_count(s), 128);
+  double sum = 0;
+  for (size_t i = 0; i < 128; i++) {
+    const ZpActuatorDef def = def_of(s, i);
+    ck_assert_double_eq(def.load.mass, i < 64 ? 8e-3 : 20e-3);
+    ck_assert(def.ribbon.width > 10e-3 && def.ribbon.width < 12e-3);
+    ck_assert_double_eq(def.ribbon.width, def_of(s, i % 64).ribbon.width);
+    sum += def.ribbon.thickness / 128;
+  }
+  ck_assert_double_eq_tol(sum, 50e-6, 0.05e-6);
+  assert_round_trip(s);
+  ZpScenario *word = scenario_of("load.mass: [8 g, 20 g]\nribbon.width: uniform(10 mm, 12 mm)");
+  ck_assert_int_eq(zp_scenario_set(word, "ribbon.thickness= normal( 50 um , 1 um )", &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_set(word, "sampling.count=64", &err), ZP_OK);
+  ck_assert_double_eq(def_of(word, 77).ribbon.thickness, def_of(s, 77).ribbon.thickness);
+  ck_assert_int_eq(zp_scenario_set(word, "sampling.indices=true", &err), ZP_OK);
+  ck_assert_uint_eq(zp_scenario_count(word), 2 * 64 * 4);
+  zp_scenario_destroy(word);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* Lists that are walked through together make one axis, in the place of the last of them. */
+START_TEST(lists_together) {
+  ZpError err = {0};
+  ZpActuatorDef def;
+  ZpScenario *s = scenario_of("ribbon.thickness: [40 um, 50 um, 60 um]\nload.mass: [8 g, 20 g]\n"
+                              "ribbon.length: [90 mm, 100 mm, 110 mm]\n"
+                              "sampling.together: ribbon.thickness, ribbon.length");
+  ck_assert_uint_eq(zp_scenario_count(s), 6);
+  for (size_t i = 0; i < 6; i++) {
+    def = def_of(s, i);
+    ck_assert_double_eq_tol(def.ribbon.length, 90e-3 + 10e-3 * (double)(i / 2), 1e-15);
+    ck_assert_double_eq_tol(def.ribbon.thickness, 40e-6 + 10e-6 * (double)(i / 2), 1e-18);
+    ck_assert_double_eq(def.load.mass, i % 2 ? 20e-3 : 8e-3);
+  }
+  assert_round_trip(s);
+  ck_assert_int_eq(zp_scenario_set(s, "ribbon.length=[90 mm, 100 mm]", &err), ZP_OK); /* another --set may mend it */
+  ck_assert_int_eq(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "its list is not as long"));
+  ck_assert_int_eq(zp_scenario_set(s, "sampling.together=ribbon.width", &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "ribbon.width: has no list"));
+  ck_assert_int_eq(zp_scenario_set(s, "sampling.together=\"\"", &err), ZP_OK);
+  ck_assert_uint_eq(zp_scenario_count(s), 12);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
+/* What is no distribution, and why. */
+static const struct {
+  const char *text, *message;
+} bad_spreads[] = {
+    {"ribbon.thickness: {normal: 50 um}", "write {normal: ..., sigma: ...}"},
+    {"ribbon.thickness: {normal: 50 um, to: 60 um}", "\"to\" is no part of {normal: ..., sigma: ...}"},
+    {"ribbon.thickness: {sigma: 1 um}", "a range has no \"from\""},
+    {"ribbon.thickness: {normal: 50 um, sigma: 0 um}", "sigma = \"0 um\": give a number above 0"},
+    {"ribbon.thickness: {normal: 50 um, sigma: 1 g}", "sigma = \"1 g\": not a length"},
+    {"ribbon.thickness: {normal: 50 m, sigma: 1 um}", "normal = \"50 m\": out of range"},
+    {"ribbon.thickness: {lognormal: 50 um, sigma: 1 um}", "a pure number"},
+    {"segment_1.curvature: {log_uniform: -1, to: 1}", "values above 0"},
+    {"ribbon.thickness: uniform(60 um, 50 um)", "must be larger than the first"},
+    {"ribbon.thickness: uniform(60 um)", "not a distribution"},
+    {"mesh.nodes: {normal: 61, sigma: 2}", "takes one value, not a distribution"},
+    {"sampling.count: [1, 2]", "sampling.count: takes one value, not a list"},
+    {"ribbon.thickness: normal(50 um, 1 um)\nsampling.count: 1000000\nsampling.indices: true",
+     "more than 1000000 cases"},
+};
+
+START_TEST(bad_spread_says_why) {
+  ZpScenario *s = zp_scenario_create();
+  ZpError err = {0};
+  ck_assert_int_eq(parse(s, bad_spreads[_i].text, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, bad_spreads[_i].message) != NULL, "%s: %s", bad_spreads[_i].text, err.message);
+  ck_assert_uint_eq(zp_scenario_count(s), 1);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
 /* Ranges, in a file and in --set, and the list that says the same. */
 static const struct {
   const char *file, *argument, *list;
@@ -599,7 +686,8 @@ START_TEST(test_scenario_round_trip) {
     snprintf(line, sizeof line, "%s: %s\n", key->name, value);
     ZpScenario *s = scenario_of(line);
     char *text = written(s);
-    const char *leaf = strchr(key->name, '.') ? strchr(line, '.') + 1 : line;
+    const char *point = strrchr(key->name, '.'); /* lower.ribbon.width stands as width in its group */
+    const char *leaf = point ? line + (point + 1 - key->name) : line;
     ck_assert_msg(strstr(text, leaf) != NULL, "%s", line);
     ZpScenario *back = scenario_of(text);
     char *again = written(back);
@@ -825,6 +913,9 @@ int main(void) {
   tcase_add_loop_test(scenarios, test_bad_argument, 0, LENGTH_OF(bad_arguments));
   tcase_add_test(scenarios, test_layers);
   tcase_add_test(scenarios, test_lists);
+  tcase_add_test(scenarios, distributions_are_sampled);
+  tcase_add_test(scenarios, lists_together);
+  tcase_add_loop_test(scenarios, bad_spread_says_why, 0, LENGTH_OF(bad_spreads));
   tcase_add_loop_test(scenarios, test_ranges, 0, LENGTH_OF(ranges));
   tcase_add_test(scenarios, test_preset_with_list);
   tcase_add_test(scenarios, test_def_errors);

@@ -24,16 +24,28 @@ typedef struct ZpCampaignState {
 /* How it is run. */
 typedef struct ZpCampaignOptions {
   int jobs;    /* threads that compute, 1 or more; 0: as many as there are processors. Results do not depend on it */
-  bool resume; /* keep the rows of the journal that is there; else it is replaced */
+  bool resume; /* keep the rows of the journal that is there; else it is replaced, if its campaign is finished */
   void *user;  /* handed to the functions below */
   /* Called some times a second, by the thread that runs the campaign; true stops it. May be NULL. */
   bool (*progress)(void *user, const ZpCampaignState *state);
   double (*clock)(void *user); /* wall clock in s; called by all threads. NULL: wall times are NAN */
+  /* Have cases from .. to - 1 computed by process `worker`, below `jobs`, by zp_campaign_compute there => what that has
+   * written, to be freed; *byte NULL: that process is lost, and others take its cases. Called by a thread per worker.
+   * NULL: threads of this process compute. */
+  ZpStatus (*remote)(void *remote_user, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+                     ZpError *err);
+  void *remote_user; /* handed to it */
 } ZpCampaignOptions;
+
+/* Compute cases from .. to - 1 of `scenario`, one after the other, for a campaign of another process (`remote`) =>
+ * bytes that this reads, to be freed. `from` must be where a call of `remote` says. `hooks` may be NULL. */
+ZP_API ZpStatus zp_campaign_compute(const ZpScenario *scenario, size_t from, size_t to, const ZpHooks *hooks,
+                                    unsigned char **byte, size_t *size, ZpError *err);
 
 /* Open DIRECTORY/journal.sqlite for `scenario`, which must have passed zp_batch_check and outlive the campaign.
  * `directory` must exist and be the caller's own (zp_folder_open). ZP_BAD_INPUT if `resume` finds a file that is no
- * journal; ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ * journal, or a campaign without `resume` finds the journal of an unfinished one; ZP_MACHINE if it cannot be written.
+ * *out is NULL on failure. */
 ZP_API ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,
                                  ZpCampaign **out, ZpError *err);
 

@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/* A scenario: values for keys, some of them lists. Its product of lists is a set of Defs. */
+/* A scenario: values for keys, some of them lists or distributions. The product of its lists and the samples of its
+ * distributions are a set of Defs. */
 typedef struct ZpScenario ZpScenario;
 
 /* A new scenario in which every key has its default. NULL if there is no memory. */
@@ -34,10 +35,11 @@ ZP_API ZpStatus zp_scenario_override(ZpScenario *scenario, const char *text, siz
 /* Set from "KEY=VALUE" as --set gives it; wins over the file. VALUE as in YAML, a list "[1, 2]" too. */
 ZP_API ZpStatus zp_scenario_set(ZpScenario *scenario, const char *assignment, ZpError *err);
 
-/* How many Defs the scenario stands for: the product of the lengths of its lists (1 without lists). */
+/* How many Defs the scenario stands for: the product of the lengths of its lists (1 without lists), of those of
+ * sampling.together once, times the samples of its distributions. */
 ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 
-/* Keys that have lists, in key order; *count of them. Valid until the scenario changes. */
+/* Keys that have lists or distributions, in key order; *count of them. Valid until the scenario changes. */
 ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
 /* Whether the results of a sweep keep their series: output.series. */
@@ -49,7 +51,8 @@ ZP_API ZpStudy zp_scenario_study(const ZpScenario *scenario);
 /* As zp_scenario_def, where def->layout is set already: for that function. ZP_BAD_INPUT if it is not the library's. */
 ZP_API ZpStatus zp_scenario_fill(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
 
-/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). The last list key varies fastest. */
+/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). Samples vary fastest,
+ * then the last list key. */
 static inline ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err) {
   def->layout = zp_def_layout();
   return zp_scenario_fill(scenario, index, def, err);
@@ -107,6 +110,18 @@ typedef struct ZpRows {
   void *user;                                       /* handed to the functions above */
 } ZpRows;
 
+/* What an optimisation found among the cases of its report. */
+typedef struct ZpOptimum {
+  const size_t *row; /* [count] the best case; with several objectives those of the Pareto front, in the order of the
+                      * first objective */
+  size_t count;
+  bool feasible;                /* they satisfy all constraints; else row[0] misses them least */
+  ZpOutcome outcome;            /* ZP_CONVERGED, ZP_INTERRUPTED */
+  char message[256];            /* one sentence on what was found */
+  const char *const *objective; /* [objectives] names of outputs */
+  size_t objectives;
+} ZpOptimum;
+
 /* Where results go, and what was run. */
 typedef struct ZpReport {
   const char *directory;      /* made if needed; result files in it are replaced, nothing else touched */
@@ -118,6 +133,7 @@ typedef struct ZpReport {
   const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
   const ZpRows *rows;         /* in place of `result`; NULL: there is none */
   int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
+  const ZpOptimum *optimum;   /* of an optimisation; else NULL */
 } ZpReport;
 
 /* Write summary.json (also what --json prints) to `file`. */

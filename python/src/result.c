@@ -183,7 +183,7 @@ static ZpStatus write_report(const char *directory, const char *text, ZpResult *
     *err = (ZpError){ZP_MACHINE, "no memory"};
     return ZP_MACHINE;
   }
-  ZpReport report = {directory, scenario, &result, 1, zp_result_get(result, "wall_time_s"), NULL, NULL, NULL, 0};
+  ZpReport report = {directory, scenario, &result, 1, zp_result_get(result, "wall_time_s"), NULL, NULL, NULL, 0, NULL};
   ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "scenario", err);
   if (status == ZP_OK) status = zp_report_write(&report, NULL, err);
   zp_scenario_destroy(scenario);

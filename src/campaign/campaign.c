@@ -21,13 +21,14 @@
 #include "base/fail.h"
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
+#include "campaign/remote.h"
 #include "fit/case.h"
 
 /* How often the writer looks around, and for how long rows may wait for their commit, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
 
-/* Rows that wait to be written, at most. */
-enum { QUEUE = 256 };
+/* Rows that wait to be written, at most; cases that another process computes at once, at most. */
+enum { QUEUE = 256, SPAN_MOST = 64 };
 
 /* What is known of a row. That an earlier process left is of the same case only if its hash says so. */
 typedef enum Mark { MARK_NONE, MARK_OLD_FAILED, MARK_OLD_GOOD, MARK_FAILED, MARK_GOOD } Mark;
@@ -42,8 +43,14 @@ typedef struct Row {
 typedef struct Worker {
   ZpCampaign *campaign;
   pthread_t thread;
+  size_t number;           /* from 0 */
   _Atomic double fraction; /* of the case that it runs, 0 .. 1 */
 } Worker;
+
+/* Cases from .. to - 1. */
+typedef struct Span {
+  size_t from, to;
+} Span;
 
 struct ZpCampaign {
   const ZpScenario *scenario;
@@ -51,7 +58,7 @@ struct ZpCampaign {
   ZpJournal *journal;
   ZpRows rows;
   ZpStudy study;
-  size_t cases, chunk;
+  size_t cases, chunk, span;
   bool keeps_series;
   uint64_t start;      /* zp_campaign_hash */
   uint64_t *hash;      /* [cases] of the rows of an earlier process; 0: none */
@@ -63,8 +70,14 @@ struct ZpCampaign {
   size_t next;           /* first case that no worker has taken */
   size_t first, waiting; /* the queue: a ring */
   Row queue[QUEUE];
-  size_t workers; /* that run */
-  ZpError err;    /* of the first worker that failed */
+  struct {
+    Span *span; /* [workers] */
+    size_t count;
+    size_t busy;   /* spans that other processes have */
+  } lost;          /* cases of processes that were lost */
+  ZpRemote remote; /* what the results of other processes point to */
+  size_t workers;  /* that run */
+  ZpError err;     /* of the first worker that failed */
 };
 
 /* -- workers ---------------------------------------------------------------------------------------- */
@@ -81,14 +94,43 @@ static double read_clock(void *user) {
   return options->clock(options->user);
 }
 
-/* The next chunk: cases *from .. *to - 1; false if there is none. */
+/* How many cases are taken at once: a chunk; of those that are computed elsewhere several, since messages take time,
+ * but so few that all have some. */
+static size_t span_of(const ZpCampaign *c, size_t workers) {
+  enum { SPANS_FEWEST = 8 };
+  if (!c->options.remote) return c->chunk;
+  const size_t fair = c->cases / (SPANS_FEWEST * workers), most = fair < SPAN_MOST ? fair : SPAN_MOST;
+  return most > c->chunk ? most / c->chunk * c->chunk : c->chunk;
+}
+
+/* The next cases *from .. *to - 1, those first that a lost process had; false if there are none. As long as a process
+ * that may be lost computes the last ones, others wait: the writer wakes them now and then. */
 static bool take_chunk(ZpCampaign *c, size_t *from, size_t *to) {
   pthread_mutex_lock(&c->lock);
-  *from = c->next;
-  *to = c->cases - c->next < c->chunk ? c->cases : c->next + c->chunk;
-  c->next = *to;
+  while (c->next == c->cases && c->lost.count == 0 && c->lost.busy > 0 && !atomic_load(&c->stop))
+    pthread_cond_wait(&c->room, &c->lock);
+  if (c->lost.count > 0) {
+    const Span span = c->lost.span[--c->lost.count];
+    *from = span.from;
+    *to = span.to;
+  } else {
+    *from = c->next;
+    *to = c->cases - c->next < c->span ? c->cases : c->next + c->span;
+    c->next = *to;
+  }
+  c->lost.busy += c->options.remote && *from < *to;
   pthread_mutex_unlock(&c->lock);
   return *from < *to && !atomic_load(&c->stop);
+}
+
+/* Cases that another process had are done, or lost: then others compute them. A worker that loses its process takes no
+ * more, so there is room. */
+static void end_span(ZpCampaign *c, size_t from, size_t to, bool lost) {
+  pthread_mutex_lock(&c->lock);
+  if (lost) c->lost.span[c->lost.count++] = (Span){from, to};
+  c->lost.busy--;
+  pthread_cond_broadcast(&c->room);
+  pthread_mutex_unlock(&c->lock);
 }
 
 static void hand_over(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *result) {
@@ -107,26 +149,13 @@ static void fail(ZpCampaign *c, const ZpError *err) {
   atomic_store(&c->stop, true);
 }
 
-/* A result that says why there is none. */
-static ZpResult *impossible(const ZpCampaign *c, const ZpError *why) {
-  ZpResult *result = zp_result_create(c->study);
-  if (!result) return NULL;
-  result->outcome = ZP_BAD_ARGUMENT;
-  snprintf(result->message, sizeof result->message, "%.255s", why->message);
-  return result;
-}
-
 /* => the result, NULL where the campaign ends: stopped, or the machine failed. */
 static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
   ZpCampaign *c = worker->campaign;
   const ZpHooks hooks = {worker, on_progress, c->options.clock ? read_clock : NULL};
   ZpResult *result = NULL;
   ZpError err;
-  ZpStatus status = zp_case_run(c->scenario, number, before, &hooks, &result, &err);
-  if (status == ZP_BAD_INPUT) {
-    result = impossible(c, &err);
-    status = result ? ZP_OK : zp_fail_memory(&err);
-  }
+  ZpStatus status = zp_case_run_or_say(c->scenario, number, before, &hooks, &result, &err);
   atomic_store(&worker->fraction, 0);
   if (status != ZP_OK) {
     fail(c, &err);
@@ -171,12 +200,58 @@ static void run_chunk(Worker *worker, size_t from, size_t to) {
   if (before) hand_over(c, to - 1, hash[to - 1 - from], before);
 }
 
+/* -- cases that are computed elsewhere -------------------------------------------------------------- */
+
+/* Hashes of the chunks of a span. True if the journal has all rows. */
+static bool hash_span(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[SPAN_MOST]) {
+  bool known = true;
+  for (size_t start = from; start < to; start += c->chunk) {
+    const size_t end = to - start < c->chunk ? to : start + c->chunk;
+    known = hash_chunk(c, start, end, hash + (start - from)) && known;
+  }
+  return known;
+}
+
+/* Read the results of a span; the names that they point to are the campaign's. */
+static bool read_span(ZpCampaign *c, const unsigned char *byte, size_t size, size_t count, ZpResult **result) {
+  pthread_mutex_lock(&c->lock);
+  const bool read = zp_remote_read(&c->remote, byte, size, c->study, count, result);
+  pthread_mutex_unlock(&c->lock);
+  return read;
+}
+
+/* Hand over the results of a span that another process has computed. False if there will be no more of it. */
+static bool run_span(Worker *worker, size_t from, size_t to) {
+  ZpCampaign *c = worker->campaign;
+  uint64_t hash[SPAN_MOST] = {0};
+  ZpResult *result[SPAN_MOST] = {NULL};
+  unsigned char *byte = NULL;
+  size_t size = 0;
+  ZpError err = {ZP_MACHINE, "results of another process cannot be read: no memory, or another version"};
+  const bool known = hash_span(c, from, to, hash);
+  ZpStatus status =
+      known ? ZP_OK : c->options.remote(c->options.remote_user, worker->number, from, to, &byte, &size, &err);
+  const bool lost = status == ZP_OK && !known && !byte;
+  if (status == ZP_OK && byte && !read_span(c, byte, size, to - from, result)) status = ZP_MACHINE;
+  free(byte);
+  if (status != ZP_OK) fail(c, &err);
+  for (size_t i = from; i < to && status == ZP_OK && !lost; i++)
+    hand_over(c, i, hash[i - from], result[i - from]);
+  end_span(c, from, to, lost);
+  return status == ZP_OK && !lost;
+}
+
 static void *work(void *user) {
   Worker *worker = user;
   ZpCampaign *c = worker->campaign;
   size_t from, to;
-  while (take_chunk(c, &from, &to))
-    run_chunk(worker, from, to);
+  bool goes_on = true;
+  while (goes_on && take_chunk(c, &from, &to)) {
+    if (c->options.remote)
+      goes_on = run_span(worker, from, to);
+    else
+      run_chunk(worker, from, to);
+  }
   pthread_mutex_lock(&c->lock);
   c->workers--;
   pthread_cond_signal(&c->more);
@@ -273,6 +348,7 @@ static size_t start_workers(ZpCampaign *c, Worker *worker, size_t most) {
   size_t started = 0;
   for (; started < most; started++) {
     worker[started].campaign = c;
+    worker[started].number = started;
     if (pthread_create(&worker[started].thread, NULL, work, &worker[started]) != 0) break;
   }
   pthread_mutex_lock(&c->lock);
@@ -285,13 +361,21 @@ ZpStatus zp_campaign_run(ZpCampaign *c, ZpError *err) {
   const size_t jobs = (size_t)(c->options.jobs > 0 ? c->options.jobs : zp_processors());
   const size_t chunks = (c->cases + c->chunk - 1) / c->chunk, most = jobs < chunks ? jobs : chunks;
   Worker *worker = calloc(most, sizeof *worker);
-  if (!worker) return zp_fail_memory(err);
+  free(c->lost.span);
+  c->lost.span = calloc(most, sizeof *c->lost.span);
+  c->span = span_of(c, most);
+  if (!worker || !c->lost.span) {
+    free(worker);
+    return zp_fail_memory(err);
+  }
   const size_t workers = start_workers(c, worker, most);
   ZpStatus status = workers > 0 ? ZP_OK : zp_fail(err, ZP_MACHINE, "no thread could be started");
   if (workers > 0) status = write_all(c, worker, workers, err);
   for (size_t i = 0; i < workers; i++)
     pthread_join(worker[i].thread, NULL);
   free(worker);
+  if (status == ZP_OK && c->lost.count > 0)
+    status = zp_fail(err, ZP_MACHINE, "a process was lost, and with it some cases; --resume computes them");
   return status == ZP_OK && c->err.status != ZP_OK ? zp_fail(err, c->err.status, "%s", c->err.message) : status;
 }
 
@@ -368,6 +452,8 @@ void zp_campaign_close(ZpCampaign *c) {
   pthread_mutex_destroy(&c->lock);
   pthread_cond_destroy(&c->more);
   pthread_cond_destroy(&c->room);
+  zp_remote_free(&c->remote);
+  free(c->lost.span);
   free(c->hash);
   free(c->mark);
   free(c);

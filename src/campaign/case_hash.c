@@ -55,16 +55,17 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
   return status;
 }
 
-/* Pictures are no part of a result. */
-static bool is_of_pictures(const ZpKey *key) {
-  return strcmp(key->name, "output.plots") == 0 || strcmp(key->name, "output.animation") == 0;
+/* Pictures are no part of a result; how cases were chosen is in their values. */
+static bool is_no_part(const ZpKey *key) {
+  return strcmp(key->name, "output.plots") == 0 || strcmp(key->name, "output.animation") == 0 ||
+         strncmp(key->name, "sampling.", 9) == 0 || strncmp(key->name, "optimize.", 9) == 0;
 }
 
 uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {
   uint64_t hash = before;
   for (int i = 0; i < zp_key_count(); i++) {
     const char *text = zp_def_text(def, i);
-    if (is_of_pictures(zp_key(i))) continue;
+    if (is_no_part(zp_key(i))) continue;
     hash = text ? add_text(hash, text) : add_number(hash, zp_def_get(def, i));
   }
   return hash ? hash : 1;

@@ -75,13 +75,36 @@ static ZpStatus make_tables(ZpJournal *journal, ZpError *err) {
   return run(journal, sql, err);
 }
 
+static bool is_ours(ZpJournal *journal) {
+  return ask(journal, "PRAGMA application_id") == APPLICATION && ask(journal, "PRAGMA user_version") == LAYOUT;
+}
+
+/* Rows of a campaign that was not finished took time: only its owner may give them up. */
+static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
+  if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK || !is_ours(journal))
+    return ZP_OK;
+  const sqlite3_int64 done = ask(journal, "SELECT count(*) FROM row");
+  const sqlite3_int64 cases = ask(journal, "SELECT value FROM about WHERE name = 'cases'");
+  if (done <= 0 || done >= cases) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%.300s: %lld of %lld cases of an unfinished campaign; give --resume to continue it, delete this file "
+                 "to begin again, or choose another folder",
+                 journal->path, (long long)done, (long long)cases);
+}
+
+/* Begin without the journal that is there. */
+static ZpStatus replace_old(ZpJournal *journal, const char *directory, ZpError *err) {
+  ZpStatus status = refuse_unfinished(journal, err);
+  sqlite3_close(journal->base);
+  journal->base = NULL;
+  return status == ZP_OK ? remove_old(directory, err) : status;
+}
+
 /* Only an empty file gets our tables. */
 static ZpStatus need_tables(ZpJournal *journal, ZpError *err) {
   const sqlite3_int64 tables = ask(journal, "SELECT count(*) FROM sqlite_master");
   if (tables == 0) return make_tables(journal, err);
-  if (tables > 0 && ask(journal, "PRAGMA application_id") == APPLICATION &&
-      ask(journal, "PRAGMA user_version") == LAYOUT)
-    return ZP_OK;
+  if (tables > 0 && is_ours(journal)) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "%.300s: not a journal of this version of zipact; begin without --resume",
                  journal->path);
 }
@@ -117,8 +140,9 @@ static ZpStatus prepare(ZpJournal *journal, ZpError *err) {
 }
 
 static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
-  char sql[96];
-  snprintf(sql, sizeof sql, "DELETE FROM row WHERE number >= %zu", cases);
+  char sql[160];
+  snprintf(sql, sizeof sql, "DELETE FROM row WHERE number >= %zu; INSERT OR REPLACE INTO about VALUES('cases', '%zu')",
+           cases, cases);
   if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
     return journal->base ? fail_base(journal, err) : zp_fail_memory(err);
   ZpStatus status = need_tables(journal, err);
@@ -132,7 +156,7 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
   ZpJournal *journal = *out = calloc(1, sizeof *journal);
   ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK) journal->row.result.study = study;
-  if (status == ZP_OK && !keep) status = remove_old(directory, err);
+  if (status == ZP_OK && !keep) status = replace_old(journal, directory, err);
   if (status == ZP_OK) status = open_base(journal, cases, err);
   if (status == ZP_OK) return ZP_OK;
   zp_journal_close(journal);
@@ -216,6 +240,10 @@ ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err) {
   if (!journal->open) return ZP_OK;
   journal->open = false;
   return run(journal, "COMMIT", err);
+}
+
+ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err) {
+  return run(journal, "UPDATE about SET value = (SELECT count(*) FROM row) WHERE name = 'cases'", err);
 }
 
 /* False if there is no such row, or it is damaged. */

@@ -9,7 +9,8 @@
 typedef struct ZpJournal ZpJournal;
 
 /* Open or make the journal of a `study` in `directory`. `keep`: that which is there is kept, but rows of numbers from
- * `cases` on; ZP_BAD_INPUT if it is no journal of ours. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ * `cases` on; ZP_BAD_INPUT if it is no journal of ours. Else it is replaced; ZP_BAD_INPUT if it lacks
+ * rows that its campaign has not computed yet. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
 
 /* Commit, and close; NULL is allowed. */
@@ -24,6 +25,9 @@ ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const 
 
 /* Bring what was put to the disk; nothing if nothing was. */
 ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err);
+
+/* Say that no more rows will come than there are: the journal may be replaced. */
+ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err);
 
 /* Row `number`, valid until the next call. Where it cannot be read it is empty, and from then on zp_journal_status says
  * so. */

@@ -32,8 +32,7 @@ static bool same_name(const ZpName *a, const ZpName *b) {
   return a->help && b->help ? strcmp(a->help, b->help) == 0 : a->help == b->help;
 }
 
-/* => its number, appended if needed; names->count if there is no memory. */
-static size_t number_of(ZpNames *names, const ZpName *name) {
+size_t zp_names_number(ZpNames *names, const ZpName *name) {
   for (size_t i = 0; i < names->count; i++)
     if (same_name(&names->item[i], name)) return i;
   return zp_names_add(names, name) ? names->count - 1 : names->count;
@@ -74,7 +73,7 @@ static void put_real(ZpRecord *record, double value) {
 
 static void put_name(ZpRecord *record, ZpNames *names, const char *name, const char *unit, const char *help,
                      bool timing) {
-  const size_t number = number_of(names, &(ZpName){(char *)name, (char *)unit, (char *)help, timing});
+  const size_t number = zp_names_number(names, &(ZpName){(char *)name, (char *)unit, (char *)help, timing});
   record->bad = record->bad || number == names->count;
   put_count(record, number);
 }

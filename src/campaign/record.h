@@ -20,6 +20,9 @@ typedef struct ZpNames {
 
 /* Append a name, copied; false if there is no memory. */
 bool zp_names_add(ZpNames *names, const ZpName *name);
+
+/* => its number, appended if needed; names->count if there is no memory. */
+size_t zp_names_number(ZpNames *names, const ZpName *name);
 void zp_names_free(ZpNames *names);
 
 /* Bytes that grow as a record is written. */

@@ -90,6 +90,24 @@ ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before,
   return status;
 }
 
+ZpResult *zp_case_impossible(ZpStudy study, const ZpError *why) {
+  ZpResult *result = zp_result_create(study);
+  if (!result) return NULL;
+  result->outcome = ZP_BAD_ARGUMENT;
+  snprintf(result->message, sizeof result->message, "%.255s", why->message);
+  return result;
+}
+
+ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+                            ZpResult **result, ZpError *err) {
+  ZpError why;
+  ZpStatus status = zp_case_run(scenario, index, before, hooks, result, &why);
+  if (status == ZP_OK) return ZP_OK;
+  if (status != ZP_BAD_INPUT) return zp_fail(err, status, "%s", why.message);
+  *result = zp_case_impossible(zp_scenario_study(scenario), &why);
+  return *result ? ZP_OK : zp_fail_memory(err);
+}
+
 ZpStatus zp_batch_next(ZpBatch *batch, const ZpHooks *hooks, ZpError *err) {
   ZpResult *result, *before = batch->done > 0 ? batch->result[batch->done - 1] : NULL;
   ZpStatus status = need_room(batch, err);

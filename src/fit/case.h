@@ -17,4 +17,11 @@ size_t zp_case_chunk(const ZpScenario *scenario);
 ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
                      ZpResult **result, ZpError *err);
 
+/* The same, but a case whose input turns out to be impossible has a result that says why. */
+ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
+                            ZpResult **result, ZpError *err);
+
+/* A result of `study` that says why there is none. NULL if there is no memory. */
+ZpResult *zp_case_impossible(ZpStudy study, const ZpError *why);
+
 #endif

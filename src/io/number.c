@@ -8,8 +8,8 @@
 
 #include <ctype.h>
 #include <float.h>
+#include <locale.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,4 +81,13 @@ void zp_number_print(double value, char *text, size_t size) {
     print_plain(&d, text, size);
   else
     print_small(&d, text, size);
+}
+
+bool zp_number_read(const char *text, double *value) {
+  char *end;
+  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  if (!plain) return false;
+  *value = strtod_l(text, &end, plain);
+  freelocale(plain);
+  return end > text && *(end + strspn(end, " ")) == 0;
 }

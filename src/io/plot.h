@@ -59,6 +59,8 @@ extern const ZpPicture zp_rest_pictures[];
 extern const ZpPicture zp_fit_pictures[];
 extern const ZpPicture zp_field_pictures[];
 extern const ZpPicture zp_sensitivity_pictures[];
+extern const ZpPicture zp_sample_pictures[];
+extern const ZpPicture zp_many_pictures[];
 
 /* A unit with an SI prefix in which a quantity has one to three digits before the point. */
 typedef struct ZpPlotUnit {

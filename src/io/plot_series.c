@@ -132,6 +132,28 @@ static void script_voltage(const ZpPlot *plot, FILE *file) {
   fputs("unset multiplot\n", file);
 }
 
+/* Curves of one panel. */
+typedef struct Panel {
+  const char *label;
+  ZpPlotUnit unit;
+  const char *const (*curve)[2];
+  size_t curves;
+} Panel;
+
+/* Two panels over time, with the small print of motions. */
+static void two_panels(const ZpPlot *plot, FILE *file, const char *name, const char *title, const Panel *upper,
+                       const Panel *lower) {
+  ZpPlotUnit time = time_unit(plot);
+  zp_plot_head(plot, file, name, title, RIGHT);
+  zp_plot_foot(plot, file, NULL);
+  begin(file, time);
+  zp_plot_upper_panel(file);
+  plot_columns(plot, file, time, upper->unit, upper->label, upper->curve, upper->curves);
+  lower_panel(file, time);
+  plot_columns(plot, file, time, lower->unit, lower->label, lower->curve, lower->curves);
+  fputs("unset multiplot\n", file);
+}
+
 /* Of a source that is not ideal. */
 static bool has_source(const ZpPlot *plot) {
   return is_film(plot) && !is_ribbon(plot) && plot->def.source.model != ZP_SOURCE_IDEAL &&
@@ -143,17 +165,10 @@ static void script_source(const ZpPlot *plot, FILE *file) {
                                      {"source_voltage_V", "inner"},
                                      {"voltage_V", "electrodes"}},
                     *const currents[][2] = {{"current_A", "current"}};
-  ZpPlotUnit time = time_unit(plot);
   ZpPlotUnit voltage = zp_plot_table_unit(series(plot), (const char *const[]){"command_V", NULL}, "V");
   ZpPlotUnit current = zp_plot_table_unit(series(plot), (const char *const[]){"current_A", NULL}, "A");
-  zp_plot_head(plot, file, "source", "Voltages and current of the source over time", RIGHT);
-  zp_plot_foot(plot, file, NULL);
-  begin(file, time);
-  zp_plot_upper_panel(file);
-  plot_columns(plot, file, time, voltage, "voltage", voltages, 3);
-  lower_panel(file, time);
-  plot_columns(plot, file, time, current, "current", currents, 1);
-  fputs("unset multiplot\n", file);
+  two_panels(plot, file, "source", "Voltages and current of the source over time",
+             &(Panel){"voltage", voltage, voltages, 3}, &(Panel){"current", current, currents, 1});
 }
 
 /* Of what leaks. */
@@ -164,19 +179,12 @@ static bool has_interface(const ZpPlot *plot) {
 
 static void script_interface(const ZpPlot *plot, FILE *file) {
   const char *const voltages[][2] = {{"voltage_V", "voltage"}, {"interface_voltage_V", "interface"}},
-                    *const openings[][2] = {{"opening_m", "opening"}, {"stroke_m", "stroke"}};
-  ZpPlotUnit time = time_unit(plot);
+                    *const openings[][2] = {{"opening_m", "opening"}};
   ZpPlotUnit voltage =
       zp_plot_table_unit(series(plot), (const char *const[]){"voltage_V", "interface_voltage_V", NULL}, "V");
   ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"opening_m", "stroke_m", NULL}, "m");
-  zp_plot_head(plot, file, "interface", "Charge between insulators and liquid over time", RIGHT);
-  zp_plot_foot(plot, file, NULL);
-  begin(file, time);
-  zp_plot_upper_panel(file);
-  plot_columns(plot, file, time, voltage, "voltage", voltages, 2);
-  lower_panel(file, time);
-  plot_columns(plot, file, time, length, "length", openings, 1);
-  fputs("unset multiplot\n", file);
+  two_panels(plot, file, "interface", "Charge between insulators and liquid over time",
+             &(Panel){"voltage", voltage, voltages, 2}, &(Panel){"length", length, openings, 1});
 }
 
 /* Of a meter of the capacitance. */
@@ -188,17 +196,10 @@ static void script_sense(const ZpPlot *plot, FILE *file) {
   const char *const strokes[][2] = {{"stroke_m", "stroke"}, {"sensed_stroke_m", "stroke by capacitance"}},
                     *const capacitances[][2] = {{"capacitance_F", "capacitance"},
                                                 {"sensed_capacitance_F", "as it is read"}};
-  ZpPlotUnit time = time_unit(plot);
   ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"stroke_m", NULL}, "m");
   ZpPlotUnit farad = zp_plot_table_unit(series(plot), (const char *const[]){"capacitance_F", NULL}, "F");
-  zp_plot_head(plot, file, "sense", "Stroke by its capacitance over time", RIGHT);
-  zp_plot_foot(plot, file, NULL);
-  begin(file, time);
-  zp_plot_upper_panel(file);
-  plot_columns(plot, file, time, length, "stroke", strokes, 2);
-  lower_panel(file, time);
-  plot_columns(plot, file, time, farad, "capacitance", capacitances, 2);
-  fputs("unset multiplot\n", file);
+  two_panels(plot, file, "sense", "Stroke by its capacitance over time", &(Panel){"stroke", length, strokes, 2},
+             &(Panel){"capacitance", farad, capacitances, 2});
 }
 
 /* Of a cycle. */

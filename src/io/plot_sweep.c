@@ -6,12 +6,13 @@
 #include <string.h>
 
 #include "io/report.h"
+#include "io/sampled.h"
 #include "io/sweep.h"
 #include "io/units.h"
 
 /* Curves that the legend names, and rows that all curves together may have: a picture of more is slow to
  * look at and shows no more. */
-#define LEGEND 12
+#define LEGEND 10
 #define ROWS   200000
 
 #define RIGHT 0.76
@@ -82,7 +83,7 @@ static ZpPlotUnit common_unit(const ZpPlot *plot, const char *name, const char *
 /* "8 kV, 21": the values of the list keys of a run, but of the last `without` of them. */
 static void run_name(const ZpPlot *plot, size_t run, size_t without, char *text, size_t size) {
   size_t keys, used = 0;
-  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  const int *key = zp_scenario_axes(plot->report->scenario, &keys);
   ZpActuatorDef def;
   text[0] = 0;
   if (zp_scenario_def(plot->report->scenario, run, &def, NULL) != ZP_OK) return;
@@ -96,7 +97,7 @@ static void run_name(const ZpPlot *plot, size_t run, size_t without, char *text,
 /* The names of the list keys but the last `without` over the legend, each on a line so that it fits. */
 static void legend_title(const ZpPlot *plot, FILE *file, size_t without) {
   size_t keys;
-  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  const int *key = zp_scenario_axes(plot->report->scenario, &keys);
   keys -= without;
   fputs("set key title \"", file);
   for (size_t i = 0; i < keys; i++) {
@@ -134,7 +135,7 @@ static void script_contraction(const ZpPlot *plot, FILE *file) {
 
 int zp_sweep_key(const ZpPlot *plot, size_t back) {
   size_t keys;
-  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  const int *key = zp_scenario_axes(plot->report->scenario, &keys);
   return back < keys ? key[keys - 1 - back] : -1;
 }
 
@@ -146,7 +147,7 @@ static int x_key(const ZpPlot *plot) {
 /* Does another curve begin at this run: has any other list key changed? */
 static bool begins_curve(const ZpPlot *plot, size_t run) {
   size_t keys;
-  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  const int *key = zp_scenario_axes(plot->report->scenario, &keys);
   ZpActuatorDef before, now;
   if (run == 0 || zp_scenario_def(plot->report->scenario, run - 1, &before, NULL) != ZP_OK) return false;
   if (zp_scenario_def(plot->report->scenario, run, &now, NULL) != ZP_OK) return false;
@@ -197,7 +198,8 @@ static size_t points(const ZpPlot *plot, size_t curve) {
 
 /* Are there runs to draw against a key? */
 static bool has_axis(const ZpPlot *plot) {
-  return !plot->single && plot->report->count > 0 && x_key(plot) >= 0;
+  return !plot->single && plot->report->count > 0 && x_key(plot) >= 0 && !zp_scenario_design(plot->report->scenario) &&
+         !plot->report->optimum;
 }
 
 static bool has_answer(const ZpPlot *plot, ZpStudy study) {
@@ -360,7 +362,7 @@ static void data_forces(const ZpPlot *plot, FILE *file) {
 /* Of many curves the first list key has a line style, the others together a colour. */
 static size_t curves_of_a_style(const ZpPlot *plot, const size_t *chosen, size_t curves) {
   size_t keys, alike = 1;
-  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  const int *key = zp_scenario_axes(plot->report->scenario, &keys);
   ZpActuatorDef first, other;
   if (keys < 3 || zp_scenario_def(plot->report->scenario, chosen[0], &first, NULL) != ZP_OK) return curves;
   while (alike < curves && zp_scenario_def(plot->report->scenario, chosen[alike], &other, NULL) == ZP_OK &&
@@ -388,7 +390,7 @@ static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
 static void script_forces(const ZpPlot *plot, FILE *file) {
   size_t keys;
   double largest = 0;
-  zp_scenario_lists(plot->report->scenario, &keys);
+  zp_scenario_axes(plot->report->scenario, &keys);
   for (size_t i = 0; i < plot->report->count; i++)
     if (isfinite(force(plot, i))) largest = fmax(largest, fabs(force(plot, i)));
   ZpPlotUnit unit = zp_plot_unit(largest, "N");

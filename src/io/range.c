@@ -63,15 +63,14 @@ static ZpStatus read_spacing(const char *text, double from, double to, bool *by_
   return ZP_OK;
 }
 
-/* To 12 digits: more than any key needs, and fewer than the rounding of the steps reaches. */
-static double rounded(double value) {
+double zp_rounded(double value) {
   char text[32];
   snprintf(text, sizeof text, "%.11e", value);
   return strtod(text, NULL);
 }
 
 static double value_at(double from, double to, double share, bool by_factors) {
-  return rounded(by_factors ? from * pow(to / from, share) : from + (to - from) * share);
+  return zp_rounded(by_factors ? from * pow(to / from, share) : from + (to - from) * share);
 }
 
 static ZpStatus fill(int index, double from, double to, bool by_factors, double *value, size_t count, ZpError *err) {

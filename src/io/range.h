@@ -23,4 +23,7 @@ ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err);
  * 0.00002 and not 0.000019999999999999998 => *value [*count], to be freed. ZP_BAD_INPUT says which part is wrong. */
 ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *count, ZpError *err);
 
+/* To 12 digits: more than any key needs, and fewer than the rounding of what is computed reaches. */
+double zp_rounded(double value);
+
 #endif

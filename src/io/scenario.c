@@ -4,9 +4,7 @@
  * whatever the order of calls. Nothing is resolved before a Def is asked for, so it does not matter where
  * `preset` is written. A text is first read into a layer of its own and then exchanged slot by slot with
  * the one that it changes; exchanging again undoes it, so a failure leaves the scenario as it was.
- *
- * Limits: ROWS_MOST Defs, a bound on what a run may ask for by mistake; VALUES_MOST values in all
- * lists, with which the written scenario stays below the size that is read. */
+ * Which Defs a scenario stands for is io/plan.h. */
 #include <zipact/io.h>
 
 #include <errno.h>
@@ -17,50 +15,46 @@
 #include <unistd.h>
 
 #include "base/fail.h"
+#include "io/plan.h"
 #include "io/range.h"
+#include "io/sampled.h"
 #include "io/source.h"
+#include "io/spread.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
-enum { ROWS_MOST = 1000000, VALUES_MOST = 20000 };
-
-/* What is given for a key. */
-typedef struct Slot {
-  double *value; /* [count], SI; NULL if the key is not given */
-  size_t count;
-  bool is_list; /* a list of one is a list: it makes a row in the table */
-  char *text;   /* of a text key, whose value is NAN; else NULL */
-} Slot;
-
 struct ZpScenario {
-  Slot *file; /* [keys] from files */
-  Slot *set;  /* [keys] from --set; these win */
-  int *list;  /* [lists] keys that have lists, in key order */
-  size_t lists;
-  size_t count; /* product of the lengths of the lists */
-  char *name;   /* of the file read last, NULL before */
+  ZpSlot *file;        /* [keys] from files */
+  ZpSlot *set;         /* [keys] from --set; these win */
+  const ZpSlot **held; /* [keys] the one of these that holds */
+  ZpPlan plan;
+  char *name; /* of the file read last, NULL before */
 };
 
-/* What a range consists of, by the names of its parts. */
-enum { PARTS = 4 };
-static const char *const part_name[PARTS] = {"from", "to", "count", "spacing"};
+/* What a range and a distribution consist of, by the names of their parts. */
+enum { FROM, TO, COUNT, SPACING, SIGMA, FIRST_WORD, PARTS = FIRST_WORD + ZpDistributionKind_COUNT - 1 };
+static const char *const own_part_name[FIRST_WORD] = {"from", "to", "count", "spacing", "sigma"};
+
+static const char *part_name(size_t part) {
+  return part < FIRST_WORD ? own_part_name[part] : zp_spread_word[part - FIRST_WORD + 1];
+}
 
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
   int key;           /* of --set; -1 when keys come from the text */
-  Slot *slot;        /* [keys] filled */
+  ZpSlot *slot;      /* [keys] filled */
   int *line;         /* [keys] where the key was given; 0: not yet */
   int *group_line;   /* [keys] where the group was opened whose first key this is; 0: not yet */
   int part_key;      /* whose range is being read, where there is a part */
-  char *part[PARTS]; /* of the range that is being read, {from: ..., to: ...}; NULL: not given */
+  char *part[PARTS]; /* of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
 
 static size_t key_count(void) {
   return (size_t)zp_key_count();
 }
 
-static void free_slots(Slot *slot) {
+static void free_slots(ZpSlot *slot) {
   for (size_t i = 0; slot && i < key_count(); i++) {
     free(slot[i].value);
     free(slot[i].text);
@@ -68,14 +62,22 @@ static void free_slots(Slot *slot) {
   free(slot);
 }
 
+/* --set wins over the file. */
+static void hold(ZpScenario *s) {
+  for (size_t i = 0; i < key_count(); i++)
+    s->held[i] = s->set[i].count ? &s->set[i] : &s->file[i];
+}
+
 ZpScenario *zp_scenario_create(void) {
   ZpScenario *s = calloc(1, sizeof *s);
   if (!s) return NULL;
   s->file = calloc(key_count(), sizeof *s->file);
   s->set = calloc(key_count(), sizeof *s->set);
-  s->list = calloc(key_count(), sizeof *s->list);
-  s->count = 1;
-  if (s->file && s->set && s->list) return s;
+  s->held = calloc(key_count(), sizeof *s->held);
+  if (zp_plan_create(&s->plan) && s->file && s->set && s->held) {
+    hold(s);
+    return s;
+  }
   zp_scenario_destroy(s);
   return NULL;
 }
@@ -84,52 +86,32 @@ void zp_scenario_destroy(ZpScenario *s) {
   if (!s) return;
   free_slots(s->file);
   free_slots(s->set);
-  free(s->list);
+  free(s->held);
+  zp_plan_free(&s->plan);
   free(s->name);
   free(s);
 }
 
-/* What holds for a key: its slot of --set, else that of the file. */
-static const Slot *slot_of(const ZpScenario *s, size_t key) {
-  return s->set[key].count ? &s->set[key] : &s->file[key];
-}
-
-/* Find the lists anew; false, and nothing changed, if they are too long together. */
-static bool find_lists(ZpScenario *s, const ZpSource *source, ZpError *err) {
-  size_t rows = 1, values = 0;
-  for (size_t i = 0; i < key_count(); i++) {
-    const Slot *slot = slot_of(s, i);
-    if (!slot->is_list) continue;
-    values += slot->count;
-    if (values > VALUES_MOST)
-      return zp_source_fail(source, 0, err, "more than %d values in lists", VALUES_MOST) == ZP_OK;
-    if (rows > ROWS_MOST / slot->count)
-      return zp_source_fail(source, 0, err, "more than %d combinations of the lists' values", ROWS_MOST) == ZP_OK;
-    rows *= slot->count;
-  }
-  s->count = rows;
-  s->lists = 0;
-  for (size_t i = 0; i < key_count(); i++)
-    if (slot_of(s, i)->is_list) s->list[s->lists++] = (int)i;
-  return true;
-}
-
 /* Exchange the slots that were read with those of a layer. */
-static void exchange(const Reader *reader, Slot *layer) {
+static void exchange(const Reader *reader, ZpSlot *layer) {
   for (size_t i = 0; i < key_count(); i++) {
     if (!reader->line[i]) continue;
-    Slot kept = layer[i];
+    ZpSlot kept = layer[i];
     layer[i] = reader->slot[i];
     reader->slot[i] = kept;
   }
 }
 
 /* Let what was read replace what `layer` had for the same keys. */
-static ZpStatus merge(ZpScenario *s, const Reader *reader, Slot *layer, ZpError *err) {
+static ZpStatus merge(ZpScenario *s, const Reader *reader, ZpSlot *layer, ZpError *err) {
+  ZpError reason;
   exchange(reader, layer);
-  if (find_lists(s, reader->source, err)) return ZP_OK;
+  hold(s);
+  if (zp_plan_make(&s->plan, s->held, &reason) == ZP_OK) return ZP_OK;
   exchange(reader, layer);
-  return ZP_BAD_INPUT;
+  hold(s);
+  zp_plan_make(&s->plan, s->held, NULL); /* as before */
+  return zp_source_fail(reader->source, 0, err, "%s", reason.message);
 }
 
 static ZpStatus open_reader(Reader *reader, const ZpSource *source, int key, ZpError *err) {
@@ -168,14 +150,16 @@ static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpErr
                         zp_key_nearest(item->path));
 }
 
-/* The parts of a range stand together, in a group of their own: what is left of one is a mistake. */
+/* The parts of a range or a distribution stand together, in a group of their own: what is left of one is a mistake. */
 static ZpStatus check_no_parts(const Reader *reader, int key, int line, ZpError *err) {
   bool any = false;
   for (size_t i = 0; i < PARTS; i++)
     any |= reader->part[i] != NULL;
   if (!any || reader->part_key == key) return ZP_OK;
-  return zp_source_fail(reader->source, line, err, "%s: write a range as {from: ..., to: ..., count: ...}",
-                        zp_key(reader->part_key)->name);
+  return zp_source_fail(
+      reader->source, line, err,
+      "%s: write a range as {from: ..., to: ..., count: ...}, a distribution as {normal: ..., sigma: ...}",
+      zp_key(reader->part_key)->name);
 }
 
 static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err) {
@@ -241,8 +225,11 @@ static bool names_file(int key) {
 
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
   bool is_path = names_file(key);
-  Slot slot = {calloc(1, sizeof(double)), 1, false,
-               is_path ? absolute_path(reader->source, item->word) : strdup(item->word)};
+  ZpSlot slot = {calloc(1, sizeof(double)),
+                 1,
+                 false,
+                 is_path ? absolute_path(reader->source, item->word) : strdup(item->word),
+                 {0}};
   ZpActuatorDef scratch = zp_actuator_def_default();
   ZpError reason;
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
@@ -266,13 +253,43 @@ static bool takes_range(int key) {
 
 /* The values of a range; `word` is what to quote of it. */
 static ZpStatus take_range(Reader *reader, int key, const ZpRange *range, int line, const char *word, ZpError *err) {
-  Slot slot = {.is_list = true};
+  ZpSlot slot = {.is_list = true};
   ZpError reason;
   if (zp_range_read(key, range, &slot.value, &slot.count, &reason) != ZP_OK)
     return fail_value(reader, key, line, word, &reason, true, err);
   reader->slot[key] = slot;
   reader->line[key] = line;
   return ZP_OK;
+}
+
+static bool takes_spread(int key) {
+  return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
+}
+
+/* A distribution; `word` is what to quote of it. */
+static ZpStatus take_spread(Reader *reader, int key, const ZpSpread *spread, int line, const char *word, ZpError *err) {
+  ZpSlot slot = {calloc(1, sizeof(double)), 1, false, NULL, {0}};
+  ZpError reason;
+  if (!slot.value) return zp_fail_memory(err);
+  if (zp_spread_read(key, spread, &slot.spread, &reason) != ZP_OK) {
+    free(slot.value);
+    return fail_value(reader, key, line, word, &reason, true, err);
+  }
+  *slot.value = slot.spread.a;
+  reader->slot[key] = slot;
+  reader->line[key] = line;
+  return ZP_OK;
+}
+
+/* "normal(50 um, 1 um)" */
+static ZpStatus take_spread_word(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  char copy[ZP_VALUE_SIZE];
+  ZpSpread spread;
+  ZpError reason;
+  snprintf(copy, sizeof copy, "%s", item->word);
+  if (zp_spread_split(copy, &spread, &reason) != ZP_OK)
+    return fail_value(reader, key, item->line, item->word, &reason, true, err);
+  return take_spread(reader, key, &spread, item->line, item->word, err);
 }
 
 /* "10 um .. 200 um : 20" */
@@ -294,7 +311,7 @@ static int key_of_part(const char *path, size_t *part) {
   snprintf(name, sizeof name, "%.*s", (int)(last - path), path);
   const int key = zp_key_find(name);
   for (*part = 0; key >= 0 && *part < PARTS; ++*part)
-    if (strcmp(last + 1, part_name[*part]) == 0) return key;
+    if (strcmp(last + 1, part_name(*part)) == 0) return key;
   return -1;
 }
 
@@ -309,15 +326,38 @@ static ZpStatus take_part(Reader *reader, const ZpYamlItem *item, int key, size_
   return reader->part[part] ? ZP_OK : zp_fail_memory(err);
 }
 
-/* The end of {from: ..., to: ..., count: ...}. */
-static ZpStatus take_range_group(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  const ZpRange range = {reader->part[0], reader->part[1], reader->part[2], reader->part[3]};
+/* The kind of distribution one of whose parts is there. */
+static ZpDistributionKind spread_of_parts(const Reader *reader) {
+  for (size_t i = FIRST_WORD; i < PARTS; i++)
+    if (reader->part[i]) return (ZpDistributionKind)(i - FIRST_WORD + 1);
+  return ZP_DISTRIBUTION_NONE;
+}
+
+/* The parts of a distribution; any other beside them is a mistake. */
+static ZpStatus take_spread_parts(Reader *reader, int key, ZpDistributionKind kind, const ZpYamlItem *item,
+                                  ZpError *err) {
+  const size_t first = FIRST_WORD + (size_t)kind - 1, second = strcmp(zp_spread_second(kind), "to") == 0 ? TO : SIGMA;
+  const ZpSpread spread = {zp_spread_word[kind], reader->part[first], reader->part[second]};
+  for (size_t i = 0; i < PARTS; i++)
+    if (reader->part[i] && i != first && i != second)
+      return zp_source_fail(reader->source, item->line, err, "%s: \"%s\" is no part of {%s: ..., %s: ...}", item->path,
+                            part_name(i), spread.word, part_name(second));
+  return take_spread(reader, key, &spread, item->line, "{...}", err);
+}
+
+/* The end of {from: ..., to: ..., count: ...} or {normal: ..., sigma: ...}. */
+static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  const ZpRange range = {reader->part[FROM], reader->part[TO], reader->part[COUNT], reader->part[SPACING]};
+  const ZpDistributionKind kind = spread_of_parts(reader);
+  if (kind != ZP_DISTRIBUTION_NONE && !takes_spread(key))
+    return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a distribution", item->path);
   if (!takes_range(key))
     return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a range", item->path);
   if (reader->line[key])
     return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path,
                           reader->line[key]);
-  ZpStatus status = take_range(reader, key, &range, item->line, "{...}", err);
+  ZpStatus status = kind == ZP_DISTRIBUTION_NONE ? take_range(reader, key, &range, item->line, "{...}", err)
+                                                 : take_spread_parts(reader, key, kind, item, err);
   drop_parts(reader);
   return status;
 }
@@ -328,7 +368,9 @@ static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpE
   if (zp_key(key)->type == ZP_KEY_TEXT) return take_text(reader, key, item, err);
   if (item->kind == ZP_YAML_VALUE && takes_range(key) && zp_range_is(item->word))
     return take_range_word(reader, key, item, err);
-  Slot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST, NULL};
+  if (item->kind == ZP_YAML_VALUE && takes_spread(key) && zp_spread_is(item->word))
+    return take_spread_word(reader, key, item, err);
+  ZpSlot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST, NULL, {0}};
   if (!slot.value) return zp_fail_memory(err);
   const char *word = item->word;
   for (size_t i = 0; i < item->count && status == ZP_OK; i++, word += strlen(word) + 1) {
@@ -350,8 +392,7 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   Reader *reader = user;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
   int key = zp_key_find(item->path);
-  if (item->kind == ZP_YAML_GROUP)
-    return key >= 0 ? take_range_group(reader, key, item, err) : take_group(reader, item, err);
+  if (item->kind == ZP_YAML_GROUP) return key >= 0 ? take_parts(reader, key, item, err) : take_group(reader, item, err);
   size_t part;
   const int ranged = key < 0 ? key_of_part(item->path, &part) : -1;
   if (ranged >= 0) return take_part(reader, item, ranged, part, err);
@@ -365,7 +406,8 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
 }
 
 /* Read a text into a layer. */
-static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, Slot *layer, ZpError *err) {
+static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, ZpSlot *layer,
+                           ZpError *err) {
   ZpSource source = {.name = name};
   Reader reader;
   ZpStatus status = open_reader(&reader, &source, -1, err);
@@ -457,12 +499,26 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
 }
 
 size_t zp_scenario_count(const ZpScenario *s) {
-  return s->count;
+  return s->plan.count;
 }
 
 const int *zp_scenario_lists(const ZpScenario *s, size_t *count) {
-  *count = s->lists;
-  return s->list;
+  *count = s->plan.variations;
+  return s->plan.varied;
+}
+
+const int *zp_scenario_axes(const ZpScenario *s, size_t *count) {
+  *count = s->plan.axes;
+  return s->plan.axis;
+}
+
+const ZpDesign *zp_scenario_design(const ZpScenario *s) {
+  return s->plan.design.dimensions > 0 ? &s->plan.design : NULL;
+}
+
+const ZpDistribution *zp_scenario_spread(const ZpScenario *s, int key) {
+  const ZpDistribution *spread = &s->held[key]->spread;
+  return spread->kind != ZP_DISTRIBUTION_NONE ? spread : NULL;
 }
 
 /* Of the scenario, not of its Defs. */
@@ -472,28 +528,15 @@ static bool is_study(size_t key) {
 
 ZpStudy zp_scenario_study(const ZpScenario *s) {
   for (size_t i = 0; i < key_count(); i++)
-    if (is_study(i) && slot_of(s, i)->count) return (ZpStudy)slot_of(s, i)->value[0];
+    if (is_study(i) && s->held[i]->count) return (ZpStudy)s->held[i]->value[0];
   return (ZpStudy)0;
-}
-
-/* All that is given for Def number `index`, one assignment per key. Returns how many. */
-static size_t assignments(const ZpScenario *s, size_t index, ZpAssignment *list) {
-  size_t count = key_count();
-  size_t used = 0;
-  for (size_t i = count; i-- > 0;) { /* backwards: the last list varies fastest */
-    const Slot *slot = slot_of(s, i);
-    if (slot->count == 0 || slot->text || is_study(i)) continue;
-    list[used++] = (ZpAssignment){(int)i, slot->value[index % slot->count]};
-    index /= slot->count;
-  }
-  return used;
 }
 
 /* The texts; nothing else depends on them. */
 static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < key_count() && status == ZP_OK; i++) {
-    const char *text = slot_of(s, i)->text;
+    const char *text = s->held[i]->text;
     if (text) status = zp_def_set_text(def, (int)i, text, err);
   }
   return status;
@@ -502,7 +545,7 @@ static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err)
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   ZpAssignment *list = calloc(key_count(), sizeof *list);
   if (!list) return zp_fail_memory(err);
-  ZpStatus status = zp_def_fill(def, list, assignments(s, index, list), err);
+  ZpStatus status = zp_def_fill(def, list, zp_plan_assign(&s->plan, s->held, index, list), err);
   free(list);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
@@ -510,16 +553,23 @@ static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, Z
 /* Put the file and the row before the message of a Def that is wrong as a whole. */
 static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reason, ZpError *err) {
   char row[64] = "";
-  if (s->count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->count);
+  if (s->plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->plan.count);
   if (reason->status != ZP_BAD_INPUT || !s->name) return zp_fail(err, reason->status, "%s%s", row, reason->message);
   ZpSource source = {.name = s->name};
   return zp_source_fail(&source, 0, err, "%s%s", row, reason->message);
 }
 
+static ZpStatus fail_plan(const ZpScenario *s, ZpError *err) {
+  const ZpSource source = {.name = s->name};
+  if (!s->name) return zp_fail(err, ZP_BAD_INPUT, "%s", s->plan.problem);
+  return zp_source_fail(&source, 0, err, "%s", s->plan.problem);
+}
+
 ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
-  if (index >= s->count)
-    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->count);
+  if (index >= s->plan.count)
+    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->plan.count);
   ZpError reason;
+  if (s->plan.problem[0]) return fail_plan(s, err);
   ZpStatus status = resolve(s, index, def, &reason);
   if (status == ZP_OK) status = zp_study_check(zp_scenario_study(s), def, &reason);
   return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
@@ -530,7 +580,8 @@ enum { CASES_WITH_SERIES = 20 };
 
 bool zp_scenario_keeps_series(const ZpScenario *s) {
   ZpActuatorDef def = {.layout = zp_def_layout()};
-  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO) return s->count <= CASES_WITH_SERIES;
+  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
+    return s->plan.count <= CASES_WITH_SERIES;
   return def.output.series == ZP_WHEN_TRUE;
 }
 
@@ -540,7 +591,7 @@ static bool same_value(double a, double b) {
 
 /* differs[key] set for every key that has not the same value in all Defs. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
-  for (size_t row = 1; row < s->count; row++) {
+  for (size_t row = 1; row < s->plan.count; row++) {
     ZpActuatorDef def = {.layout = zp_def_layout()};
     ZpError reason;
     if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
@@ -550,7 +601,7 @@ static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bo
   return ZP_OK;
 }
 
-static void write_slot(FILE *file, int key, const Slot *slot) {
+static void write_slot(FILE *file, int key, const ZpSlot *slot) {
   char text[ZP_VALUE_SIZE];
   for (size_t i = 0; i < slot->count; i++) {
     zp_value_print(key, slot->value[i], text, sizeof text);
@@ -565,9 +616,10 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
   const char *before = NULL;
   char text[ZP_VALUE_SIZE];
   for (int i = 0; i < zp_key_count(); i++) {
-    const Slot *slot = slot_of(s, (size_t)i);
+    const ZpSlot *slot = s->held[i];
     const char *name = zp_key(i)->name;
-    if (differs[i] && !slot->is_list) {
+    const bool spreads = slot->spread.kind != ZP_DISTRIBUTION_NONE;
+    if (differs[i] && !slot->is_list && !spreads) {
       fprintf(file, "# %s: not the same in all rows, left to the preset\n", name);
       continue;
     }
@@ -578,7 +630,10 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
       continue;
     }
     const char *words = zp_def_text(first, i);
-    if (words) {
+    if (spreads) {
+      zp_spread_print(i, &slot->spread, text, sizeof text);
+      fputs(text, file);
+    } else if (words) {
       zp_yaml_write_text(file, words);
     } else {
       double value = is_study((size_t)i) ? (double)zp_scenario_study(s) : zp_def_get(first, i);

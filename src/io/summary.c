@@ -9,7 +9,9 @@
 #include "base/fail.h"
 #include "io/json.h"
 #include "io/report.h"
+#include "io/sampled.h"
 #include "io/shows.h"
+#include "io/summary.h"
 
 /* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars so that a sweep has columns, but arrays in JSON. */
 typedef struct List {
@@ -87,7 +89,7 @@ static bool add_notes(json_t *array, const ZpResult *result) {
   return done;
 }
 
-static json_t *key_value(int key, double value) {
+json_t *zp_json_key(int key, double value) {
   const ZpKey *k = zp_key(key);
   if (k->type == ZP_KEY_BOOL) return json_boolean(value != 0);
   if (k->type == ZP_KEY_ENUM) return json_string(zp_key_word(key, value));
@@ -105,7 +107,7 @@ static json_t *row_of(const void *user, size_t run) {
   json_t *row = json_object(), *notes = json_array();
   bool done = zp_scenario_def(report->scenario, run, &def, NULL) == ZP_OK;
   for (size_t i = 0; i < keys && done; i++)
-    done = zp_json_set(row, zp_key(key[i])->name, key_value(key[i], zp_def_get(&def, key[i])));
+    done = zp_json_set(row, zp_key(key[i])->name, zp_json_key(key[i], zp_def_get(&def, key[i])));
   done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
   done = done && zp_json_set(row, "message", json_string(result->message));
   done = done && set_scalars(row, result);
@@ -124,6 +126,12 @@ static const ZpResult *spokesman(const ZpReport *report) {
 }
 
 static bool set_outcome(json_t *object, const ZpReport *report) {
+  const ZpOptimum *optimum = report->optimum;
+  if (optimum) {
+    bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(optimum->outcome)));
+    done = zp_json_set(object, "message", json_string(optimum->message)) && done;
+    return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
+  }
   const ZpResult *result = spokesman(report);
   const size_t cases = zp_scenario_count(report->scenario);
   const bool stopped = !result || report->count < cases;
@@ -132,6 +140,19 @@ static bool set_outcome(json_t *object, const ZpReport *report) {
   bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(stopped ? ZP_INTERRUPTED : result->outcome)));
   done = zp_json_set(object, "message", json_string(stopped ? message : result->message)) && done;
   return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
+}
+
+/* {"feasible": true, "cases": [...]}: the best cases, as rows have them. */
+static json_t *optimum_of(const ZpReport *report) {
+  const ZpOptimum *optimum = report->optimum;
+  json_t *object = json_object(), *cases = json_array();
+  bool done = zp_json_set(object, "feasible", json_boolean(optimum->feasible));
+  for (size_t i = 0; i < optimum->count; i++)
+    done = json_array_append_new(cases, row_of(report, optimum->row[i])) == 0 && done;
+  done = zp_json_set(object, "cases", cases) && done;
+  if (done) return object;
+  json_decref(object);
+  return NULL;
 }
 
 static json_t *summary_of(const ZpReport *report) {
@@ -144,6 +165,9 @@ static json_t *summary_of(const ZpReport *report) {
   for (size_t i = 0; i < report->count; i++)
     done = add_notes(notes, zp_report_result(report, i)) && done;
   done = zp_json_set(object, "notes", notes) && done;
+  if (zp_scenario_design(report->scenario))
+    done = zp_json_set(object, "statistics", zp_sample_statistics(report)) && done;
+  if (report->optimum) done = zp_json_set(object, "optimum", optimum_of(report)) && done;
   if (done) return object;
   json_decref(object);
   return NULL;

@@ -132,7 +132,7 @@ static bool has_digits(const char *text, const Decimal *decimal) {
   return strcspn(text, "123456789") < (size_t)decimal->mantissa;
 }
 
-static ZpStatus read_number(int index, const char *text, double *value, ZpError *err) {
+ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err) {
   Decimal decimal;
   ZpUnitScale scale;
   if (!scan_decimal(text, &decimal)) return fail_number(index, "not a number", err);
@@ -146,7 +146,14 @@ static ZpStatus read_number(int index, const char *text, double *value, ZpError 
   double number = decimal_value(text, &decimal, scale.decimal ? scale.exponent : 0);
   if (!scale.decimal) number *= scale.factor;
   if (number == 0 && has_digits(text, &decimal)) return fail_number(index, "too small for a number", err);
-  status = check_number(index, number, err);
+  *value = number;
+  return ZP_OK;
+}
+
+static ZpStatus read_number(int index, const char *text, double *value, ZpError *err) {
+  double number;
+  ZpStatus status = zp_value_quantity(index, text, &number, err);
+  if (status == ZP_OK) status = check_number(index, number, err);
   if (status == ZP_OK) *value = number;
   return status;
 }

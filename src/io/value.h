@@ -15,6 +15,10 @@ enum {
  * for callers who know better how to say where the value stands. */
 ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err);
 
+/* A number with a unit of key `index`, which may be out of its range, infinite, or NAN if there is no memory: for what
+ * is no value of the key itself, such as a standard deviation. ZP_BAD_INPUT: as zp_value_read. */
+ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err);
+
 /* (key) => "1 um to 5000 um", with " or auto" where that is allowed; the range of a number key. */
 void zp_value_range(int index, char *text, size_t size);
 

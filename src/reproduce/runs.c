@@ -141,8 +141,13 @@ static ZpStatus run_and_report(ZpRunId id, const char *where, const ZpFolder *fo
   if (status != ZP_OK) return status;
   Inner done = {hooks, spec[id].name, share_before(id + 1), 0};
   const ZpHooks drawing = {.user = &done, .progress = on_progress};
-  const ZpReport report = {where, run->scenario, run->batch.result, run->batch.done, wall_time, folder, &drawing, NULL,
-                           0};
+  const ZpReport report = {.directory = where,
+                           .scenario = run->scenario,
+                           .result = run->batch.result,
+                           .count = run->batch.done,
+                           .wall_time = wall_time,
+                           .folder = folder,
+                           .hooks = &drawing};
   return zp_report_write(&report, notice, err);
 }
 

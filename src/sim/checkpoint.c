@@ -41,9 +41,10 @@ double zp_checkpoint_time(const ZpCheckpoint *checkpoint) {
 
 bool zp_checkpoint_holds(int index) {
   static const char *const may_change[] = {
-      "preset",           "drive.",   "solver.end_time", "solver.tolerance",   "solver.time_step",
-      "solver.max_steps", "initial.", "data.",           "calibrate.",         "modes.",
-      "isometric.",       "profile.", "output.",         "ribbon.yield_stress"};
+      "preset",           "drive.",   "solver.end_time", "solver.tolerance",    "solver.time_step",
+      "solver.max_steps", "initial.", "data.",           "calibrate.",          "modes.",
+      "isometric.",       "profile.", "output.",         "ribbon.yield_stress", "sampling.",
+      "optimize."};
   const char *name = zp_key(index)->name;
   if (zp_key(index)->offset == ZP_NO_FIELD) return false;
   for (size_t k = 0; k < sizeof may_change / sizeof may_change[0]; k++) {

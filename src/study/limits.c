@@ -42,6 +42,7 @@ typedef struct Finder {
   void *top;            /* the state at drive.voltage under the own load, where it hangs there */
   bool arrived;         /* that state is known */
   ZpMargins margins;
+  ZpLimitList list; /* of what is differentiated */
   bool interrupted;
 } Finder;
 
@@ -228,6 +229,30 @@ static bool find(Finder *f) {
   return true;
 }
 
+/* -- the actuator ----------------------------------------------------------------------------------- */
+
+/* Mass of strips and insulators, the platform's included, kg. */
+static double mass_of(const ZpModel *model) {
+  double sum = -zp_load_share(model) * model->def.load.mass, platform = 0;
+  for (size_t j = 0; j < model->count; j++)
+    sum += model->mass[j];
+  for (size_t i = 0; zp_is_pair(&model->topology) && i < model->s; i++)
+    platform += zp_ribbon_section(model, i).mu * model->def.platform.length;
+  return model->parts * sum + platform;
+}
+
+/* Opening of a state, m. */
+static double opening_at(Finder *f, const double *state) {
+  zp_slow_go_to(&f->slow, state);
+  return zp_statics_opening(&f->rest.statics);
+}
+
+/* How far the load rises from hanging without voltage to closed at drive.voltage, m. NAN where it does not close. */
+static double travel_of(Finder *f) {
+  const ZpLimits *limits = f->limits;
+  return limits->hangs && limits->closes ? opening_at(f, limits->start) - opening_at(f, limits->closed) : (double)NAN;
+}
+
 /* -- limits that outlive their model ------------------------------------------------------------------ */
 
 void zp_limits_destroy(ZpLimits *limits) {
@@ -329,17 +354,45 @@ static ZpOutcome outcome_of(const Finder *f) {
   return f->interrupted ? ZP_INTERRUPTED : ZP_CONVERGED;
 }
 
+static void pose_closed(const ZpActuatorDef *def, ZpStatics *s) {
+  s->load = def->load.mass;
+  s->U = def->drive.voltage;
+}
+
+/* The derivative of the opening of a state. */
+static double slope_of_opening(Finder *f, ZpSlope *slope, const double *state, ZpPose pose) {
+  zp_slow_go_to(&f->slow, state);
+  if (!zp_slope_solve(slope, pose)) return NAN;
+  return zp_slope_of(slope, pose, zp_output_opening, NULL);
+}
+
+/* Those of travel_m and mass_kg, of which the latter follows from the definition alone. `user` is a Finder. */
+static void derive_all(void *user, ZpSlope *slope, ZpResult *result) {
+  Finder *f = user;
+  double mass = 0, travel = NAN;
+  zp_derive_limits(&f->list, slope, result);
+  for (int k = 0; k < ZP_SLOPE_POINTS; k++)
+    if (slope->model[k]) mass += slope->weight[k] * mass_of(slope->model[k]);
+  if (f->limits->closes)
+    travel = slope_of_opening(f, slope, f->limits->start, zp_pose_load) -
+             slope_of_opening(f, slope, f->limits->closed, pose_closed);
+  zp_result_add_sensitivity(result, "travel_m", slope->key, travel);
+  zp_result_add_sensitivity(result, "mass_kg", slope->key, mass);
+}
+
 static ZpStatus derive(Finder *f, ZpResult *r, ZpError *err) {
-  ZpLimitList list = {.slow = &f->slow, .hanging = f->limits->start, .count = ZP_LIMIT_KINDS};
+  f->list = (ZpLimitList){.slow = &f->slow, .hanging = f->limits->start, .count = ZP_LIMIT_KINDS};
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
-    list.item[k] = (ZpNamedLimit){scalars[k].name, &f->limits->limit[k], k == ZP_LIMIT_LOAD};
-  return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, r, err);
+    f->list.item[k] = (ZpNamedLimit){scalars[k].name, &f->limits->limit[k], k == ZP_LIMIT_LOAD};
+  return zp_sensitivity_of(&f->rest, derive_all, f, r, err);
 }
 
 static void run(Finder *f, ZpResult *r) {
   bool hangs = find(f);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_result_add(r, scalars[k].name, scalars[k].unit, f->limits->limit[k].value);
+  zp_result_add(r, "travel_m", "m", travel_of(f));
+  zp_result_add(r, "mass_kg", "kg", mass_of(f->model));
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
   r->outcome = hangs ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);

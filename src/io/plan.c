@@ -1,0 +1,168 @@
+/* Limits: CASES_MOST Defs, a bound on what a run may ask for by mistake; VALUES_MOST values in all lists, with which
+ * the written scenario stays below the size that is read.
+ *
+ * What a later --set may put right, such as lists of different lengths that are walked through together, is a problem
+ * only when a Def is asked for. */
+#include "io/plan.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "io/range.h"
+
+enum { CASES_MOST = 1000000, VALUES_MOST = 20000 };
+
+static size_t key_count(void) {
+  return (size_t)zp_key_count();
+}
+
+bool zp_plan_create(ZpPlan *plan) {
+  *plan = (ZpPlan){.count = 1, .together = 1, .design.count = 1};
+  plan->varied = calloc(key_count(), sizeof *plan->varied);
+  plan->axis = calloc(key_count(), sizeof *plan->axis);
+  plan->tied = calloc(key_count(), sizeof *plan->tied);
+  return plan->varied && plan->axis && plan->tied;
+}
+
+void zp_plan_free(ZpPlan *plan) {
+  free(plan->varied);
+  free(plan->axis);
+  free(plan->tied);
+}
+
+static bool varies(const ZpSlot *slot) {
+  return slot->is_list || slot->spread.kind != ZP_DISTRIBUTION_NONE;
+}
+
+/* The value that is given for a key, else its default. */
+static double value_of(const ZpSlot *const *slot, const ZpActuatorDef *defaults, const char *name) {
+  const int key = zp_key_find(name);
+  return slot[key]->count ? slot[key]->value[0] : zp_def_get(defaults, key);
+}
+
+static void set_problem(ZpPlan *plan, const char *key, const char *what) {
+  if (!plan->problem[0]) snprintf(plan->problem, sizeof plan->problem, "sampling.together: %.80s: %s", key, what);
+}
+
+static void tie(ZpPlan *plan, const ZpSlot *const *slot, const char *name) {
+  const int key = zp_key_find(name);
+  size_t first = 0;
+  if (key < 0) {
+    set_problem(plan, name, "unknown key");
+    return;
+  }
+  if (!slot[key]->is_list) {
+    set_problem(plan, name, "has no list of values");
+    return;
+  }
+  while (first < key_count() && !plan->tied[first])
+    first++;
+  if (first < key_count() && slot[first]->count != slot[key]->count)
+    set_problem(plan, name, "its list is not as long as those of the other keys");
+  plan->tied[key] = true;
+}
+
+/* Read sampling.together. */
+static void find_tied(ZpPlan *plan, const ZpSlot *const *slot) {
+  char names[ZP_TEXT_SIZE], *rest = names;
+  const char *text = slot[zp_key_find("sampling.together")]->text;
+  snprintf(names, sizeof names, "%s", text ? text : "");
+  memset(plan->tied, 0, key_count() * sizeof *plan->tied);
+  plan->problem[0] = 0;
+  for (char *name = strsep(&rest, ","); name; name = strsep(&rest, ",")) {
+    name += strspn(name, " ");
+    name[strcspn(name, " ")] = 0;
+    if (*name) tie(plan, slot, name);
+  }
+}
+
+/* A list multiplies the cases, of those that are walked through together the shortest. */
+static void find_axes(ZpPlan *plan, const ZpSlot *const *slot) {
+  size_t tied = 0, seen = 0;
+  plan->axes = plan->variations = 0;
+  plan->together = 1;
+  for (size_t i = 0; i < key_count(); i++)
+    if (plan->tied[i] && (tied++ == 0 || slot[i]->count < plan->together)) plan->together = slot[i]->count;
+  for (size_t i = 0; i < key_count(); i++) {
+    if (varies(slot[i])) plan->varied[plan->variations++] = (int)i;
+    seen += plan->tied[i];
+    if (slot[i]->is_list && (!plan->tied[i] || seen == tied)) plan->axis[plan->axes++] = (int)i;
+  }
+}
+
+static void find_design(ZpPlan *plan, const ZpSlot *const *slot) {
+  const ZpActuatorDef defaults = zp_actuator_def_default();
+  plan->design = (ZpDesign){.method = (ZpSampling)value_of(slot, &defaults, "sampling.method"),
+                            .count = (size_t)value_of(slot, &defaults, "sampling.count"),
+                            .seed = (uint32_t)value_of(slot, &defaults, "sampling.seed"),
+                            .indices = value_of(slot, &defaults, "sampling.indices") != 0};
+  for (size_t i = 0; i < key_count(); i++)
+    plan->design.dimensions += slot[i]->spread.kind != ZP_DISTRIBUTION_NONE;
+  if (plan->design.dimensions == 0) plan->design = (ZpDesign){.count = 1};
+}
+
+static ZpStatus count_cases(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err) {
+  size_t values = 0, cases = 1;
+  for (size_t i = 0; i < key_count(); i++)
+    values += slot[i]->is_list ? slot[i]->count : 0;
+  if (values > VALUES_MOST) return zp_fail(err, ZP_BAD_INPUT, "more than %d values in lists", VALUES_MOST);
+  for (size_t i = 0; i < plan->axes; i++) {
+    const size_t length = plan->tied[plan->axis[i]] ? plan->together : slot[plan->axis[i]]->count;
+    if (cases > CASES_MOST / length)
+      return zp_fail(err, ZP_BAD_INPUT, "more than %d combinations of the lists' values", CASES_MOST);
+    cases *= length;
+  }
+  if (plan->design.dimensions > zp_design_most(&plan->design))
+    return zp_fail(err, ZP_BAD_INPUT, "more than %d keys with a distribution", zp_design_most(&plan->design));
+  const size_t samples = zp_design_samples(&plan->design);
+  if (cases > CASES_MOST / samples)
+    return zp_fail(err, ZP_BAD_INPUT, "more than %d cases: %zu samples of %zu combinations", CASES_MOST, samples,
+                   cases);
+  plan->count = cases * samples;
+  return ZP_OK;
+}
+
+/* How samples are drawn is the same for all cases. */
+static ZpStatus check_sampling(const ZpSlot *const *slot, ZpError *err) {
+  for (size_t i = 0; i < key_count(); i++) {
+    const char *name = zp_key((int)i)->name;
+    const bool common = strncmp(name, "sampling.", 9) == 0 || strncmp(name, "optimize.", 9) == 0;
+    if (common && varies(slot[i])) return zp_fail(err, ZP_BAD_INPUT, "%s: takes one value, not a list", name);
+  }
+  return ZP_OK;
+}
+
+ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err) {
+  ZpStatus status = check_sampling(slot, err);
+  if (status != ZP_OK) return status;
+  find_tied(plan, slot);
+  find_axes(plan, slot);
+  find_design(plan, slot);
+  return count_cases(plan, slot, err);
+}
+
+size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, ZpAssignment *list) {
+  const size_t samples = zp_design_samples(&plan->design), sample = index % samples;
+  size_t used = 0, axis = plan->axes, together = 0;
+  int dimension = plan->design.dimensions;
+  index /= samples;
+  for (size_t i = key_count(); i-- > 0;) { /* backwards: the last list varies fastest */
+    const ZpSlot *s = slot[i];
+    if (s->count == 0 || s->text || zp_key((int)i)->offset == ZP_NO_FIELD) continue;
+    double value = s->value[0];
+    if (s->spread.kind != ZP_DISTRIBUTION_NONE) {
+      value = zp_rounded(zp_quantile(&s->spread, zp_design_share(&plan->design, sample, --dimension)));
+    } else if (s->is_list) {
+      const bool is_axis = axis > 0 && plan->axis[axis - 1] == (int)i;
+      const size_t length = plan->tied[i] ? plan->together : s->count, place = is_axis ? index % length : together;
+      if (is_axis) index /= length, axis--;
+      if (is_axis && plan->tied[i]) together = place;
+      value = s->value[place];
+    }
+    list[used++] = (ZpAssignment){(int)i, value};
+  }
+  return used;
+}

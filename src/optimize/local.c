@@ -1,0 +1,166 @@
+/* NLopt's searches: each from another start, in a thread of its own, so that the order of its cases is its own.
+ *
+ * A search has its share of the cases; a point that NLopt asks for again costs none. SLSQP takes derivatives from the
+ * study where it gives them, else from differences, which take a case per variable. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <nlopt.h>
+
+#include "base/fail.h"
+#include "optimize/search.h"
+
+enum { STARTS = 4 };
+
+/* Of places: the step of a difference, far above what a state of rest is solved to; how near starts are to each other
+ * at least; and where a search ends. */
+static const double difference = 1e-3, apart = 0.15, narrow = 1e-4;
+
+/* What an output that does not exist counts as: missed altogether. */
+static const double not_there = 1;
+
+typedef struct Local {
+  ZpSearch *search;
+  size_t first, count, used; /* its cases */
+  double z[ZP_VARIABLES_MOST];
+  double scale; /* of the objective */
+  nlopt_opt opt;
+} Local;
+
+/* The case at z: one that is done, else a new one; NULL if there are no more. */
+static const ZpPoint *find(Local *local, const double *z) {
+  ZpSearch *s = local->search;
+  const size_t size = s->problem.variables * sizeof *z;
+  for (size_t i = 0; i < local->used; i++)
+    if (memcmp(s->point[local->first + i].z, z, size) == 0) return &s->point[local->first + i];
+  if (local->used == local->count) return NULL;
+  const size_t number = local->first + local->used;
+  if (!zp_search_evaluate(s, number, z)) return NULL;
+  local->used++;
+  return &s->point[number];
+}
+
+/* As NLopt has it: scaled, and a number where there is no output. */
+static double shown(const Local *local, size_t goal, double value) {
+  const bool is_objective = goal < local->search->problem.objectives;
+  if (isnan(value)) return is_objective ? 1e3 : not_there;
+  return is_objective ? value / local->scale : value;
+}
+
+static double give_up(Local *local) {
+  nlopt_force_stop(local->opt);
+  return HUGE_VAL;
+}
+
+/* Derivatives of a goal at a point. False if there are no more cases for differences. */
+static bool differentiate(Local *local, const ZpPoint *at, size_t goal, double *gradient) {
+  const ZpProblem *p = &local->search->problem;
+  const double unit = goal < p->objectives ? local->scale : 1;
+  for (size_t i = 0; i < p->variables; i++) {
+    double z[ZP_VARIABLES_MOST];
+    gradient[i] = at->slope[goal][i] / unit;
+    if (isfinite(gradient[i])) continue;
+    memcpy(z, at->z, sizeof z);
+    z[i] += z[i] + difference <= 1 ? difference : -difference;
+    const double step = z[i] - at->z[i], value = at->value[goal];
+    const ZpPoint *near = find(local, z);
+    if (!near) return false;
+    gradient[i] = (near->value[goal] - value) / step / unit;
+    if (!isfinite(gradient[i])) gradient[i] = 0;
+  }
+  return true;
+}
+
+static double goal_at(Local *local, size_t goal, const double *z, double *gradient) {
+  const ZpPoint *point = find(local, z);
+  if (!point || (gradient && !differentiate(local, point, goal, gradient))) return give_up(local);
+  return shown(local, goal, point->value[goal]);
+}
+
+/* An nlopt_func. */
+static double objective(unsigned n, const double *z, double *gradient, void *user) {
+  (void)n;
+  return goal_at(user, 0, z, gradient);
+}
+
+typedef struct Bound {
+  Local *local;
+  size_t goal;
+} Bound;
+
+/* An nlopt_func: at most 0 where the constraint holds. */
+static double constraint(unsigned n, const double *z, double *gradient, void *user) {
+  const Bound *bound = user;
+  (void)n;
+  return goal_at(bound->local, bound->goal, z, gradient);
+}
+
+static void search_from(void *user, size_t index) {
+  Local *local = (Local *)user + index;
+  const ZpProblem *p = &local->search->problem;
+  const bool slopes = p->method == ZP_OPTIMIZER_SLSQP;
+  Bound bound[ZP_BOUNDS_MOST];
+  double best;
+  local->opt = nlopt_create(slopes ? NLOPT_LD_SLSQP : NLOPT_LN_COBYLA, (unsigned)p->variables);
+  if (!local->opt) return; /* the other searches may have room */
+  nlopt_set_lower_bounds1(local->opt, 0);
+  nlopt_set_upper_bounds1(local->opt, 1);
+  nlopt_set_min_objective(local->opt, objective, local);
+  for (size_t g = p->objectives; g < p->goals; g++) {
+    bound[g - p->objectives] = (Bound){local, g};
+    nlopt_add_inequality_constraint(local->opt, constraint, &bound[g - p->objectives], 1e-8);
+  }
+  nlopt_set_xtol_abs1(local->opt, narrow);
+  if (!slopes) nlopt_set_initial_step1(local->opt, 0.1);
+  nlopt_optimize(local->opt, local->z, &best); /* its points are kept, however it ends */
+  nlopt_destroy(local->opt);
+}
+
+/* -- starts ----------------------------------------------------------------------------------------- */
+
+static double distance(const ZpProblem *p, const double *a, const double *b) {
+  double most = 0;
+  for (size_t i = 0; i < p->variables; i++)
+    most = fmax(most, fabs(a[i] - b[i]));
+  return most;
+}
+
+static bool is_apart(const ZpSearch *s, const size_t *chosen, size_t count, size_t candidate) {
+  for (size_t k = 0; k < count; k++)
+    if (distance(&s->problem, s->point[chosen[k]].z, s->point[candidate].z) < apart) return false;
+  return true;
+}
+
+/* The best of the first `sampled` points, not too near to each other => how many. */
+static size_t choose_starts(const ZpSearch *s, size_t sampled, size_t chosen[STARTS]) {
+  size_t count = 0;
+  for (; count < STARTS; count++) {
+    size_t best = sampled;
+    for (size_t i = 0; i < sampled; i++)
+      if (s->point[i].done && is_apart(s, chosen, count, i) &&
+          (best == sampled || zp_is_better(&s->problem, s->point[i].value, s->point[best].value)))
+        best = i;
+    if (best == sampled) break;
+    chosen[count] = best;
+  }
+  return count;
+}
+
+ZpStatus zp_search_local(ZpSearch *s, size_t sampled, ZpError *err) {
+  size_t chosen[STARTS];
+  const size_t starts = choose_starts(s, sampled, chosen);
+  const size_t share = starts > 0 ? (s->problem.evaluations - sampled) / starts : 0;
+  Local *local = calloc(STARTS, sizeof *local);
+  if (!local) return zp_fail_memory(err);
+  for (size_t k = 0; k < starts; k++) {
+    const ZpPoint *start = &s->point[chosen[k]];
+    const double size = fabs(start->value[0]);
+    local[k] = (Local){.search = s, .first = sampled + k * share, .count = share, .scale = size > 0 ? size : 1};
+    memcpy(local[k].z, start->z, sizeof start->z);
+  }
+  s->derivatives = s->problem.method == ZP_OPTIMIZER_SLSQP;
+  ZpStatus status = zp_search_parallel(s, starts, search_from, local, err);
+  free(local);
+  return status;
+}

@@ -1,0 +1,272 @@
+/* An optimisation: a search, and its cases as a report, a scenario whose lists are walked through together. */
+#include <zipact/optimize.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/calibrate.h>
+
+#include "base/fail.h"
+#include "campaign/case_hash.h"
+#include "io/number.h"
+#include "optimize/search.h"
+
+struct ZpOptimization {
+  ZpSearch search;
+  ZpScenario *cases; /* what was computed */
+  size_t *number;    /* [report.count] of the case of each row */
+  size_t *best;      /* [optimum.count] rows */
+  const char *objective[ZP_GOALS_MOST];
+  ZpOptimum optimum;
+  ZpRows rows;
+  ZpReport report;
+};
+
+/* -- the search ------------------------------------------------------------------------------------- */
+
+/* Values of the variables do not count, all other keys have one. */
+static ZpStatus check_lists(const ZpScenario *scenario, const ZpProblem *problem, ZpError *err) {
+  size_t keys;
+  const int *key = zp_scenario_lists(scenario, &keys);
+  for (size_t k = 0; k < keys; k++) {
+    bool is_variable = false;
+    for (size_t i = 0; i < problem->variables; i++)
+      is_variable = is_variable || problem->variable[i].key == key[k];
+    if (!is_variable)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: optimize takes one value, not a list or a distribution",
+                     zp_key(key[k])->name);
+  }
+  return ZP_OK;
+}
+
+/* Does any goal of this result have a derivative? */
+static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
+  for (size_t g = 0; g < problem->goals; g++)
+    for (size_t i = 0; i < result->sensitivities; i++)
+      if (strcmp(result->sensitivity[i].output, problem->goal[g].output) == 0 && isfinite(result->sensitivity[i].value))
+        return true;
+  return false;
+}
+
+/* Run the middle of the box, to see which outputs there are, before anything is written. */
+static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
+  ZpProblem *p = &s->problem;
+  ZpActuatorDef def = s->def;
+  ZpResult *result = NULL;
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < p->variables && status == ZP_OK; i++)
+    status = zp_def_set(&def, p->variable[i].key, zp_variable_value(&p->variable[i], 0.5), err);
+  if (status == ZP_OK) snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", zp_key(p->variable[0].key)->name);
+  if (status == ZP_OK && zp_study_check(s->study, &def, NULL) != ZP_OK) *def.sensitivity.by = 0;
+  if (status == ZP_OK) status = zp_data_study_run(s->study, &def, NULL, &result, err);
+  if (status == ZP_OK) status = zp_problem_resolve(p, result, err);
+  if (status == ZP_OK && p->method == ZP_OPTIMIZER_AUTO)
+    p->method = p->objectives > 1            ? ZP_OPTIMIZER_NSGA2
+                : has_derivatives(p, result) ? ZP_OPTIMIZER_SLSQP
+                                             : ZP_OPTIMIZER_COBYLA;
+  zp_result_destroy(result);
+  return status;
+}
+
+static void take_old_row(void *user, size_t number, uint64_t hash, bool good) {
+  ZpSearch *s = user;
+  (void)good;
+  if (number < s->problem.evaluations) s->old[number] = hash;
+}
+
+static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
+  ZpError reason;
+  ZpStatus status = zp_scenario_def(s->scenario, 0, &s->def, err);
+  s->study = zp_scenario_study(s->scenario);
+  if (status == ZP_OK) status = zp_problem_read(&s->def, &s->problem, err);
+  if (status == ZP_OK) status = check_lists(s->scenario, &s->problem, err);
+  if (status == ZP_OK) status = zp_data_check(s->study, &s->def, err);
+  if (status == ZP_OK && (status = look_ahead(s, &reason)) != ZP_OK) zp_fail(err, status, "%s", reason.message);
+  if (status != ZP_OK) return status;
+  s->state.cases = s->problem.evaluations;
+  s->old = calloc(s->problem.evaluations, sizeof *s->old);
+  s->point = calloc(s->problem.evaluations, sizeof *s->point);
+  if (!s->old || !s->point || pthread_mutex_init(&s->lock, NULL) != 0) return zp_fail_memory(err);
+  status = zp_campaign_hash(s->study, &s->def, &s->start, err);
+  if (status == ZP_OK)
+    status = zp_journal_open(directory, s->study, s->options->resume, s->problem.evaluations, &s->journal, err);
+  return status == ZP_OK ? zp_journal_visit(s->journal, take_old_row, s, err) : status;
+}
+
+/* A quarter of the cases looks all over the box, the rest goes down from the best of these. */
+static ZpStatus run_search(ZpSearch *s, ZpError *err) {
+  if (s->problem.method == ZP_OPTIMIZER_NSGA2) return zp_search_evolve(s, err);
+  const size_t sampled = s->problem.evaluations / 4;
+  ZpStatus status = zp_search_sample(s, sampled, err);
+  return status == ZP_OK && !atomic_load(&s->stop) ? zp_search_local(s, sampled, err) : status;
+}
+
+/* -- what was found --------------------------------------------------------------------------------- */
+
+static const ZpPoint *point_of(const ZpOptimization *o, size_t row) {
+  return &o->search.point[o->number[row]];
+}
+
+/* Rows that no other is better than, or dominates. */
+static void find_best(ZpOptimization *o) {
+  const ZpProblem *p = &o->search.problem;
+  size_t best = 0;
+  for (size_t row = 1; row < o->report.count; row++)
+    if (zp_is_better(p, point_of(o, row)->value, point_of(o, best)->value)) best = row;
+  if (o->report.count == 0) return;
+  o->optimum.feasible = zp_violation(p, point_of(o, best)->value) == 0;
+  o->best[o->optimum.count++] = best;
+  if (p->objectives == 1 || !o->optimum.feasible) return;
+  o->optimum.count = 0;
+  for (size_t row = 0; row < o->report.count; row++) {
+    bool dominated = false;
+    for (size_t other = 0; other < o->report.count && !dominated; other++)
+      dominated = zp_dominates(p, point_of(o, other)->value, point_of(o, row)->value);
+    size_t place = o->optimum.count;
+    if (dominated) continue;
+    for (; place > 0 && point_of(o, o->best[place - 1])->value[0] > point_of(o, row)->value[0]; place--)
+      o->best[place] = o->best[place - 1];
+    o->best[place] = row;
+    o->optimum.count++;
+  }
+}
+
+static void describe(ZpOptimization *o) {
+  const bool stopped = atomic_load(&o->search.stop);
+  char *text = o->optimum.message;
+  const size_t size = sizeof o->optimum.message, cases = o->report.count;
+  o->optimum.outcome = stopped ? ZP_INTERRUPTED : ZP_CONVERGED;
+  const char *when = stopped ? "so far, " : "";
+  if (!o->optimum.feasible)
+    snprintf(text, size, "%snone of %zu cases satisfies all constraints; that which misses them least is given", when,
+             cases);
+  else if (o->search.problem.objectives > 1)
+    snprintf(text, size, "%s%zu of %zu cases are on the Pareto front", when, o->optimum.count, cases);
+  else
+    snprintf(text, size, "%sthe best of %zu cases", when, cases);
+}
+
+/* "KEY=[value, ...]" of all rows, to be freed. */
+static char *list_of(const ZpOptimization *o, size_t variable) {
+  const ZpVariable *v = &o->search.problem.variable[variable];
+  char *text = NULL, value[ZP_NUMBER_SIZE];
+  size_t size;
+  FILE *stream = open_memstream(&text, &size);
+  if (!stream) return NULL;
+  fprintf(stream, "%s=[", zp_key(v->key)->name);
+  for (size_t row = 0; row < o->report.count; row++) {
+    zp_number_print(zp_variable_value(v, point_of(o, row)->z[variable]), value, sizeof value);
+    fprintf(stream, "%s%s", row ? ", " : "", value);
+  }
+  fputc(']', stream);
+  if (fclose(stream) == 0) return text;
+  free(text);
+  return NULL;
+}
+
+static ZpStatus copy_scenario(const ZpScenario *from, ZpScenario *to, ZpError *err) {
+  char *text = NULL;
+  size_t size;
+  FILE *stream = open_memstream(&text, &size);
+  ZpStatus status = stream ? zp_scenario_write(from, stream, err) : zp_fail_memory(err);
+  if (stream && fclose(stream) != 0 && status == ZP_OK) status = zp_fail_memory(err);
+  if (status == ZP_OK) status = zp_scenario_parse(to, text, size, "scenario.yaml", err);
+  free(text);
+  return status;
+}
+
+/* "sampling.together=KEY,KEY" */
+static void name_variables(const ZpProblem *p, char *text, size_t size) {
+  size_t used = (size_t)snprintf(text, size, "sampling.together=\"");
+  for (size_t i = 0; i < p->variables && used < size; i++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", zp_key(p->variable[i].key)->name,
+                             i + 1 < p->variables ? "," : "\"");
+}
+
+/* The scenario of the cases that were computed. */
+static ZpStatus list_cases(ZpOptimization *o, ZpError *err) {
+  const ZpProblem *p = &o->search.problem;
+  char together[ZP_TEXT_SIZE + 32];
+  name_variables(p, together, sizeof together);
+  ZpStatus status = copy_scenario(o->search.scenario, o->cases, err);
+  if (status == ZP_OK) status = zp_scenario_set(o->cases, together, err);
+  for (size_t i = 0; i < p->variables && status == ZP_OK; i++) {
+    char *list = list_of(o, i);
+    status = list ? zp_scenario_set(o->cases, list, err) : zp_fail_memory(err);
+    free(list);
+  }
+  return status;
+}
+
+static const ZpResult *get_row(void *user, size_t index) {
+  ZpOptimization *o = user;
+  return zp_journal_get(o->search.journal, o->number[index]);
+}
+
+static ZpStatus get_status(void *user, ZpError *err) {
+  return zp_journal_status(((ZpOptimization *)user)->search.journal, err);
+}
+
+static ZpStatus report(ZpOptimization *o, ZpError *err) {
+  const ZpSearch *s = &o->search;
+  o->number = calloc(s->problem.evaluations, sizeof *o->number);
+  o->best = calloc(s->problem.evaluations, sizeof *o->best);
+  o->cases = zp_scenario_create();
+  if (!o->number || !o->best || !o->cases) return zp_fail_memory(err);
+  o->rows = (ZpRows){get_row, get_status, o};
+  o->report = (ZpReport){.scenario = o->cases, .rows = &o->rows, .optimum = &o->optimum};
+  for (size_t i = 0; i < s->problem.evaluations; i++)
+    if (s->point[i].done) o->number[o->report.count++] = i;
+  find_best(o);
+  describe(o);
+  for (size_t k = 0; k < s->problem.objectives; k++)
+    o->objective[k] = s->problem.goal[k].output;
+  o->optimum.row = o->best;
+  o->optimum.objective = o->objective;
+  o->optimum.objectives = s->problem.objectives;
+  if (o->report.count == 0) return zp_fail(err, ZP_MACHINE, "interrupted before the first case");
+  return list_cases(o, err);
+}
+
+static ZpStatus optimize(ZpOptimization *o, const char *directory, ZpError *err) {
+  ZpSearch *s = &o->search;
+  ZpStatus status = open_search(s, directory, err);
+  if (status == ZP_OK) status = run_search(s, err);
+  if (status == ZP_OK) status = zp_journal_commit(s->journal, err);
+  if (status == ZP_OK && !atomic_load(&s->stop)) status = zp_journal_finish(s->journal, err);
+  return status == ZP_OK ? report(o, err) : status;
+}
+
+ZpStatus zp_optimize(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,
+                     ZpOptimization **out, ZpError *err) {
+  ZpOptimization *o = *out = calloc(1, sizeof *o);
+  if (!o) return zp_fail_memory(err);
+  o->search.scenario = scenario;
+  o->search.options = options;
+  ZpStatus status = optimize(o, directory, err);
+  if (status == ZP_OK) return ZP_OK;
+  zp_optimization_destroy(o);
+  *out = NULL;
+  return status;
+}
+
+const ZpReport *zp_optimization_report(const ZpOptimization *optimization) {
+  return &optimization->report;
+}
+
+ZpCampaignState zp_optimization_state(const ZpOptimization *optimization) {
+  return optimization->search.state;
+}
+
+void zp_optimization_destroy(ZpOptimization *o) {
+  if (!o) return;
+  zp_journal_close(o->search.journal);
+  zp_scenario_destroy(o->cases);
+  pthread_mutex_destroy(&o->search.lock);
+  free(o->search.old);
+  free(o->search.point);
+  free(o->number);
+  free(o->best);
+  free(o);
+}

@@ -1,0 +1,232 @@
+#include "optimize/problem.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "io/number.h"
+#include "io/range.h"
+#include "io/units.h"
+#include "io/value.h"
+
+/* A constraint that is missed by so small a part of its bound holds: a search ends on it but for rounding. */
+static const double slack = 1e-6;
+
+/* What an output that does not exist counts as missed: more than any that does. */
+static const double missing = 1e3;
+
+/* The text without blanks at its ends, in place. */
+static char *trim(char *text) {
+  text += strspn(text, " \t");
+  for (size_t length = strlen(text); length > 0 && strchr(" \t", text[length - 1]);)
+    text[--length] = 0;
+  return text;
+}
+
+/* -- reading ---------------------------------------------------------------------------------------- */
+
+static ZpStatus read_end(int key, const char *text, double *value, ZpError *err) {
+  ZpError reason = {ZP_BAD_INPUT, "give a number"};
+  ZpStatus status = zp_value_read(key, text, value, &reason);
+  if (status == ZP_OK && isfinite(*value)) return ZP_OK;
+  return zp_fail(err, reason.status, "optimize.variables: %s = \"%.60s\": %.200s", zp_key(key)->name, text,
+                 reason.message);
+}
+
+static ZpStatus check_variable(const ZpProblem *problem, const ZpVariable *v, ZpError *err) {
+  const char *name = zp_key(v->key)->name;
+  if (!(v->from < v->to))
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s: the upper end must be larger than the lower", name);
+  if (v->by_factors && !(v->from > 0))
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s: with log, both ends must be above 0", name);
+  for (size_t i = 0; i < problem->variables; i++)
+    if (problem->variable[i].key == v->key)
+      return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s is named twice", name);
+  if (problem->variables == ZP_VARIABLES_MOST)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: more than %d keys", ZP_VARIABLES_MOST);
+  return ZP_OK;
+}
+
+/* "ribbon.thickness = 20 um .. 200 um log" */
+static ZpStatus read_variable(char *text, ZpProblem *problem, ZpError *err) {
+  char *equals = strchr(text, '='), *dots = equals ? strstr(equals, "..") : NULL;
+  ZpVariable v = {0};
+  if (!dots)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: \"%.80s\": write \"ribbon.thickness = 20 um .. 200 um\"",
+                   text);
+  *equals = *dots = 0;
+  char *name = trim(text), *to = trim(dots + 2), *blank = strrchr(to, ' ');
+  v.by_factors = blank && strcmp(blank + 1, "log") == 0;
+  if (v.by_factors) *blank = 0;
+  v.key = zp_key_find(name);
+  if (v.key < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %.80s: unknown key; did you mean %s?", name,
+                   zp_key_nearest(name));
+  if (zp_key(v.key)->type != ZP_KEY_REAL && zp_key(v.key)->type != ZP_KEY_REAL_AUTO)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s is not a real number", name);
+  ZpStatus status = read_end(v.key, trim(equals + 1), &v.from, err);
+  if (status == ZP_OK) status = read_end(v.key, trim(to), &v.to, err);
+  if (status == ZP_OK) status = check_variable(problem, &v, err);
+  if (status == ZP_OK) problem->variable[problem->variables++] = v;
+  return status;
+}
+
+static ZpStatus add_goal(ZpProblem *problem, const char *key, const char *output, const char *bound, double sign,
+                         size_t most, ZpError *err) {
+  ZpGoal *goal = &problem->goal[problem->goals];
+  if (problem->goals == most) return zp_fail(err, ZP_BAD_INPUT, "%s: more than %zu", key, most);
+  if (strlen(output) >= sizeof goal->output || strlen(bound) >= sizeof goal->bound_text)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: \"%.80s\" is too long", key, output);
+  *goal = (ZpGoal){.sign = sign};
+  snprintf(goal->output, sizeof goal->output, "%s", output);
+  snprintf(goal->bound_text, sizeof goal->bound_text, "%s", bound);
+  problem->goals++;
+  return ZP_OK;
+}
+
+/* "min mass_kg" */
+static ZpStatus read_objective(char *text, ZpProblem *problem, ZpError *err) {
+  char *word = trim(text), *blank = strpbrk(word, " \t");
+  const bool least = strncmp(word, "min ", 4) == 0;
+  if (!blank || (!least && strncmp(word, "max ", 4) != 0) || strpbrk(trim(blank), " \t"))
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.objective: \"%.80s\": write \"min mass_kg\" or \"max max_load_kg\"",
+                   word);
+  ZpStatus status = add_goal(problem, "optimize.objective", trim(blank), "", least ? 1 : -1, ZP_GOALS_MOST, err);
+  problem->objectives = problem->goals;
+  return status;
+}
+
+/* "travel_m >= 15 mm" */
+static ZpStatus read_constraint(char *text, ZpProblem *problem, ZpError *err) {
+  char *sign = strpbrk(text, "<>");
+  if (!sign || sign[1] != '=')
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.constraints: \"%.80s\": write \"travel_m >= 15 mm\"", trim(text));
+  const double direction = *sign == '<' ? 1 : -1;
+  *sign = 0;
+  return add_goal(problem, "optimize.constraints", trim(text), trim(sign + 2), direction,
+                  problem->objectives + ZP_BOUNDS_MOST, err);
+}
+
+/* Read the parts of a text between semicolons. */
+static ZpStatus read_all(const char *text, ZpStatus (*read)(char *text, ZpProblem *problem, ZpError *err),
+                         ZpProblem *problem, ZpError *err) {
+  char copy[ZP_TEXT_SIZE], *rest = copy;
+  ZpStatus status = ZP_OK;
+  snprintf(copy, sizeof copy, "%s", text);
+  for (char *part = strsep(&rest, ";"); part && status == ZP_OK; part = strsep(&rest, ";"))
+    if (*trim(part)) status = read(part, problem, err);
+  return status;
+}
+
+ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *err) {
+  *problem = (ZpProblem){.method = def->optimize.method, .evaluations = (size_t)def->optimize.evaluations};
+  ZpStatus status = read_all(def->optimize.variables, read_variable, problem, err);
+  if (status == ZP_OK) status = read_all(def->optimize.objective, read_objective, problem, err);
+  if (status == ZP_OK) status = read_all(def->optimize.constraints, read_constraint, problem, err);
+  if (status != ZP_OK) return status;
+  if (problem->variables == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: empty; write \"ribbon.thickness = 20 um .. 200 um\"");
+  if (problem->objectives == 0) return zp_fail(err, ZP_BAD_INPUT, "optimize.objective: empty; write \"min mass_kg\"");
+  if (problem->objectives > 1 && problem->method != ZP_OPTIMIZER_AUTO && problem->method != ZP_OPTIMIZER_NSGA2)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.method: several objectives require nsga2 or auto");
+  if (problem->evaluations * problem->variables > 20000)
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.evaluations: with %zu variables at most %zu", problem->variables,
+                   20000 / problem->variables);
+  return ZP_OK;
+}
+
+/* -- outputs ---------------------------------------------------------------------------------------- */
+
+/* The unit of a bound, of an output in the unit `of`. A pure number takes per cent, as keys do. */
+static ZpStatus read_unit(const char *unit, const char *of, ZpUnitScale *scale, ZpError *err) {
+  const bool pure = strcmp(of, "1") == 0 || strcmp(of, "count") == 0;
+  *scale = (ZpUnitScale){.decimal = true, .exponent = pure && strcmp(unit, "%") == 0 ? -2 : 0};
+  if (!*unit || scale->exponent != 0) return ZP_OK;
+  return pure ? zp_fail(err, ZP_BAD_INPUT, "a pure number takes no unit") : zp_unit_scale(unit, of, scale, err);
+}
+
+/* "15 mm": a number and, where letters end it, a unit. */
+static ZpStatus read_bound(ZpGoal *goal, const ZpScalar *scalar, ZpError *err) {
+  ZpUnitScale scale = {.decimal = true};
+  ZpError reason = {ZP_BAD_INPUT, "not a number"};
+  char number[sizeof goal->bound_text];
+  snprintf(number, sizeof number, "%s", goal->bound_text);
+  size_t digits = strcspn(number, " ");
+  while (digits > 0 && (isalpha((unsigned char)number[digits - 1]) || number[digits - 1] == '%'))
+    digits--;
+  const char *unit = goal->bound_text + digits + strspn(goal->bound_text + digits, " ");
+  number[digits] = 0;
+  ZpStatus status = digits > 0 ? read_unit(unit, scalar->unit, &scale, &reason) : ZP_OK;
+  if (status == ZP_OK && zp_number_read(number, &goal->bound) && isfinite(goal->bound)) {
+    goal->bound = zp_rounded(goal->bound * (scale.decimal ? pow(10, scale.exponent) : scale.factor));
+    return ZP_OK;
+  }
+  return zp_fail(err, reason.status, "optimize.constraints: %s: \"%s\": %.200s", goal->output, goal->bound_text,
+                 reason.message);
+}
+
+ZpStatus zp_problem_resolve(ZpProblem *problem, const ZpResult *result, ZpError *err) {
+  for (size_t g = 0; g < problem->goals; g++) {
+    const bool is_bound = g >= problem->objectives;
+    const char *key = is_bound ? "optimize.constraints" : "optimize.objective";
+    size_t i = 0;
+    while (i < result->scalars && strcmp(result->scalar[i].name, problem->goal[g].output) != 0)
+      i++;
+    if (i == result->scalars || result->scalar[i].timing)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: %s: no output of study %s; its outputs are those of summary.json", key,
+                     problem->goal[g].output, zp_study_name(result->study));
+    ZpStatus status = is_bound ? read_bound(&problem->goal[g], &result->scalar[i], err) : ZP_OK;
+    if (status != ZP_OK) return status;
+  }
+  return ZP_OK;
+}
+
+/* -- points ----------------------------------------------------------------------------------------- */
+
+double zp_variable_value(const ZpVariable *v, double z) {
+  if (z <= 0) return v->from;
+  if (z >= 1) return v->to;
+  return zp_rounded(v->by_factors ? v->from * pow(v->to / v->from, z) : v->from + (v->to - v->from) * z);
+}
+
+double zp_variable_slope(const ZpVariable *v, double z) {
+  return v->by_factors ? v->from * pow(v->to / v->from, z) * log(v->to / v->from) : v->to - v->from;
+}
+
+double zp_goal_slope(const ZpProblem *problem, size_t goal) {
+  const ZpGoal *g = &problem->goal[goal];
+  return goal < problem->objectives || g->bound == 0 ? g->sign : g->sign / fabs(g->bound);
+}
+
+double zp_goal_value(const ZpProblem *problem, size_t goal, double output) {
+  return zp_goal_slope(problem, goal) * (output - problem->goal[goal].bound);
+}
+
+double zp_violation(const ZpProblem *problem, const double *value) {
+  double sum = 0;
+  for (size_t g = 0; g < problem->goals; g++) {
+    if (isnan(value[g]))
+      sum += missing;
+    else if (g >= problem->objectives && value[g] > slack)
+      sum += value[g];
+  }
+  return sum;
+}
+
+bool zp_is_better(const ZpProblem *problem, const double *value, const double *than) {
+  const double missed = zp_violation(problem, value), missed_than = zp_violation(problem, than);
+  return missed == 0 && missed_than == 0 ? value[0] < than[0] : missed < missed_than;
+}
+
+bool zp_dominates(const ZpProblem *problem, const double *value, const double *other) {
+  const double missed = zp_violation(problem, value), missed_other = zp_violation(problem, other);
+  bool better = false;
+  if (missed > 0 || missed_other > 0) return missed < missed_other;
+  for (size_t g = 0; g < problem->objectives; g++) {
+    if (value[g] > other[g]) return false;
+    better = better || value[g] < other[g];
+  }
+  return better;
+}

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""zipact optimize from outside:  python3 tests/test_optimize.py ZIPACT SCRATCH
+
+Optima that are known otherwise; the same bytes for any number of workers and after kill -9; the best so far after Ctrl-C;
+fronts; wrong texts. Standard library only. Last line: "N passed, N failed".
+"""
+
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+passed = failed = 0
+
+LIGHTEST = ["study=limits", "load.mass=30 g", "drive.voltage=8 kV", "ribbon.length=60 mm", "mesh.nodes=21", "output.errors=false",
+            "optimize.variables=ribbon.thickness = 20 um .. 200 um log; ribbon.width = 5 mm .. 40 mm log; insulator.thickness = 20 um .. 200 um log",
+            "optimize.objective=min mass_kg", "optimize.constraints=max_load_kg >= 30 g; travel_m >= 15 mm; breakdown_margin >= 1.2", "optimize.evaluations=120"]
+FRONT = ["optimize.objective=min mass_kg; max travel_m", "optimize.constraints=max_load_kg >= 30 g; breakdown_margin >= 1.2", "optimize.evaluations=240"]
+
+
+def ok(what, done):
+    global passed, failed
+    passed += bool(done)
+    failed += not done
+    if not done:
+        print("FAILED: " + what)
+
+
+class Zipact:
+    def __init__(self, program):
+        self.program = program
+
+    def command(self, sets, folder, *more):
+        return [self.program, "optimize", *(word for item in sets for word in ("--set", item)), "--no-plots", "--quiet", "-o", str(folder), *more]
+
+    def run(self, sets, folder, *more):
+        return subprocess.run(self.command(sets, folder, *more), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def files(folder):
+    return [(folder / name).read_bytes() for name in ("table.csv", "results.h5", "scenario.yaml")]
+
+
+def summary_of(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+def check_known_optimum(zipact, scratch):
+    """A weightless clamped strip, guided at its end, bends by P L^3 / (12 E I): 0.3 mm where its thickness says so; the
+    lightest way to keep it below that is the thinnest strip that does."""
+    folder = scratch / "strip"
+    sets = ["study=stationary", "actuator.kind=ribbon", "actuator.right_end=guided", "ribbon.density=0", "load.mass=10 mg", "mesh.nodes=21", "output.errors=false",
+            "optimize.variables=load.mass = 1 mg .. 10 mg", "optimize.objective=max load.mass_kg"]
+    refused = zipact.run(sets, folder)
+    ok("strip: a key is no output", refused.returncode == 2 and "no output of study stationary" in refused.stderr)
+    sets[-2:] = ["optimize.variables=ribbon.thickness = 40 um .. 60 um", "optimize.objective=max stroke_m", "optimize.constraints=stroke_m <= 0.3 mm"]
+    for method in ("auto", "cobyla", "slsqp"):
+        run = zipact.run([*sets, "optimize.method=" + method, "optimize.evaluations=60"], scratch / ("strip-" + method))
+        best = summary_of(scratch / ("strip-" + method))["optimum"]
+        thickness, expected = best["cases"][0]["ribbon.thickness"], (10e-6 * 9.81 * 0.1**3 * (1 - 0.285**2) / (200e9 * 12.7e-3 * 0.3e-3)) ** (1 / 3)
+        ok("strip by %s: the thickness that bends by 0.3 mm" % method, run.returncode == 0 and best["feasible"] and abs(thickness / expected - 1) < 2e-3)
+
+
+def check_workers(zipact, scratch):
+    """All cases follow from the scenario alone."""
+    for name, more in (("slsqp", []), ("cobyla", ["optimize.method=cobyla"]), ("nsga2", FRONT)):
+        alone = scratch / (name + "-1")
+        ok("%s: done" % name, zipact.run([*LIGHTEST, *more], alone, "--jobs", "1").returncode == 0)
+        for jobs in ("2", "5"):
+            other = scratch / (name + "-" + jobs)
+            ok("%s by %s workers: the same bytes" % (name, jobs), zipact.run([*LIGHTEST, *more], other, "--jobs", jobs).returncode == 0 and files(other) == files(alone))
+    best = {name: summary_of(scratch / (name + "-1"))["optimum"]["cases"] for name in ("slsqp", "cobyla", "nsga2")}
+    ok("slsqp and cobyla find the same mass", abs(best["slsqp"][0]["mass_kg"] / best["cobyla"][0]["mass_kg"] - 1) < 0.02)
+    ok("the constraints that limit it hold", best["slsqp"][0]["max_load_kg"] > 0.03 * (1 - 2e-6) and best["slsqp"][0]["breakdown_margin"] > 1.2 * (1 - 2e-6))
+    rows = summary_of(scratch / "slsqp-1")["rows"]
+    good = [r["mass_kg"] for r in rows if r["max_load_kg"] and r["max_load_kg"] >= 0.03 and (r["travel_m"] or 0) >= 0.015 and r["breakdown_margin"] >= 1.2]
+    ok("no case that holds is lighter", len(good) > 0 and best["slsqp"][0]["mass_kg"] <= min(good))
+    front = [(case["mass_kg"], case["travel_m"]) for case in best["nsga2"]]
+    ok("the front rises: more travel costs mass", len(front) > 3 and all(a[0] < b[0] and a[1] < b[1] for a, b in zip(front, front[1:])))
+    again = subprocess.run([zipact.program, "optimize", str(scratch / "slsqp-1" / "scenario.yaml"), "--no-plots", "--quiet", "-o", str(scratch / "again")])
+    ok("its scenario.yaml gives the same optimisation", again.returncode == 0 and files(scratch / "again") == files(scratch / "slsqp-1"))
+
+
+def check_kills(zipact, scratch):
+    chance = random.Random(3)
+    for name, more in (("slsqp", []), ("nsga2", FRONT)):
+        torn = scratch / (name + "-torn")
+        for _ in range(4):
+            process = subprocess.Popen(zipact.command([*LIGHTEST, *more], torn, "--resume"), stderr=subprocess.DEVNULL)
+            time.sleep(chance.uniform(0.2, 1.5))
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+        ok("%s after kills: done" % name, zipact.run([*LIGHTEST, *more], torn, "--resume").returncode == 0)
+        ok("%s after kills: the same bytes" % name, files(torn) == files(scratch / (name + "-1")))
+
+
+def check_interrupt(zipact, scratch):
+    """Ctrl-C leaves the best so far, and what was computed."""
+    folder = scratch / "interrupted"
+    sets = [*LIGHTEST, "mesh.nodes=81", "optimize.evaluations=2000"]
+    process = subprocess.Popen(zipact.command(sets, folder), stderr=subprocess.DEVNULL)
+    while not (folder / "journal.sqlite-wal").exists() or (folder / "journal.sqlite-wal").stat().st_size < 100000:
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    ok("interrupted: 130", process.wait() == 130)
+    summary = summary_of(folder)
+    ok("interrupted: the best so far", summary["outcome"] == "interrupted" and len(summary["optimum"]["cases"]) == 1 and 0 < len(summary["rows"]) < 2000)
+    forgotten = zipact.run(sets, folder)
+    ok("interrupted: not replaced without --resume", forgotten.returncode == 2 and "--resume" in forgotten.stderr)
+
+
+def check_empty_box(zipact, scratch):
+    folder = scratch / "empty"
+    run = zipact.run([*LIGHTEST, "optimize.constraints=max_load_kg >= 30 g; travel_m >= 100 mm"], folder)
+    found = summary_of(folder)
+    ok("an empty box is an answer", run.returncode == 0 and not found["optimum"]["feasible"] and "none of" in found["message"])
+
+
+def check_refusals(zipact, scratch):
+    wrong = {"optimize.variables=": "empty", "optimize.variables=ribbon.thikness = 1 um .. 2 um": "did you mean ribbon.thickness", "optimize.variables=mesh.nodes = 11 .. 21": "not a real number",
+             "optimize.variables=ribbon.width = 5 mm .. 4 mm": "upper end", "optimize.variables=ribbon.width = 5 mm .. 4 kg": "not a length", "optimize.variables=ribbon.width": "write",
+             "optimize.variables=ribbon.width = 5 mm .. 9 mm; ribbon.width = 5 mm .. 9 mm": "twice", "segment_1.length=[0, 1 mm]": "takes one value",
+             "optimize.objective=": "empty", "optimize.objective=least mass_kg": "write", "optimize.objective=min mass": "no output of study limits", "optimize.constraints=travel_m = 3 mm": "write",
+             "optimize.constraints=travel_m >= 3 kg": "not a length", "optimize.constraints=travel_m >= far": "not a number", "optimize.constraints=breakdown_margin >= 3 mm": "no unit",
+             "optimize.constraints=travl_m >= 3 mm": "travl_m: no output"}
+    for text, reason in wrong.items():
+        run = zipact.run([*LIGHTEST, text], scratch / "refused")
+        ok("%s: refused" % text, run.returncode == 2 and reason in run.stderr)
+        ok("%s: nothing is written" % text, not any((scratch / "refused").glob("*.sqlite")))
+    for bound in ("99 %", "99%", "0.99", "9.9e-1"):
+        run = zipact.run(["study=actuate", "mesh.nodes=5", "output.errors=false", "liquid.model=none", "solver.end_time=1 ms", "optimize.variables=drive.voltage = 6 kV .. 10 kV",
+                          "optimize.objective=max contraction", "optimize.constraints=contraction <= " + bound, "optimize.evaluations=10"], scratch / "bound")
+        ok("%s is a bound" % bound, run.returncode == 0)
+    several = zipact.run([*LIGHTEST, "optimize.objective=min mass_kg; max travel_m", "optimize.method=slsqp"], scratch / "refused")
+    ok("several objectives by slsqp: refused", several.returncode == 2 and "nsga2" in several.stderr)
+
+
+def main():
+    program, scratch = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(parents=True)
+    zipact = Zipact(program)
+    check_known_optimum(zipact, scratch)
+    check_workers(zipact, scratch)
+    check_kills(zipact, scratch)
+    check_interrupt(zipact, scratch)
+    check_empty_box(zipact, scratch)
+    check_refusals(zipact, scratch)
+    print("%d passed, %d failed" % (passed, failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

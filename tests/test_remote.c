@@ -1,0 +1,125 @@
+/* Campaigns whose cases are computed elsewhere: here by the same process, through the bytes that travel. */
+#include "check_util.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <zipact/campaign.h>
+
+enum { JOBS = 3 };
+
+/* What stands for other processes. */
+typedef struct Elsewhere {
+  const ZpScenario *scenario;
+  bool lost[JOBS]; /* process k answers no more */
+  bool garbled;    /* what comes back is cut short */
+} Elsewhere;
+
+static ZpStatus remote(void *user, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+                       ZpError *err) {
+  const Elsewhere *elsewhere = user;
+  *byte = NULL;
+  if (elsewhere->lost[worker]) return ZP_OK;
+  ZpStatus status = zp_campaign_compute(elsewhere->scenario, from, to, NULL, byte, size, err);
+  if (elsewhere->garbled) *size /= 2;
+  return status;
+}
+
+static ZpScenario *sweep(void) {
+  ZpError err;
+  ZpScenario *s = zp_scenario_create();
+  static const char *const sets[] = {"study=limits", "load.mass=2 g .. 20 g : 10", "ribbon.thickness=[50 um, 60 um]",
+                                     "mesh.nodes=21", "output.errors=false"};
+  for (size_t i = 0; i < LENGTH_OF(sets); i++)
+    ck_assert_msg(zp_scenario_set(s, sets[i], &err) == ZP_OK, "%s", err.message);
+  return s;
+}
+
+/* Run it => status; *sum: of all pull-in voltages and largest loads, exact, and the rows that there are. */
+static ZpStatus run(const ZpScenario *scenario, Elsewhere *elsewhere, double *sum, size_t *rows, ZpError *err) {
+  ZpCampaign *campaign;
+  const char *folder = elsewhere ? "remote" : "local";
+  const ZpCampaignOptions options = {
+      .jobs = JOBS, .remote = elsewhere ? remote : NULL, .remote_user = elsewhere, .resume = true};
+  mkdir(folder, 0777);
+  char path[64];
+  snprintf(path, sizeof path, "%s/journal.sqlite", folder);
+  unlink(path);
+  ck_assert_int_eq(zp_campaign_open(scenario, folder, &options, &campaign, err), ZP_OK);
+  ZpStatus status = zp_campaign_run(campaign, err);
+  const ZpRows *all = zp_campaign_rows(campaign);
+  *rows = zp_campaign_count(campaign);
+  *sum = 0;
+  for (size_t i = 0; i < *rows; i++) {
+    const ZpResult *result = all->get(all->user, i);
+    const double voltage = zp_result_get(result, "pull_in_voltage_V");
+    *sum += (isnan(voltage) ? 0 : voltage) + (double)(i + 1) * zp_result_get(result, "max_load_kg");
+  }
+  zp_campaign_close(campaign);
+  return status;
+}
+
+static void same_as_here(Elsewhere *elsewhere) {
+  ZpScenario *scenario = sweep();
+  ZpError err;
+  double here, there;
+  size_t rows, all = zp_scenario_count(scenario);
+  elsewhere->scenario = scenario;
+  ck_assert_int_eq(run(scenario, NULL, &here, &rows, &err), ZP_OK);
+  ck_assert_uint_eq(rows, all);
+  ck_assert_msg(run(scenario, elsewhere, &there, &rows, &err) == ZP_OK, "%s", err.message);
+  ck_assert_uint_eq(rows, all);
+  ck_assert_double_eq(here, there);
+  zp_scenario_destroy(scenario);
+}
+
+START_TEST(cases_computed_elsewhere_are_the_same) {
+  same_as_here(&(Elsewhere){0});
+}
+END_TEST
+
+/* Others take the cases of a process that is lost. */
+START_TEST(a_lost_process_costs_no_case) {
+  same_as_here(&(Elsewhere){.lost = {[1] = true}});
+}
+END_TEST
+
+START_TEST(all_processes_lost_is_an_error) {
+  ZpScenario *scenario = sweep();
+  ZpError err;
+  double sum;
+  size_t rows;
+  Elsewhere elsewhere = {.scenario = scenario, .lost = {true, true, true}};
+  ck_assert_int_eq(run(scenario, &elsewhere, &sum, &rows, &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "--resume"));
+  ck_assert_uint_eq(rows, 0);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+START_TEST(garbled_results_are_an_error) {
+  ZpScenario *scenario = sweep();
+  ZpError err;
+  double sum;
+  size_t rows;
+  Elsewhere elsewhere = {.scenario = scenario, .garbled = true};
+  ck_assert_int_eq(run(scenario, &elsewhere, &sum, &rows, &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "cannot be read"));
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("remote");
+  TCase *part = tcase_create("cases");
+  tcase_add_test(part, cases_computed_elsewhere_are_the_same);
+  tcase_add_test(part, a_lost_process_costs_no_case);
+  tcase_add_test(part, all_processes_lost_is_an_error);
+  tcase_add_test(part, garbled_results_are_an_error);
+  suite_add_tcase(suite, part);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed > 0;
+}

@@ -1,0 +1,232 @@
+/* Points, distributions and statistics of sampled campaigns: nets as Sobol's theory says, quantiles against erfc,
+ * moments and indices in closed form. */
+#include "check_util.h"
+
+#include "sample/design.h"
+#include "sample/distribution.h"
+#include "sample/sobol.h"
+#include "sample/statistics.h"
+
+static const double pi = 3.14159265358979323846;
+
+static ZpDesign design_of(ZpSampling method, size_t count, int dimensions, bool indices) {
+  return (ZpDesign){.method = method, .count = count, .seed = 7, .dimensions = dimensions, .indices = indices};
+}
+
+/* The first 8 points in the first two dimensions, in eighths: van der Corput's, and the one of polynomial x + 1. */
+START_TEST(sobol_begins_as_published) {
+  static const uint32_t first[] = {0, 4, 2, 6, 1, 5, 3, 7}, second[] = {0, 4, 6, 2, 5, 1, 3, 7};
+  for (uint32_t i = 0; i < 8; i++) {
+    ck_assert_uint_eq(zp_sobol(i, 0), first[i] << 29);
+    ck_assert_uint_eq(zp_sobol(i, 1), second[i] << 29);
+  }
+}
+END_TEST
+
+/* How many of the design's first 2^bits points lie in each of 2^bits intervals of a dimension: is it 1? */
+static bool is_stratified(const ZpDesign *design, int bits, int dimension) {
+  bool seen[1 << 10] = {false};
+  for (size_t i = 0; i < (size_t)1 << bits; i++) {
+    const size_t place = (size_t)(zp_design_share(design, i, dimension) * (double)(1 << bits));
+    if (seen[place]) return false;
+    seen[place] = true;
+  }
+  return true;
+}
+
+/* Every direction matrix is regular, and scrambling keeps that: any power of two. A wrong direction number breaks it.
+ */
+START_TEST(sobol_has_a_point_in_each_interval) {
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 1 << 10, ZP_SOBOL_DIMENSIONS, false);
+  for (int j = 0; j < ZP_SOBOL_DIMENSIONS; j++)
+    for (int bits = 1; bits <= 10; bits++)
+      ck_assert_msg(is_stratified(&design, bits, j), "dimension %d, %d bits", j, bits);
+}
+END_TEST
+
+/* The first two dimensions are a (0, 10, 2)-net: each box of 2^-a by 2^-(10 - a) has one of 1024 points. Scrambling
+ * that is not nested would lose that. */
+START_TEST(scrambled_points_are_a_net) {
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 1024, 2, false);
+  for (int a = 0; a <= 10; a++) {
+    bool seen[1024] = {false};
+    for (size_t i = 0; i < 1024; i++) {
+      const size_t x = (size_t)(zp_design_share(&design, i, 0) * (1 << a));
+      const size_t y = (size_t)(zp_design_share(&design, i, 1) * (1 << (10 - a)));
+      ck_assert_msg(!seen[(x << (10 - a)) + y], "two points in a box of 2^-%d by 2^-%d", a, 10 - a);
+      seen[(x << (10 - a)) + y] = true;
+    }
+  }
+}
+END_TEST
+
+/* Of a smooth function, scrambled points integrate with an error of order count^-3/2, random ones with count^-1/2. */
+static double rms_error(ZpSampling method, size_t count) {
+  enum { SEEDS = 32 };
+  double square = 0;
+  for (uint32_t seed = 1; seed <= SEEDS; seed++) {
+    const ZpDesign design = {method, count, seed, 2, false};
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+      sum += exp(zp_design_share(&design, i, 0)) * (1 + zp_design_share(&design, i, 1));
+    const double error = sum / (double)count - 1.5 * (exp(1) - 1);
+    square += error * error / SEEDS;
+  }
+  return sqrt(square);
+}
+
+START_TEST(errors_fall_as_theory_says) {
+  const double sobol = log2(rms_error(ZP_SAMPLING_SOBOL, 64) / rms_error(ZP_SAMPLING_SOBOL, 4096)) / 6;
+  const double random = log2(rms_error(ZP_SAMPLING_RANDOM, 64) / rms_error(ZP_SAMPLING_RANDOM, 4096)) / 6;
+  ck_assert_msg(sobol > 1.3, "order %g of sobol", sobol);
+  ck_assert_msg(random > 0.3 && random < 0.7, "order %g of random", random);
+}
+END_TEST
+
+/* A point in each of as many strata, for any count; columns are permuted differently. */
+START_TEST(latin_hypercube_has_a_point_in_each_stratum) {
+  static const size_t counts[] = {1, 2, 3, 7, 100, 1000};
+  for (size_t k = 0; k < LENGTH_OF(counts); k++) {
+    const ZpDesign design = design_of(ZP_SAMPLING_LATIN_HYPERCUBE, counts[k], 3, false);
+    size_t same = 0;
+    for (int j = 0; j < 3; j++) {
+      bool seen[1000] = {false};
+      for (size_t i = 0; i < counts[k]; i++) {
+        const size_t place = (size_t)(zp_design_share(&design, i, j) * (double)counts[k]);
+        ck_assert_msg(place < counts[k] && !seen[place], "%zu points, dimension %d", counts[k], j);
+        seen[place] = true;
+        same += place == i;
+      }
+    }
+    ck_assert_uint_le(same, 3 + counts[k] / 10 * 3);
+  }
+}
+END_TEST
+
+START_TEST(designs_depend_on_the_seed_only) {
+  for (int method = 0; method < ZpSampling_COUNT; method++) {
+    ZpDesign design = design_of((ZpSampling)method, 64, 3, false), other = design;
+    other.seed++;
+    size_t same = 0;
+    for (size_t i = 0; i < 64; i++) {
+      const double share = zp_design_share(&design, i, 1);
+      ck_assert(share > 0 && share < 1 && share == zp_design_share(&design, i, 1));
+      same += share == zp_design_share(&other, i, 1);
+    }
+    ck_assert_uint_le(same, 1);
+  }
+}
+END_TEST
+
+START_TEST(normal_quantile_inverts_erfc) {
+  static const double shares[] = {1e-12, 1e-6, 0.01, 0.3, 0.5, 0.7, 0.975, 0.999999};
+  for (size_t i = 0; i < LENGTH_OF(shares); i++)
+    ck_near(0.5 * erfc(-zp_normal_quantile(shares[i]) / sqrt(2)), shares[i], 1e-13);
+  ck_near(zp_normal_quantile(0.975), 1.959963984540054, 1e-14);
+  ck_assert_double_eq(zp_normal_quantile(0.5), 0);
+}
+END_TEST
+
+START_TEST(quantiles_of_distributions) {
+  const ZpDistribution normal = {ZP_DISTRIBUTION_NORMAL, 50, 2}, lognormal = {ZP_DISTRIBUTION_LOGNORMAL, 50, 0.1},
+                       uniform = {ZP_DISTRIBUTION_UNIFORM, 2, 6}, by_factors = {ZP_DISTRIBUTION_LOG_UNIFORM, 1, 100};
+  const double one = 0.5 * erfc(-1 / sqrt(2)); /* one standard deviation above the mean */
+  ck_near(zp_quantile(&normal, one), 52, 1e-14);
+  ck_near(zp_quantile(&lognormal, one), 50 * exp(0.1), 1e-14);
+  ck_near(zp_quantile(&uniform, 0.25), 3, 1e-15);
+  ck_near(zp_quantile(&by_factors, 0.5), 10, 1e-14);
+}
+END_TEST
+
+/* 1 .. 101 in disorder, and three that are not there. */
+START_TEST(statistics_in_closed_form) {
+  const ZpDesign design = design_of(ZP_SAMPLING_RANDOM, 104, 1, false);
+  double value[104], work[104];
+  for (size_t i = 0; i < 104; i++)
+    value[i] = i < 101 ? 1e6 + 1 + (double)(i * 37 % 101) : (double)NAN;
+  const ZpStatistics s = zp_statistics(&design, value, work);
+  ck_assert_uint_eq(s.count, 101);
+  ck_assert_uint_eq(s.missing, 3);
+  ck_assert_double_eq(s.mean, 1e6 + 51);
+  ck_near(s.deviation, sqrt(101 * 102 / 12.0), 1e-15);
+  ck_assert(s.least == 1e6 + 1 && s.most == 1e6 + 101);
+  ck_assert_double_eq(s.quantile[0], 1e6 + 6);
+  ck_assert_double_eq(s.quantile[2], 1e6 + 51);
+  for (size_t i = 0; i < 104; i++)
+    value[i] = NAN;
+  const ZpStatistics none = zp_statistics(&design, value, work);
+  ck_assert(none.count == 0 && none.missing == 104 && isnan(none.mean) && isnan(none.quantile[4]));
+}
+END_TEST
+
+/* Ishigami and Homma's function, whose variance and indices are known. */
+static double ishigami(const ZpDesign *design, size_t sample) {
+  double x[3];
+  for (int j = 0; j < 3; j++)
+    x[j] = pi * (2 * zp_design_share(design, sample, j) - 1);
+  return sin(x[0]) + 7 * sin(x[1]) * sin(x[1]) + 0.1 * x[2] * x[2] * x[2] * x[2] * sin(x[0]);
+}
+
+START_TEST(indices_of_ishigami) {
+  enum { POINTS = 4096 };
+  const double V1 = 0.5 * (1 + 0.1 * pow(pi, 4) / 5) * (1 + 0.1 * pow(pi, 4) / 5), V2 = 49 / 8.0,
+               V13 = 0.01 * pow(pi, 8) * (1 / 18.0 - 1 / 50.0), V = V1 + V2 + V13;
+  const double first[] = {V1 / V, V2 / V, 0}, total[] = {(V1 + V13) / V, V2 / V, V13 / V};
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, POINTS, 3, true);
+  static double value[5 * POINTS], work[5 * POINTS];
+  ck_assert_uint_eq(zp_design_samples(&design), LENGTH_OF(value));
+  for (size_t i = 0; i < LENGTH_OF(value); i++)
+    value[i] = ishigami(&design, i);
+  const ZpStatistics s = zp_statistics(&design, value, work);
+  ck_assert_uint_eq(s.count, 2 * POINTS);
+  ck_near(s.mean, 3.5, 1e-3);
+  ck_near(s.deviation, sqrt(V), 5e-3);
+  for (int j = 0; j < 3; j++) {
+    const ZpIndices indices = zp_sobol_indices(&design, value, j);
+    ck_below(fabs(indices.first - first[j]), 0.01);
+    ck_below(fabs(indices.total - total[j]), 0.01);
+  }
+}
+END_TEST
+
+/* Points that lack a value are left out of the indices of the dimensions that need it, not of others. */
+START_TEST(indices_without_some_values) {
+  const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 256, 2, true);
+  static double value[4 * 256];
+  for (size_t i = 0; i < LENGTH_OF(value); i++)
+    value[i] = zp_design_share(&design, i, 0); /* which follows from dimension 0 alone */
+  value[4 * 10 + ZP_BLOCK_FIRST] = NAN;
+  value[4 * 20 + ZP_BLOCK_A] = NAN;
+  const ZpIndices x = zp_sobol_indices(&design, value, 0), y = zp_sobol_indices(&design, value, 1);
+  ck_assert(x.count == 254 && y.count == 255);
+  ck_near(x.first, 1, 1e-12);
+  ck_near(x.total, 1, 0.05);
+  ck_assert_double_eq(y.total, 0);
+  for (size_t i = 0; i < LENGTH_OF(value); i++)
+    value[i] = 3;
+  ck_assert(isnan(zp_sobol_indices(&design, value, 0).first));
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("sample");
+  TCase *points = tcase_create("points"), *numbers = tcase_create("numbers");
+  tcase_add_test(points, sobol_begins_as_published);
+  tcase_add_test(points, sobol_has_a_point_in_each_interval);
+  tcase_add_test(points, scrambled_points_are_a_net);
+  tcase_add_test(points, errors_fall_as_theory_says);
+  tcase_add_test(points, latin_hypercube_has_a_point_in_each_stratum);
+  tcase_add_test(points, designs_depend_on_the_seed_only);
+  tcase_add_test(numbers, normal_quantile_inverts_erfc);
+  tcase_add_test(numbers, quantiles_of_distributions);
+  tcase_add_test(numbers, statistics_in_closed_form);
+  tcase_add_test(numbers, indices_of_ishigami);
+  tcase_add_test(numbers, indices_without_some_values);
+  suite_add_tcase(suite, points);
+  suite_add_tcase(suite, numbers);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed > 0;
+}
