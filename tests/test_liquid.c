@@ -155,12 +155,7 @@ START_TEST(test_whole_is_two_halves) {
   static const char *const signals[] = {"opening", "film_across_loss", "jet_loss", "liquid_energy", "outer_drag_loss"};
   for (int k = 0; k < 2; k++)
     ck_assert_int_eq(zp_sim_run(sims[k], 0.5, false, NULL, NULL), ZP_REACHED_END);
-  for (size_t k = 0; k < LENGTH_OF(signals); k++)
-    ck_near(zp_sim_get(sims[1], signals[k]), zp_sim_get(sims[0], signals[k]), 1e-4);
-  for (int k = 0; k < 2; k++) {
-    zp_sim_destroy(sims[k]);
-    zp_model_destroy(models[k]);
-  }
+  ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1e-4);
 }
 END_TEST
 

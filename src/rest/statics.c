@@ -358,11 +358,11 @@ static void scale_common(const ZpParts *parts, double factor, double *r) {
     r[parts->common[k]] *= factor;
 }
 
-/* The largest force left on one half, N. */
+/* The largest force left on one half, N; NAN where one is. */
 static double largest_of(const ZpAssembly *a, double *r) {
   double largest = 0, halves = (double)(1 + a->parts.more);
   scale_common(&a->parts, 1 / halves, r);
-  for (size_t i = 0; i < a->n; i++)
+  for (size_t i = 0; i < a->n && !isnan(largest); i++)
     if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
   scale_common(&a->parts, halves, r);
   return largest;
@@ -421,7 +421,7 @@ static double length(void *self, const double *step) {
   static const double longest = 0.5; /* rad: what linearised rotations stand */
   const ZpStatics *s = self;
   double most = 0, rotation, stretch;
-  for (size_t j = 0; j < s->model->count - s->model->s; j++) {
+  for (size_t j = 0; j < s->model->count - s->model->s && !isnan(most); j++) {
     turn(s, step, j, &rotation, &stretch);
     if (!(fabs(rotation) <= most)) most = fabs(rotation);
   }
