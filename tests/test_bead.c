@@ -4,6 +4,9 @@
 
 #include "rest/rest.h"
 
+#define BEAD                                                                                                           \
+  { "liquid.model", ZP_LIQUID_BEAD }
+
 /* -- geometry -------------------------------------------------------------------------------------- */
 
 /* In a wedge of angle a a volume V reaches sqrt(2 V / (w a)), and the volume of that reach is V again. */
@@ -138,6 +141,19 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
 }
 END_TEST
 
+/* A drop with suction that hangs is found: once, from 1 uL or so, straight ribbons drawn together by capillarity were,
+ * though pulled apart they would stay apart as well. */
+START_TEST(test_drop_with_suction_hangs) {
+  static const double volumes[] = {1e-11, 1e-10, 1e-9, 5e-9, 50e-9};
+  for (double suction = 0.25; suction <= 1; suction += 0.25) {
+    ZpActuatorDef dry = DEF(), def = DEF(BEAD, {"bead.volume", volumes[_i]}, {"bead.suction", suction});
+    double drawn = 1 - settled_value(&def, "opening") / settled_value(&dry, "opening");
+    ck_assert_double_gt(drawn, 0);
+    ck_below(drawn, 2e-3); /* 2 gamma w, 0.5 mN, on lengths of mm, beside 78 mN of the load */
+  }
+}
+END_TEST
+
 /* Potential of the field and energy of the wetted surfaces, J: with the whole suction all forces of bead and field are
  * minus their gradient at a fixed volume. */
 static double potential(ZpStatics *s, double *r) {
@@ -198,8 +214,6 @@ static double isometric(const Setting *list, size_t count) {
 }
 #define ISOMETRIC(...)                                                                                                 \
   isometric((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
-#define BEAD                                                                                                           \
-  { "liquid.model", ZP_LIQUID_BEAD }
 
 /* A rigid cubic wedge of the default actuator, g = separation (3 x^2 - 2 x^3), x along a half from 0 to 1: the sum of
  * `weigh(x)` times the attraction over its length, with a bead that fills it as far as `volume` goes, and air beyond.
@@ -323,11 +337,13 @@ START_TEST(test_volume_is_kept) {
 }
 END_TEST
 
-/* Energy closes over closing, holding and opening, with and without suction, and what is pressed out comes back. */
+/* Energy closes over closing, holding and opening, with and without suction, and what is pressed out comes back. With
+ * suction the meniscus of a thin film once drew with megapascals and drove jets of kilojoules; a liquid cavitates. */
 START_TEST(test_energy_of_zip_hold_and_release) {
   static const struct {
     double viscosity, suction, share, volume;
-  } row[] = {{50e-6, 0, 1, 50e-9}, {5e-6, 0, 1, 30e-9}, {1e-3, 0, 1, 200e-9}};
+  } row[] = {{50e-6, 0, 1, 50e-9}, {5e-6, 0, 1, 30e-9},      {1e-3, 0, 1, 200e-9},
+             {50e-6, 1, 1, 50e-9}, {50e-6, 0.5, 0.5, 20e-9}, {5e-6, 1, 1, 150e-9}};
   ZpModel *model;
   ZpSim *sim =
       ZIP_HOLD_RELEASE(&model, {"medium.kinematic_viscosity", row[_i].viscosity}, {"bead.suction", row[_i].suction},
@@ -469,12 +485,13 @@ int main(void) {
   tcase_add_test(c, test_reach_in_a_wedge);
   tcase_add_loop_test(c, test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
   tcase_add_loop_test(c, test_force_of_a_fixed_volume_has_an_energy, 0, 4);
+  tcase_add_loop_test(c, test_drop_with_suction_hangs, 0, 5);
   tcase_add_loop_test(c, test_attraction_of_a_wedge, 0, LENGTH_OF(wedges));
   tcase_add_loop_test(c, test_isometric_force_of_stiff_ribbons, 0, LENGTH_OF(wedges));
   tcase_add_loop_test(c, test_isometric_force, 0, LENGTH_OF(wedges));
   tcase_add_test(c, test_full_bead_without_a_platform);
   tcase_add_loop_test(c, test_volume_is_kept, 0, 4);
-  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, 3);
+  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, 6);
   tcase_add_test(c, test_much_liquid_is_a_bath);
   tcase_add_test(c, test_suction_takes_what_menisci_lose);
   tcase_add_test(c, test_small_bead_starves);

@@ -60,6 +60,11 @@ static double head_of(const ZpModel *model, double U, const End *end) {
   return end->ends ? zp_term_meniscus_head(model, U, end->g, end->H, end->level) : 0;
 }
 
+/* A liquid that cavitates has one head, whatever draws it on. */
+static bool cavitates(double head) {
+  return head <= -zp_film_tension;
+}
+
 /* => how it goes with the part, and with the gaps of both stations. */
 typedef struct HeadSlope {
   double by_part, by_near, by_far;
@@ -170,7 +175,7 @@ static void heads(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, do
     zp_assemble_own(a, own, own, 1, K);
     if (k < end->at.k) zp_assemble_own(a, own, own_of(zp_bead_station(&model->film, end->half, k + 1), HEAD), -1, K);
   }
-  if (!end->ends) return;
+  if (!end->ends || cavitates(head)) return;
   size_t own = own_of(end->at.near, HEAD);
   HeadSlope slope = head_slope(model, e, U, end, head);
   follow_part(model, a, end, own, slope.by_part / head_scale, K);
@@ -254,7 +259,8 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   for (int half = 0; half < zp_beads(&model->film); half++) {
     End end = end_of(model, span->end, e, half);
     double charge = zp_plates_law(&model->plates, span->U1, end.g).q - zp_plates_law(&model->air, span->U1, end.g).q;
-    double by_U = end.ends ? -model->bead.suction * charge * end.level / (model->film.w * end.H) : 0;
+    bool moves = end.ends && !cavitates(head_of(model, span->U1, &end));
+    double by_U = moves ? -model->bead.suction * charge * end.level / (model->film.w * end.H) : 0;
     add_head(model, e, &end, by_U, sum->force);
   }
 }

@@ -33,7 +33,8 @@ double zp_term_electric_head(const ZpModel *model, double U, double g, double H)
 }
 
 double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level) {
-  return level * zp_term_electric_head(model, U, g, H) - 2 * model->bead.suction * model->bead.tension / H;
+  double head = level * zp_term_electric_head(model, U, g, H) - 2 * model->bead.suction * model->bead.tension / H;
+  return fmax(head, -zp_film_tension);
 }
 
 ZP_KERNEL static void add(size_t stride, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
