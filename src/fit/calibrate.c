@@ -10,7 +10,7 @@
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-  ZpColumn column[ZP_FIT_KINDS][4];         /* of lengths, of forces, of times */
+  ZpColumn column[ZP_FIT_CAPACITANCE][4];   /* of lengths, of forces, of times */
 } Names;
 
 #define ZP_GROUP(group)
@@ -106,10 +106,20 @@ static const ZpColumn over_time[4] = {
     {"fitted_m", "m", "the same, computed with the fitted values"},
     {"residual_m", "m", "fitted minus measured"},
 };
+static const ZpColumn capacitance_over_time[4] = {
+    {"time_s", "s", "time since the voltage was switched on"},
+    {"measured_F", "F", "capacitance in data.file"},
+    {"fitted_F", "F", "the same, computed with the fitted values"},
+    {"residual_F", "F", "fitted minus measured"},
+};
+
+static const ZpColumn *columns_of(const ZpFit *fit) {
+  if (fit->kind == ZP_FIT_CAPACITANCE) return capacitance_over_time;
+  return fit->x_key < 0 ? over_time : names[fit->x_key].column[fit->kind];
+}
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
-  const ZpColumn *columns = fit->x_key < 0 ? over_time : names[fit->x_key].column[fit->kind];
-  result->series = zp_table_create(columns, 4, fit->rows < 2 ? 2 : fit->rows);
+  result->series = zp_table_create(columns_of(fit), 4, fit->rows < 2 ? 2 : fit->rows);
   if (!result->series) return false;
   for (size_t i = 0; i < fit->rows; i++)
     zp_table_offer(result->series, (double[]){fit->x[i], fit->y[i], fitted[i], fitted[i] - fit->y[i]});
@@ -134,8 +144,14 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   return ZP_OK;
 }
 
-static const char *const unit_of[ZP_FIT_KINDS] = {"m", "N", "s"};
-static const char *const residual_of[ZP_FIT_KINDS] = {"residual_rms_m", "residual_rms_N", "residual_rms_s"};
+/* By kind: unit, name of what is left, and how the message says it. */
+static const struct {
+  const char *unit, *residual, *shown;
+  double factor;
+} of_kind[ZP_FIT_KINDS] = {{"m", "residual_rms_m", "mm", 1e3},
+                           {"N", "residual_rms_N", "mN", 1e3},
+                           {"s", "residual_rms_s", "ms", 1e3},
+                           {"F", "residual_rms_F", "pF", 1e12}};
 
 /* The static pull-in of the model as fitted, of the last row: zip times just above it show where it is. */
 static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result) {
@@ -163,15 +179,15 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   result->outcome = good ? ZP_CONVERGED : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
   if (good)
-    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g m%s rms", fit->rows,
-             fit->n > 0 ? "fitted" : "compared", 1e3 * rms, unit_of[fit->kind]);
+    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms", fit->rows,
+             fit->n > 0 ? "fitted" : "compared", of_kind[fit->kind].factor * rms, of_kind[fit->kind].shown);
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "some rows have no equilibrium within the bounds");
   report_keys(fit, z, has_J ? J : NULL, square, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   if (good && fit->kind == ZP_FIT_TIME && note_pull_in(fit, z, result) != ZP_OK) return zp_fail_memory(err);
-  zp_result_add(result, residual_of[fit->kind], unit_of[fit->kind], rms);
+  zp_result_add(result, of_kind[fit->kind].residual, of_kind[fit->kind].unit, rms);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);

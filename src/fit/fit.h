@@ -9,8 +9,9 @@ enum {
   ZP_FIT_OTHERS = 8 /* further columns that set keys */
 };
 
-/* What is measured: a stroke or an opening, the force of study isometric, the zip time of study actuate. */
-typedef enum ZpFitKind { ZP_FIT_LENGTH, ZP_FIT_FORCE, ZP_FIT_TIME, ZP_FIT_KINDS } ZpFitKind;
+/* What is measured: a stroke or an opening, the force of study isometric, the zip time of study actuate, over time the
+ * capacitance. */
+typedef enum ZpFitKind { ZP_FIT_LENGTH, ZP_FIT_FORCE, ZP_FIT_TIME, ZP_FIT_CAPACITANCE, ZP_FIT_KINDS } ZpFitKind;
 
 typedef struct ZpFit {
   const ZpActuatorDef *def;

@@ -191,13 +191,16 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
     fit->kind = ZP_FIT_FORCE;
   else if (fit->x_key >= 0 && zp_data_unit(name, "zip_time", "s", &factor, &divisor))
     fit->kind = ZP_FIT_TIME;
+  else if (fit->x_key < 0 && zp_data_unit(name, "capacitance", "F", &factor, &divisor))
+    fit->kind = ZP_FIT_CAPACITANCE;
   else if (zp_data_unit(name, "opening", "m", &factor, &divisor))
     fit->opening = true;
   else if (!zp_data_unit(name, "stroke", "m", &factor, &divisor))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "calibrate.y: column %.60s: is not a stroke or an opening with a unit of length, nor a force "
-                   "against voltage or another key, nor a zip_time with a unit of time against a key",
-                   name);
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "calibrate.y: column %.60s: is not a stroke or an opening with a unit of length, nor a force "
+        "against voltage or another key, nor a zip_time with a unit of time against a key, nor a capacitance over time",
+        name);
   if (fit->opening && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   ZpStatus status = ZP_OK;

@@ -96,6 +96,10 @@ double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   return value;
 }
 
+static const char *signal_of(const ZpFit *fit) {
+  return fit->kind == ZP_FIT_CAPACITANCE ? "capacitance" : fit->opening ? "opening" : "stroke";
+}
+
 /* One run in time through all rows; NAN from where the solver fails. */
 static void predict_run(ZpFit *fit, const double *z, double *fitted) {
   ZpActuatorDef def;
@@ -107,7 +111,7 @@ static void predict_run(ZpFit *fit, const double *z, double *fitted) {
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   for (size_t i = 0; i < fit->rows; i++) {
     if (runs && fit->x[i] > 0) runs = zp_outcome_good(zp_sim_run(sim, fit->x[i], false, fit->hooks, NULL));
-    fitted[i] = runs ? zp_sim_get(sim, fit->opening ? "opening" : "stroke") : (double)NAN;
+    fitted[i] = runs ? zp_sim_get(sim, signal_of(fit)) : (double)NAN;
   }
   zp_sim_destroy(sim);
   zp_model_destroy(model);

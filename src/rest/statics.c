@@ -134,8 +134,8 @@ static void go_back(ZpStatics *s, ZpNewtonWork *work) {
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
 }
 
-/* From a stable equilibrium along its branch, with `put(whole, share)` of what grows, by shares of at most `longest`, to
- * all of it. False if the branch ends before: the last equilibrium is that of the end. */
+/* From a stable equilibrium along its branch, with `put(whole, share)` of what grows, by shares of at most `longest`,
+ * to all of it. False if the branch ends before: the last equilibrium is that of the end. */
 static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double whole, double longest,
                  ZpNewtonWork *work) {
   static const double shortest = 1e-6;
