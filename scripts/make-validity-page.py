@@ -265,6 +265,46 @@ def mm(value):
     return f"{value:.3g} mm"
 
 
+# What moves a zip time in oil and is not known: key, the values that are possible, why.
+UNKNOWN = [
+    ("bead.suction", ("0", "1"), "no measurement"),
+    ("bead.volume", ("40 uL", "60 uL"), "how a drop is put on"),
+    ("air.breakdown_field", ("2 MV/m", "4 MV/m"), "3 MV/m is that of wide gaps"),
+    ("medium.breakdown_field", ("15 MV/m", "30 MV/m"), "of the paper's oil; does the force end there?"),
+    ("film.roughness", ("0.5 um", "10 um"), "of tapes"),
+    ("insulator.young_modulus", ("0 GPa", "0.2 GPa"), "soft tape adds stiffness"),
+    ("ribbon.thickness", ("47.5 um", "52.5 um"), "gauge of strip"),
+    ("medium.drag_coefficient", ("0.75", "3"), "assumed"),
+]
+LIQUIDS = {"bath": {}, "bead of 50 µL": {"liquid.model": "bead"}}
+
+
+def moved(change):
+    """A change of the zip time in per cent, in words where it is none or endless."""
+    return "never" if math.isinf(change) else per_cent(change) if abs(change) > 0.01 else "0"
+
+
+def zip_band(runs):
+    """How each unknown moves the zip time, and all of them, as independent of each other."""
+    rows, total = [], {name: [0, 0] for name in LIQUIDS}
+    times = {name: runs.summary("zip-band", keys)["zip_time_s"] for name, keys in LIQUIDS.items()}
+    for key, values, why in UNKNOWN:
+        cells = []
+        for name, keys in LIQUIDS.items():
+            changes = []
+            for value in values:
+                time = runs.summary("zip-band", {**keys, key: value})["zip_time_s"]
+                changes.append(math.inf if time is None else off(time, times[name]))
+            for change in max(changes), min(changes):
+                total[name][change > 0] = math.hypot(total[name][change > 0], change)
+            cells.append(", ".join(moved(change) for change in changes))
+        rows.append([f"`{key}`", ", ".join(values).replace("um", "µm").replace("uL", "µL"), why, *cells])
+    band = [f"**{1e3 * times[name]:.0f} ms**, −{total[name][0]:.0f} %, "
+            + ("or never" if math.isinf(total[name][1]) else f"+{total[name][1]:.0f} %") for name in LIQUIDS]
+    rows.append(["all of these", "", "root of the sum of squares", *band])
+    return table(["not known", "from, to", "why", *LIQUIDS], rows)
+
+
 def quick_sections(runs):
     force, strokes = field_force(runs), chain_strokes(runs)
     yield "field-limits", limits(force, "plates against field, ribbons of 100 mm", mm, "not up to 78 mm")
@@ -282,6 +322,7 @@ def slow_sections(runs):
     yield "contact-zip", zip_table(zip_times(runs))
     yield "contact-release", release_table(closed_lengths(runs))
     yield "chain-motion", grid(chain_motion(runs), "N", "{:g}".format)
+    yield "zip-band", zip_band(runs)
 
 
 def markers(name):

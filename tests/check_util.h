@@ -109,6 +109,17 @@ static inline double settled_value(const ZpActuatorDef *def, const char *signal)
   return value;
 }
 
+/* Are signals of two simulations the same to this tolerance? Destroys both, and their models. */
+static inline void ck_same_signals(ZpSim *const sims[2], ZpModel *const models[2], const char *const *signals,
+                                   size_t count, double tolerance) {
+  for (size_t k = 0; k < count; k++)
+    ck_near(zp_sim_get(sims[1], signals[k]), zp_sim_get(sims[0], signals[k]), tolerance);
+  for (int k = 0; k < 2; k++) {
+    zp_sim_destroy(sims[k]);
+    zp_model_destroy(models[k]);
+  }
+}
+
 /* Uniform in (-1, 1), from a seed, the same everywhere. */
 static inline double noise(uint64_t *seed) {
   *seed = *seed * 6364136223846793005u + 1442695040888963407u;

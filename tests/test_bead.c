@@ -4,6 +4,9 @@
 
 #include "rest/rest.h"
 
+#define BEAD                                                                                                           \
+  { "liquid.model", ZP_LIQUID_BEAD }
+
 /* -- geometry -------------------------------------------------------------------------------------- */
 
 /* In a wedge of angle a a volume V reaches sqrt(2 V / (w a)), and the volume of that reach is V again. */
@@ -49,15 +52,15 @@ static ZpActuatorDef def_of(const Case *c, double nodes) {
              {"bead.suction", c->suction}, {"actuator.symmetry", c->symmetry}, {"ribbon.young_modulus", 1e7});
 }
 
-/* Gaps from nothing at the clips to millimetres, a little at random. */
-static void bend(ZpStatics *s) {
+/* Gaps from nothing at the clips to millimetres, a little at random: by this share. */
+static void bend(ZpStatics *s, double random) {
   const ZpModel *model = s->model;
   uint64_t seed = 5;
   double *x = s->q, *y = s->q + model->stride, half = (double)model->topology.platform.first;
   for (size_t i = 0; i < model->nodes; i++) {
     double along = (double)zp_topology_station_image(&model->topology, i) / half, gap = 4e-3 * along * along;
     y[zp_upper(&model->topology, i)] = 1e-4 * noise(&seed) * along;
-    y[zp_lower(&model->topology, i)] = y[zp_upper(&model->topology, i)] - gap * (1 + 0.1 * noise(&seed));
+    y[zp_lower(&model->topology, i)] = y[zp_upper(&model->topology, i)] - gap * (1 + random * noise(&seed));
     for (size_t j = zp_upper(&model->topology, i); j <= zp_lower(&model->topology, i); j++)
       if (s->assembly.equation[2 * j] >= 0) x[j] += 0.05 * model->l * noise(&seed);
   }
@@ -109,7 +112,7 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
   size_t n = system.n;
   bool *own = calloc(n, sizeof *own);
   double *up = calloc(n, sizeof *up), *down = calloc(n, sizeof *down), worst = 0, largest = 0;
-  bend(s);
+  bend(s, 0.1);
   s->U = c->U;
   s->contact_acts = true;
   system.residual(s, up, NULL);
@@ -138,6 +141,19 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
 }
 END_TEST
 
+/* A drop with suction that hangs is found: once, from 1 uL or so, straight ribbons drawn together by capillarity were,
+ * though pulled apart they would stay apart as well. */
+START_TEST(test_drop_with_suction_hangs) {
+  static const double volumes[] = {1e-11, 1e-10, 1e-9, 5e-9, 50e-9};
+  for (double suction = 0.25; suction <= 1; suction += 0.25) {
+    ZpActuatorDef dry = DEF(), def = DEF(BEAD, {"bead.volume", volumes[_i]}, {"bead.suction", suction});
+    double drawn = 1 - settled_value(&def, "opening") / settled_value(&dry, "opening");
+    ck_assert_double_gt(drawn, 0);
+    ck_below(drawn, 2e-3); /* 2 gamma w, 0.5 mN, on lengths of mm, beside 78 mN of the load */
+  }
+}
+END_TEST
+
 /* Potential of the field and energy of the wetted surfaces, J: with the whole suction all forces of bead and field are
  * minus their gradient at a fixed volume. */
 static double potential(ZpStatics *s, double *r) {
@@ -163,8 +179,8 @@ START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
   ZpStatics *s = &rest.statics;
   size_t n = s->assembly.n;
   double *r = calloc(n, sizeof *r), *other = calloc(n, sizeof *other), *scratch = calloc(n, sizeof *scratch);
-  bend(s);
-  bend(&none.statics);
+  bend(s, 0);
+  bend(&none.statics, 0);
   s->U = c.U;
   potential(s, r);
   potential(&none.statics, other); /* without voltage and surface: what is not of bead and field */
@@ -180,7 +196,7 @@ START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
     largest = fmax(largest, fabs(r[j] - other[j]));
   }
   printf("%g uL: force off -dW/dq by %.1e of the largest\n", 1e9 * c.volume, worst / largest);
-  ck_below(worst / largest, 1e-3); /* three points an element: the sum over them has the slope of the law to that */
+  ck_below(worst / largest, 1e-5); /* three points an element miss 3e-6 of the law's integral beside the meniscus */
   free(r), free(other), free(scratch);
   zp_rest_close(&rest);
   zp_rest_close(&none);
@@ -198,24 +214,84 @@ static double isometric(const Setting *list, size_t count) {
 }
 #define ISOMETRIC(...)                                                                                                 \
   isometric((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
-#define BEAD                                                                                                           \
-  { "liquid.model", ZP_LIQUID_BEAD }
 
-/* A bead that fills all is the liquid that is everywhere; the volumes that give 92 % of that at 1 and 2 mm, 6 and 10
- * kV, are those of an independent code with cubic wedges. */
+/* A rigid cubic wedge of the default actuator, g = separation (3 x^2 - 2 x^3), x along a half from 0 to 1: the sum of
+ * `weigh(x)` times the attraction over its length, with a bead that fills it as far as `volume` goes, and air beyond.
+ */
+static double one(double x) {
+  (void)x;
+  return 1;
+}
+
+static double lifted(double x) {
+  return x * x * (3 - 2 * x);
+}
+
+static double attraction(const ZpModel *model, double U, double separation, double volume, double (*weigh)(double)) {
+  enum { POINTS = 100000 };
+  double length = model->l * (double)model->topology.platform.first, dx = length / POINTS, sum = 0;
+  for (int k = 0; k < POINTS; k++) {
+    double x = (k + 0.5) / POINTS, g = separation * lifted(x), held = volume;
+    volume -= model->film.w * g * dx;
+    double wet = fmin(fmax(held / (held - volume), 0), 1);
+    sum +=
+        weigh(x) * dx * (wet * zp_plates_law(&model->plates, U, g).W + (1 - wet) * zp_plates_law(&model->air, U, g).W);
+  }
+  return sum;
+}
+
+/* Volumes of two digits with which beads have 92 % of the attraction of a bath, of an independent code. */
+static const struct {
+  double U, separation, volume;
+} wedges[] = {{6e3, 1e-3, 83e-9}, {6e3, 2e-3, 51e-9}, {6e3, 4e-3, 30e-9}, {10e3, 2e-3, 132e-9}, {10e3, 4e-3, 76e-9}};
+
+START_TEST(test_attraction_of_a_wedge) {
+  double U = wedges[_i].U, separation = wedges[_i].separation;
+  ZpActuatorDef def = DEF(BEAD);
+  ZpModel *model = model_of(&def);
+  double all = attraction(model, U, separation, 1, one);
+  ck_near(attraction(model, U, separation, wedges[_i].volume, one) / all, 0.92, 1e-3);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Ribbons as stiff as beams stay that wedge, and what the field adds to the force that holds the platform is, by
+ * reciprocity, the attraction weighed with how far each place is lifted with the platform. */
+START_TEST(test_isometric_force_of_stiff_ribbons) {
+  Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
+  Setting thick = {"ribbon.thickness", 5e-3}, stiff = {"ribbon.young_modulus", 1e12}, bare = {"platform.electrode", 0};
+  Setting volume = {"bead.volume", wedges[_i].volume};
+  ZpActuatorDef def = DEF(BEAD, thick, stiff);
+  ZpModel *model = model_of(&def);
+  double expected = 2 * attraction(model, U.value, held.value, volume.value, lifted);
+  double force = ISOMETRIC(BEAD, U, held, thick, stiff, bare, volume);
+  printf("%g kV, %g mm: force %.6f N, in closed form %.6f N\n", 1e-3 * U.value, 1e3 * held.value, force, expected);
+  double slope = held.value / (model->l * (double)model->topology.platform.first);
+  ck_near(force, expected, 1e-4 + 0.5 * slope * slope); /* the closed form is that of small slopes */
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Ribbons as they are: a bead that fills all is the liquid that is everywhere, and suction adds to the force. */
 START_TEST(test_isometric_force) {
-  static const struct {
-    double U, separation, volume;
-  } row[] = {{6e3, 1e-3, 83e-9}, {6e3, 2e-3, 51e-9}, {6e3, 4e-3, 30e-9}, {10e3, 2e-3, 132e-9}, {10e3, 4e-3, 76e-9}};
-  Setting U = {"drive.voltage", row[_i].U}, held = {"isometric.separation", row[_i].separation};
+  Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
+  Setting volume = {"bead.volume", wedges[_i].volume};
   double all = ISOMETRIC(U, held), full = ISOMETRIC(U, held, BEAD, {"bead.volume", 1e-3});
-  double some = ISOMETRIC(U, held, BEAD, {"bead.volume", row[_i].volume});
-  double drawn = ISOMETRIC(U, held, BEAD, {"bead.volume", row[_i].volume}, {"bead.suction", 1});
-  printf("%g kV, %g mm: %.1f %% of the force, with suction %.1f %%\n", 1e-3 * row[_i].U, 1e3 * row[_i].separation,
+  double some = ISOMETRIC(U, held, BEAD, volume), drawn = ISOMETRIC(U, held, BEAD, volume, {"bead.suction", 1});
+  printf("%g kV, %g mm: %.1f %% of the force, with suction %.1f %%\n", 1e-3 * U.value, 1e3 * held.value,
          100 * some / all, 100 * drawn / all);
   ck_near(full, all, 1e-6);
-  ck_near(some / all, 0.92, 0.04);
+  ck_assert_double_lt(some, all);
   ck_assert_double_gt(drawn, 1.05 * some);
+}
+END_TEST
+
+/* Without a platform a bead that fills all once left NaN in the forces, which was taken for an equilibrium of straight
+ * ribbons. */
+START_TEST(test_full_bead_without_a_platform) {
+  Setting none = {"platform.length", 0};
+  ZpActuatorDef dry = DEF(none), full = DEF(none, BEAD, {"bead.suction", 1}, {"bead.volume", 1e-3});
+  ck_near(settled_value(&full, "opening"), settled_value(&dry, "opening"), 1e-9);
 }
 END_TEST
 
@@ -261,11 +337,13 @@ START_TEST(test_volume_is_kept) {
 }
 END_TEST
 
-/* Energy closes over closing, holding and opening, with and without suction, and what is pressed out comes back. */
+/* Energy closes over closing, holding and opening, with and without suction, and what is pressed out comes back. With
+ * suction the meniscus of a thin film once drew with megapascals and drove jets of kilojoules; a liquid cavitates. */
 START_TEST(test_energy_of_zip_hold_and_release) {
   static const struct {
     double viscosity, suction, share, volume;
-  } row[] = {{50e-6, 0, 1, 50e-9}, {5e-6, 0, 1, 30e-9}, {1e-3, 0, 1, 200e-9}};
+  } row[] = {{50e-6, 0, 1, 50e-9}, {5e-6, 0, 1, 30e-9},      {1e-3, 0, 1, 200e-9},
+             {50e-6, 1, 1, 50e-9}, {50e-6, 0.5, 0.5, 20e-9}, {5e-6, 1, 1, 150e-9}};
   ZpModel *model;
   ZpSim *sim =
       ZIP_HOLD_RELEASE(&model, {"medium.kinematic_viscosity", row[_i].viscosity}, {"bead.suction", row[_i].suction},
@@ -280,6 +358,32 @@ START_TEST(test_energy_of_zip_hold_and_release) {
          "mm\n",
          row[_i].suction, row[_i].share, 1e6 * row[_i].viscosity, worst, 1e9 * most,
          1e9 * zp_sim_get(sim, "bead_outside"), 1e3 * zp_sim_get(sim, "opening"));
+  ck_below(worst, 1e-6);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* And over 50 cycles that close and open it, in a bath and with beads; what is left is of the steps, 1e-3 of their
+ * tolerance. */
+START_TEST(test_energy_of_50_cycles) {
+  static const struct {
+    double model, suction, viscosity;
+  } row[] = {{ZP_LIQUID_SUBMERGED, 0, 5e-6}, {ZP_LIQUID_BEAD, 0, 5e-6}, {ZP_LIQUID_BEAD, 0.5, 1e-6}};
+  enum { CYCLES = 50, LOOKS = 10 };
+  static const double frequency = 4;
+  ZpActuatorDef def = DEF({"liquid.model", row[_i].model}, {"bead.suction", row[_i].suction},
+                          {"medium.kinematic_viscosity", row[_i].viscosity}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
+                          {"drive.frequency", frequency}, {"mesh.nodes", 21}, {"solver.tolerance", 1e-4});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double worst = 0;
+  for (int k = 1; k <= CYCLES * LOOKS; k++) {
+    ck_assert_int_eq(zp_sim_run(sim, k / (frequency * LOOKS), false, NULL, NULL), ZP_REACHED_END);
+    double share = fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work");
+    if (k >= LOOKS) worst = fmax(worst, share); /* in the first cycle little work has been done */
+  }
+  printf("50 cycles: energy off by %.1e of the work at most\n", worst);
   ck_below(worst, 1e-6);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
@@ -311,13 +415,13 @@ START_TEST(test_much_liquid_is_a_bath) {
 }
 END_TEST
 
-/* With the whole suction menisci lose nothing: what the field gives them the film gets. */
+/* With the whole suction menisci lose nothing but what steps miss: what the field gives them the film gets. */
 START_TEST(test_suction_takes_what_menisci_lose) {
   Run local = RUN(BEAD, {"mesh.nodes", 31}),
-      drawn = RUN(BEAD, {"mesh.nodes", 31}, {"bead.suction", 1}, {"solver.tolerance", 1e-5}, {"liquid.inertia", 0});
+      drawn = RUN(BEAD, {"mesh.nodes", 31}, {"bead.suction", 1}, {"solver.tolerance", 1e-6}, {"liquid.inertia", 0});
   printf("lost by menisci: %.3f mJ, with suction %.4f mJ\n", 1e3 * local.meniscus, 1e3 * drawn.meniscus);
   ck_assert_double_gt(local.meniscus, 3e-4);
-  ck_below(fabs(drawn.meniscus), 0.05 * local.meniscus);
+  ck_below(fabs(drawn.meniscus), 0.005 * local.meniscus);
   ck_assert_double_lt(drawn.zip_time, local.zip_time);
 }
 END_TEST
@@ -349,20 +453,17 @@ START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
 }
 END_TEST
 
-/* The whole actuator is two halves. */
+/* The whole actuator is two halves, to what rounding has become: the two take equal steps, for where steps are chosen
+ * rounding sooner or later rejects one of only one of them. */
 START_TEST(test_whole_is_two_halves) {
+  Setting steps = {"solver.time_step", 2.5e-4};
   ZpModel *models[2];
-  ZpSim *sims[2] = {ZIP_HOLD_RELEASE(&models[0], {"actuator.symmetry", ZP_SYMMETRY_HALF}),
-                    ZIP_HOLD_RELEASE(&models[1], {"actuator.symmetry", ZP_SYMMETRY_NONE})};
+  ZpSim *sims[2] = {ZIP_HOLD_RELEASE(&models[0], steps, {"actuator.symmetry", ZP_SYMMETRY_HALF}),
+                    ZIP_HOLD_RELEASE(&models[1], steps, {"actuator.symmetry", ZP_SYMMETRY_NONE})};
   static const char *const signals[] = {"opening", "film_across_loss", "wet_length", "meniscus_loss", "bead_outside"};
   for (int k = 0; k < 2; k++)
     ck_assert_int_eq(zp_sim_run(sims[k], 0.28, false, NULL, NULL), ZP_REACHED_END);
-  for (size_t k = 0; k < LENGTH_OF(signals); k++)
-    ck_near(zp_sim_get(sims[1], signals[k]), zp_sim_get(sims[0], signals[k]), 1e-3);
-  for (int k = 0; k < 2; k++) {
-    zp_sim_destroy(sims[k]);
-    zp_model_destroy(models[k]);
-  }
+  ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1e-8);
 }
 END_TEST
 
@@ -410,9 +511,14 @@ int main(void) {
   tcase_add_test(c, test_reach_in_a_wedge);
   tcase_add_loop_test(c, test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
   tcase_add_loop_test(c, test_force_of_a_fixed_volume_has_an_energy, 0, 4);
-  tcase_add_loop_test(c, test_isometric_force, 0, 5);
+  tcase_add_loop_test(c, test_drop_with_suction_hangs, 0, 5);
+  tcase_add_loop_test(c, test_attraction_of_a_wedge, 0, LENGTH_OF(wedges));
+  tcase_add_loop_test(c, test_isometric_force_of_stiff_ribbons, 0, LENGTH_OF(wedges));
+  tcase_add_loop_test(c, test_isometric_force, 0, LENGTH_OF(wedges));
+  tcase_add_test(c, test_full_bead_without_a_platform);
   tcase_add_loop_test(c, test_volume_is_kept, 0, 4);
-  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, 3);
+  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, 6);
+  tcase_add_loop_test(c, test_energy_of_50_cycles, 0, 3);
   tcase_add_test(c, test_much_liquid_is_a_bath);
   tcase_add_test(c, test_suction_takes_what_menisci_lose);
   tcase_add_test(c, test_small_bead_starves);

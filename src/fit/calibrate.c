@@ -1,4 +1,4 @@
-/* Study `calibrate`: keys fitted to measured strokes or forces. */
+/* Study `calibrate`: keys fitted to measured strokes, forces or zip times. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-  ZpColumn column[4], held[4];              /* of lengths, of forces */
+  ZpColumn column[ZP_FIT_CAPACITANCE][4];   /* of lengths, of forces, of times */
 } Names;
 
 #define ZP_GROUP(group)
@@ -18,14 +18,18 @@ typedef struct Names {
 #define NAMES(key, unit)                                                                                               \
   {key "_standard_error",                                                                                              \
    {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"},                           \
-   {{key "_" unit, unit, "value set on the bench"},                                                                    \
-    {"measured_m", "m", "stroke or opening in data.file"},                                                             \
-    {"fitted_m", "m", "the same, computed with the fitted values; nan: no equilibrium"},                               \
-    {"residual_m", "m", "fitted minus measured"}},                                                                     \
-   {{key "_" unit, unit, "value set on the bench"},                                                                    \
-    {"measured_N", "N", "force in data.file"},                                                                         \
-    {"fitted_N", "N", "force_N of study isometric, computed with the fitted values; nan: no equilibrium"},             \
-    {"residual_N", "N", "fitted minus measured"}}},
+   {{{key "_" unit, unit, "value set on the bench"},                                                                   \
+     {"measured_m", "m", "stroke or opening in data.file"},                                                            \
+     {"fitted_m", "m", "the same, computed with the fitted values; nan: no equilibrium"},                              \
+     {"residual_m", "m", "fitted minus measured"}},                                                                    \
+    {{key "_" unit, unit, "value set on the bench"},                                                                   \
+     {"measured_N", "N", "force in data.file"},                                                                        \
+     {"fitted_N", "N", "force_N of study isometric, computed with the fitted values; nan: no equilibrium"},            \
+     {"residual_N", "N", "fitted minus measured"}},                                                                    \
+    {{key "_" unit, unit, "value set on the bench"},                                                                   \
+     {"measured_s", "s", "zip time in data.file"},                                                                     \
+     {"fitted_s", "s", "zip_time_s of study actuate, computed with the fitted values; nan: not closed"},               \
+     {"residual_s", "s", "fitted minus measured"}}}},
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name, unit)
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
@@ -102,10 +106,20 @@ static const ZpColumn over_time[4] = {
     {"fitted_m", "m", "the same, computed with the fitted values"},
     {"residual_m", "m", "fitted minus measured"},
 };
+static const ZpColumn capacitance_over_time[4] = {
+    {"time_s", "s", "time since the voltage was switched on"},
+    {"measured_F", "F", "capacitance in data.file"},
+    {"fitted_F", "F", "the same, computed with the fitted values"},
+    {"residual_F", "F", "fitted minus measured"},
+};
+
+static const ZpColumn *columns_of(const ZpFit *fit) {
+  if (fit->kind == ZP_FIT_CAPACITANCE) return capacitance_over_time;
+  return fit->x_key < 0 ? over_time : names[fit->x_key].column[fit->kind];
+}
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
-  const ZpColumn *columns = fit->x_key < 0 ? over_time : fit->held ? names[fit->x_key].held : names[fit->x_key].column;
-  result->series = zp_table_create(columns, 4, fit->rows < 2 ? 2 : fit->rows);
+  result->series = zp_table_create(columns_of(fit), 4, fit->rows < 2 ? 2 : fit->rows);
   if (!result->series) return false;
   for (size_t i = 0; i < fit->rows; i++)
     zp_table_offer(result->series, (double[]){fit->x[i], fit->y[i], fitted[i], fitted[i] - fit->y[i]});
@@ -118,7 +132,7 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   double highest = fit->x_key < 0 ? fmax(def.drive.voltage, fabs(def.drive.offset)) : -1, voltage;
   for (size_t i = 0; i < fit->rows && fit->x_key >= 0; i++) {
     if (!zp_fit_row(fit, z, i, &row, &voltage)) continue;
-    if (fit->held) voltage = row.drive.voltage;
+    if (fit->kind != ZP_FIT_LENGTH) voltage = row.drive.voltage;
     if (voltage <= highest) continue;
     highest = voltage;
     def = row;
@@ -128,6 +142,28 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   if (model) zp_result_note_model(result, model, fmax(highest, 0));
   zp_model_destroy(model);
   return ZP_OK;
+}
+
+/* By kind: unit, name of what is left, and how the message says it. */
+static const struct {
+  const char *unit, *residual, *shown;
+  double factor;
+} of_kind[ZP_FIT_KINDS] = {{"m", "residual_rms_m", "mm", 1e3},
+                           {"N", "residual_rms_N", "mN", 1e3},
+                           {"s", "residual_rms_s", "ms", 1e3},
+                           {"F", "residual_rms_F", "pF", 1e12}};
+
+/* The static pull-in of the model as fitted, of the last row: zip times just above it show where it is. */
+static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result) {
+  ZpActuatorDef def;
+  ZpResult *limits = NULL;
+  double voltage;
+  zp_fit_row(fit, z, fit->rows - 1, &def, &voltage);
+  def.output.errors = false;
+  ZpStatus status = zp_study_run(ZP_STUDY_LIMITS, &def, NULL, NULL, &limits, NULL);
+  zp_result_add(result, "pull_in_voltage_V", "V", limits ? zp_result_get(limits, "pull_in_voltage_V") : NAN);
+  zp_result_destroy(limits);
+  return status == ZP_MACHINE ? status : ZP_OK;
 }
 
 static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult *result, ZpError *err) {
@@ -144,13 +180,14 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
   if (good)
     snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms", fit->rows,
-             fit->n > 0 ? "fitted" : "compared", 1e3 * rms, fit->held ? "mN" : "mm");
+             fit->n > 0 ? "fitted" : "compared", of_kind[fit->kind].factor * rms, of_kind[fit->kind].shown);
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "some rows have no equilibrium within the bounds");
   report_keys(fit, z, has_J ? J : NULL, square, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
-  zp_result_add(result, fit->held ? "residual_rms_N" : "residual_rms_m", fit->held ? "N" : "m", rms);
+  if (good && fit->kind == ZP_FIT_TIME && note_pull_in(fit, z, result) != ZP_OK) return zp_fail_memory(err);
+  zp_result_add(result, of_kind[fit->kind].residual, of_kind[fit->kind].unit, rms);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);

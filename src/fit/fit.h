@@ -1,4 +1,4 @@
-/* A fit of keys to measured strokes or forces: what is fitted to what. */
+/* A fit of keys to measured strokes, forces or zip times: what is fitted to what. */
 #ifndef ZP_FIT_FIT_H
 #define ZP_FIT_FIT_H
 
@@ -8,6 +8,10 @@ enum {
   ZP_FIT_MOST = 5,  /* keys fitted at once */
   ZP_FIT_OTHERS = 8 /* further columns that set keys */
 };
+
+/* What is measured: a stroke or an opening, the force of study isometric, the zip time of study actuate, over time the
+ * capacitance. */
+typedef enum ZpFitKind { ZP_FIT_LENGTH, ZP_FIT_FORCE, ZP_FIT_TIME, ZP_FIT_CAPACITANCE, ZP_FIT_KINDS } ZpFitKind;
 
 typedef struct ZpFit {
   const ZpActuatorDef *def;
@@ -20,8 +24,8 @@ typedef struct ZpFit {
   int others;                                    /* further columns whose header is a key: set for their row, too */
   int other_key[ZP_FIT_OTHERS];
   double *other[ZP_FIT_OTHERS]; /* [rows] SI */
-  bool opening;                 /* the opening is measured, else the stroke */
-  bool held;                    /* neither: the force of study isometric */
+  ZpFitKind kind;
+  bool opening; /* of the lengths the opening is measured, else the stroke */
   size_t rows;
   double *x, *y; /* [rows] SI */
   int evaluations;
@@ -38,7 +42,7 @@ void zp_fit_close(ZpFit *fit);
  * value is out of its key's range. */
 bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage);
 
-/* What the model gives for row `row`, m or N, where rows are states of rest; NAN where it finds none. */
+/* What the model gives for row `row`, m, N or s, where rows are not one run; NAN where it finds none. */
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
 
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */

@@ -161,7 +161,13 @@ static ZpStatus check_run(const ZpActuatorDef *def, ZpError *err) {
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
 
-/* Rows must be possible ones: those of held platforms as study isometric says, others in their voltage. */
+/* Rows must be possible ones: those of held platforms and of zips as their studies say, others in their voltage. */
+static ZpStatus check_row(const ZpFit *fit, const ZpActuatorDef *def, double voltage, ZpError *reason) {
+  if (fit->kind == ZP_FIT_FORCE) return zp_study_check(ZP_STUDY_ISOMETRIC, def, reason);
+  if (fit->kind == ZP_FIT_TIME) return zp_study_check(ZP_STUDY_ACTUATE, def, reason);
+  return zp_def_check_voltage(def, voltage, reason);
+}
+
 static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
   double start[ZP_FIT_MOST], voltage;
   for (int k = 0; k < ZP_FIT_MOST; k++)
@@ -171,9 +177,7 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
     if (!zp_fit_row(fit, start, i, &def, &voltage)) continue; /* read_column has said it */
-    ZpStatus status =
-        fit->held ? zp_study_check(ZP_STUDY_ISOMETRIC, &def, &reason) : zp_def_check_voltage(&def, voltage, &reason);
-    if (status != ZP_OK)
+    if (check_row(fit, &def, voltage, &reason) != ZP_OK)
       return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, data->line[i + 1], reason.message);
   }
   return ZP_OK;
@@ -183,14 +187,20 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
   double factor, divisor;
   const char *name = data->cell[column];
   bool by_load = fit->x_key < 0 || fit->x_key == zp_key_find("load.mass");
-  fit->opening = zp_data_unit(name, "opening", "m", &factor, &divisor);
-  fit->held = !fit->opening && !by_load && zp_data_unit(name, "force", "N", &factor, &divisor);
-  if (!fit->opening && !fit->held && !zp_data_unit(name, "stroke", "m", &factor, &divisor))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "calibrate.y: column %.60s: is not a stroke or an opening with a unit of length, nor a force "
-                   "against voltage or "
-                   "another key",
-                   name);
+  if (!by_load && zp_data_unit(name, "force", "N", &factor, &divisor))
+    fit->kind = ZP_FIT_FORCE;
+  else if (fit->x_key >= 0 && zp_data_unit(name, "zip_time", "s", &factor, &divisor))
+    fit->kind = ZP_FIT_TIME;
+  else if (fit->x_key < 0 && zp_data_unit(name, "capacitance", "F", &factor, &divisor))
+    fit->kind = ZP_FIT_CAPACITANCE;
+  else if (zp_data_unit(name, "opening", "m", &factor, &divisor))
+    fit->opening = true;
+  else if (!zp_data_unit(name, "stroke", "m", &factor, &divisor))
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "calibrate.y: column %.60s: is not a stroke or an opening with a unit of length, nor a force "
+        "against voltage or another key, nor a zip_time with a unit of time against a key, nor a capacitance over time",
+        name);
   if (fit->opening && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   ZpStatus status = ZP_OK;

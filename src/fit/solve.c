@@ -73,15 +73,31 @@ static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
   return value;
 }
 
+/* Of study actuate, s; NAN where it does not close before solver.end_time. */
+static double predict_time(ZpFit *fit, ZpActuatorDef *def) {
+  ZpResult *result = NULL;
+  def->output.errors = false;
+  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, NULL);
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  double value = result ? zp_result_get(result, "zip_time_s") : NAN;
+  zp_result_destroy(result);
+  return value;
+}
+
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
   double voltage;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
-  if (set && fit->held) return predict_force(fit, &def);
+  if (set && fit->kind == ZP_FIT_FORCE) return predict_force(fit, &def);
+  if (set && fit->kind == ZP_FIT_TIME) return predict_time(fit, &def);
   ZpModel *model = set ? build(fit, &def) : NULL;
   double value = model ? measure(fit, model, voltage) : NAN;
   zp_model_destroy(model);
   return value;
+}
+
+static const char *signal_of(const ZpFit *fit) {
+  return fit->kind == ZP_FIT_CAPACITANCE ? "capacitance" : fit->opening ? "opening" : "stroke";
 }
 
 /* One run in time through all rows; NAN from where the solver fails. */
@@ -95,7 +111,7 @@ static void predict_run(ZpFit *fit, const double *z, double *fitted) {
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   for (size_t i = 0; i < fit->rows; i++) {
     if (runs && fit->x[i] > 0) runs = zp_outcome_good(zp_sim_run(sim, fit->x[i], false, fit->hooks, NULL));
-    fitted[i] = runs ? zp_sim_get(sim, fit->opening ? "opening" : "stroke") : (double)NAN;
+    fitted[i] = runs ? zp_sim_get(sim, signal_of(fit)) : (double)NAN;
   }
   zp_sim_destroy(sim);
   zp_model_destroy(model);
@@ -211,13 +227,14 @@ static bool slopes_of_force(ZpFit *fit, ZpActuatorDef *def, double *row) {
 
 /* Exact, where the rows are states of rest whose derivatives by all these keys are known. */
 static bool differentiate(ZpFit *fit, const double *z, double *J) {
-  bool good = fit->x_key >= 0;
+  bool good = fit->x_key >= 0 && fit->kind != ZP_FIT_TIME;
   fit->evaluations += good;
   for (size_t i = 0; i < fit->rows && good; i++) {
     ZpActuatorDef def;
     double voltage, *row = J + i * (size_t)fit->n;
     good = !ask(fit) && zp_fit_row(fit, z, i, &def, &voltage);
-    good = good && (fit->held ? slopes_of_force(fit, &def, row) : slopes_of_rest(fit, &def, voltage, row));
+    good =
+        good && (fit->kind == ZP_FIT_FORCE ? slopes_of_force(fit, &def, row) : slopes_of_rest(fit, &def, voltage, row));
     for (int k = 0; k < fit->n && good; k++)
       row[k] *= fit->start[k];
   }

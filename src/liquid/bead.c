@@ -7,24 +7,23 @@ int zp_beads(const ZpFilmParams *p) {
   return p->platform_end > p->platform ? 2 : 1;
 }
 
-/* Elements of a half. */
-static size_t elements(const ZpFilmParams *p) {
+size_t zp_bead_elements(const ZpFilmParams *p) {
   return p->platform;
 }
 
 static double flexible(const ZpFilmParams *p) {
-  return (double)elements(p) * p->l;
+  return (double)zp_bead_elements(p) * p->l;
 }
 
 double zp_bead_longest(const ZpFilmParams *p) {
   return flexible(p) + p->flat_length;
 }
 
-/* Station k of a half from its clip, and the element behind it, by its left station. */
-static size_t station(const ZpFilmParams *p, int half, size_t k) {
+size_t zp_bead_station(const ZpFilmParams *p, int half, size_t k) {
   return half ? p->nodes - 1 - k : k;
 }
 
+/* The element behind station k of a half, by its left station. */
 static size_t element(const ZpFilmParams *p, int half, size_t k) {
   return half ? p->nodes - 2 - k : k;
 }
@@ -36,12 +35,12 @@ static double within(double near, double far, double l, double area) {
 }
 
 static double thickness(const ZpFilmParams *p, const double *gap, int half, size_t k) {
-  return zp_film_thickness(p, gap[station(p, half, k)]);
+  return zp_film_thickness(p, gap[zp_bead_station(p, half, k)]);
 }
 
 double zp_bead_reach(const ZpFilmParams *p, const double *gap, int half, double volume) {
   double area = fmax(volume, 0) / p->w, near = thickness(p, gap, half, 0);
-  for (size_t k = 0; k < elements(p); k++) {
+  for (size_t k = 0; k < zp_bead_elements(p); k++) {
     double far = thickness(p, gap, half, k + 1), all = 0.5 * p->l * (near + far);
     if (area < all) return (double)k * p->l + fmin(within(near, far, p->l, area), p->l);
     area -= all;
@@ -53,38 +52,43 @@ double zp_bead_reach(const ZpFilmParams *p, const double *gap, int half, double 
 
 double zp_bead_volume(const ZpFilmParams *p, const double *gap, int half, double reach) {
   double area = 0;
-  for (size_t k = 0; k < elements(p); k++) {
+  for (size_t k = 0; k < zp_bead_elements(p); k++) {
     double near = thickness(p, gap, half, k), far = thickness(p, gap, half, k + 1);
     double d = fmin(fmax(reach - (double)k * p->l, 0), p->l);
     area += d * (near + 0.5 * (far - near) * (d / p->l));
   }
   double below = fmax(reach - flexible(p), 0);
-  return p->w * (area + below * thickness(p, gap, half, elements(p)));
+  return p->w * (area + below * thickness(p, gap, half, zp_bead_elements(p)));
 }
 
 void zp_bead_cover(const ZpFilmParams *p, const double reach[ZP_BEADS], ZpCover *cover) {
   for (int half = 0; half < zp_beads(p); half++) {
     double beyond = reach[half] - flexible(p);
-    for (size_t k = 0; k < elements(p); k++)
+    for (size_t k = 0; k < zp_bead_elements(p); k++)
       cover->part[element(p, half, k)] = fmin(fmax(reach[half] / p->l - (double)k, 0), 1);
     cover->flat[half] = reach[half] >= zp_bead_longest(p) ? 1 : fmax(beyond, 0) / p->flat_length;
   }
 }
 
-double zp_bead_at(const ZpFilmParams *p, const double *value, int half, double reach) {
-  double along = fmax(reach, 0) / p->l;
-  if (!(along < (double)elements(p))) return value[station(p, half, elements(p))];
-  size_t k = (size_t)along;
-  double near = value[station(p, half, k)], far = value[station(p, half, k + 1)];
-  return near + (far - near) * (along - (double)k);
+ZpBeadPlace zp_bead_place(const ZpFilmParams *p, int half, double reach) {
+  double along = fmax(reach, 0) / p->l, beyond = reach - flexible(p);
+  size_t k = zp_bead_elements(p), platform = zp_bead_station(p, half, k);
+  if (!(along < (double)k))
+    return (ZpBeadPlace){k, platform, platform, beyond < p->flat_length ? fmax(beyond, 0) / p->flat_length : 1};
+  k = (size_t)along;
+  return (ZpBeadPlace){k, zp_bead_station(p, half, k), zp_bead_station(p, half, k + 1), along - (double)k};
 }
 
-double zp_bead_thickness(const ZpFilmParams *p, const double *gap, int half, double reach) {
-  double along = fmax(reach, 0) / p->l;
-  if (!(along < (double)elements(p))) return thickness(p, gap, half, elements(p));
-  size_t k = (size_t)along;
-  double near = thickness(p, gap, half, k), far = thickness(p, gap, half, k + 1);
-  return near + (far - near) * (along - (double)k);
+static double between(const ZpBeadPlace *place, double near, double far) {
+  return near + (far - near) * place->part;
+}
+
+double zp_bead_at(const ZpBeadPlace *place, const double *value) {
+  return between(place, value[place->near], value[place->far]);
+}
+
+double zp_bead_thickness(const ZpFilmParams *p, const ZpBeadPlace *place, const double *gap) {
+  return between(place, zp_film_thickness(p, gap[place->near]), zp_film_thickness(p, gap[place->far]));
 }
 
 /* What is at hand in a step like the last one, over what the film would take of it. */

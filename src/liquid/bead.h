@@ -40,11 +40,22 @@ double zp_bead_volume(const ZpFilmParams *film, const double *gap, int half, dou
 /* (wet length of each half) => cover. */
 void zp_bead_cover(const ZpFilmParams *film, const double reach[ZP_BEADS], ZpCover *cover);
 
-/* Something that is known at stations [N], linear between them, at a wet length. */
-double zp_bead_at(const ZpFilmParams *film, const double *value, int half, double reach);
+/* Elements of a half, and its station k from the clip. */
+size_t zp_bead_elements(const ZpFilmParams *film);
+size_t zp_bead_station(const ZpFilmParams *film, int half, size_t k);
 
-/* The thickness of the film there, m, linear between stations. */
-double zp_bead_thickness(const ZpFilmParams *film, const double *gap, int half, double reach);
+/* Where a bead of a wet length ends. */
+typedef struct ZpBeadPlace {
+  size_t k;         /* of the half: behind its station k, */
+  size_t near, far; /* the stations on both sides: the same one below the platform, */
+  double part;      /* by this part of the element there, or of the flat faces, 0 .. 1 */
+} ZpBeadPlace;
+ZpBeadPlace zp_bead_place(const ZpFilmParams *film, int half, double reach);
+
+/* There: something that is known at stations [N], and the thickness of the film, m; both are linear between stations.
+ */
+double zp_bead_at(const ZpBeadPlace *place, const double *value);
+double zp_bead_thickness(const ZpFilmParams *film, const ZpBeadPlace *place, const double *gap);
 
 /* A bead over a step: (gaps at its end [N], volumes pressed out and drawn in at the long edges, m^3) => it there.
  * Nothing is drawn in that is not there. What has no room stays at the edges, too, without being counted as `outside`.

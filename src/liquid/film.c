@@ -8,7 +8,6 @@
 
 #include <math.h>
 
-static const double tension = 1e5;                  /* Pa: a liquid under an atmosphere cavitates */
 static const double give = 1e-6;                    /* m/Pa: a cavity as thick as a millimetre takes 1 % more */
 static const double shortest = 1e-3;                /* of an element: what flows past a meniscus is led so far */
 static const double isolated = 2.35619449019234493; /* 3 pi / 4: r / (H / w) of strips far from each other */
@@ -327,11 +326,11 @@ static void geometry(const ZpFilmParams *p, const ZpFilmEnds *ends, const double
   }
 }
 
-/* Below minus the tension a cavity grows, so that its head hardly falls any more. */
+/* Below minus the zp_film_tension a cavity grows, so that its head hardly falls any more. */
 static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
     e->head[i] = p->share[0] * heads[at_mode(i, 0)] + p->share[1] * heads[at_mode(i, 1)];
-    e->end[cavity_at(i)] = give * fmax(0, -tension - e->head[i]);
+    e->end[cavity_at(i)] = give * fmax(0, -zp_film_tension - e->head[i]);
   }
 }
 
@@ -435,7 +434,7 @@ void zp_film_step(const ZpFilmParams *p, const ZpFilmEnds *ends, const double *g
 /* -- energy ---------------------------------------------------------------------------------------- */
 
 static double energy_of_cavity(double thickness) {
-  return thickness * (tension + 0.5 * thickness / give);
+  return thickness * (zp_film_tension + 0.5 * thickness / give);
 }
 
 double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {

@@ -20,6 +20,8 @@
 
 enum { ZP_FILM_MODES = 2, ZP_FILM_CAVITY = 2 * ZP_FILM_MODES, ZP_FILM_STATE };
 
+static const double zp_film_tension = 1e5; /* Pa: a liquid under an atmosphere stands no more before it cavitates */
+
 typedef struct ZpFilmParams {
   size_t nodes;                  /* N stations */
   double l;                      /* element length, m */

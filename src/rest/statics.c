@@ -114,63 +114,6 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   return info;
 }
 
-/* Has Newton's method found an equilibrium, and none of folded ribbons? Its last stiffness tells, or that of the
- * equilibrium itself; not where laws have unknowns of their own, whose suction may turn the sign. */
-static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
-  if (!zp_newton_good(info.end)) return false;
-  bool tells = info.iterations > 0 && s->assembly.own == 0;
-  return !tells || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
-}
-
-/* The equilibrium found without contact, now with it, where there are faces. */
-static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
-  s->contact_acts = true;
-  if (!zp_newton_good(info.end) || !s->model->field) return info;
-  ZpStaticSystem system = zp_statics_system(s);
-  memcpy(s->good, s->q, 2 * s->model->stride * sizeof *s->q);
-  ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!zp_newton_good(contact.end)) {
-    memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
-    contact = zp_statics_fall(s, 0, work);
-  }
-  contact.iterations += info.iterations;
-  return contact;
-}
-
-ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
-  s->U = 0;
-  s->contact_acts = false;
-  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
-  if (s->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
-  return let_faces_push(s, info, work);
-}
-
-static void open_to(ZpStatics *s, double opening) {
-  s->opening = opening;
-}
-
-/* The same while weight is put on, too: ribbons that sag by more than the opening have no straight shape to start from.
- */
-static void open_and_put_on(ZpStatics *s, double opening) {
-  s->opening = opening;
-  put_on(s, opening / s->held_at);
-}
-
-ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
-  s->U = 0;
-  s->load = 0;
-  s->opening = s->held_at = opening;
-  s->contact_acts = false;
-  lay_straight(s);
-  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(s, info, work)) info = step_by_step(s, open_to, opening, 0.05, work);
-  if (!is_found(s, info, work)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
-  return let_faces_push(s, info, work);
-}
-
 /* Has any gap, with what stands for the insulators, changed since the last good state by so large a share that this is
  * another branch? */
 static bool has_jumped(const ZpStatics *s) {
@@ -192,15 +135,18 @@ static void go_back(ZpStatics *s, ZpNewtonWork *work) {
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
 }
 
-bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  static const double longest = 0.05, shortest = 1e-6; /* shares of the voltage's square, as the force is */
+/* From a stable equilibrium along its branch, with `put(whole, share)` of what grows, by shares of at most `longest`,
+ * to all of it. False if the branch ends before: the last equilibrium is that of the end. */
+static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double whole, double longest,
+                 ZpNewtonWork *work) {
+  static const double shortest = 1e-6;
   ZpStaticSystem system = zp_statics_system(s);
   size_t bytes = 2 * s->model->stride * sizeof *s->q;
   double reached = 0, step = longest;
   memcpy(s->good, s->q, bytes);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
-    s->U = voltage * sqrt(share);
+    put(s, whole, share);
     ZpNewtonEnd end = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work).end;
     if (zp_newton_good(end) && zp_statics_stable(s, work) && !has_jumped(s)) {
       reached = share;
@@ -212,6 +158,89 @@ bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
     }
   }
   return reached == 1;
+}
+
+/* Shares of its square, as the force is. */
+static void put_voltage(ZpStatics *s, double whole, double share) {
+  s->U = whole * sqrt(share);
+}
+
+static void put_suction(ZpStatics *s, double whole, double share) {
+  ((ZpModel *)s->model)->bead.suction = whole * share;
+}
+
+/* The equilibrium found without suction at the menisci, now with it; where that branch ends it draws the faces
+ * together. */
+static ZpNewtonInfo let_menisci_draw(ZpStatics *s, double suction, ZpNewtonInfo info, ZpNewtonWork *work) {
+  bool grown = zp_newton_good(info.end) && suction > 0 && grow(s, put_suction, suction, 1, work);
+  put_suction(s, suction, 1);
+  return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_fall(s, 0, work);
+}
+
+/* Has Newton's method found an equilibrium, and none of folded ribbons? Its last stiffness tells, or that of the
+ * equilibrium itself. */
+static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
+  if (!zp_newton_good(info.end)) return false;
+  return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
+}
+
+/* The equilibrium found without contact, now with it, where there are faces. */
+static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
+  s->contact_acts = true;
+  if (!zp_newton_good(info.end) || !s->model->field) return info;
+  ZpStaticSystem system = zp_statics_system(s);
+  memcpy(s->good, s->q, 2 * s->model->stride * sizeof *s->q);
+  ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (!zp_newton_good(contact.end)) {
+    memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
+    contact = zp_statics_fall(s, 0, work);
+  }
+  contact.iterations += info.iterations;
+  return contact;
+}
+
+ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  double suction = s->model->bead.suction;
+  s->U = 0;
+  s->contact_acts = false;
+  put_suction(s, 0, 1);
+  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
+  if (s->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
+  info = let_faces_push(s, info, work);
+  return let_menisci_draw(s, suction, info, work);
+}
+
+static void open_to(ZpStatics *s, double opening) {
+  s->opening = opening;
+}
+
+/* The same while weight is put on, too: ribbons that sag by more than the opening have no straight shape to start from.
+ */
+static void open_and_put_on(ZpStatics *s, double opening) {
+  s->opening = opening;
+  put_on(s, opening / s->held_at);
+}
+
+ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
+  ZpStaticSystem system = zp_statics_system(s);
+  double suction = s->model->bead.suction;
+  s->U = 0;
+  s->load = 0;
+  s->opening = s->held_at = opening;
+  s->contact_acts = false;
+  put_suction(s, 0, 1);
+  lay_straight(s);
+  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (!is_found(s, info, work)) info = step_by_step(s, open_to, opening, 0.05, work);
+  if (!is_found(s, info, work)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
+  info = let_faces_push(s, info, work);
+  return let_menisci_draw(s, suction, info, work);
+}
+
+bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+  return grow(s, put_voltage, voltage, 0.05, work);
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {
@@ -359,11 +388,11 @@ static void scale_common(const ZpParts *parts, double factor, double *r) {
     r[parts->common[k]] *= factor;
 }
 
-/* The largest force left on one half, N. */
+/* The largest force left on one half, N; NAN where one is. */
 static double largest_of(const ZpAssembly *a, double *r) {
   double largest = 0, halves = (double)(1 + a->parts.more);
   scale_common(&a->parts, 1 / halves, r);
-  for (size_t i = 0; i < a->n; i++)
+  for (size_t i = 0; i < a->n && !isnan(largest); i++)
     if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
   scale_common(&a->parts, halves, r);
   return largest;
@@ -422,7 +451,7 @@ static double length(void *self, const double *step) {
   static const double longest = 0.5; /* rad: what linearised rotations stand */
   const ZpStatics *s = self;
   double most = 0, rotation, stretch;
-  for (size_t j = 0; j < s->model->count - s->model->s; j++) {
+  for (size_t j = 0; j < s->model->count - s->model->s && !isnan(most); j++) {
     turn(s, step, j, &rotation, &stretch);
     if (!(fabs(rotation) <= most)) most = fabs(rotation);
   }

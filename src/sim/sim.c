@@ -263,8 +263,10 @@ static void note_starving(ZpSim *sim) {
   ZpState *state = sim->state;
   if (!model->has_bead || !isnan(state->starved_time) || state->U == 0 || !isnan(state->zip_time)) return;
   const double *gap = sim->dynamics.eval.plates.gap;
-  for (int half = 0; half < zp_beads(&model->film); half++)
-    if (zp_bead_at(&model->film, gap, half, state->bead[half].reach) < model->plates.d) state->starved_time = state->t;
+  for (int half = 0; half < zp_beads(&model->film); half++) {
+    ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);
+    if (zp_bead_at(&end, gap) < model->plates.d) state->starved_time = state->t;
+  }
 }
 
 static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, double end_time) {

@@ -16,22 +16,14 @@ static bool acts(const ZpModel *model) {
   return model->has_bead;
 }
 
-static size_t station_of(const ZpModel *model, int half, size_t k) {
-  return half ? model->nodes - 1 - k : k;
-}
-
-static size_t elements_of(const ZpModel *model) {
-  return model->topology.platform.first;
-}
-
-/* Where a bead ends: behind station `near` of its half, by a part of the element there, or below the platform by a part
- * of its flat faces, and how that part goes with the area to the station and the gaps of both. */
+/* Where a bead ends, and how its part of the element, or of the flat faces, goes with the area to the station before it
+ * and the gaps of both stations. */
 typedef struct End {
-  bool ends;
+  bool ends; /* false: all is wet */
   int half;
-  size_t k, near, far; /* of the half; stations: the same one below the platform */
-  double part;
+  ZpBeadPlace at;
   double g, H;            /* at the meniscus, m */
+  double level;           /* dx/ds there */
   double by_area;         /* of the part, 1/m^2, */
   double by_near, by_far; /* 1/m */
   double length;          /* of what the part is of, m */
@@ -41,50 +33,36 @@ static double rise(const ZpModel *model, const ZpEval *e, size_t i) {
   return zp_film_rise(&model->film, e->plates.gap[i]);
 }
 
-static End end_below_platform(const ZpModel *model, const ZpEval *e, End end, double beyond) {
-  double length = model->film.flat_length;
-  end.near = end.far = station_of(model, end.half, elements_of(model));
-  end.k = elements_of(model);
-  end.ends = e->reach[end.half] < zp_bead_longest(&model->film);
-  end.part = beyond / length;
-  end.length = length;
-  end.g = e->plates.gap[end.near];
-  end.H = zp_film_thickness(&model->film, end.g);
-  end.by_area = -1 / (end.H * length);
-  end.by_near = -end.part / end.H * rise(model, e, end.near);
-  return end;
+/* Below the platform? */
+static bool is_below(const End *end) {
+  return end->at.near == end->at.far;
 }
 
-static End end_of(const ZpModel *model, const ZpEval *e, int half) {
-  double l = model->film.l, along = e->reach[half] / l;
-  End end = {.half = half};
-  if (!(along < (double)elements_of(model)))
-    return end_below_platform(model, e, end, e->reach[half] - (double)elements_of(model) * l);
-  end.ends = true;
-  end.k = (size_t)along;
-  end.near = station_of(model, half, end.k);
-  end.far = station_of(model, half, end.k + 1);
-  end.part = along - (double)end.k;
-  end.length = l;
-  const double *gap = e->plates.gap;
-  double near = zp_film_thickness(&model->film, gap[end.near]), far = zp_film_thickness(&model->film, gap[end.far]);
-  end.g = gap[end.near] + (gap[end.far] - gap[end.near]) * end.part;
-  end.H = near + (far - near) * end.part;
-  end.by_area = -1 / (end.H * l);
-  end.by_near = -(end.part - 0.5 * end.part * end.part) / end.H * rise(model, e, end.near);
-  end.by_far = -0.5 * end.part * end.part / end.H * rise(model, e, end.far);
+static End end_of(const ZpModel *model, const double *x, const ZpEval *e, int half) {
+  const ZpFilmParams *film = &model->film;
+  End end = {.half = half, .at = zp_bead_place(film, half, e->reach[half])};
+  double part = end.at.part, far = is_below(&end) ? 0 : 0.5 * part * part;
+  end.ends = e->reach[half] < zp_bead_longest(film);
+  end.length = is_below(&end) ? film->flat_length : film->l;
+  end.g = zp_bead_at(&end.at, e->plates.gap);
+  end.H = zp_bead_thickness(film, &end.at, e->plates.gap);
+  end.level = zp_term_level(model, &end.at, x);
+  if (!end.ends) return end;
+  end.by_area = -1 / (end.H * end.length);
+  end.by_near = -(part - far) / end.H * rise(model, e, end.at.near);
+  end.by_far = -far / end.H * rise(model, e, end.at.far);
   return end;
 }
 
 /* -- the head at the meniscus ---------------------------------------------------------------------- */
 
-static double released(const ZpModel *model, double U, double g) {
-  return zp_plates_law(&model->air, U, g).P - zp_plates_law(&model->plates, U, g).P;
+static double head_of(const ZpModel *model, double U, const End *end) {
+  return end->ends ? zp_term_meniscus_head(model, U, end->g, end->H, end->level) : 0;
 }
 
-static double head_of(const ZpModel *model, double U, const End *end) {
-  double drawn = released(model, U, end->g) / model->film.w + 2 * model->bead.tension;
-  return end->ends ? -model->bead.suction * drawn / end->H : 0;
+/* A liquid that cavitates has one head, whatever draws it on. */
+static bool cavitates(double head) {
+  return head <= -zp_film_tension;
 }
 
 /* => how it goes with the part, and with the gaps of both stations. */
@@ -94,39 +72,39 @@ typedef struct HeadSlope {
 
 static HeadSlope head_slope(const ZpModel *model, const ZpEval *e, double U, const End *end, double head) {
   double W = zp_plates_law(&model->air, U, end->g).W - zp_plates_law(&model->plates, U, end->g).W;
-  double by_g = -model->bead.suction * W / (model->film.w * end->H), by_H = -head / end->H;
+  double by_g = -model->bead.suction * W * end->level / (model->film.w * end->H), by_H = -head / end->H;
   const double *gap = e->plates.gap;
-  if (end->near == end->far) return (HeadSlope){0, by_g + by_H * rise(model, e, end->near), 0};
-  double dg = gap[end->far] - gap[end->near];
-  double dH = zp_film_thickness(&model->film, gap[end->far]) - zp_film_thickness(&model->film, gap[end->near]);
-  double l = 1 - end->part, r = end->part;
-  return (HeadSlope){by_g * dg + by_H * dH, l * (by_g + by_H * rise(model, e, end->near)),
-                     r * (by_g + by_H * rise(model, e, end->far))};
+  if (is_below(end)) return (HeadSlope){0, by_g + by_H * rise(model, e, end->at.near), 0};
+  double dg = gap[end->at.far] - gap[end->at.near];
+  double dH = zp_film_thickness(&model->film, gap[end->at.far]) - zp_film_thickness(&model->film, gap[end->at.near]);
+  double l = 1 - end->at.part, r = end->at.part;
+  return (HeadSlope){by_g * dg + by_H * dH, l * (by_g + by_H * rise(model, e, end->at.near)),
+                     r * (by_g + by_H * rise(model, e, end->at.far))};
 }
 
 /* -- forces ---------------------------------------------------------------------------------------- */
 
 /* What the thickness at station k of a half counts in the wet area, m. */
 static double wet_share(const ZpModel *model, const End *end, size_t k) {
-  double l = model->film.l, part = end->part, sum = 0;
-  if (k > 0 && (k - 1 < end->k || !end->ends)) sum += 0.5 * l;
-  if (k > 0 && k - 1 == end->k && end->ends && end->near != end->far) sum += 0.5 * part * part * l;
-  if (k < elements_of(model) && (k < end->k || !end->ends)) sum += 0.5 * l;
-  if (k == end->k && end->ends && end->near != end->far) sum += (part - 0.5 * part * part) * l;
-  if (k == elements_of(model) && end->near == end->far) sum += part * end->length;
+  double l = model->film.l, part = end->at.part, sum = 0;
+  if (k > 0 && (k - 1 < end->at.k || !end->ends)) sum += 0.5 * l;
+  if (k > 0 && k - 1 == end->at.k && end->ends && !is_below(end)) sum += 0.5 * part * part * l;
+  if (k < zp_bead_elements(&model->film) && (k < end->at.k || !end->ends)) sum += 0.5 * l;
+  if (k == end->at.k && end->ends && !is_below(end)) sum += (part - 0.5 * part * part) * l;
+  if (k == zp_bead_elements(&model->film) && is_below(end)) sum += part * end->length;
   return sum;
 }
 
 static size_t last_of(const ZpModel *model, const End *end) {
-  size_t far = end->near == end->far ? end->k : end->k + 1;
-  return far < elements_of(model) ? far : elements_of(model);
+  size_t far = is_below(end) ? end->at.k : end->at.k + 1;
+  return far < zp_bead_elements(&model->film) ? far : zp_bead_elements(&model->film);
 }
 
 /* F += head x how the wet area goes with each gap. */
 static void add_head(const ZpModel *model, const ZpEval *e, const End *end, double head, double *F) {
   double *Fy = F + model->stride;
   for (size_t k = 0; k <= last_of(model, end); k++) {
-    size_t i = station_of(model, end->half, k);
+    size_t i = zp_bead_station(&model->film, end->half, k);
     double push = model->film.w * head * wet_share(model, end, k) * rise(model, e, i);
     Fy[zp_upper(&model->topology, i)] += push;
     Fy[zp_lower(&model->topology, i)] -= push;
@@ -140,7 +118,7 @@ static bool draws(const ZpModel *model, const ZpSpan *span) {
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (!draws(model, span)) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    End end = end_of(model, e, half);
+    End end = end_of(model, span->end, e, half);
     add_head(model, e, &end, head_of(model, span->U1, &end), F);
   }
 }
@@ -153,6 +131,16 @@ static void at_gap(const ZpModel *model, const ZpAssembly *a, size_t own, size_t
   zp_assemble_cross(a, own, 2 * zp_lower(&model->topology, i) + 1, row, -value, K);
 }
 
+/* Entries of the x of the nodes between which the bead ends: a row of what goes with dx/ds there. */
+static void by_level(const ZpModel *model, const ZpAssembly *a, const End *end, size_t own, double factor, ZpBand *K) {
+  const ZpTopology *t = &model->topology;
+  double value = 0.5 * factor / model->film.l * (end->at.near < end->at.far ? 1 : -1);
+  for (int lower = 0; lower < 2 && !is_below(end); lower++) {
+    zp_assemble_cross(a, own, 2 * (zp_upper(t, end->at.far) + (size_t)lower), false, value, K);
+    zp_assemble_cross(a, own, 2 * (zp_upper(t, end->at.near) + (size_t)lower), false, -value, K);
+  }
+}
+
 static size_t own_of(size_t i, int which) {
   return 2 * i + (size_t)which;
 }
@@ -160,48 +148,49 @@ static size_t own_of(size_t i, int which) {
 /* The area to each station is that to the one before it and what lies between both. */
 static void areas(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, int half, ZpBand *K) {
   double share = -0.5 * model->film.l / area_scale;
-  for (size_t k = 0; k <= elements_of(model); k++) {
-    size_t i = station_of(model, half, k), own = own_of(i, AREA);
+  for (size_t k = 0; k <= zp_bead_elements(&model->film); k++) {
+    size_t i = zp_bead_station(&model->film, half, k), own = own_of(i, AREA);
     zp_assemble_own(a, own, own, 1, K);
     if (k == 0) continue;
-    size_t before = station_of(model, half, k - 1);
+    size_t before = zp_bead_station(&model->film, half, k - 1);
     zp_assemble_own(a, own, own_of(before, AREA), -1, K);
     at_gap(model, a, own, i, false, share * rise(model, e, i), K);
     at_gap(model, a, own, before, false, share * rise(model, e, before), K);
   }
 }
 
-/* Row `own` has, beside what stands there, -factor times the part where the bead ends. */
+/* Add to row `own`: -factor times the derivative of the part of the element that is wet at the meniscus. */
 static void follow_part(const ZpModel *model, const ZpAssembly *a, const End *end, size_t own, double factor,
                         ZpBand *K) {
-  zp_assemble_own(a, own, own_of(end->near, AREA), -factor * end->by_area * area_scale, K);
-  at_gap(model, a, own, end->near, false, -factor * end->by_near, K);
-  if (end->far != end->near) at_gap(model, a, own, end->far, false, -factor * end->by_far, K);
+  zp_assemble_own(a, own, own_of(end->at.near, AREA), -factor * end->by_area * area_scale, K);
+  at_gap(model, a, own, end->at.near, false, -factor * end->by_near, K);
+  if (!is_below(end)) at_gap(model, a, own, end->at.far, false, -factor * end->by_far, K);
 }
 
 /* The head at each wet station is that at the next one, at the last that of the meniscus; elsewhere it is 0. */
 static void heads(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end, ZpBand *K) {
   double head = head_of(model, U, end);
-  for (size_t k = 0; k <= elements_of(model); k++) {
-    size_t own = own_of(station_of(model, end->half, k), HEAD);
+  for (size_t k = 0; k <= zp_bead_elements(&model->film); k++) {
+    size_t own = own_of(zp_bead_station(&model->film, end->half, k), HEAD);
     zp_assemble_own(a, own, own, 1, K);
-    if (k < end->k) zp_assemble_own(a, own, own_of(station_of(model, end->half, k + 1), HEAD), -1, K);
+    if (k < end->at.k) zp_assemble_own(a, own, own_of(zp_bead_station(&model->film, end->half, k + 1), HEAD), -1, K);
   }
-  if (!end->ends) return;
-  size_t own = own_of(end->near, HEAD);
+  if (!end->ends || cavitates(head)) return;
+  size_t own = own_of(end->at.near, HEAD);
   HeadSlope slope = head_slope(model, e, U, end, head);
   follow_part(model, a, end, own, slope.by_part / head_scale, K);
-  at_gap(model, a, own, end->near, false, -slope.by_near / head_scale, K);
-  if (end->far != end->near) at_gap(model, a, own, end->far, false, -slope.by_far / head_scale, K);
+  by_level(model, a, end, own, -zp_term_electric_head(model, U, end->g, end->H) / head_scale, K);
+  at_gap(model, a, own, end->at.near, false, -slope.by_near / head_scale, K);
+  if (!is_below(end)) at_gap(model, a, own, end->at.far, false, -slope.by_far / head_scale, K);
 }
 
 /* A force on coordinate c that goes with the part where the bead ends, N. */
 static void part_acts(const ZpModel *model, const ZpAssembly *a, const End *end, size_t c, double by_part, ZpBand *K) {
   const ZpTopology *t = &model->topology;
-  const size_t station[] = {end->near, end->far};
+  const size_t station[] = {end->at.near, end->at.far};
   const double by_gap[] = {end->by_near, end->by_far};
-  zp_assemble_cross(a, own_of(end->near, AREA), c, true, -by_part * end->by_area * area_scale, K);
-  for (int m = 0; m < (end->near == end->far ? 1 : 2); m++) {
+  zp_assemble_cross(a, own_of(end->at.near, AREA), c, true, -by_part * end->by_area * area_scale, K);
+  for (int m = 0; m < (is_below(end) ? 1 : 2); m++) {
     zp_assemble_entry(a, c, 2 * zp_upper(t, station[m]) + 1, -by_part * by_gap[m], K);
     zp_assemble_entry(a, c, 2 * zp_lower(t, station[m]) + 1, by_part * by_gap[m], K);
   }
@@ -211,7 +200,8 @@ static void part_acts(const ZpModel *model, const ZpAssembly *a, const End *end,
 static void attraction(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end,
                        ZpBand *K) {
   const ZpTopology *t = &model->topology;
-  size_t left = end->near < end->far ? end->near : end->far, right = end->near < end->far ? end->far : end->near;
+  size_t left = end->at.near < end->at.far ? end->at.near : end->at.far,
+         right = end->at.near < end->at.far ? end->at.far : end->at.near;
   if (left == right) {
     double W = zp_plates_law(&model->plates, U, end->g).W - zp_plates_law(&model->air, U, end->g).W;
     part_acts(model, a, end, 2 * zp_upper(t, left) + 1, -model->plates.flat_length * W, K);
@@ -234,17 +224,17 @@ static void attraction(const ZpModel *model, const ZpAssembly *a, const ZpEval *
 static void suction_at(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, const End *end, double head,
                        size_t k, ZpBand *K) {
   const ZpTopology *t = &model->topology;
-  size_t i = station_of(model, end->half, k), wet = k > end->k ? end->near : i;
+  size_t i = zp_bead_station(&model->film, end->half, k), wet = k > end->at.k ? end->at.near : i;
   double w = model->film.w, share = wet_share(model, end, k), gap = e->plates.gap[i];
   double bend = -w * head * share * zp_film_bend(&model->film, gap), slope = rise(model, e, i);
   zp_assemble_heights(a, i, bend, bend, 0, K);
   zp_assemble_entry(a, 2 * zp_upper(t, i) + 1, 2 * zp_lower(t, i) + 1, -bend, K);
   zp_assemble_entry(a, 2 * zp_lower(t, i) + 1, 2 * zp_upper(t, i) + 1, -bend, K);
   at_gap(model, a, own_of(wet, HEAD), i, true, -w * share * slope * head_scale, K);
-  if (i != end->near && i != end->far) return;
-  double by_part = end->near == end->far ? end->length
-                   : i == end->near      ? end->length * (1 - end->part)
-                                         : end->length * end->part;
+  if (i != end->at.near && i != end->at.far) return;
+  double by_part = is_below(end)       ? end->length
+                   : i == end->at.near ? end->length * (1 - end->at.part)
+                                       : end->length * end->at.part;
   part_acts(model, a, end, 2 * zp_upper(t, i) + 1, w * head * slope * by_part, K);
   part_acts(model, a, end, 2 * zp_lower(t, i) + 1, -w * head * slope * by_part, K);
 }
@@ -252,7 +242,7 @@ static void suction_at(const ZpModel *model, const ZpAssembly *a, const ZpEval *
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
   if (!zp_span_is_still(span) || a->own == 0) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    End end = end_of(model, e, half);
+    End end = end_of(model, span->end, e, half);
     double head = head_of(model, span->U1, &end);
     areas(model, a, e, half, K);
     heads(model, a, e, span->U1, &end, K);
@@ -267,9 +257,10 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   if (!draws(model, span)) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    End end = end_of(model, e, half);
+    End end = end_of(model, span->end, e, half);
     double charge = zp_plates_law(&model->plates, span->U1, end.g).q - zp_plates_law(&model->air, span->U1, end.g).q;
-    double by_U = end.ends ? -model->bead.suction * charge / (model->film.w * end.H) : 0;
+    bool moves = end.ends && !cavitates(head_of(model, span->U1, &end));
+    double by_U = moves ? -model->bead.suction * charge * end.level / (model->film.w * end.H) : 0;
     add_head(model, e, &end, by_U, sum->force);
   }
 }

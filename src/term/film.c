@@ -35,23 +35,22 @@ static ZpFilmEnds ends_of(const ZpModel *model, const ZpEval *e) {
   return (ZpFilmEnds){cover, e->open, {e->meniscus[0], e->meniscus[1]}};
 }
 
-/* Head at a meniscus, Pa, eq. (22.17): what the field and the surface of the liquid draw it on with. */
-static double meniscus_head(const ZpModel *model, double U0, double U1, double gap, double H) {
-  double drawn = 0;
-  const double U[] = {U0, U1};
-  for (int k = 0; k < 2; k++)
-    drawn += 0.5 * (zp_plates_law(&model->air, U[k], gap).P - zp_plates_law(&model->plates, U[k], gap).P);
-  return -model->bead.suction * (drawn / model->film.w + 2 * model->bead.tension) / H;
+/* In the middle of the step, foreseen; a mean over both voltages. */
+static double meniscus_head(const ZpModel *model, const ZpSpan *span, const ZpEval *e, int half) {
+  const ZpFilmParams *film = &model->film;
+  ZpBeadPlace at = zp_bead_place(film, half, e->reach[half]);
+  double gap = zp_bead_at(&at, e->plates_start.gap), H = zp_bead_thickness(film, &at, e->plates_start.gap);
+  double moved = fmax(0.5 * span->h * zp_bead_at(&at, e->film.rate), -0.5 * H);
+  double level = zp_term_level(model, &at, span->start);
+  if (span->w && at.near != at.far) level += 0.5 * span->h * zp_term_level(model, &at, span->w);
+  return 0.5 * (zp_term_meniscus_head(model, span->U0, gap + moved, H + moved, level) +
+                zp_term_meniscus_head(model, span->U1, gap + moved, H + moved, level));
 }
 
-/* In the middle of the step, foreseen. */
 static void find_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    const double *start = e->plates_start.gap, reach = e->reach[half];
-    double gap = zp_bead_at(&model->film, start, half, reach), H = zp_bead_thickness(&model->film, start, half, reach);
-    double moved = fmax(0.5 * span->h * zp_bead_at(&model->film, e->film.rate, half, reach), -0.5 * H);
-    bool ends = model->has_bead && model->bead.suction > 0 && reach < zp_bead_longest(&model->film);
-    e->meniscus[half] = ends ? meniscus_head(model, span->U0, span->U1, gap + moved, H + moved) : 0;
+    bool ends = model->has_bead && model->bead.suction > 0 && e->reach[half] < zp_bead_longest(&model->film);
+    e->meniscus[half] = ends ? meniscus_head(model, span, e, half) : 0;
   }
 }
 

@@ -19,6 +19,24 @@ void zp_term_gaps(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   zp_eval_cover(model, e->reach, e);
 }
 
+double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double *x) {
+  const ZpTopology *t = &model->topology;
+  if (end->near == end->far) return 1;
+  double along =
+      x[zp_upper(t, end->far)] - x[zp_upper(t, end->near)] + x[zp_lower(t, end->far)] - x[zp_lower(t, end->near)];
+  return (end->near < end->far ? along : -along) / (2 * model->film.l);
+}
+
+double zp_term_electric_head(const ZpModel *model, double U, double g, double H) {
+  double released = zp_plates_law(&model->air, U, g).P - zp_plates_law(&model->plates, U, g).P;
+  return -model->bead.suction * released / (model->film.w * H);
+}
+
+double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level) {
+  double head = level * zp_term_electric_head(model, U, g, H) - 2 * model->bead.suction * model->bead.tension / H;
+  return fmax(head, -zp_film_tension);
+}
+
 ZP_KERNEL static void add(size_t stride, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
   ZP_SIMD
   for (size_t j = 0; j < stride; j++) {

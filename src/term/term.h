@@ -89,6 +89,17 @@ void zp_weight_by_load(const ZpModel *model, double *F);
 /* Gaps and, with a bead, where liquid is: at the end of a span, over a step in its middle => eval. */
 void zp_term_gaps(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
+/* How much of an element's length lies along x where a bead ends, dx/ds, of nodes at x: the field's potential is
+ * counted per x, the liquid per length of the ribbons. */
+double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double *x);
+
+/* Head of the liquid at a meniscus where the gap is g and the film's thickness H, Pa, eq. (22.17): what field and
+ * surface draw it on with, as far as bead.suction lets it act. Below 0: suction. And that of the field alone on level
+ * ribbons.
+ */
+double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level);
+double zp_term_electric_head(const ZpModel *model, double U, double g, double H);
+
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);
 
