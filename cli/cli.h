@@ -17,8 +17,9 @@ typedef struct Options {
   const char *scenario; /* NULL: the defaults */
   const char **set;     /* [sets] values of --set, in order */
   int sets;
-  const char *directory; /* NULL: out/STUDY */
+  const char *directory; /* what -o names; NULL: out/STUDY */
   int jobs;              /* processors to use; 0: all */
+  int fmi;               /* version of FMI that was asked for; 0: none */
   bool resume, no_plots, json, yaml, quiet, help;
 } Options;
 
@@ -37,6 +38,7 @@ int cli_flush(int status);
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
 int cli_batch(const Options *options);
+int cli_fmu(const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);
 int cli_reproduce(const Options *options);

@@ -32,7 +32,10 @@ MAY_INCLUDE = {
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "sim": ["rest", "paper/motion", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
+    "fmu": ["sim", "actuator", "def", "base"],
+    "fmu/export": ["fmu", "sim", "actuator", "def", "base"],
     "io": ["base"],
+    "fmupack": ["io", "fmu", "fmu/export", "base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
     "campaign": ["fit", "io", "base"],
     "reproduce": ["fit", "io", "base"],
@@ -64,9 +67,10 @@ PUBLIC = {
     "calibrate.h": "fit",
     "batch.h": "fit",
     "campaign.h": "campaign",
+    "fmu.h": "fmupack",
 }
 
-ABOVE_CORE = ("io", "fit", "campaign", "reproduce", "cli")  # may use libraries, files and streams
+ABOVE_CORE = ("io", "fmupack", "fit", "campaign", "reproduce", "cli")  # may use libraries, files and streams
 
 LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
 

@@ -27,7 +27,8 @@ typedef enum ZpOutcome {
   ZP_BRANCH_LOST,   /* "branch_lost": a branch could not be followed further */
   ZP_BAD_ARGUMENT,  /* "bad_argument": a call asked for what cannot be; nothing was done */
   ZP_SHORT_CIRCUIT, /* "short_circuit": electrodes without an insulator touched under a voltage */
-  ZP_PULLED_IN      /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
+  ZP_PULLED_IN,     /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
+  ZP_EVENT          /* "event": zp_sim_step_to_event has ended at an event */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" of any other number. */
@@ -100,6 +101,11 @@ ZP_API ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, 
  * repeated, would shake what vibrates near the bound of stability until the numbers diverge. */
 ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
+/* The same, but the run ends with ZP_EVENT after the first step in which the actuator has closed, an input has reached
+ * the end of its range, the voltage had a corner, or the supply has reached or left a limit. The steps are those of
+ * zp_sim_step up to there. */
+ZP_API ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
+
 /* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
  * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
  * that is replaced before the simulation continues counts for nothing (unless a field had to be solved for it); an
@@ -125,6 +131,13 @@ ZP_API const char *zp_input_name(ZpInput input);
  * load_work. ZP_BAD_INPUT, and nothing is changed, if the value is out of range, if the rate is, or there is no such
  * input; of a voltage that is or becomes other than 0 also as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
+
+/* The derivatives of all signals by an input at this instant, while nothing moves, SI, in the order of
+ * zp_signal_columns: what a small jump of the input changes at once (docs/theory.md, section 17). Changes nothing.
+ * Signals follow the voltage as polynomials of second degree, so the central difference that is taken is their
+ * derivative up to rounding; where the breakdown cap begins to act, up to 1e-6 of it. ZP_BAD_INPUT if there is no such
+ * input. */
+ZP_API ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err);
 
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
  * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */

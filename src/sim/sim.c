@@ -10,16 +10,16 @@
 #include "sim/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
-                                      "diverged",    "step_limit",   "converged",     "followed",
-                                      "branch_lost", "bad_argument", "short_circuit", "pulled_in"};
+  static const char *const names[] = {"end_time",      "zipped",    "interrupted", "not_settled", "diverged",
+                                      "step_limit",    "converged", "followed",    "branch_lost", "bad_argument",
+                                      "short_circuit", "pulled_in", "event"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
   return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
-         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN;
+         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -327,6 +327,11 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
 }
 
+/* What may be an event, counted. */
+static int64_t events_of(const ZpSim *sim, const ZpRunInfo *info) {
+  return info->limited[ZP_LIMIT_EVENT] + !isnan(sim->state->zip_time);
+}
+
 static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
   enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
@@ -334,6 +339,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   ZpState *state = sim->state;
   double start = state->t, interval = sampling_interval(model), next_sample = start + interval;
   bool recording = sim->series || sim->shapes;
+  const int64_t events = events_of(sim, info);
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
@@ -355,6 +361,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     }
     if (shorted(model, state)) return ZP_SHORT_CIRCUIT;
     if (stop_when_zipped && model->field && closed(model, state)) return ZP_ZIPPED;
+    if (sim->stops_at_events && events_of(sim, info) > events) return diverged(model, state) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(model, state) ? ZP_DIVERGED : ZP_REACHED_END;
 }
@@ -399,6 +406,9 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_BRANCH_LOST:
   case ZP_PULLED_IN:
     break; /* of studies of rest */
+  case ZP_EVENT:
+    snprintf(text, size, "an event at %g s", t);
+    break;
   case ZP_BAD_ARGUMENT:
     snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
     break;
@@ -452,6 +462,13 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
   sim->paper.longest = dt / ceil(dt / longest) * (1 + rounding);
   ZpOutcome outcome = zp_sim_run(sim, end, false, hooks, info);
   sim->paper.longest = INFINITY;
+  return outcome;
+}
+
+ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info) {
+  sim->stops_at_events = true;
+  ZpOutcome outcome = zp_sim_step(sim, dt, hooks, info);
+  sim->stops_at_events = false;
   return outcome;
 }
 

@@ -59,6 +59,7 @@ struct ZpSim {
   ZpDynamics dynamics;        /* by implicit steps, */
   ZpPaperMotion paper;        /* or by the paper's */
   bool stuck;                 /* no step was found */
+  bool stops_at_events;       /* the run ends at the first one */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
