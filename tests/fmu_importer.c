@@ -204,8 +204,8 @@ void *fmu_function(const Fmu *fmu, const char *name) {
 
 /* Call a function of either version: CALL(instance, DoStep, (arguments of FMI 2), (arguments of FMI 3)). */
 #define FUNCTION(fmu, whole, name) ((__typeof__(&whole))fmu_function(fmu, name))
-#define CALL2(name, ...) (int)FUNCTION(instance->fmu, fmi2##name, #name)(instance->handle, ##__VA_ARGS__)
-#define CALL3(name, ...) (int)FUNCTION(instance->fmu, fmi3##name, #name)(instance->handle, ##__VA_ARGS__)
+#define CALL2(name, ...)           (int)FUNCTION(instance->fmu, fmi2##name, #name)(instance->handle, ##__VA_ARGS__)
+#define CALL3(name, ...)           (int)FUNCTION(instance->fmu, fmi3##name, #name)(instance->handle, ##__VA_ARGS__)
 
 static bool is_two(const Instance *instance) {
   return instance->fmu->version == 2;
@@ -327,8 +327,7 @@ int fmu_state_size(Instance *instance, void *state, size_t *size) {
 }
 
 int fmu_serialize(Instance *instance, void *state, void *bytes, size_t size) {
-  return is_two(instance) ? CALL2(SerializeFMUstate, state, bytes, size)
-                          : CALL3(SerializeFMUState, state, bytes, size);
+  return is_two(instance) ? CALL2(SerializeFMUstate, state, bytes, size) : CALL3(SerializeFMUState, state, bytes, size);
 }
 
 int fmu_deserialize(Instance *instance, const void *bytes, size_t size, void **state) {

@@ -1,5 +1,5 @@
-/* An importer of FMUs for the tests: unpacks one, reads modelDescription.xml, loads the binary, and calls FMI 2 and FMI 3
- * by the same functions. What it knows of an FMU it knows from that file. */
+/* An importer of FMUs for the tests: unpacks one, reads modelDescription.xml, loads the binary, and calls FMI 2 and FMI
+ * 3 by the same functions. What it knows of an FMU it knows from that file. */
 #ifndef ZP_TESTS_FMU_IMPORTER_H
 #define ZP_TESTS_FMU_IMPORTER_H
 

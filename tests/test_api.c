@@ -378,6 +378,7 @@ START_TEST(words_of_no_outcome) {
   for (size_t k = 0; k < sizeof beyond / sizeof beyond[0]; k++)
     ck_assert_str_eq(zp_outcome_name((ZpOutcome)beyond[k]), "unknown");
   ck_assert_str_eq(zp_outcome_name(ZP_PULLED_IN), "pulled_in");
+  ck_assert_str_eq(zp_outcome_name(ZP_EVENT), "event");
   ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_COUNT), "unknown");
   ck_assert_str_eq(zp_step_limit_name((ZpStepLimit)-1), "unknown");
 }

@@ -147,6 +147,16 @@ ZP_API double zp_sim_get(ZpSim *sim, const char *name);
  * row at an earlier time, so that current times time adds up to the charge, jumps of the voltage included. */
 ZP_API void zp_sim_read(ZpSim *sim, double *row);
 
+/* Where the mean current and the mean power of the next row count from. A snapshot does not have it: a restored
+ * simulation counts from the time of the snapshot on, unless this is set again. */
+typedef struct ZpRowStart {
+  double time;   /* s */
+  double charge; /* that the source had given, of one modelled part, C */
+  double energy; /* that it had given, J */
+} ZpRowStart;
+ZP_API ZpRowStart zp_sim_row_start(const ZpSim *sim);
+ZP_API void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start);
+
 /* Present shape; its pointers are valid until the simulation continues. */
 ZP_API ZpShape zp_sim_shape(ZpSim *sim);
 

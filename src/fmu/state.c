@@ -2,7 +2,7 @@
  *
  *   mark, sum of all that follows, size, phase, whether a snapshot follows, whether outputs are out of date (8 bytes
  *   each)
- *   start time, time, inputs, their rates, parameters, outputs (doubles)
+ *   where the next row begins; start time, time, inputs, their rates, parameters, outputs (doubles)
  *   snapshot of the simulation, if it is prepared */
 #include <string.h>
 
@@ -15,6 +15,7 @@ static const uint64_t mark = UINT64_C(0x31756d667a70); /* "pzfmu1" */
 
 typedef struct Head {
   uint64_t mark, sum, size, phase, prepared, stale;
+  ZpRowStart row_start;
   double value[DOUBLES];
 } Head;
 
@@ -60,6 +61,7 @@ void zp_fmu_save(const ZpFmu *fmu, void *bytes) {
   for (int key = 0; key < ZP_FMU_KEYS; key++)
     *to++ = zp_fmu_has_number(key) ? zp_def_get(&fmu->def, key) : 0;
   put(to, fmu->row, ZP_FMU_SIGNALS);
+  if (fmu->prepared) head.row_start = zp_sim_row_start(fmu->sim);
   memcpy(byte, &head, sizeof head);
   if (fmu->prepared) zp_sim_save(fmu->sim, byte + sizeof head);
   head.sum = sum_behind_sum(byte, (size_t)head.size);
@@ -81,10 +83,11 @@ static ZpStatus take_def(const ZpFmu *fmu, const double *value, ZpActuatorDef *d
 }
 
 /* The model of these parameters, and its simulation in the state of the snapshot. */
-static ZpStatus restore(ZpFmu *fmu, const unsigned char *snapshot, size_t size, ZpError *err) {
+static ZpStatus restore(ZpFmu *fmu, ZpRowStart row_start, const unsigned char *snapshot, size_t size, ZpError *err) {
   ZpStatus status = zp_fmu_need_model(fmu, err);
   if (status == ZP_OK) status = zp_sim_restore(fmu->sim, snapshot, size, err);
   fmu->prepared = status == ZP_OK;
+  if (fmu->prepared) zp_sim_set_row_start(fmu->sim, row_start);
   return status;
 }
 
@@ -103,7 +106,8 @@ ZpStatus zp_fmu_load(ZpFmu *fmu, const void *bytes, size_t size, ZpError *err) {
   from = take(from, fmu->input, ZP_INPUT_COUNT);
   take(from, fmu->rate, ZP_INPUT_COUNT);
   fmu->prepared = false;
-  if (head.prepared) status = restore(fmu, (const unsigned char *)bytes + sizeof head, size - sizeof head, err);
+  if (head.prepared)
+    status = restore(fmu, head.row_start, (const unsigned char *)bytes + sizeof head, size - sizeof head, err);
   take(parameters + ZP_FMU_KEYS, fmu->row, ZP_FMU_SIGNALS);
   fmu->phase = status == ZP_OK ? (ZpFmuPhase)head.phase : ZP_FMU_FAILED;
   fmu->stale = head.stale != 0;

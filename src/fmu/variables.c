@@ -30,9 +30,9 @@ bool zp_fmu_is_output(int index) {
 }
 
 bool zp_fmu_follows(int index, ZpInput input) {
-  static const char *const electric[] = {"voltage",       "force",         "charge",         "electric_work",
-                                         "field_energy",  "charging_loss", "command",        "source_voltage",
-                                         "source_energy", "leak_current",  "insulator_field"};
+  static const char *const electric[] = {"voltage",       "force",         "charge",          "electric_work",
+                                         "field_energy",  "charging_loss", "command",         "source_voltage",
+                                         "source_energy", "leak_current",  "insulator_field", "energy_imbalance"};
   return input == ZP_INPUT_VOLTAGE && is_one_of(signals[index], electric, sizeof electric / sizeof electric[0]);
 }
 

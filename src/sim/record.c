@@ -216,6 +216,16 @@ static void make_row(ZpSim *sim) {
   sim->row_energy = sim->row[SIGNAL_source_energy];
 }
 
+ZpRowStart zp_sim_row_start(const ZpSim *sim) {
+  return (ZpRowStart){sim->row_time, sim->row_charge, sim->row_energy};
+}
+
+void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start) {
+  sim->row_time = start.time;
+  sim->row_charge = start.charge;
+  sim->row_energy = start.energy;
+}
+
 void zp_sim_start_row(ZpSim *sim) {
   const ZpState *state = sim->state;
   bool fed = zp_sim_is_fed(sim);

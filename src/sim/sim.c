@@ -283,15 +283,19 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
     latest = fmin(latest, corner);
   }
   Start start = two ? start_of(model, state) : (Start){0, 0, 0};
+  const size_t mode = state->supply_mode;
+  const bool unzipped = isnan(state->zip_time);
   if (!prepare_step(sim)) return;
   ZpStepLimit limit;
   sim->stuck = !sim->stepping->step(sim, latest, &limit);
   if (sim->stuck) return;
   info->steps++;
-  info->limited[limit_of(sim, limit, corner, end_time)]++;
+  limit = limit_of(sim, limit, corner, end_time);
+  info->limited[limit]++;
   follow_voltage(sim);
   if (two) note_closing(sim, start);
   note_starving(sim);
+  sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(state->zip_time));
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -327,11 +331,6 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
 }
 
-/* What may be an event, counted. */
-static int64_t events_of(const ZpSim *sim, const ZpRunInfo *info) {
-  return info->limited[ZP_LIMIT_EVENT] + !isnan(sim->state->zip_time);
-}
-
 static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
   enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
@@ -339,7 +338,6 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   ZpState *state = sim->state;
   double start = state->t, interval = sampling_interval(model), next_sample = start + interval;
   bool recording = sim->series || sim->shapes;
-  const int64_t events = events_of(sim, info);
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
@@ -361,7 +359,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     }
     if (shorted(model, state)) return ZP_SHORT_CIRCUIT;
     if (stop_when_zipped && model->field && closed(model, state)) return ZP_ZIPPED;
-    if (sim->stops_at_events && events_of(sim, info) > events) return diverged(model, state) ? ZP_DIVERGED : ZP_EVENT;
+    if (sim->stops_at_events && sim->at_event) return diverged(model, state) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(model, state) ? ZP_DIVERGED : ZP_REACHED_END;
 }

@@ -60,6 +60,7 @@ struct ZpSim {
   ZpPaperMotion paper;        /* or by the paper's */
   bool stuck;                 /* no step was found */
   bool stops_at_events;       /* the run ends at the first one */
+  bool at_event;              /* the last step has ended at one */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
