@@ -341,7 +341,7 @@ ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
 void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan) {
   fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiBuildDescription fmiVersion=\"3.0\">\n"
         "  <BuildConfiguration modelIdentifier=\"" ZP_FMU_IDENTIFIER "\">\n"
-        "    <SourceFileSet language=\"C99\" compilerOptions=\"-ffp-contract=off\">\n",
+        "    <SourceFileSet language=\"C99\" compilerOptions=\"-ffp-contract=off -fopenmp-simd\">\n",
         file);
   put_sources(file, plan, "SourceFile");
   fputs("      <IncludeDirectory name=\".\"/>\n    </SourceFileSet>\n"
