@@ -139,6 +139,21 @@ ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double
  * input. */
 ZP_API ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err);
 
+/* A controller of the program's own: at equal intervals it says what the voltage is to be. */
+typedef struct ZpController {
+  double period; /* s from one sample to the next; 1e-9 to 1e4 */
+  void *user;    /* handed to the function below: what the controller keeps from sample to sample */
+  /* (the simulation, to be read from only: zp_sim_get, zp_sim_read, zp_sim_shape; its time, s) => voltage from now on,
+   * V, range of drive.voltage. Any other ends the run with ZP_BAD_ARGUMENT and a message. */
+  double (*voltage)(void *user, ZpSim *sim, double time);
+} ZpController;
+
+/* From now on this controller, which is copied, is asked where a run begins that starts at the present time, and every
+ * period from there: each run of the simulation takes its steps to these instants, which no caller needs to know. They
+ * stay the same when another state is restored; what is behind `user` is the program's to restore. NULL: none any more,
+ * and the voltage stays. ZP_BAD_INPUT if the period is out of range or there is no function. */
+ZP_API ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpError *err);
+
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
  * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */
 ZP_API double zp_sim_get(ZpSim *sim, const char *name);

@@ -149,7 +149,7 @@ static double next_corner(const ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  return fmin(voltage, zp_ramp_corner(&state->load_input, state->t));
+  return fmin(fmin(voltage, zp_control_due(sim)), zp_ramp_corner(&state->load_input, state->t));
 }
 
 /* Longest step for an input by hand whose size matters from `least` on, s; never so short that time stands still. */
@@ -341,6 +341,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
+    if (!zp_control_sample(sim)) return ZP_BAD_ARGUMENT;
     keep_before_cut(sim, end_time);
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
@@ -408,7 +409,10 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     snprintf(text, size, "an event at %g s", t);
     break;
   case ZP_BAD_ARGUMENT:
-    snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
+    if (sim->settled == ZP_REACHED_END)
+      snprintf(text, size, "the controller's voltage at %g s: %.200s", t, sim->control.fault.message);
+    else
+      snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
     break;
   }
 }
@@ -484,6 +488,7 @@ void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   zp_sim_start_row(sim);
+  zp_control_resume(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
   sim->cut = false;
