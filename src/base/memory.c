@@ -31,7 +31,7 @@ static void *block_of(void *memory) {
 #endif
 
 void *zp_calloc(size_t count, size_t size) {
-  if (size && count > (SIZE_MAX - 2 * ZP_ALIGNMENT) / size) return NULL;
+  if (size && count > (SIZE_MAX - (size_t)2 * ZP_ALIGNMENT) / size) return NULL;
   size_t bytes = (count * size + ZP_ALIGNMENT - 1) / ZP_ALIGNMENT * ZP_ALIGNMENT;
   if (bytes == 0) bytes = ZP_ALIGNMENT;
   void *memory = allocate(bytes);

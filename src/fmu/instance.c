@@ -203,7 +203,8 @@ ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpE
   if (!(dt > 0) || isinf(dt))
     return zp_fail(err, ZP_BAD_INPUT, "a step to %.17g s: the simulation is at %.17g s", end, fmu->time);
   ZpRunInfo info;
-  ZpOutcome outcome = (to_event ? zp_sim_step_to_event : zp_sim_step)(fmu->sim, dt, NULL, &info);
+  ZpOutcome outcome =
+      to_event ? zp_sim_step_to_event(fmu->sim, dt, NULL, &info) : zp_sim_step(fmu->sim, dt, NULL, &info);
   read_row(fmu);
   double reached = fmu->row[ZP_FMU_SIGNAL_time];
   fmu->time = reached < before + dt ? fmu->start_time + reached : end;

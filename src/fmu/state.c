@@ -9,7 +9,7 @@
 #include "base/fail.h"
 #include "fmu/instance.h"
 
-enum { DOUBLES = 2 + 2 * ZP_INPUT_COUNT + ZP_FMU_KEYS + ZP_FMU_SIGNALS };
+enum { BEFORE_PARAMETERS = 2 + 2 * ZP_INPUT_COUNT, DOUBLES = BEFORE_PARAMETERS + ZP_FMU_KEYS + ZP_FMU_SIGNALS };
 
 static const uint64_t mark = UINT64_C(0x31756d667a70); /* "pzfmu1" */
 
@@ -95,7 +95,7 @@ ZpStatus zp_fmu_load(ZpFmu *fmu, const void *bytes, size_t size, ZpError *err) {
   Head head;
   if (size < sizeof head) return zp_fail(err, ZP_BAD_INPUT, "the state is cut short: %zu bytes", size);
   memcpy(&head, bytes, sizeof head);
-  const double *parameters = head.value + 2 + 2 * ZP_INPUT_COUNT, *from = head.value;
+  const double *parameters = head.value + BEFORE_PARAMETERS, *from = head.value;
   ZpActuatorDef def;
   ZpStatus status = check(&head, bytes, size, err);
   if (status == ZP_OK) status = take_def(fmu, parameters, &def, err);

@@ -3,7 +3,6 @@
 
 #include <ctype.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Symbol {
@@ -42,10 +41,8 @@ bool zp_base_units(const char *unit, ZpBaseUnits *powers) {
     const Symbol *symbol = find(unit, length);
     if (!symbol) return false;
     unit += length;
-    char *end;
-    long exponent = isdigit((unsigned char)*unit) ? strtol(unit, &end, 10) : (end = (char *)(size_t)unit, 1);
-    multiply(powers, &symbol->powers, sign * (int)exponent);
-    unit = end;
+    int exponent = isdigit((unsigned char)*unit) ? *unit++ - '0' : 1;
+    multiply(powers, &symbol->powers, sign * exponent);
   }
   return true;
 }

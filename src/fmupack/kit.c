@@ -29,13 +29,11 @@ static ZpStatus visit(const char *root, const char *below, const char *name, ZpK
   struct stat info;
   char *inner = *below ? zp_path_join(below, name) : strdup(name), *path = inner ? zp_path_join(root, inner) : NULL;
   ZpStatus status = ZP_OK;
-  if (!path)
-    status = zp_fail_memory(err);
-  else if (stat(path, &info) != 0)
+  if (path && stat(path, &info) != 0)
     status = zp_fail(err, ZP_MACHINE, "%.300s: cannot be read: %s", path, strerror(errno));
-  else if (S_ISDIR(info.st_mode))
+  else if (path && S_ISDIR(info.st_mode))
     status = walk(root, inner, names, err);
-  else if (!add(names, strdup(inner)))
+  else if (!path || !add(names, strdup(inner)))
     status = zp_fail_memory(err);
   free(inner);
   free(path);

@@ -21,7 +21,7 @@ const char *fmi2GetVersion(void) {
 /* -- life ------------------------------------------------------------------------------------------ */
 
 static void hand_over(const ZpSlave *slave, ZpSlaveStatus status, const char *category, const char *message) {
-  const fmi2CallbackFunctions *functions = slave->environment;
+  const fmi2CallbackFunctions *functions = slave->functions;
   functions->logger(functions->componentEnvironment, slave->name, (fmi2Status)status, category, "%s", message);
 }
 
@@ -30,7 +30,7 @@ fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String gui
   (void)resources, (void)visible;
   const ZpSlave like = {.log = functions && functions->logger ? hand_over : NULL,
                         .logging = logging != fmi2False,
-                        .environment = functions};
+                        .functions = functions};
   return type == fmi2CoSimulation ? zp_slave_create(&like, instance, guid) : NULL;
 }
 

@@ -19,7 +19,7 @@ const char *fmi3GetVersion(void) {
 
 static void hand_over(const ZpSlave *slave, ZpSlaveStatus status, const char *category, const char *message) {
   fmi3LogMessageCallback hand = (fmi3LogMessageCallback)slave->callback;
-  hand((fmi3InstanceEnvironment)(size_t)slave->environment, (fmi3Status)status, category, message);
+  hand(slave->environment, (fmi3Status)status, category, message);
 }
 
 fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
@@ -68,7 +68,7 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t cou
 
 /* From one of `phases` to another. */
 static fmi3Status move(ZpSlave *slave, unsigned phases, ZpFmuPhase next, const char *what) {
-  if (!zp_slave_allows(slave, phases, what)) return fmi3Error;
+  if (!slave || !zp_slave_allows(slave, phases, what)) return fmi3Error;
   slave->fmu->phase = next;
   return fmi3OK;
 }

@@ -23,9 +23,11 @@ struct ZpSlave {
   ZpSlaveLog log; /* NULL: nobody listens */
   bool logging;   /* messages besides those of errors */
   bool uses_events, returns_early;
-  bool terminates;         /* the last step asked for the end of the simulation */
-  const void *environment; /* the importer's, */
-  void (*callback)(void);  /* and its function: what `log` needs */
+  bool terminates; /* the last step asked for the end of the simulation */
+  /* The importer's, which `log` needs: */
+  const void *functions;  /* FMI 2: its callbacks */
+  void *environment;      /* FMI 3: what its function gets, */
+  void (*callback)(void); /* and that function */
 };
 
 /* A state of an instance, with an owner. */
