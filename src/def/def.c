@@ -124,7 +124,7 @@ static int length_within(const char *text, int most) {
 /* Edit distance (insert, delete, replace) of two words of at most 63 characters; longer ones are cut. */
 static int edit_distance(const char *a, const char *b) {
   enum { LONGEST = 64 };
-  int row[LONGEST];
+  int row[LONGEST] = {0};
   int len = length_within(b, LONGEST - 1);
   for (int j = 0; j <= len; j++)
     row[j] = j;
