@@ -20,6 +20,11 @@
 /* Two weightless strips, 45 mm flexible, that part by 0.2 mm. */
 #define PAIR "study=stationary ribbon.density=0 load.mass=0.1g mesh.nodes=21 drive.voltage=1V"
 
+/* Two weightless strips, 45 mm flexible, that hardly part: by a load, by nothing, by their own weight. */
+#define SLIGHT "study=stationary ribbon.density=0 load.mass=0.1mg mesh.nodes=21 drive.voltage=0"
+#define FLAT   "study=stationary gravity=0 load.mass=0 mesh.nodes=21 drive.voltage=0"
+#define SAGGED "study=stationary ribbon.density=0 gravity=0.001 load.mass=0 mesh.nodes=21 drive.voltage=0"
+
 /* Frequencies of a strip in no gravity. */
 #define TUNED                                                                                                          \
   "study=modes actuator.kind=ribbon actuator.right_end=guided gravity=0 load.mass=0 ribbon.length=20mm mesh.nodes=21"
@@ -116,6 +121,15 @@ typedef struct Row {
 #define CUBE(x)         ((x) * (x) * (x))
 #define EI              (200e9 * 12.7e-3 * CUBE(50e-6) / 12 / (1 - NU2))
 #define SQUARE(x)       ((x) * (x))
+
+/* A guided strip of length 1 whose piece from a to b is eight times as stiff: how far it gives way over how far an even
+ * one does, by c, cx and cxx, the moments of its compliance. */
+#define STIFFER(a, b)                                                                                                  \
+  (12 * ((1 - 0.875 * (CUBE(b) - CUBE(a))) / 3 -                                                                       \
+         SQUARE((1 - 0.875 * (SQUARE(b) - SQUARE(a))) / 2) / (1 - 0.875 * ((b) - (a)))))
+
+/* A guided strip of 45 mm bowed by 0.002 per metre from a to b rises by this. */
+#define RISES(a, b) (0.001 * ((b) - (a)) * (45e-3 - (a) - (b)))
 
 /* Of FLANGE, 1 mm and 100 um of insulators below the electrode, at 500 V: what omega^2 loses over 4 pi^2, and its
  * first two frequencies, Hz (roots 2.36502 and 5.49780 of a clamped, guided strip). */
@@ -233,6 +247,82 @@ static const Row rows[] = {
      "100MV/m",
      "10MV/m",
      {{MORE, "notes", 0, 0}, {TIMES, "breakdown_margin", 0.1, 1e-12}, {SAME, "force_N", 0, 1e-12}}},
+    /* of two strips in series the lower one is half of what gives way */
+    {"lower.ribbon.thickness", SLIGHT, "50um", "100um", {{TIMES, "opening_m", (1 + 1.0 / 8) / 2, 1e-4}}},
+    {"lower.ribbon.young_modulus", SLIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 1.5, 1e-4}}},
+    {"lower.ribbon.poisson_ratio",
+     SLIGHT " ribbon.poisson_ratio=0",
+     "0",
+     "0.4",
+     {{TIMES, "opening_m", (1 + 1 - 0.16) / 2, 1e-4}}},
+    {"lower.ribbon.density", SAGGED, "2000kg/m3", "4000kg/m3", {{TIMES, "opening_m", 2, 1e-4}}},
+    {"lower.ribbon.yield_stress",
+     SLIGHT,
+     "100MPa",
+     "200MPa",
+     {{TIMES, "yield_margin", 2, 1e-12}, {SAME, "opening_m", 0, 1e-12}}},
+    {"lower.segment_1.length",
+     FLAT " lower.segment_1.curvature=0.002",
+     "0",
+     "9mm",
+     {{PLUS, "opening_m", RISES(0, 9e-3) - 0.002 * SQUARE(2.25e-3) / 12, 1e-3}}},
+    {"lower.segment_1.thickness",
+     SLIGHT " segment_1.length=9mm",
+     "50um",
+     "100um",
+     {{TIMES, "opening_m", (1 + STIFFER(0, 0.2)) / 2, 4e-3}}},
+    {"lower.segment_1.curvature",
+     FLAT " segment_1.length=9mm",
+     "0",
+     "0.002",
+     {{PLUS, "opening_m", RISES(0, 9e-3) - 0.002 * SQUARE(2.25e-3) / 12, 1e-3}}},
+    {"lower.segment_2.length",
+     SLIGHT " segment_1.length=4.5mm lower.segment_2.curvature=0.002",
+     "0",
+     "4.5mm",
+     {{PLUS, "opening_m", RISES(4.5e-3, 9e-3), 1e-3}}},
+    {"lower.segment_2.thickness",
+     SLIGHT " segment_1.length=4.5mm segment_2.length=9mm",
+     "50um",
+     "100um",
+     {{TIMES, "opening_m", (1 + STIFFER(0.1, 0.3)) / 2, 4e-3}}},
+    {"lower.segment_2.curvature",
+     SLIGHT " segment_1.length=4.5mm segment_2.length=4.5mm",
+     "0",
+     "0.002",
+     {{PLUS, "opening_m", RISES(4.5e-3, 9e-3), 1e-3}}},
+    {"lower.segment_3.length",
+     SLIGHT " segment_1.length=4.5mm lower.segment_3.curvature=0.002",
+     "0",
+     "4.5mm",
+     {{PLUS, "opening_m", RISES(4.5e-3, 9e-3), 1e-3}}},
+    {"lower.segment_3.thickness",
+     SLIGHT " segment_1.length=4.5mm segment_3.length=9mm",
+     "50um",
+     "100um",
+     {{TIMES, "opening_m", (1 + STIFFER(0.1, 0.3)) / 2, 4e-3}}},
+    {"lower.segment_3.curvature",
+     SLIGHT " segment_1.length=4.5mm segment_3.length=4.5mm",
+     "0",
+     "0.002",
+     {{PLUS, "opening_m", RISES(4.5e-3, 9e-3), 1e-3}}},
+    {"lower.insulator.thickness",
+     UNCAPPED,
+     "130um",
+     "260um",
+     {{TIMES, "capacitance_F", 1 / 1.5, 1e-6}, {TIMES, "force_N", 1 / SQUARE(1.5), 1e-6}}},
+    {"lower.insulator.permittivity", UNCAPPED, "4.62", "2.31", {{TIMES, "capacitance_F", 1 / 1.5, 1e-6}}},
+    {"lower.insulator.density", SAGGED, "1000kg/m3", "2000kg/m3", {{TIMES, "opening_m", 2, 1e-4}}},
+    {"lower.insulator.young_modulus",
+     SLIGHT " ribbon.poisson_ratio=0 insulator.thickness=50um ribbon.young_modulus=100GPa",
+     "0",
+     "100GPa",
+     {{TIMES, "opening_m", (1 + 1.0 / 8) / 2, 1e-4}}},
+    {"lower.insulator.breakdown_field",
+     CLOSED,
+     "40MV/m",
+     "10MV/m",
+     {{TIMES, "breakdown_margin", 0.25, 1e-12}, {SAME, "capacitance_F", 0, 1e-12}}},
     /* closed faces have no liquid between them: only the force on it, eps E^2 / 2, knows that it is there */
     {"medium.permittivity", UNCAPPED, "2", "4", {{TIMES, "force_N", 0.5, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
     {"medium.breakdown_field",
@@ -275,6 +365,9 @@ static const Row rows[] = {
     {"film.roughness", CLOSED " liquid.model=submerged", "1um", "2um", {{TIMES, "film_thickness_m", 2, 1e-3}}},
 
     {"load.mass", STRIP, "10mg", "5mg", {{TIMES, "y_m", 0.5, 1e-4}}},
+    /* a spring that hardly gives way is a force */
+    {"load.stiffness", SLIGHT " load.mass=0 load.rest_opening=10m", "1e-6", "2e-6", {{TIMES, "opening_m", 2, 1e-4}}},
+    {"load.rest_opening", SLIGHT " load.mass=0 load.stiffness=1e-6", "5m", "10m", {{TIMES, "opening_m", 2, 1e-4}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
     /* a discrete cantilever of rods is too soft by 1 / (2 (N - 1)^2) */

@@ -16,15 +16,16 @@ static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane == ZP_PLANE_STRAIN);
 }
 
-/* What lies along a ribbon from its left end on. */
-static ZpRibbon ribbon_of(const ZpActuatorDef *def) {
+/* What lies along a ribbon from its left end on; of the lower one, a mirror image, natural curvatures turn: `up` = -1.
+ */
+static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
   ZpPlace place[ZP_PLACES] = {
-      {section_of(def, def->segment_1.thickness), def->segment_1.curvature, def->segment_1.length},
-      {section_of(def, def->segment_2.thickness), def->segment_2.curvature, def->segment_2.length},
-      {section_of(def, def->segment_3.thickness), def->segment_3.curvature, def->segment_3.length},
+      {section_of(def, def->segment_1.thickness), up * def->segment_1.curvature, def->segment_1.length},
+      {section_of(def, def->segment_2.thickness), up * def->segment_2.curvature, def->segment_2.length},
+      {section_of(def, def->segment_3.thickness), up * def->segment_3.curvature, def->segment_3.length},
       {section_of(def, def->ribbon.thickness), 0, INFINITY},
   };
-  ZpRibbon ribbon;
+  ZpRibbon ribbon = {.yields = def->ribbon.yield_stress};
   double along = 0;
   for (int k = 0; k < ZP_PLACES; k++) {
     ribbon.place[k] = place[k];
@@ -153,6 +154,21 @@ static double platform_length(const ZpModel *model) {
   return zp_is_pair(&model->topology) ? model->def.platform.length / 2 : 0;
 }
 
+/* Of bare metal, thickness 0, the other insulator is the weaker one. */
+static ZpSeriesParams series_of(const ZpActuatorDef *upper, const ZpActuatorDef *lower) {
+  const ZpActuatorDef *of[] = {upper, lower}, *weaker = NULL;
+  double thickness = 0;
+  for (int k = 0; k < 2; k++) {
+    double strength = of[k]->insulator.permittivity * of[k]->insulator.breakdown_field;
+    thickness += of[k]->insulator.thickness / of[k]->insulator.permittivity;
+    if (of[k]->insulator.thickness == 0) continue;
+    if (!weaker || strength < weaker->insulator.permittivity * weaker->insulator.breakdown_field) weaker = of[k];
+  }
+  if (!weaker) weaker = upper;
+  return (ZpSeriesParams){thickness, weaker->insulator.permittivity, weaker->insulator.breakdown_field,
+                          upper->medium.permittivity};
+}
+
 static ZpPlatesParams plates_of(const ZpModel *model) {
   /* Bare faces that touch: below this the law would divide by nothing. A nanometre is no liquid. */
   static const double least_gap = 1e-9;
@@ -162,8 +178,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
   return (ZpPlatesParams){.nodes = model->nodes,
                           .stride = model->stride,
                           .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
-                          .d = isnan(offset) ? 2 * def->insulator.thickness * eps_m / def->insulator.permittivity
-                                             : offset,
+                          .d = isnan(offset) ? model->series.thickness * eps_m : offset,
                           .h_per_volt = def->electro.breakdown_cap ? share / def->medium.breakdown_field : 0,
                           .h_least = least_gap,
                           .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
@@ -179,7 +194,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
 /* Eq. (25.3). Of what is no conductor the resistivity is NAN. */
 static ZpLeakParams leak_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double insulators = def->insulator.resistivity, liquid = def->medium.resistivity, both = 2 * def->insulator.thickness;
+  double insulators = def->insulator.resistivity, liquid = def->medium.resistivity, both = zp_insulation(def);
   return (ZpLeakParams){.insulators = 2 * model->plates.k / model->plates.d,
                         .conductance = isnan(insulators) ? 0 : def->ribbon.width / (insulators * both),
                         .discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity)};
@@ -403,8 +418,13 @@ static double layer_stiffness(const ZpModel *model) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
   const ZpActuatorDef *def = &model->def;
-  double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  return E * def->ribbon.width / ((double)model->s * fmax(def->insulator.thickness, thinnest));
+  ZpActuatorDef of[] = {*def, zp_def_lower(def)};
+  double compliance = 0;
+  for (size_t k = 0; k < model->s; k++) {
+    double E = of[k].insulator.young_modulus > 0 ? of[k].insulator.young_modulus : typical;
+    compliance += fmax(of[k].insulator.thickness, thinnest) / E;
+  }
+  return def->ribbon.width / compliance;
 }
 
 /* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
@@ -413,7 +433,7 @@ static double largest_attraction(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const ZpPlatesParams *p = &model->plates;
   double field = def->medium.breakdown_field / def->electro.voltage_share;
-  double voltage = 2 * def->insulator.thickness * def->insulator.breakdown_field, d = fmax(p->d, p->h_least);
+  double voltage = zp_series_allowed(&model->series), d = fmax(p->d, p->h_least);
   bool capped = def->electro.breakdown_cap || voltage == 0;
   return p->k * (capped ? field * field : voltage * voltage / (d * d));
 }
@@ -507,7 +527,14 @@ static double contact_frequency(const ZpModel *model) {
   return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
-static void derive(ZpModel *model, const ZpActuatorDef *lower) {
+/* Of the platform on the spring beside the load, rad/s. */
+static double spring_frequency(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + def->load.share * def->load.mass;
+  return sqrt(def->load.share * def->load.stiffness / mass);
+}
+
+static void derive(ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const ZpTopology *t = &model->topology;
   model->topology = zp_topology_of(def);
@@ -521,8 +548,10 @@ static void derive(ZpModel *model, const ZpActuatorDef *lower) {
   model->parts = two ? 2 / (double)t->halves : 1;
   model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);
-  model->ribbon[0] = ribbon_of(def);
-  model->ribbon[1] = ribbon_of(lower);
+  ZpActuatorDef lower = zp_def_lower(def);
+  model->ribbon[0] = ribbon_of(def, 1);
+  model->ribbon[1] = ribbon_of(&lower, -1);
+  model->series = series_of(def, &lower);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
@@ -551,7 +580,8 @@ static void derive(ZpModel *model, const ZpActuatorDef *lower) {
    * from step to step pump energy into what is near the limit */
   bool joins_at_will = two && def->contact.model == ZP_CONTACT_UNILATERAL;
   double fastest = frequency_bound(model), contact = joins_at_will ? contact_frequency(model) : 0;
-  model->stable_step = (joins_at_will ? 0.5 : 0.8) * 2 / sqrt(fastest * fastest + contact * contact);
+  double spring = spring_frequency(model);
+  model->stable_step = (joins_at_will ? 0.5 : 0.8) * 2 / sqrt(fastest * fastest + contact * contact + spring * spring);
 }
 
 static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err) {
@@ -596,11 +626,6 @@ ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) 
 }
 
 ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
-  return zp_model_create_unlike(def, NULL, table, out, err);
-}
-
-ZpStatus zp_model_create_unlike(const ZpActuatorDef *def, const ZpActuatorDef *lower, const ZpDriveTable *table,
-                                ZpModel **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
   if (status == ZP_OK) status = check_table(def, table, err);
@@ -609,7 +634,7 @@ ZpStatus zp_model_create_unlike(const ZpActuatorDef *def, const ZpActuatorDef *l
   ZpModel *model = zp_calloc(1, sizeof *model);
   if (!model) return zp_fail_memory(err);
   model->def = *def;
-  derive(model, lower ? lower : def);
+  derive(model);
   Arrays arrays;
   model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
   status = model->memory ? ZP_OK : zp_fail_memory(err);

@@ -93,6 +93,7 @@ double zp_eval_imbalance(const ZpModel *model, const double *a);
 /* Energies of one modelled part without the field. */
 typedef struct ZpEnergies {
   double kinetic, axial, bending, gravity; /* J */
+  double spring;                           /* of the spring beside the load, J */
   double liquid;                           /* kinetic energy of the liquid, and what its cavities hold, J */
 } ZpEnergies;
 

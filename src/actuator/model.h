@@ -17,6 +17,7 @@
 #include "electro/field.h"
 #include "electro/leak.h"
 #include "electro/plates_step.h"
+#include "electro/series.h"
 #include "liquid/bead.h"
 #include "liquid/film.h"
 #include "liquid/outer.h"
@@ -43,6 +44,7 @@ typedef struct ZpPlace {
 enum { ZP_REST = 3, ZP_PLACES };
 typedef struct ZpRibbon {
   ZpPlace place[ZP_PLACES];
+  double yields; /* yield stress of its metal, Pa */
 } ZpRibbon;
 
 struct ZpModel {
@@ -62,6 +64,7 @@ struct ZpModel {
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
   ZpStressParams stress;
+  ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
   ZpFacesParams faces; /* of unilateral contact */
   bool has_film;       /* of liquid between the faces */
@@ -247,11 +250,5 @@ static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
 }
 
 size_t zp_state_size(const ZpModel *model);
-
-/* As zp_model_create_driven, the lower of two ribbons unlike the upper one: of `lower`, thickness, modulus, Poisson's
- * ratio, density and plane of its strip, density and modulus of its insulator, and its segments count, no other keys.
- * NULL: both are alike. Of ribbon.model rod. */
-ZpStatus zp_model_create_unlike(const ZpActuatorDef *def, const ZpActuatorDef *lower, const ZpDriveTable *table,
-                                ZpModel **model, ZpError *err);
 
 #endif

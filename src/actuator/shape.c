@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "def/check.h"
 #include "electro/series.h"
 
 void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
@@ -20,9 +21,9 @@ static double interface_at(const ZpModel *model, const ZpShapeRoom *room, size_t
 /* Eqs. (4.10) and (25.2). */
 static void fill_fields(const ZpModel *model, const ZpShapeRoom *room, const ZpShape *shape, size_t i) {
   double Z = interface_at(model, room, i), Y = shape->voltage + Z, gap = shape->gap[i];
-  double field = zp_series_at(&model->def, Y, gap).insulator;
+  double field = zp_series_at(&model->series, Y, gap).insulator;
   room->line_force[i] = zp_plates_law(&model->plates, Y, gap).W;
-  room->insulator_field[i] = Z == 0 ? field : fabs(copysign(field, Y) - Z / (2 * model->def.insulator.thickness));
+  room->insulator_field[i] = Z == 0 ? field : fabs(copysign(field, Y) - Z / zp_insulation(&model->def));
 }
 
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape) {
@@ -36,7 +37,7 @@ void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape
 }
 
 ZpMargins zp_margins_none(void) {
-  return (ZpMargins){NAN, NAN, 0, NAN, NAN};
+  return (ZpMargins){NAN, NAN, 0, NAN, NAN, NAN};
 }
 
 /* Is this more than the worst so far, or the first? Of equals the first counts. */
@@ -50,21 +51,23 @@ void zp_margins_join(ZpMargins *worst, ZpMargins other) {
     worst->insulator = other.insulator;
     worst->insulator_place = other.insulator_place;
   }
-  if (is_worse(other.stress, worst->stress)) {
+  if (is_worse(other.stress / other.yields, worst->stress / worst->yields)) {
     worst->stress = other.stress;
     worst->stress_place = other.stress_place;
+    worst->yields = other.yields;
   }
 }
 
 static ZpMargins fields_at(const ZpModel *model, double voltage, double gap, double place) {
-  ZpSeries seen = zp_series_at(&model->def, voltage, gap);
-  return (ZpMargins){seen.insulator, place, seen.liquid, NAN, NAN};
+  ZpSeries seen = zp_series_at(&model->series, voltage, gap);
+  return (ZpMargins){seen.insulator, place, seen.liquid, NAN, NAN, NAN};
 }
 
 ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
   ZpMargins worst = zp_margins_none();
   for (size_t j = 0; j < model->count; j++)
-    zp_margins_join(&worst, (ZpMargins){NAN, NAN, 0, shape->stress[j], zp_straight_x(model, j / model->s)});
+    zp_margins_join(&worst, (ZpMargins){NAN, NAN, 0, shape->stress[j], zp_straight_x(model, j / model->s),
+                                        model->ribbon[j % model->s].yields});
   for (size_t i = 0; model->field && i < model->nodes; i++) {
     ZpMargins at = fields_at(model, shape->voltage, shape->gap[i], zp_straight_x(model, i));
     at.insulator = shape->insulator_field[i];

@@ -23,7 +23,8 @@ void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape
 typedef struct ZpMargins {
   double insulator, insulator_place; /* V/m, m; NAN: there is no insulator between electrodes */
   double liquid;                     /* V/m; 0 without electrodes */
-  double stress, stress_place;       /* of the metal, Pa, m; NAN: nothing was looked at */
+  double stress, stress_place;       /* of the metal that is nearest to its yield, Pa, m; NAN: nothing was looked at */
+  double yields;                     /* its yield stress, Pa */
 } ZpMargins;
 
 /* Of nothing. */

@@ -10,6 +10,19 @@ const char *zp_word_of(const char *key, int choice);
 /* liquid.model, or what auto stands for. */
 ZpLiquidModel zp_liquid_of(const ZpActuatorDef *def);
 
+/* The keys of the lower ribbon: those of the upper one, but where lower.* says otherwise. */
+ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
+
+/* Thickness of both insulators together, m. */
+double zp_insulation(const ZpActuatorDef *def);
+
+/* Segments fit their ribbon, and lower.* has one. */
+ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
+
+/* What `asks`, a key or a study, knows only ribbons whose insulators are alike; and strips of one thickness. */
+ZpStatus zp_check_like_insulators(const ZpActuatorDef *def, const char *asks, ZpError *err);
+ZpStatus zp_check_like_sections(const ZpActuatorDef *def, const char *asks, ZpError *err);
+
 /* What moves needs a mass. */
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err);
 

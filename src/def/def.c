@@ -387,7 +387,8 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: with electro.model field, faces that touch need an insulator between "
                    "the metals");
-  return zp_check_insulator_of_field(def, err);
+  ZpStatus status = zp_check_like_sections(def, "electro.model = field", err);
+  return status == ZP_OK ? zp_check_insulator_of_field(def, err) : status;
 }
 
 static ZpStatus check_square(const ZpActuatorDef *def, ZpError *err) {
@@ -498,12 +499,17 @@ static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(
         err, ZP_BAD_INPUT,
         "insulator.thickness = 0 m: with electro.edges, faces that touch need an insulator between the metals");
-  return ZP_OK;
+  return zp_check_like_sections(def, "electro.edges", err);
 }
 
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
-  if (def->ribbon.density > 0 || def->insulator.density > 0) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "ribbon.density = 0 kg/m3: a moving ribbon needs a mass");
+  ZpActuatorDef lower = zp_def_lower(def);
+  const ZpActuatorDef *of[] = {def, &lower};
+  static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
+  for (int k = 0; k < 2; k++)
+    if (of[k]->ribbon.density == 0 && of[k]->insulator.density == 0)
+      return zp_fail(err, ZP_BAD_INPUT, "%s = 0 kg/m3: a moving ribbon needs a mass", key[k]);
+  return ZP_OK;
 }
 
 /* What motion asks of a flange. */
@@ -548,7 +554,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V is more than the source gives, source.voltage_limit = %g V",
                    voltage, def->source.voltage_limit);
   bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
-  if (voltage == 0 || def->insulator.thickness > 0 || !touches) return ZP_OK;
+  if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, for the electrodes touch at the %s; give an "
                  "insulator or no voltage",
@@ -655,7 +661,8 @@ static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
         err, ZP_BAD_INPUT,
         "%s: requires liquid.model none or submerged, but it is bead: what leaks beyond a bead is not modelled",
         given->name);
-  return check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err);
+  ZpStatus alike = zp_check_like_insulators(def, given->name, err);
+  return alike == ZP_OK ? check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err) : alike;
 }
 
 /* Keys of a meter that is not there, or that it lacks. */
@@ -697,6 +704,20 @@ static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+/* The spring beside the load. */
+static ZpStatus check_spring(const ZpActuatorDef *def, ZpError *err) {
+  bool given = !isnan(def->load.rest_opening);
+  if (def->load.stiffness == 0 && given)
+    return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: requires load.stiffness above 0 N/m");
+  if (def->load.stiffness == 0) return ZP_OK;
+  if (!given) return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: load.stiffness is given, which requires it");
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "load.stiffness: requires actuator.kind electro_ribbon, whose platforms it parts");
+  if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
+    return zp_fail(err, ZP_BAD_INPUT, "load.stiffness: requires contact.model unilateral");
+  return ZP_OK;
+}
+
 /* What is asked of the model of the field. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
@@ -718,20 +739,11 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",
                    def->platform.length, 0.9 * def->ribbon.length);
   double offset = def->electro.insulator_offset;
-  bool bare = isnan(offset) ? def->insulator.thickness == 0 : offset == 0;
+  bool bare = isnan(offset) ? zp_insulation(def) == 0 : offset == 0;
   if (two && bare && !def->electro.breakdown_cap)
     return zp_fail(err, ZP_BAD_INPUT,
                    "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
                    "force is infinite");
-  double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
-  double segments = def->segment_1.length + def->segment_2.length + def->segment_3.length;
-  if (segments > flexible * (1 + 1e-12))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "segment_1.length to segment_3.length: %g m together, more than the ribbon's %g m", segments,
-                   flexible);
-  if (segments > 0 && def->ribbon.model != ZP_RIBBON_ROD)
-    return zp_fail(err, ZP_BAD_INPUT, "segment_1.length = %g m: segments require ribbon.model rod",
-                   def->segment_1.length);
   if (two && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);
@@ -741,7 +753,9 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.refresh_period > 0 && def->electro.surface != ZP_SURFACE_BEZIER)
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: requires electro.surface bezier",
                    def->electro.refresh_period);
-  ZpStatus status = check_drive(def, err);
+  ZpStatus status = zp_check_ribbons(def, err);
+  if (status == ZP_OK) status = check_spring(def, err);
+  if (status == ZP_OK) status = check_drive(def, err);
   if (status == ZP_OK) status = check_source(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
   if (status == ZP_OK) status = check_symmetry(def, err);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "def/check.h"
 #include "math/elementary.h"
 #include "solve/descend.h"
 
@@ -238,7 +239,7 @@ size_t zp_statics_front(const ZpStatics *s) {
 
 bool zp_statics_shorted(const ZpStatics *s) {
   const ZpModel *model = s->model;
-  if (s->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
+  if (s->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
   return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->model->faces.depth;
 }
 
@@ -275,7 +276,7 @@ static double deepest_overlap(const ZpStatics *s) {
   const ZpFacesParams *faces = &s->model->faces;
   double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
-  return fmax(fmax(micrometre, of_insulators * 2 * s->model->def.insulator.thickness), lever * balanced);
+  return fmax(fmax(micrometre, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
 }
 
 const char *zp_statics_fault(const ZpStatics *s) {

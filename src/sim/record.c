@@ -42,7 +42,7 @@ const ZpColumn *zp_trace_columns(size_t *count) {
 }
 
 double zp_energy_without_field(const ZpEnergies *e) {
-  return e->kinetic + e->axial + e->bending + e->gravity + e->liquid;
+  return e->kinetic + e->axial + e->bending + e->gravity + e->spring + e->liquid;
 }
 
 /* Stations from the clip on that are closed: faces that touch, or whose film is thinner than the liquid that stands for
@@ -126,6 +126,7 @@ static double fill_mechanics(ZpSim *sim, double *row) {
   row[SIGNAL_axial_energy] = parts * e.axial;
   row[SIGNAL_bending_energy] = parts * e.bending;
   row[SIGNAL_gravity_energy] = parts * e.gravity;
+  row[SIGNAL_spring_energy] = parts * e.spring;
   return zp_energy_without_field(&e) - sim->state->base_energy;
 }
 
@@ -183,6 +184,7 @@ static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
                                                   [SIGNAL_axial_energy] = MECHANICS,
                                                   [SIGNAL_bending_energy] = MECHANICS,
                                                   [SIGNAL_gravity_energy] = MECHANICS,
+                                                  [SIGNAL_spring_energy] = MECHANICS,
                                                   [SIGNAL_energy_imbalance] = ENERGY,
                                                   [SIGNAL_insulator_field] = MARGINS,
                                                   [SIGNAL_liquid_energy] = MECHANICS,

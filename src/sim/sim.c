@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
@@ -223,7 +224,7 @@ static bool closed(const ZpModel *model, const ZpState *state) {
 
 /* Do electrodes without an insulator touch under a voltage? */
 static bool shorted(const ZpModel *model, const ZpState *state) {
-  if (state->U == 0 || !model->field || model->def.insulator.thickness > 0) return false;
+  if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
   return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
 }
 

@@ -52,10 +52,11 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
-/* Work against the weight of the load and, with a minus, of the load input, from start to end, J. */
+/* Work against the weight and the spring of the load and, with a minus, of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
-  return zp_load_weight(model) * risen - at_end(sim, result, "load_work");
+  double compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
+  return zp_load_weight(model) * risen + compressed - at_end(sim, result, "load_work");
 }
 
 /* What the source gave, and what came of it. */
@@ -118,7 +119,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   if (model->field)
     zp_add_margins(result, model, zp_sim_margins(sim));
   else
-    zp_add_stress(result, model, zp_sim_margins(sim));
+    zp_add_stress(result, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   double starved = zp_result_get(result, "starved_time_s");

@@ -276,12 +276,15 @@ static void energies_of(const Cycles *c, double *given, double *taken) {
   }
 }
 
-/* Work against the weight of the load on the way up, J: on the way down it comes back. */
+/* Work against weight and spring of the load on the way up, J: on the way down it comes back. */
 static double work_of(const Cycles *c) {
-  double risen = 0;
-  for (int k = 0; k < PHASES; k++)
-    risen += fmax(at(c, k, "opening_m") - at(c, k + 1, "opening_m"), 0);
-  return zp_load_weight(c->model) * risen;
+  double work = 0;
+  for (int k = 0; k < PHASES; k++) {
+    double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m");
+    double compressed = at(c, k + 1, "spring_energy_J") - at(c, k, "spring_energy_J");
+    work += fmax(zp_load_weight(c->model) * risen + compressed, 0);
+  }
+  return work;
 }
 
 static void summarize_motion(const Cycles *c, ZpResult *result) {

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "rest/slow.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
@@ -188,8 +189,8 @@ static bool find_voltages(Follower *f) {
   if (f->hanging <= zp_closing_limit(&f->rest.statics, 0)) return false;
   ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
   zp_limit_none(&f->release, "closed it is a short circuit");
-  if (f->model->def.insulator.thickness == 0) zp_limit_none(&f->closing, "closed it is a short circuit");
-  if (f->model->def.insulator.thickness == 0 || up == ZP_SLOW_STOPPED) return false;
+  if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "closed it is a short circuit");
+  if (zp_insulation(&f->model->def) == 0 || up == ZP_SLOW_STOPPED) return false;
   zp_limit_none(&f->release, "it is not closed at drive.voltage");
   if (!zp_slow_close(&f->slow, top)) return false;
   f->rest.system.save(&f->rest.statics, f->start);

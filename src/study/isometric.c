@@ -378,7 +378,8 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
 /* What hangs there does not count: the load is taken off before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = *task->def;
-  bare.load.mass = 0;
+  bare.load.mass = bare.load.stiffness = 0;
+  bare.load.rest_opening = NAN;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
@@ -212,7 +213,7 @@ static bool find(Finder *f) {
     zp_limit_none(&f->limits->limit[k], "it hangs closed");
   if (f->limits->hanging <= zp_closing_limit(&f->rest.statics, 0)) return true;
   ZpSlowEnd up = raise_voltage(f);
-  bool shorts = f->model->def.insulator.thickness == 0;
+  bool shorts = zp_insulation(&f->model->def) == 0;
   if (shorts) none_closed(f, "closed it is a short circuit");
   if (shorts) return true;
   zp_limit_none(&f->limits->limit[ZP_LIMIT_RELEASE], "it was not looked for");

@@ -3,15 +3,17 @@
 #include <math.h>
 
 #include "actuator/model.h"
+#include "def/check.h"
 #include "study/studies.h"
 
 /* -- margins --------------------------------------------------------------------------------------- */
 
 static void note_breakdown(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   const ZpActuatorDef *def = &model->def;
-  if (seen->insulator > def->insulator.breakdown_field)
+  double withstands = model->series.withstands;
+  if (seen->insulator > withstands)
     zp_result_note(result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
-                   seen->insulator / 1e6, def->insulator.breakdown_field / 1e6);
+                   seen->insulator / 1e6, withstands / 1e6);
   if (!def->electro.breakdown_cap && seen->liquid > def->medium.breakdown_field)
     zp_result_note(result,
                    "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
@@ -20,30 +22,28 @@ static void note_breakdown(ZpResult *result, const ZpModel *model, const ZpMargi
 }
 
 static void add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
-  const ZpActuatorDef *def = &model->def;
-  double withstands = def->insulator.breakdown_field, both = 2 * def->insulator.thickness;
+  double withstands = model->series.withstands, allowed = zp_series_allowed(&model->series);
   zp_result_add(result, "insulator_field_V_per_m", "V/m", seen->insulator);
   zp_result_add(result, "insulator_field_place_m", "m", seen->insulator_place);
   zp_result_add(result, "breakdown_margin", "1", seen->insulator > 0 ? withstands / seen->insulator : NAN);
-  zp_result_add(result, "allowed_voltage_V", "V", model->field && both > 0 ? both * withstands : NAN);
+  zp_result_add(result, "allowed_voltage_V", "V", model->field && allowed > 0 ? allowed : NAN);
   note_breakdown(result, model, seen);
 }
 
-void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
-  double yields = model->def.ribbon.yield_stress;
+void zp_add_stress(ZpResult *result, const ZpMargins *seen) {
   zp_result_add(result, "max_stress_Pa", "Pa", seen->stress);
   zp_result_add(result, "max_stress_place_m", "m", seen->stress_place);
-  zp_result_add(result, "yield_margin", "1", seen->stress > 0 ? yields / seen->stress : NAN);
-  if (seen->stress > yields)
+  zp_result_add(result, "yield_margin", "1", seen->stress > 0 ? seen->yields / seen->stress : NAN);
+  if (seen->stress > seen->yields)
     zp_result_note(result,
                    "the metal's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent, which "
                    "is not modelled",
-                   seen->stress / 1e6, yields / 1e6);
+                   seen->stress / 1e6, seen->yields / 1e6);
 }
 
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   add_fields(result, model, seen);
-  zp_add_stress(result, model, seen);
+  zp_add_stress(result, seen);
 }
 
 /* -- the mesh -------------------------------------------------------------------------------------- */
@@ -102,7 +102,7 @@ void zp_note_rest(ZpResult *result, const ZpModel *model) {
 /* -- the start ------------------------------------------------------------------------------------- */
 
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening) {
-  double insulators = 2 * model->def.insulator.thickness;
+  double insulators = zp_insulation(&model->def);
   if (opening < insulators)
     zp_result_note(
         result,

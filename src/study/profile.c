@@ -291,7 +291,7 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
 /* What the materials see in the solved field. */
 static void look(Profiler *p) {
   for (size_t k = 0; k < p->rows; k++)
-    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], p->row[k][LIQUID], NAN, NAN});
+    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], p->row[k][LIQUID], NAN, NAN, NAN});
 }
 
 static void note(const Profiler *p) {
@@ -427,7 +427,8 @@ ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
         err, ZP_BAD_INPUT,
         "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
         "the field there is infinite");
-  ZpStatus status = zp_check_insulator_of_field(def, err);
+  ZpStatus status = zp_check_like_sections(def, "study profile", err);
+  if (status == ZP_OK) status = zp_check_insulator_of_field(def, err);
   if (status != ZP_OK) return status;
   if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
     return def->profile.shape == ZP_PROFILE_HELD ? zp_check_held(def, "profile", err) : ZP_OK;

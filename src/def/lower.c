@@ -1,0 +1,76 @@
+/* The lower ribbon of two: what the keys of lower.* make of it, and what they ask. */
+#include <math.h>
+#include <stddef.h>
+
+#include "base/fail.h"
+#include "def/check.h"
+
+static const char prefix[] = "lower.";
+
+/* Is this a key of lower.* that is given? */
+static bool is_given(const ZpActuatorDef *def, int key) {
+  size_t offset = zp_key(key)->offset, first = offsetof(ZpActuatorDef, lower);
+  return offset >= first && offset < first + sizeof def->lower && !isnan(zp_def_get(def, key));
+}
+
+ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
+  ZpActuatorDef lower = *def;
+  for (int key = 0; key < zp_key_count(); key++)
+    if (is_given(def, key))
+      zp_def_set(&lower, zp_key_find(zp_key(key)->name + sizeof prefix - 1), zp_def_get(def, key), NULL);
+  return lower;
+}
+
+double zp_insulation(const ZpActuatorDef *def) {
+  double lower = def->lower.insulator.thickness;
+  return def->insulator.thickness + (isnan(lower) ? def->insulator.thickness : lower);
+}
+
+static ZpStatus check_not_given(const ZpActuatorDef *def, const char *key, const char *asks, ZpError *err) {
+  if (isnan(zp_def_get(def, zp_key_find(key)))) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s auto, as the upper ribbon has it", asks, key);
+}
+
+ZpStatus zp_check_like_insulators(const ZpActuatorDef *def, const char *asks, ZpError *err) {
+  ZpStatus status = check_not_given(def, "lower.insulator.thickness", asks, err);
+  return status == ZP_OK ? check_not_given(def, "lower.insulator.permittivity", asks, err) : status;
+}
+
+ZpStatus zp_check_like_sections(const ZpActuatorDef *def, const char *asks, ZpError *err) {
+  ZpStatus status = zp_check_like_insulators(def, asks, err);
+  return status == ZP_OK ? check_not_given(def, "lower.ribbon.thickness", asks, err) : status;
+}
+
+static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed, double flexible, ZpError *err) {
+  double segments = ribbon->segment_1.length + ribbon->segment_2.length + ribbon->segment_3.length;
+  if (segments > flexible * (1 + 1e-12))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%ssegment_1.length to %ssegment_3.length: %g m together, more than the ribbon's %g m", prefixed,
+                   prefixed, segments, flexible);
+  if (segments > 0 && ribbon->ribbon.model != ZP_RIBBON_ROD)
+    return zp_fail(err, ZP_BAD_INPUT, "%ssegment_1.length = %g m: segments require ribbon.model rod", prefixed,
+                   ribbon->segment_1.length);
+  return ZP_OK;
+}
+
+/* Keys of a lower ribbon that is not there, or that the paper's mechanics has as the upper one. */
+static ZpStatus check_lower(const ZpActuatorDef *def, ZpError *err) {
+  const char *given = NULL;
+  for (int key = 0; key < zp_key_count() && !given; key++)
+    if (is_given(def, key)) given = zp_key(key)->name;
+  if (given && def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires actuator.kind electro_ribbon, which has two ribbons", given);
+  if (given && def->ribbon.model != ZP_RIBBON_ROD)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires ribbon.model rod", given);
+  return isnan(def->electro.insulator_offset) ? ZP_OK : zp_check_like_insulators(def, "electro.insulator_offset", err);
+}
+
+ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
+  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  ZpActuatorDef lower = zp_def_lower(def);
+  ZpStatus status = check_segments(def, "", flexible, err);
+  if (status == ZP_OK) status = check_lower(def, err);
+  if (status == ZP_OK) status = check_segments(&lower, prefix, flexible, err);
+  return status;
+}

@@ -1,0 +1,155 @@
+/* Bowed ribbons, and a lower ribbon or insulator unlike the upper one, as the keys of segment_K and lower.* say.
+ * tests/test_whole.c has unlike ribbons in motion. */
+#include "check_util.h"
+
+#include "def/check.h"
+#include "rest/rest.h"
+
+static ZpResult *answer_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = study_of(study, def);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
+  return result;
+}
+
+static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
+  ZpResult *result = answer_of(study, def);
+  double value = zp_result_get(result, name);
+  zp_result_destroy(result);
+  return value;
+}
+
+/* -- bowed ribbons ----------------------------------------------------------------------------------- */
+
+/* Stiff ribbons of no weight without a load, so that nothing but their natural curvature opens them. */
+#define BOWED                                                                                                          \
+  {"ribbon.thickness", 500e-6}, {"segment_1.thickness", 500e-6}, {"gravity", 0}, {"load.mass", 0},                     \
+      {"drive.voltage", 0}, {                                                                                          \
+    "mesh.nodes", 61                                                                                                   \
+  }
+
+/* A strip held level at both ends, of natural curvature k over a length a from the clip, has the moment -k a / L of its
+ * EI, so its other end rises by k a (L - a) / 2; the lower ribbon sinks by as much. Where curvature jumps by k the
+ * corners of elements of length l lose k l^2 / 12, theory (8.8). (Both had the same sign once, and what they were bowed
+ * by cancelled.) */
+static double rises(const ZpActuatorDef *def, double k, double a) {
+  double L = (def->ribbon.length - def->platform.length) / 2, l = L / (def->mesh.nodes - 1);
+  return 0.5 * k * a * (L - a) - k * l * l / 12;
+}
+
+START_TEST(bowed_ribbons_open) {
+  static const double k = 0.2, a = 9e-3;
+  ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k});
+  if (_i) def.actuator.symmetry = ZP_SYMMETRY_NONE;
+  ck_near(value_of(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-5);
+}
+END_TEST
+
+/* Each ribbon has its own curvature; one alone opens by half, and parallel ones do not part. (So little that the clips
+ * need not pull the straight one.) */
+START_TEST(each_ribbon_has_its_own_curvature) {
+  static const double k = 0.02, a = 9e-3;
+  ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
+  ck_near(value_of(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4);
+  def.lower.segment_1.curvature = -k;
+  ck_below(fabs(value_of(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-9);
+}
+END_TEST
+
+/* Without weight and load it does not matter which of two ribbons is above. */
+START_TEST(ribbons_can_be_exchanged) {
+  ZpActuatorDef def =
+      DEF({"gravity", 0}, {"load.mass", 0}, {"mesh.nodes", 61}, {"segment_1.length", 9e-3}, {"segment_1.curvature", 20},
+          {"ribbon.thickness", 70e-6}, {"segment_1.thickness", 70e-6}, {"lower.ribbon.thickness", 50e-6},
+          {"lower.segment_1.thickness", 50e-6}, {"insulator.permittivity", 3}, {"lower.insulator.permittivity", 5});
+  ZpActuatorDef other = zp_def_lower(&def);
+  other.lower.ribbon.thickness = other.lower.segment_1.thickness = 70e-6;
+  other.lower.insulator.permittivity = 3;
+  ck_assert_double_eq(other.ribbon.thickness, 50e-6);
+  static const char *const names[] = {"pull_in_voltage_V", "release_voltage_V"};
+  for (size_t k = 0; k < LENGTH_OF(names); k++) {
+    double value = value_of(ZP_STUDY_LIMITS, &def, names[k]);
+    ck_assert_double_gt(value, 0);
+    ck_near(value_of(ZP_STUDY_LIMITS, &other, names[k]), value, 1e-6);
+  }
+}
+END_TEST
+
+/* -- insulators -------------------------------------------------------------------------------------- */
+
+/* They lie in series: 100 and 160 um attract as twice 130 um do, and 130 um of permittivity 6 and 3 as of 4. */
+START_TEST(insulators_lie_in_series) {
+  ZpActuatorDef def = DEF({"insulator.permittivity", 4});
+  double alike = value_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
+  def.insulator.thickness = 100e-6, def.lower.insulator.thickness = 160e-6;
+  ck_near(value_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  def.insulator.thickness = 130e-6, def.lower.insulator.thickness = NAN;
+  def.insulator.permittivity = 6, def.lower.insulator.permittivity = 3;
+  ck_near(value_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+}
+END_TEST
+
+/* Closed, D is the same in both: the one with the smaller strength times permittivity breaks down first; one layer
+ * alone may do for both faces. */
+START_TEST(weaker_insulator_breaks_down_first) {
+  ZpActuatorDef def = DEF({"insulator.thickness", 100e-6}, {"insulator.permittivity", 3},
+                          {"insulator.breakdown_field", 100e6}, {"lower.insulator.thickness", 200e-6},
+                          {"lower.insulator.permittivity", 5}, {"lower.insulator.breakdown_field", 40e6});
+  ck_near(value_of(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 40e6 * 5 * (100e-6 / 3 + 200e-6 / 5), 1e-12);
+  ck_near(value_of(ZP_STUDY_LIMITS, &def, "insulator_field_V_per_m"), 10e3 / 5 / (100e-6 / 3 + 200e-6 / 5), 1e-9);
+  def.lower.insulator.thickness = 0;
+  ck_near(value_of(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 100e6 * 100e-6, 1e-12);
+}
+END_TEST
+
+/* -- stress ------------------------------------------------------------------------------------------ */
+
+/* The margin is that of the metal that is nearest to its yield, whichever ribbon is stressed most. */
+START_TEST(yield_is_of_each_ribbon) {
+  ZpActuatorDef def = DEF({"drive.voltage", 0});
+  double stress = value_of(ZP_STUDY_STATIONARY, &def, "max_stress_Pa");
+  def.lower.ribbon.yield_stress = 0.2 * def.ribbon.yield_stress;
+  double margin = value_of(ZP_STUDY_STATIONARY, &def, "yield_margin");
+  ck_below(margin, 0.25 * def.ribbon.yield_stress / stress);
+  ck_near(margin * value_of(ZP_STUDY_STATIONARY, &def, "max_stress_Pa"), 0.2 * def.ribbon.yield_stress, 1e-12);
+}
+END_TEST
+
+/* -- what cannot be ---------------------------------------------------------------------------------- */
+
+START_TEST(what_needs_like_ribbons_is_refused) {
+  static const struct {
+    Setting lower, asks;
+    const char *says;
+  } refused[] = {
+      {{"lower.ribbon.thickness", 60e-6}, {"actuator.kind", ZP_KIND_FLANGE}, "actuator.kind electro_ribbon"},
+      {{"lower.ribbon.density", 60}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}, "ribbon.model rod"},
+      {{"lower.ribbon.thickness", 60e-6}, {"electro.model", ZP_ELECTRO_FIELD}, "lower.ribbon.thickness auto"},
+      {{"lower.insulator.thickness", 60e-6}, {"electro.edges", 1}, "lower.insulator.thickness auto"},
+      {{"lower.insulator.permittivity", 2}, {"medium.resistivity", 1e12}, "lower.insulator.permittivity auto"},
+      {{"lower.insulator.permittivity", 2}, {"electro.insulator_offset", 1e-4}, "electro.insulator_offset"},
+      {{"lower.segment_2.length", 0.05}, {"mesh.nodes", 31}, "lower.segment_3.length: 0.05 m together"},
+  };
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    ZpActuatorDef def = DEF(refused[k].lower, refused[k].asks);
+    ZpError err = {ZP_OK, ""};
+    ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, refused[k].says), "%s", err.message);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("lower");
+  TCase *bowed = tcase_create("bowed");
+  tcase_add_loop_test(bowed, bowed_ribbons_open, 0, 2);
+  tcase_add_test(bowed, each_ribbon_has_its_own_curvature);
+  tcase_add_test(bowed, ribbons_can_be_exchanged);
+  suite_add_tcase(suite, bowed);
+  TCase *insulators = tcase_create("insulators");
+  tcase_add_test(insulators, insulators_lie_in_series);
+  tcase_add_test(insulators, weaker_insulator_breaks_down_first);
+  tcase_add_test(insulators, yield_is_of_each_ribbon);
+  tcase_add_test(insulators, what_needs_like_ribbons_is_refused);
+  suite_add_tcase(suite, insulators);
+  return run_suite(suite);
+}
