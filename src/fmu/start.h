@@ -44,6 +44,7 @@ enum { ZP_FMU_MARK_SIZE = 16, ZP_FMU_TOKEN_SIZE = 40 };
 
 typedef struct ZpFmuStart {
   char mark[ZP_FMU_MARK_SIZE];
+  uint64_t size;                 /* of this block, bytes: that of a binary of another version may be smaller */
   uint64_t layout;               /* zp_def_layout of the program that the binary was made with */
   char token[ZP_FMU_TOKEN_SIZE]; /* GUID of FMI 2, instantiation token of FMI 3 */
   double value[ZP_FMU_KEYS];     /* of each key, as zp_def_get; 0 of keys that have none */

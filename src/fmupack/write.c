@@ -53,6 +53,7 @@ static void fill_start(ZpActuatorDef *def, ZpFmuStart *start) {
   if (def->drive.waveform != ZP_WAVEFORM_STEP) def->drive.waveform = ZP_WAVEFORM_RAMP;
   def->drive.offset = 0;
   memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
+  start->size = sizeof *start;
   start->layout = zp_def_layout();
   for (int key = 0; key < ZP_FMU_KEYS; key++)
     if (zp_fmu_has_number(key)) start->value[key] = zp_def_get(def, key);
@@ -131,7 +132,8 @@ static void put_start_source(FILE *file, const ZpFmuStart *start) {
   char text[ZP_NUMBER_SIZE];
   fprintf(file,
           "/* What this FMU begins with. */\n#include <math.h>\n\n#include \"fmu/start.h\"\n\n"
-          "const volatile ZpFmuStart zp_fmu_start = {\n  .mark = ZP_FMU_MARK,\n  .layout = UINT64_C(%llu),\n"
+          "const volatile ZpFmuStart zp_fmu_start = {\n  .mark = ZP_FMU_MARK,\n  .size = sizeof(ZpFmuStart),\n  "
+          ".layout = UINT64_C(%llu),\n"
           "  .token = \"%s\",\n  .value = {\n",
           (unsigned long long)start->layout, start->token);
   for (int key = 0; key < ZP_FMU_KEYS; key++) {
@@ -173,7 +175,11 @@ static ZpStatus add_texts_of_3(ZpArchive *archive, const ZpFmuPlan *plan, ZpErro
 static ZpStatus fill_binary(const char *name, unsigned char *byte, size_t size, const ZpFmuStart *start, ZpError *err) {
   int marks = 0;
   for (size_t k = 0; k + sizeof *start <= size; k++) {
+    uint64_t room;
     if (memcmp(byte + k, ZP_FMU_MARK, ZP_FMU_MARK_SIZE) != 0) continue;
+    memcpy(&room, byte + k + offsetof(ZpFmuStart, size), sizeof room);
+    if (room != sizeof *start)
+      return zp_fail(err, ZP_MACHINE, "%.300s: a binary of another version of zipact; `make fmu` makes it again", name);
     memcpy(byte + k, start, sizeof *start);
     marks++;
   }

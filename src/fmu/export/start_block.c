@@ -2,4 +2,4 @@
  * of each FMU, and a file in place of this one among its sources. volatile: no compiler may count on them. */
 #include "fmu/start.h"
 
-const volatile ZpFmuStart zp_fmu_start = {.mark = ZP_FMU_MARK};
+const volatile ZpFmuStart zp_fmu_start = {.mark = ZP_FMU_MARK, .size = sizeof(ZpFmuStart)};
