@@ -4,6 +4,7 @@
 # make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
 # make check-report  looks at the page of `zipact reproduce` in a browser
+# make fmu     the actuator of examples/fmu.yaml as an FMU in out/, with a binary for Windows if mingw-w64 is there
 # make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make html without
 #              remaking them; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
@@ -14,7 +15,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install clean
+.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install clean
 all: $(BUILD)/zipact
 
 deps:
@@ -41,6 +42,20 @@ python: $(BUILD)/zipact
 
 octave: $(BUILD)/zipact
 	scripts/test-octave.sh $(BUILD)
+
+# The kit's binary for Windows, in the folder of the kit that the command takes.
+$(BUILD)/fmu/binaries/x86_64-windows/zipact.dll: FORCE
+	@cmake -S . -B $(BUILD)/win64 -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64 -DCMAKE_C_COMPILER=x86_64-w64-mingw32-gcc \
+	  -DCMAKE_BUILD_TYPE=Release -DZIPACT_IO=OFF -DZIPACT_TESTS=OFF >$(BUILD)/win64.log 2>&1 || { cat $(BUILD)/win64.log; exit 1; }
+	@cmake --build $(BUILD)/win64 -j $(JOBS) --target zipact_fmu -- --no-print-directory
+	@mkdir -p $(@D) && cp $(BUILD)/win64/fmu/binaries/x86_64-windows/zipact.dll $@
+FORCE:
+
+has_mingw := $(shell command -v x86_64-w64-mingw32-gcc 2>/dev/null)
+fmu: $(BUILD)/zipact $(if $(has_mingw),$(BUILD)/fmu/binaries/x86_64-windows/zipact.dll)
+	@mkdir -p out
+	$(BUILD)/zipact fmu examples/fmu.yaml --fmi 2 -o out/arm-fmi2.fmu
+	$(BUILD)/zipact fmu examples/fmu.yaml --fmi 3 -o out/arm-fmi3.fmu
 
 bench: $(BUILD)/zipact
 	$(BUILD)/zipact bench

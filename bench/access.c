@@ -62,8 +62,46 @@ static void measure(const char *name, ZpElectroModel model) {
   zp_model_destroy(actuator);
 }
 
+static double same(void *user, ZpSim *sim, double time) {
+  (void)sim, (void)time;
+  return *(const double *)user;
+}
+
+/* CPU time of CALLS explicit steps of the paper's size, each of which begins with a sample where there is a controller.
+ */
+static double steps_with(const ZpController *controller, double size) {
+  const ZpAssignment list[] = {{zp_key_find("preset"), ZP_PRESET_PAPER_CODE},
+                               {zp_key_find("mesh.nodes"), 21},
+                               {zp_key_find("drive.voltage"), 0},
+                               {zp_key_find("solver.time_step"), size}};
+  ZpActuatorDef def;
+  ZpModel *actuator;
+  ZpSim *sim;
+  ZpError err;
+  if (zp_def_resolve(&def, list, sizeof list / sizeof list[0], &err) != ZP_OK ||
+      zp_model_create(&def, &actuator, &err) != ZP_OK || zp_sim_create(actuator, NULL, &sim, &err) != ZP_OK ||
+      zp_sim_set_controller(sim, controller, &err) != ZP_OK) {
+    fprintf(stderr, "access: %s\n", err.message);
+    exit(EXIT_FAILURE);
+  }
+  double start = now();
+  zp_sim_run(sim, CALLS * size, false, NULL, NULL);
+  double stop = now();
+  zp_sim_destroy(sim);
+  zp_model_destroy(actuator);
+  return stop - start;
+}
+
+/* What a sample costs beside the controller itself: the difference. */
+static void measure_control(void) {
+  double voltage = 0, size = 1e-6;
+  const ZpController controller = {size, &voltage, same};
+  print_row("plates", "control", "a sample", steps_with(&controller, size) - steps_with(NULL, size));
+}
+
 int main(void) {
   printf("electro.model,call,what,ns\n");
+  measure_control();
   measure("plates", ZP_ELECTRO_PLATES);
   measure("field", ZP_ELECTRO_FIELD);
   return EXIT_SUCCESS;

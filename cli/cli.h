@@ -26,8 +26,9 @@ typedef struct Options {
   const char *scenario; /* NULL: the defaults */
   const char **set;     /* [sets] values of --set, in order */
   int sets;
-  const char *directory; /* NULL: out/STUDY */
+  const char *directory; /* what -o names; NULL: out/STUDY */
   int jobs;              /* processors to use; 0: all */
+  int fmi;               /* version of FMI that was asked for; 0: none */
   bool resume, no_plots, json, yaml, quiet, help;
   const Crew *crew; /* NULL: threads of this process compute */
 } Options;
@@ -51,6 +52,7 @@ int cli_flush(int status);
 int cli_study(const char *study, const Options *options);
 int cli_optimize(const Options *options);
 int cli_batch(const Options *options);
+int cli_fmu(const Options *options);
 int cli_keys(const Options *options);
 int cli_bench(const Options *options);
 int cli_reproduce(const Options *options);

@@ -17,6 +17,8 @@ static const char usage[] =
     "above\n"
     "zipact batch [SCENARIO.yaml] [--set KEY=VALUE]... [--jobs N]   cases as JSON on standard input, one per line;\n"
     "                                    results as JSON on standard output\n"
+    "zipact fmu [SCENARIO.yaml] [--set KEY=VALUE]... [--fmi 2|3] -o FILE.fmu   the actuator as an FMU for "
+    "co-simulation\n"
     "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
     "zipact reproduce [-o DIR]           the tables and figures of the paper beside our own\n"
     "zipact bench [--json]               speed on this machine\n"
@@ -91,11 +93,17 @@ static bool read_jobs(const char *text, int *jobs) {
 
 /* Read what follows the first word; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
 static int read_options(int argc, char **argv, const char **set, Options *options) {
-  static const struct option known[] = {{"set", required_argument, NULL, 's'}, {"output", required_argument, NULL, 'o'},
-                                        {"no-plots", no_argument, NULL, 'p'},  {"jobs", required_argument, NULL, 'n'},
-                                        {"resume", no_argument, NULL, 'r'},    {"json", no_argument, NULL, 'j'},
-                                        {"yaml", no_argument, NULL, 'y'},      {"quiet", no_argument, NULL, 'q'},
-                                        {"help", no_argument, NULL, 'h'},      {NULL, 0, NULL, 0}};
+  static const struct option known[] = {{"set", required_argument, NULL, 's'},
+                                        {"output", required_argument, NULL, 'o'},
+                                        {"no-plots", no_argument, NULL, 'p'},
+                                        {"jobs", required_argument, NULL, 'n'},
+                                        {"resume", no_argument, NULL, 'r'},
+                                        {"json", no_argument, NULL, 'j'},
+                                        {"fmi", required_argument, NULL, 'f'},
+                                        {"yaml", no_argument, NULL, 'y'},
+                                        {"quiet", no_argument, NULL, 'q'},
+                                        {"help", no_argument, NULL, 'h'},
+                                        {NULL, 0, NULL, 0}};
   *options = (Options){.set = set};
   for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
     if (c == 's')
@@ -108,6 +116,9 @@ static int read_options(int argc, char **argv, const char **set, Options *option
       options->resume = true;
     else if (c == 'n') {
       if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
+    } else if (c == 'f') {
+      if (strcmp(optarg, "2") != 0 && strcmp(optarg, "3") != 0) return fail_usage("--fmi takes 2 or 3, not ", optarg);
+      options->fmi = *optarg - '0';
     } else if (c == 'j')
       options->json = true;
     else if (c == 'y')
@@ -152,7 +163,25 @@ static int dispatch_optimize(const Options *o) {
   return cli_optimize(o);
 }
 
+static int dispatch_fmu(const Options *o) {
+  if (o->help) {
+    print_help();
+    return EXIT_DONE;
+  }
+  if (!o->directory) return fail_usage("fmu needs a file to write: -o FILE.fmu", "");
+  if (o->no_plots) return fail_usage("does not take --no-plots: ", "fmu");
+  if (o->resume) return fail_usage("does not take --resume: ", "fmu");
+  if (o->jobs) return fail_usage("does not take --jobs: ", "fmu");
+  if (o->json) return fail_usage("does not take --json: ", "fmu");
+  if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", "fmu");
+  Options filled = *o;
+  if (!filled.fmi) filled.fmi = 3;
+  return cli_fmu(&filled);
+}
+
 static int dispatch(const char *word, const Options *o) {
+  if (strcmp(word, "fmu") == 0) return dispatch_fmu(o);
+  if (o->fmi) return fail_usage("--fmi is an option of fmu, not of ", word);
   bool is_study = zp_key_choice(zp_key_find("study"), word) >= 0, is_run = strcmp(word, "run") == 0;
   if (is_study || is_run) {
     if (o->help) return print_study_help(word);

@@ -5,17 +5,17 @@
 #   scripts/deps.sh          build, run and check
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --octave what the MEX function, its tests and pictures need
-#   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses
+#   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses, and what builds and tries FMUs for Windows
 #   scripts/deps.sh --docs   also what makes the manual's HTML
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
 #   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
 set -eu
-packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev libopenmpi-dev openmpi-bin check liblapack-dev gnuplot-nox
+packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev libopenmpi-dev openmpi-bin libzip-dev libxml2-dev libxml2-utils check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 ca-certificates"
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
  python3-matplotlib python3-pandas python3-pytest python3-distributed python3-mpi4py openmpi-bin"
 [ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
-[ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind ngspice"
+[ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind ngspice gcc-mingw-w64-x86-64-posix wine64"
 [ "${1:-}" = --docs ] && packages="$packages pandoc doxygen fonts-dejavu-extra"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 if [ "${1:-}" = --web ]; then
@@ -28,12 +28,12 @@ if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>
   for tool in cc cmake make pkg-config gnuplot python3; do
     command -v $tool >/dev/null 2>&1 || missing="$missing $tool"
   done
-  for library in hdf5 libfyaml udunits jansson nlopt sqlite3 check; do
+  for library in hdf5 libfyaml udunits jansson nlopt sqlite3 libzip libxml-2.0 check; do
     pkg-config --exists $library 2>/dev/null || missing="$missing $library"
   done
   [ -z "$missing" ] && exit 0
   echo "zipact needs, and this system has no apt-get to install:$missing" >&2
-  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, SQLite, Check, gnuplot, python3)" >&2
+  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, SQLite, libzip, libxml2, Check, gnuplot, python3)" >&2
   exit 1
 fi
 

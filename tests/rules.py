@@ -33,7 +33,10 @@ MAY_INCLUDE = {
     "sim": ["rest", "paper/motion", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "sample": [],
+    "fmu": ["sim", "actuator", "def", "base"],
+    "fmu/export": ["fmu", "sim", "actuator", "def", "base"],
     "io": ["sample", "base"],
+    "fmupack": ["io", "fmu", "fmu/export", "base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
     "campaign": ["fit", "io", "sample", "base"],
     "optimize": ["campaign", "fit", "io", "sample", "base"],
@@ -67,9 +70,10 @@ PUBLIC = {
     "batch.h": "fit",
     "campaign.h": "campaign",
     "optimize.h": "optimize",
+    "fmu.h": "fmupack",
 }
 
-ABOVE_CORE = ("sample", "io", "fit", "campaign", "optimize", "reproduce", "cli")  # may use libraries, files and streams
+ABOVE_CORE = ("sample", "io", "fmupack", "fit", "campaign", "optimize", "reproduce", "cli")  # may use libraries, files and streams
 
 LONGEST_FUNCTION = 60  # lines, from the name to the closing brace
 

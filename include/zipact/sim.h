@@ -27,7 +27,8 @@ typedef enum ZpOutcome {
   ZP_BRANCH_LOST,   /* "branch_lost": a branch could not be followed further */
   ZP_BAD_ARGUMENT,  /* "bad_argument": a call asked for what cannot be; nothing was done */
   ZP_SHORT_CIRCUIT, /* "short_circuit": electrodes without an insulator touched under a voltage */
-  ZP_PULLED_IN      /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
+  ZP_PULLED_IN,     /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
+  ZP_EVENT          /* "event": zp_sim_step_to_event has ended at an event */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" of any other number. */
@@ -100,6 +101,11 @@ ZP_API ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, 
  * repeated, would shake what vibrates near the bound of stability until the numbers diverge. */
 ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
+/* The same, but the run ends with ZP_EVENT after the first step in which the actuator has closed, an input has reached
+ * the end of its range, the voltage had a corner, or the supply has reached or left a limit. The steps are those of
+ * zp_sim_step up to there. */
+ZP_API ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
+
 /* Set the potential difference from now on, V; drive.waveform does not count any more. An ideal source charges the
  * electrodes at once: its work is U dQ, and what the field does not keep of that is the signal charging_loss. A voltage
  * that is replaced before the simulation continues counts for nothing (unless a field had to be solved for it); an
@@ -126,6 +132,28 @@ ZP_API const char *zp_input_name(ZpInput input);
  * input; of a voltage that is or becomes other than 0 also as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
 
+/* The derivatives of all signals by an input at this instant, while nothing moves, SI, in the order of
+ * zp_signal_columns: what a small jump of the input changes at once (docs/theory.md, section 17). Changes nothing.
+ * Signals follow the voltage as polynomials of second degree, so the central difference that is taken is their
+ * derivative up to rounding; where the breakdown cap begins to act, up to 1e-6 of it. ZP_BAD_INPUT if there is no such
+ * input. */
+ZP_API ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err);
+
+/* A controller of the program's own: at equal intervals it says what the voltage is to be. */
+typedef struct ZpController {
+  double period; /* s from one sample to the next; 1e-9 to 1e4 */
+  void *user;    /* handed to the function below: what the controller keeps from sample to sample */
+  /* (the simulation, to be read from only: zp_sim_get, zp_sim_read, zp_sim_shape; its time, s) => voltage from now on,
+   * V, range of drive.voltage. Any other ends the run with ZP_BAD_ARGUMENT and a message. */
+  double (*voltage)(void *user, ZpSim *sim, double time);
+} ZpController;
+
+/* From now on this controller, which is copied, is asked where a run begins that starts at the present time, and every
+ * period from there: each run of the simulation takes its steps to these instants, which no caller needs to know. They
+ * stay the same when another state is restored; what is behind `user` is the program's to restore. NULL: none any more,
+ * and the voltage stays. ZP_BAD_INPUT if the period is out of range or there is no function. */
+ZP_API ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpError *err);
+
 /* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. Changes nothing in
  * what follows, but uses the simulation's work space: one thread at a time, as with all calls. */
 ZP_API double zp_sim_get(ZpSim *sim, const char *name);
@@ -133,6 +161,16 @@ ZP_API double zp_sim_get(ZpSim *sim, const char *name);
 /* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current counts from the last
  * row at an earlier time, so that current times time adds up to the charge, jumps of the voltage included. */
 ZP_API void zp_sim_read(ZpSim *sim, double *row);
+
+/* Where the mean current and the mean power of the next row count from. A snapshot does not have it: a restored
+ * simulation counts from the time of the snapshot on, unless this is set again. */
+typedef struct ZpRowStart {
+  double time;   /* s */
+  double charge; /* that the source had given, of one modelled part, C */
+  double energy; /* that it had given, J */
+} ZpRowStart;
+ZP_API ZpRowStart zp_sim_row_start(const ZpSim *sim);
+ZP_API void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start);
 
 /* Present shape; its pointers are valid until the simulation continues. */
 ZP_API ZpShape zp_sim_shape(ZpSim *sim);

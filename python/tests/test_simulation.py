@@ -142,6 +142,25 @@ def test_shape_is_a_copy():
     assert shape.gap[-1] == pytest.approx(make()["opening"])
 
 
+def test_control_asks_every_period():
+    times = []
+
+    def controller(simulation):
+        times.append(simulation.time)
+        return 1e3 * len(times)
+
+    controlled, by_hand = make(**IMPLICIT), make(**IMPLICIT)
+    controlled.control(controller, 1e-3, 4.5e-3)
+    np.testing.assert_allclose(times, [0, 1e-3, 2e-3, 3e-3, 4e-3], atol=1e-15)
+    for k in range(5):
+        by_hand.step(1e-3 if k < 4 else 0.5e-3, voltage=1e3 * (k + 1))
+    assert controlled.time == pytest.approx(4.5e-3, abs=1e-15)
+    assert controlled["opening"] == pytest.approx(by_hand["opening"], rel=1e-12)
+    for period, end in ((0, 1), (-1, 1), (np.nan, 1), (1e-3, np.inf), (1e-3, 0)):
+        with pytest.raises(zipact.InputError):
+            controlled.control(controller, period, end)
+
+
 def test_step_takes_its_arguments_in_any_order():
     first, second = make(), make()
     first.step(1e-3, 5e3)

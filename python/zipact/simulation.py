@@ -1,5 +1,7 @@
 """Stepping by hand: control loops, learning."""
 
+import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -76,6 +78,20 @@ class Simulation(_zipact.Simulation):
         except (BufferError, TypeError, ValueError) as error:
             raise _zipact.InputError(f"out: {error}") from None
         return out
+
+    def control(self, controller: Callable[["Simulation"], float], period: float, end_time: float) -> None:
+        """Run until `end_time` (s) with a controller: every `period` (s), first now, controller(simulation) reads what it
+        needs and returns the voltage from then on, V."""
+        if not (math.isfinite(period) and period > 0):
+            raise _zipact.InputError(f"period = {period} s: not a finite time above 0 s")
+        if not (math.isfinite(end_time) and end_time >= self.time):
+            raise _zipact.InputError(f"end_time = {end_time} s: not a finite time from the present one, {self.time} s, on")
+        step, since = self.step, self.time
+        whole = int((end_time - since) / period * (1 + 1e-12))
+        for k in range(whole):
+            step(since + (k + 1) * period - self.time, voltage=controller(self))
+        if self.time < end_time - 1e-9 * period:
+            step(end_time - self.time, voltage=controller(self))
 
     def shape(self) -> Shape:
         """Present shape, copied."""

@@ -4,17 +4,43 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* C99, and Windows to this day, have no aligned_alloc: there a larger block is taken, whose address stands in front of
+ * the aligned place. */
+#if __STDC_VERSION__ >= 201112L && !defined(_WIN32)
+static void *allocate(size_t bytes) {
+  return aligned_alloc(ZP_ALIGNMENT, bytes);
+}
+
+static void *block_of(void *memory) {
+  return memory;
+}
+#else
+static void *allocate(size_t bytes) {
+  char *block = malloc(bytes + ZP_ALIGNMENT);
+  if (!block) return NULL;
+  char *memory = block + (ZP_ALIGNMENT - (uintptr_t)block % ZP_ALIGNMENT);
+  memcpy(memory - sizeof block, &block, sizeof block);
+  return memory;
+}
+
+static void *block_of(void *memory) {
+  char *block = NULL;
+  if (memory) memcpy(&block, (char *)memory - sizeof block, sizeof block);
+  return block;
+}
+#endif
+
 void *zp_calloc(size_t count, size_t size) {
-  if (size && count > (SIZE_MAX - ZP_ALIGNMENT) / size) return NULL;
+  if (size && count > (SIZE_MAX - (size_t)2 * ZP_ALIGNMENT) / size) return NULL;
   size_t bytes = (count * size + ZP_ALIGNMENT - 1) / ZP_ALIGNMENT * ZP_ALIGNMENT;
   if (bytes == 0) bytes = ZP_ALIGNMENT;
-  void *memory = aligned_alloc(ZP_ALIGNMENT, bytes);
+  void *memory = allocate(bytes);
   if (memory) memset(memory, 0, bytes);
   return memory;
 }
 
 void zp_free(void *memory) {
-  free(memory);
+  free(block_of(memory));
 }
 
 double *zp_carve(ZpCarver *carver, size_t count) {

@@ -113,11 +113,19 @@ int zp_key_find(const char *name) {
   return -1;
 }
 
+/* Of a text, at most `most`. */
+static int length_within(const char *text, int most) {
+  int length = 0;
+  while (length < most && text[length])
+    length++;
+  return length;
+}
+
 /* Edit distance (insert, delete, replace) of two words of at most 63 characters; longer ones are cut. */
 static int edit_distance(const char *a, const char *b) {
   enum { LONGEST = 64 };
-  int row[LONGEST];
-  int len = (int)strnlen(b, LONGEST - 1);
+  int row[LONGEST] = {0};
+  int len = length_within(b, LONGEST - 1);
   for (int j = 0; j <= len; j++)
     row[j] = j;
   for (int i = 1; i < LONGEST && a[i - 1]; i++) {
@@ -235,12 +243,12 @@ const char *zp_def_text(const ZpActuatorDef *def, int index) {
 }
 
 static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
-  size_t length = strnlen(text, ZP_TEXT_SIZE);
+  int length = length_within(text, ZP_TEXT_SIZE);
   if (length == ZP_TEXT_SIZE)
     return zp_fail(err, ZP_BAD_INPUT, "%s: longer than %d bytes", key->name, ZP_TEXT_SIZE - 1);
-  for (size_t i = 0; i < length; i++)
+  for (int i = 0; i < length; i++)
     if ((unsigned char)text[i] < 0x20 || text[i] == 0x7F)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: character %zu is a control character", key->name, i + 1);
+      return zp_fail(err, ZP_BAD_INPUT, "%s: character %d is a control character", key->name, i + 1);
   return ZP_OK;
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/fail.h"
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
 
@@ -217,6 +218,16 @@ static void make_row(ZpSim *sim) {
   sim->row_energy = sim->row[SIGNAL_source_energy];
 }
 
+ZpRowStart zp_sim_row_start(const ZpSim *sim) {
+  return (ZpRowStart){sim->row_time, sim->row_charge, sim->row_energy};
+}
+
+void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start) {
+  sim->row_time = start.time;
+  sim->row_charge = start.charge;
+  sim->row_energy = start.energy;
+}
+
 void zp_sim_start_row(ZpSim *sim) {
   const ZpState *state = sim->state;
   bool fed = zp_sim_is_fed(sim);
@@ -224,6 +235,34 @@ void zp_sim_start_row(ZpSim *sim) {
   sim->row_time = state->t;
   sim->row_charge = fed ? state->source_charge / sim->model->parts : charge + state->leaked;
   sim->row_energy = fed ? state->source_energy : zp_sim_get(sim, "source_energy");
+}
+
+/* All signals if the voltage had another value => row; the state is as it was. */
+static void read_at(ZpSim *sim, double voltage, double *row) {
+  ZpState *state = sim->state;
+  size_t size = zp_state_size(sim->model);
+  memcpy(sim->before, state, size);
+  state->by_hand = true;
+  state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
+  fill_row(sim, ALL);
+  memcpy(state, sim->before, size);
+  memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
+}
+
+ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err) {
+  static const double part = 1e-5, least = 1e-2; /* of the voltage, and V: far from the rounding of differences */
+  double above[SIGNAL_COUNT], below[SIGNAL_COUNT];
+  if ((size_t)input >= ZP_INPUT_COUNT) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is none", (int)input);
+  memset(slope, 0, SIGNAL_COUNT * sizeof *slope);
+  if (input != ZP_INPUT_VOLTAGE) return ZP_OK; /* a load acts on what moves only */
+  double voltage = zp_sim_is_fed(sim) ? zp_sim_command(sim) : sim->state->U;
+  double half = fmax(least, part * fabs(voltage)), up = voltage + half, down = voltage - half;
+  read_at(sim, up, above);
+  read_at(sim, down, below);
+  for (size_t k = 0; k < SIGNAL_COUNT; k++)
+    slope[k] = (above[k] - below[k]) / (up - down);
+  return ZP_OK;
 }
 
 double zp_sim_get(ZpSim *sim, const char *name) {

@@ -11,16 +11,16 @@
 #include "sim/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
-                                      "diverged",    "step_limit",   "converged",     "followed",
-                                      "branch_lost", "bad_argument", "short_circuit", "pulled_in"};
+  static const char *const names[] = {"end_time",      "zipped",    "interrupted", "not_settled", "diverged",
+                                      "step_limit",    "converged", "followed",    "branch_lost", "bad_argument",
+                                      "short_circuit", "pulled_in", "event"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
   return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
-         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN;
+         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -150,7 +150,7 @@ static double next_corner(const ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  return fmin(voltage, zp_ramp_corner(&state->load_input, state->t));
+  return fmin(fmin(voltage, zp_control_due(sim)), zp_ramp_corner(&state->load_input, state->t));
 }
 
 /* Longest step for an input by hand whose size matters from `least` on, s; never so short that time stands still. */
@@ -286,15 +286,19 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
     latest = fmin(latest, corner);
   }
   Start start = two ? start_of(model, state) : (Start){0, 0, 0};
+  const size_t mode = state->supply_mode;
+  const bool unzipped = isnan(state->zip_time);
   if (!prepare_step(sim)) return;
   ZpStepLimit limit;
   sim->stuck = !sim->stepping->step(sim, latest, &limit);
   if (sim->stuck) return;
   info->steps++;
-  info->limited[limit_of(sim, limit, corner, end_time)]++;
+  limit = limit_of(sim, limit, corner, end_time);
+  info->limited[limit]++;
   follow_voltage(sim);
   if (two) note_closing(sim, start);
   note_starving(sim);
+  sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(state->zip_time));
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -340,6 +344,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
+    if (!zp_control_sample(sim)) return ZP_BAD_ARGUMENT;
     keep_before_cut(sim, end_time);
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
@@ -358,6 +363,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     }
     if (shorted(model, state)) return ZP_SHORT_CIRCUIT;
     if (stop_when_zipped && model->field && closed(model, state)) return ZP_ZIPPED;
+    if (sim->stops_at_events && sim->at_event) return diverged(model, state) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(model, state) ? ZP_DIVERGED : ZP_REACHED_END;
 }
@@ -402,8 +408,14 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_BRANCH_LOST:
   case ZP_PULLED_IN:
     break; /* of studies of rest */
+  case ZP_EVENT:
+    snprintf(text, size, "an event at %g s", t);
+    break;
   case ZP_BAD_ARGUMENT:
-    snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
+    if (sim->settled == ZP_REACHED_END)
+      snprintf(text, size, "the controller's voltage at %g s: %.200s", t, sim->control.fault.message);
+    else
+      snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
     break;
   }
 }
@@ -458,6 +470,13 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
   return outcome;
 }
 
+ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info) {
+  sim->stops_at_events = true;
+  ZpOutcome outcome = zp_sim_step(sim, dt, hooks, info);
+  sim->stops_at_events = false;
+  return outcome;
+}
+
 /* -- state ---------------------------------------------------------------------------------------- */
 
 double zp_sim_starved_time(const ZpSim *sim) {
@@ -472,6 +491,7 @@ void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   zp_sim_start_row(sim);
+  zp_control_resume(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
   sim->cut = false;

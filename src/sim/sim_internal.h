@@ -10,6 +10,23 @@
 #include "sim/feed.h"
 #include "system/held.h"
 
+/* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
+typedef struct ZpControl {
+  ZpController controller; /* without a function: there is none */
+  double since;            /* s */
+  double taken;            /* samples so far, a whole number */
+  ZpError fault;           /* why its voltage was refused */
+} ZpControl;
+
+/* When the next sample is due, s; INFINITY without a controller. */
+double zp_control_due(const ZpSim *sim);
+
+/* Take the sample that is due, if one is. False if the voltage is refused. */
+bool zp_control_sample(ZpSim *sim);
+
+/* The next sample is the first from the present time on. */
+void zp_control_resume(ZpSim *sim);
+
 /* How a run moves on (stepping.c). */
 typedef struct ZpStepping {
   /* What it takes. False if there is no memory. */
@@ -38,8 +55,9 @@ struct ZpSim {
   ZpState *kept;   /* a copy of a state of sound numbers that a longer run passes through, too, where */
   ZpState *before; /* behind a supply: a copy of where the step began */
   ZpFeed feed;     /* the supply at the electrodes */
-  bool cut;        /* the end of the run has cut a step since */
-  int drive;       /* the key drive.voltage: its range is that of voltages set by hand */
+  ZpControl control;
+  bool cut;  /* the end of the run has cut a step since */
+  int drive; /* the key drive.voltage: its range is that of voltages set by hand */
   ZpEval eval;
   double *relax_work;          /* [12 stride] work space of settling */
   ZpTable *series;             /* the caller's; NULL: no record */
@@ -59,6 +77,8 @@ struct ZpSim {
   ZpDynamics dynamics;        /* by implicit steps, */
   ZpPaperMotion paper;        /* or by the paper's */
   bool stuck;                 /* no step was found */
+  bool stops_at_events;       /* the run ends at the first one */
+  bool at_event;              /* the last step has ended at one */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if

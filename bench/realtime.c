@@ -1,0 +1,87 @@
+/* What one step of 1 ms of a control loop costs, at its median and at its worst, CPU time of the thread => CSV.
+ *
+ *   realtime [STEPS]   the default actuator in its bead of liquid, 61 nodes: 10 kV for 250 ms, then 0 V for as long,
+ * again and again; the largest cost of each share of the steps, then a histogram
+ *
+ * The first cycle is not counted: it meets every page of memory for the first time. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <zipact/zipact.h>
+
+enum { USUAL = 100000, CYCLE = 500, ON = 250, BINS = 40 };
+
+static const double step_size = 1e-3, bin = 0.1e-3; /* s; s of CPU time */
+
+static double now(void) {
+  struct timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static void fail(const char *message) {
+  fprintf(stderr, "realtime: %s\n", message);
+  exit(EXIT_FAILURE);
+}
+
+/* One step at the voltage of its place in the cycle => its CPU time. */
+static double measure(ZpSim *sim, int k) {
+  ZpRunInfo info;
+  double start = now();
+  zp_sim_set_voltage(sim, k % CYCLE < ON ? 10e3 : 0, NULL);
+  if (zp_sim_step(sim, step_size, NULL, &info) != ZP_REACHED_END) fail(info.message);
+  return now() - start;
+}
+
+/* How far it has closed and opened, as contraction. */
+typedef struct Extremes {
+  double least, most;
+} Extremes;
+
+static void print(double *cost, int steps) {
+  static const double share[] = {0.5, 0.9, 0.99, 0.999, 1};
+  int count[BINS + 1] = {0};
+  qsort(cost, (size_t)steps, sizeof *cost, ascending);
+  printf("share_of_steps,cpu_ms\n");
+  for (size_t k = 0; k < sizeof share / sizeof share[0]; k++)
+    printf("%g,%.3f\n", share[k], 1e3 * cost[(int)ceil(share[k] * steps) - 1]);
+  for (int k = 0; k < steps; k++)
+    count[(int)fmin(cost[k] / bin, BINS)]++;
+  printf("\nfrom_ms,steps\n");
+  for (int k = 0; k <= BINS; k++)
+    if (count[k]) printf("%.1f,%d\n", 1e3 * bin * k, count[k]);
+}
+
+int main(int argc, char **argv) {
+  const int steps = argc > 1 ? atoi(argv[1]) : USUAL;
+  ZpError err;
+  ZpModel *model;
+  ZpSim *sim;
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.liquid.model = ZP_LIQUID_BEAD;
+  double *cost = steps > 0 ? malloc((size_t)steps * sizeof *cost) : NULL;
+  if (!cost) fail("give a number of steps above 0");
+  if (zp_model_create(&def, &model, &err) != ZP_OK || zp_sim_create(model, NULL, &sim, &err) != ZP_OK)
+    fail(err.message);
+  for (int k = 0; k < CYCLE; k++)
+    measure(sim, k);
+  Extremes contraction = {INFINITY, -INFINITY};
+  for (int k = 0; k < steps; k++) {
+    cost[k] = measure(sim, k);
+    contraction.least = fmin(contraction.least, zp_sim_get(sim, "contraction"));
+    contraction.most = fmax(contraction.most, zp_sim_get(sim, "contraction"));
+  }
+  print(cost, steps);
+  printf("\nleast_contraction,most_contraction\n%.3f,%.3f\n", contraction.least, contraction.most);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  free(cost);
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,150 @@
+/* The interface of FMI 3.0 for co-simulation: types and functions of the standard, under its names. */
+#ifndef ZP_FMU_EXPORT_FMI3_H
+#define ZP_FMU_EXPORT_FMI3_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "fmu/export/visible.h"
+
+typedef void *fmi3Instance;
+typedef void *fmi3InstanceEnvironment;
+typedef void *fmi3FMUState;
+typedef uint32_t fmi3ValueReference;
+typedef float fmi3Float32;
+typedef double fmi3Float64;
+typedef int8_t fmi3Int8;
+typedef uint8_t fmi3UInt8;
+typedef int16_t fmi3Int16;
+typedef uint16_t fmi3UInt16;
+typedef int32_t fmi3Int32;
+typedef uint32_t fmi3UInt32;
+typedef int64_t fmi3Int64;
+typedef uint64_t fmi3UInt64;
+typedef bool fmi3Boolean;
+typedef char fmi3Char;
+typedef const fmi3Char *fmi3String;
+typedef uint8_t fmi3Byte;
+typedef const fmi3Byte *fmi3Binary;
+typedef bool fmi3Clock;
+
+typedef enum fmi3Status { fmi3OK, fmi3Warning, fmi3Discard, fmi3Error, fmi3Fatal } fmi3Status;
+typedef enum fmi3DependencyKind {
+  fmi3Independent,
+  fmi3Constant,
+  fmi3Fixed,
+  fmi3Tunable,
+  fmi3Discrete,
+  fmi3Dependent
+} fmi3DependencyKind;
+typedef enum fmi3IntervalQualifier {
+  fmi3IntervalNotYetKnown,
+  fmi3IntervalUnchanged,
+  fmi3IntervalChanged
+} fmi3IntervalQualifier;
+
+typedef void (*fmi3LogMessageCallback)(fmi3InstanceEnvironment, fmi3Status, fmi3String category, fmi3String message);
+typedef void (*fmi3IntermediateUpdateCallback)(fmi3InstanceEnvironment, fmi3Float64 time, fmi3Boolean set_requested,
+                                               fmi3Boolean get_allowed, fmi3Boolean step_finished,
+                                               fmi3Boolean can_return_early, fmi3Boolean *return_requested,
+                                               fmi3Float64 *return_time);
+typedef void (*fmi3ClockUpdateCallback)(fmi3InstanceEnvironment);
+typedef void (*fmi3LockPreemptionCallback)(void);
+typedef void (*fmi3UnlockPreemptionCallback)(void);
+
+ZP_FMI const char *fmi3GetVersion(void);
+ZP_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance, fmi3Boolean on, size_t count, const fmi3String category[]);
+ZP_FMI fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
+                                                 fmi3Boolean visible, fmi3Boolean logging, fmi3InstanceEnvironment,
+                                                 fmi3LogMessageCallback);
+ZP_FMI fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                                fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean uses_events,
+                                                fmi3Boolean returns_early, const fmi3ValueReference intermediate[],
+                                                size_t count, fmi3InstanceEnvironment, fmi3LogMessageCallback,
+                                                fmi3IntermediateUpdateCallback);
+ZP_FMI fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,
+                                                      fmi3Boolean visible, fmi3Boolean logging, fmi3InstanceEnvironment,
+                                                      fmi3LogMessageCallback, fmi3ClockUpdateCallback,
+                                                      fmi3LockPreemptionCallback, fmi3UnlockPreemptionCallback);
+ZP_FMI void fmi3FreeInstance(fmi3Instance);
+ZP_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance, fmi3Boolean has_tolerance, fmi3Float64 tolerance,
+                                              fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop);
+ZP_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance);
+ZP_FMI fmi3Status fmi3EnterEventMode(fmi3Instance);
+ZP_FMI fmi3Status fmi3EnterStepMode(fmi3Instance);
+ZP_FMI fmi3Status fmi3EnterConfigurationMode(fmi3Instance);
+ZP_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance);
+ZP_FMI fmi3Status fmi3Terminate(fmi3Instance);
+ZP_FMI fmi3Status fmi3Reset(fmi3Instance);
+
+/* The getter and the setter of a type of numbers. */
+#define ZP_FMI3_VARIABLES(Type)                                                                                        \
+  ZP_FMI fmi3Status fmi3Get##Type(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3##Type[],                \
+                                  size_t values);                                                                      \
+  ZP_FMI fmi3Status fmi3Set##Type(fmi3Instance, const fmi3ValueReference[], size_t count, const fmi3##Type[],          \
+                                  size_t values)
+ZP_FMI3_VARIABLES(Float32);
+ZP_FMI3_VARIABLES(Float64);
+ZP_FMI3_VARIABLES(Int8);
+ZP_FMI3_VARIABLES(UInt8);
+ZP_FMI3_VARIABLES(Int16);
+ZP_FMI3_VARIABLES(UInt16);
+ZP_FMI3_VARIABLES(Int32);
+ZP_FMI3_VARIABLES(UInt32);
+ZP_FMI3_VARIABLES(Int64);
+ZP_FMI3_VARIABLES(UInt64);
+ZP_FMI3_VARIABLES(Boolean);
+ZP_FMI3_VARIABLES(String);
+ZP_FMI fmi3Status fmi3GetBinary(fmi3Instance, const fmi3ValueReference[], size_t count, size_t sizes[], fmi3Binary[],
+                                size_t values);
+ZP_FMI fmi3Status fmi3SetBinary(fmi3Instance, const fmi3ValueReference[], size_t count, const size_t sizes[],
+                                const fmi3Binary[], size_t values);
+ZP_FMI fmi3Status fmi3GetClock(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3Clock[]);
+ZP_FMI fmi3Status fmi3SetClock(fmi3Instance, const fmi3ValueReference[], size_t count, const fmi3Clock[]);
+
+ZP_FMI fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance, fmi3ValueReference, size_t *count);
+ZP_FMI fmi3Status fmi3GetVariableDependencies(fmi3Instance, fmi3ValueReference, size_t element_of_dependent[],
+                                              fmi3ValueReference independent[], size_t element_of_independent[],
+                                              fmi3DependencyKind[], size_t count);
+ZP_FMI fmi3Status fmi3GetFMUState(fmi3Instance, fmi3FMUState *);
+ZP_FMI fmi3Status fmi3SetFMUState(fmi3Instance, fmi3FMUState);
+ZP_FMI fmi3Status fmi3FreeFMUState(fmi3Instance, fmi3FMUState *);
+ZP_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance, fmi3FMUState, size_t *size);
+ZP_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance, fmi3FMUState, fmi3Byte[], size_t size);
+ZP_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance, const fmi3Byte[], size_t size, fmi3FMUState *);
+ZP_FMI fmi3Status fmi3GetDirectionalDerivative(fmi3Instance, const fmi3ValueReference unknown[], size_t unknowns,
+                                               const fmi3ValueReference known[], size_t knowns,
+                                               const fmi3Float64 seed[], size_t seeds, fmi3Float64 sensitivity[],
+                                               size_t sensitivities);
+ZP_FMI fmi3Status fmi3GetAdjointDerivative(fmi3Instance, const fmi3ValueReference unknown[], size_t unknowns,
+                                           const fmi3ValueReference known[], size_t knowns, const fmi3Float64 seed[],
+                                           size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities);
+
+ZP_FMI fmi3Status fmi3GetIntervalDecimal(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3Float64 interval[],
+                                         fmi3IntervalQualifier[]);
+ZP_FMI fmi3Status fmi3GetIntervalFraction(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3UInt64 counter[],
+                                          fmi3UInt64 resolution[], fmi3IntervalQualifier[]);
+ZP_FMI fmi3Status fmi3GetShiftDecimal(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3Float64 shift[]);
+ZP_FMI fmi3Status fmi3GetShiftFraction(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3UInt64 counter[],
+                                       fmi3UInt64 resolution[]);
+ZP_FMI fmi3Status fmi3SetIntervalDecimal(fmi3Instance, const fmi3ValueReference[], size_t count,
+                                         const fmi3Float64 interval[]);
+ZP_FMI fmi3Status fmi3SetIntervalFraction(fmi3Instance, const fmi3ValueReference[], size_t count,
+                                          const fmi3UInt64 counter[], const fmi3UInt64 resolution[]);
+ZP_FMI fmi3Status fmi3SetShiftDecimal(fmi3Instance, const fmi3ValueReference[], size_t count,
+                                      const fmi3Float64 shift[]);
+ZP_FMI fmi3Status fmi3SetShiftFraction(fmi3Instance, const fmi3ValueReference[], size_t count,
+                                       const fmi3UInt64 counter[], const fmi3UInt64 resolution[]);
+ZP_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance);
+ZP_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance, fmi3Boolean *again, fmi3Boolean *terminate,
+                                           fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
+                                           fmi3Boolean *next_defined, fmi3Float64 *next);
+
+ZP_FMI fmi3Status fmi3GetOutputDerivatives(fmi3Instance, const fmi3ValueReference[], size_t count,
+                                           const fmi3Int32 order[], fmi3Float64[], size_t values);
+ZP_FMI fmi3Status fmi3DoStep(fmi3Instance, fmi3Float64 now, fmi3Float64 size, fmi3Boolean no_return_before,
+                             fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached);
+ZP_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance, fmi3ValueReference, fmi3Float64 time);
+
+#endif

@@ -1,0 +1,213 @@
+/* What FMI 2 and FMI 3 have in common. */
+#include "fmu/export/slave.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* -- messages and life ----------------------------------------------------------------------------- */
+
+ZpSlaveStatus zp_slave_say(const ZpSlave *slave, ZpSlaveStatus status, const char *message) {
+  static const char *const category[] = {ZP_LOG_EVENTS, ZP_LOG_EVENTS, ZP_LOG_DISCARD, ZP_LOG_ERROR};
+  if (slave->log && (slave->logging || status >= ZP_SLAVE_DISCARD))
+    slave->log(slave, status, category[status], message);
+  return status;
+}
+
+ZpSlaveStatus zp_slave_after(const ZpSlave *slave, ZpStatus status, const ZpError *err) {
+  if (status == ZP_OK) return ZP_SLAVE_OK;
+  return zp_slave_say(slave, status == ZP_BAD_INPUT ? ZP_SLAVE_DISCARD : ZP_SLAVE_ERROR, err->message);
+}
+
+bool zp_slave_allows(const ZpSlave *slave, unsigned phases, const char *what) {
+  char text[96];
+  if (!slave) return false;
+  if (slave->fmu->phase & phases) return true;
+  snprintf(text, sizeof text, "%s is not allowed in this phase", what);
+  zp_slave_say(slave, ZP_SLAVE_ERROR, text);
+  return false;
+}
+
+ZpSlave *zp_slave_create(const ZpSlave *like, const char *name, const char *token) {
+  ZpError err;
+  ZpFmuStart start = zp_fmu_start;
+  ZpSlave *slave = zp_calloc(1, sizeof *slave);
+  if (!slave) return NULL;
+  *slave = *like;
+  snprintf(slave->name, sizeof slave->name, "%s", name ? name : "");
+  if (!token || strcmp(token, start.token) != 0)
+    zp_slave_say(slave, ZP_SLAVE_ERROR, "the token is not that of this FMU's modelDescription.xml");
+  else if (zp_fmu_create(&start, &slave->fmu, &err) == ZP_OK)
+    return slave;
+  else
+    zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
+  zp_free(slave);
+  return NULL;
+}
+
+void zp_slave_destroy(ZpSlave *slave) {
+  if (!slave) return;
+  zp_fmu_destroy(slave->fmu);
+  zp_free(slave);
+}
+
+static ZpSlaveStatus use_tolerance(ZpSlave *slave, double tolerance) {
+  ZpError err;
+  if (zp_def_set(&slave->fmu->def, zp_key_find("solver.tolerance"), tolerance, &err) == ZP_OK) return ZP_SLAVE_OK;
+  return zp_slave_say(slave, ZP_SLAVE_WARNING, err.message);
+}
+
+ZpSlaveStatus zp_slave_setup(ZpSlave *slave, double start, double tolerance, double stop) {
+  if (!isfinite(start) || !(stop > start))
+    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the experiment does not begin at a finite time before its end");
+  slave->fmu->start_time = slave->fmu->time = start;
+  return isnan(tolerance) ? ZP_SLAVE_OK : use_tolerance(slave, tolerance);
+}
+
+ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave, ZpFmuPhase next) {
+  ZpError err;
+  slave->fmu->phase = zp_fmu_prepare(slave->fmu, &err) == ZP_OK ? next : ZP_FMU_FAILED;
+  return slave->fmu->phase == next ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
+}
+
+ZpSlaveStatus zp_slave_reset(ZpSlave *slave) {
+  ZpError err;
+  slave->terminates = false;
+  return zp_slave_after(slave, zp_fmu_reset(slave->fmu, &err), &err);
+}
+
+/* -- steps and variables --------------------------------------------------------------------------- */
+
+ZpSlaveStatus zp_slave_step(ZpSlave *slave, double now, double size, ZpFmuStep *step) {
+  static const double rounding = 1e-9; /* of times that importers add up */
+  ZpError err;
+  ZpFmu *fmu = slave->fmu;
+  *step = (ZpFmuStep){false, false};
+  if (!(size > 0) || isinf(size)) return zp_slave_say(slave, ZP_SLAVE_ERROR, "the size of a step is not above 0 s");
+  if (!(fabs(now - fmu->time) <= rounding * fmax(size, fabs(now))))
+    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the communication point is not the time that was reached");
+  ZpStatus status = zp_fmu_step(fmu, now + size, slave->uses_events && slave->returns_early, step, &err);
+  slave->terminates = step->terminate;
+  if (status != ZP_OK) return zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
+  if (step->event) zp_slave_say(slave, ZP_SLAVE_OK, "an event has ended the step");
+  if (step->terminate) zp_slave_say(slave, ZP_SLAVE_OK, "short circuit: electrodes without an insulator touch");
+  return ZP_SLAVE_OK;
+}
+
+ZpSlaveStatus zp_slave_get(ZpSlave *slave, uint32_t reference, ZpKeyType type, double *value) {
+  ZpError err;
+  return zp_slave_after(slave, zp_fmu_get(slave->fmu, reference, type, value, &err), &err);
+}
+
+ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, double value) {
+  ZpError err;
+  return zp_slave_after(slave, zp_fmu_set(slave->fmu, reference, type, value, &err), &err);
+}
+
+ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
+                                  size_t knowns, const double *seed, double *sensitivity) {
+  ZpError err;
+  ZpStatus status = ZP_OK;
+  double slope[ZP_FMU_SIGNALS];
+  for (size_t i = 0; i < unknowns; i++)
+    sensitivity[i] = 0;
+  for (size_t j = 0; j < knowns && status == ZP_OK; j++) {
+    status = zp_fmu_slopes(slave->fmu, known[j], slope, &err);
+    for (size_t i = 0; i < unknowns && status == ZP_OK; i++) {
+      int signal = 0;
+      status = zp_fmu_signal(slave->fmu, unknown[i], &signal, &err);
+      sensitivity[i] += slope[signal] * seed[j];
+    }
+  }
+  return zp_slave_after(slave, status, &err);
+}
+
+ZpSlaveStatus zp_slave_adjoint(ZpSlave *slave, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
+                               size_t knowns, const double *seed, double *sensitivity) {
+  ZpError err;
+  ZpStatus status = ZP_OK;
+  double slope[ZP_FMU_SIGNALS];
+  for (size_t j = 0; j < knowns && status == ZP_OK; j++) {
+    status = zp_fmu_slopes(slave->fmu, known[j], slope, &err);
+    sensitivity[j] = 0;
+    for (size_t i = 0; i < unknowns && status == ZP_OK; i++) {
+      int signal = 0;
+      status = zp_fmu_signal(slave->fmu, unknown[i], &signal, &err);
+      sensitivity[j] += seed[i] * slope[signal];
+    }
+  }
+  return zp_slave_after(slave, status, &err);
+}
+
+/* -- states ---------------------------------------------------------------------------------------- */
+
+static ZpSlaveState *make_state(size_t size) {
+  ZpSlaveState *state = zp_calloc(1, sizeof *state);
+  if (!state) return NULL;
+  *state = (ZpSlaveState){size, zp_calloc(1, size)};
+  if (state->byte) return state;
+  zp_free(state);
+  return NULL;
+}
+
+void zp_slave_free_state(void **place) {
+  ZpSlaveState *state = place ? *place : NULL;
+  if (!state) return;
+  zp_free(state->byte);
+  zp_free(state);
+  *place = NULL;
+}
+
+/* A state of that size in *place. False, with a message, if there is no memory. */
+static bool need_state(const ZpSlave *slave, void **place, size_t size) {
+  const ZpSlaveState *there = *place;
+  if (there && there->size == size) return true;
+  zp_slave_free_state(place);
+  *place = make_state(size);
+  if (!*place) zp_slave_say(slave, ZP_SLAVE_ERROR, "no memory");
+  return *place != NULL;
+}
+
+ZpSlaveStatus zp_slave_get_state(ZpSlave *slave, void **place) {
+  if (!place || !need_state(slave, place, zp_fmu_state_size(slave->fmu))) return ZP_SLAVE_ERROR;
+  const ZpSlaveState *state = *place;
+  zp_fmu_save(slave->fmu, state->byte);
+  return ZP_SLAVE_OK;
+}
+
+static ZpSlaveStatus refuse_state(const ZpSlave *slave) {
+  return zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no state, or its size is another");
+}
+
+ZpSlaveStatus zp_slave_set_state(ZpSlave *slave, const void *place) {
+  ZpError err;
+  const ZpSlaveState *state = place;
+  if (!state) return refuse_state(slave);
+  ZpStatus status = zp_fmu_load(slave->fmu, state->byte, state->size, &err);
+  return status == ZP_OK ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
+}
+
+ZpSlaveStatus zp_slave_state_size(const ZpSlave *slave, const void *place, size_t *size) {
+  const ZpSlaveState *state = place;
+  if (!state || !size) return refuse_state(slave);
+  *size = state->size;
+  return ZP_SLAVE_OK;
+}
+
+ZpSlaveStatus zp_slave_serialize(const ZpSlave *slave, const void *place, void *bytes, size_t size) {
+  const ZpSlaveState *state = place;
+  if (!state || !bytes || size < state->size) return refuse_state(slave);
+  memcpy(bytes, state->byte, state->size);
+  return ZP_SLAVE_OK;
+}
+
+/* Whether the bytes are a state, zp_slave_set_state says. */
+ZpSlaveStatus zp_slave_deserialize(ZpSlave *slave, const void *bytes, size_t size, void **place) {
+  if (!bytes || !place) return refuse_state(slave);
+  if (!need_state(slave, place, size)) return ZP_SLAVE_ERROR;
+  const ZpSlaveState *state = *place;
+  memcpy(state->byte, bytes, size);
+  return ZP_SLAVE_OK;
+}

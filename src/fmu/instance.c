@@ -1,0 +1,237 @@
+/* The life of an instance: what is set, when its simulation is built, what a step does. */
+#include "fmu/instance.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+
+/* -- life ------------------------------------------------------------------------------------------ */
+
+ZpStatus zp_fmu_reset(ZpFmu *fmu, ZpError *err) {
+  ZpStatus status = zp_fmu_start_def(&fmu->start, &fmu->def, err);
+  if (status != ZP_OK) return status;
+  fmu->phase = ZP_FMU_INSTANTIATED;
+  fmu->start_time = fmu->time = 0;
+  memset(fmu->rate, 0, sizeof fmu->rate);
+  memset(fmu->input, 0, sizeof fmu->input);
+  fmu->input[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&fmu->def);
+  fmu->prepared = false;
+  return ZP_OK;
+}
+
+ZpStatus zp_fmu_create(const ZpFmuStart *start, ZpFmu **out, ZpError *err) {
+  *out = NULL;
+  ZpFmu *fmu = zp_calloc(1, sizeof *fmu);
+  if (!fmu) return zp_fail_memory(err);
+  fmu->start = *start;
+  ZpStatus status = zp_fmu_reset(fmu, err);
+  if (status == ZP_OK)
+    *out = fmu;
+  else
+    zp_fmu_destroy(fmu);
+  return status;
+}
+
+static void drop_model(ZpFmu *fmu) {
+  zp_sim_destroy(fmu->sim);
+  zp_model_destroy(fmu->model);
+  zp_free(fmu->origin);
+  fmu->sim = NULL;
+  fmu->model = NULL;
+  fmu->origin = NULL;
+}
+
+void zp_fmu_destroy(ZpFmu *fmu) {
+  if (!fmu) return;
+  drop_model(fmu);
+  zp_free(fmu);
+}
+
+/* -- the simulation -------------------------------------------------------------------------------- */
+
+/* Is the model of these parameters? */
+static bool is_built(const ZpFmu *fmu) {
+  if (!fmu->sim) return false;
+  for (int key = 0; key < ZP_FMU_KEYS; key++) {
+    double wanted = zp_def_get(&fmu->def, key), has = zp_def_get(zp_model_def(fmu->model), key);
+    if (wanted != has && !(isnan(wanted) && isnan(has))) return false;
+  }
+  return true;
+}
+
+/* A simulation that has not found its hanging equilibrium says so where it is to run. */
+static ZpStatus check_start(ZpSim *sim, ZpError *err) {
+  ZpRunInfo info;
+  if (zp_sim_run(sim, 0, false, NULL, &info) == ZP_REACHED_END) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%s", info.message);
+}
+
+static ZpStatus keep_origin(ZpFmu *fmu, ZpError *err) {
+  fmu->origin = zp_calloc(1, zp_sim_state_size(fmu->sim));
+  if (!fmu->origin) return zp_fail_memory(err);
+  zp_sim_save(fmu->sim, fmu->origin);
+  return ZP_OK;
+}
+
+static ZpStatus build(ZpFmu *fmu, ZpError *err) {
+  drop_model(fmu);
+  ZpStatus status = zp_model_create(&fmu->def, &fmu->model, err);
+  if (status == ZP_OK) status = zp_sim_create(fmu->model, NULL, &fmu->sim, err);
+  if (status == ZP_OK) status = check_start(fmu->sim, err);
+  if (status == ZP_OK) status = keep_origin(fmu, err);
+  if (status != ZP_OK) drop_model(fmu);
+  return status;
+}
+
+ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err) {
+  return is_built(fmu) ? ZP_OK : build(fmu, err);
+}
+
+static ZpStatus apply_input(ZpFmu *fmu, ZpInput input, ZpError *err) {
+  return zp_sim_set_input(fmu->sim, input, fmu->input[input], fmu->rate[input], err);
+}
+
+/* The present signals. */
+static void read_row(ZpFmu *fmu) {
+  zp_sim_read(fmu->sim, fmu->row);
+  fmu->stale = false;
+}
+
+/* The same where nothing has moved: mean current and power stay those of the last step, since an input that jumps now
+ * counts in the next. */
+static void read_row_again(ZpFmu *fmu) {
+  double current = fmu->row[ZP_FMU_SIGNAL_current], power = fmu->row[ZP_FMU_SIGNAL_power];
+  read_row(fmu);
+  fmu->row[ZP_FMU_SIGNAL_current] = current;
+  fmu->row[ZP_FMU_SIGNAL_power] = power;
+}
+
+ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err) {
+  if (fmu->prepared) return ZP_OK;
+  ZpStatus status = zp_fmu_need_model(fmu, err);
+  if (status == ZP_OK) status = zp_sim_restore(fmu->sim, fmu->origin, zp_sim_state_size(fmu->sim), err);
+  for (int input = 0; input < ZP_INPUT_COUNT && status == ZP_OK; input++)
+    status = apply_input(fmu, (ZpInput)input, err);
+  if (status != ZP_OK) return status;
+  fmu->row[ZP_FMU_SIGNAL_current] = fmu->row[ZP_FMU_SIGNAL_power] = 0;
+  read_row_again(fmu);
+  fmu->prepared = true;
+  return ZP_OK;
+}
+
+/* -- variables ------------------------------------------------------------------------------------- */
+
+static ZpStatus find(const ZpFmu *fmu, uint32_t reference, ZpFmuVariable *variable, ZpError *err) {
+  bool found = zp_fmu_find(reference, variable);
+  if (found && variable->role == ZP_FMU_PARAMETER)
+    found = zp_fmu_is_parameter(variable->index, fmu->start.value[variable->index]);
+  return found ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "value reference %u: there is no such variable", reference);
+}
+
+static ZpStatus find_typed(const ZpFmu *fmu, uint32_t reference, ZpKeyType type, ZpFmuVariable *variable,
+                           ZpError *err) {
+  ZpStatus status = find(fmu, reference, variable, err);
+  if (status != ZP_OK || zp_fmu_type(*variable) == type) return status;
+  return zp_fail(err, ZP_BAD_INPUT, "%s: a variable of another type", zp_fmu_name(*variable));
+}
+
+static ZpStatus get_output(ZpFmu *fmu, int index, double *value, ZpError *err) {
+  ZpStatus status = zp_fmu_prepare(fmu, err);
+  if (status != ZP_OK) return status;
+  if (fmu->stale) read_row_again(fmu);
+  *value = fmu->row[index];
+  return ZP_OK;
+}
+
+ZpStatus zp_fmu_get(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double *value, ZpError *err) {
+  ZpFmuVariable variable;
+  ZpStatus status = find_typed(fmu, reference, type, &variable, err);
+  if (status != ZP_OK) return status;
+  if (variable.role == ZP_FMU_OUTPUT) return get_output(fmu, variable.index, value, err);
+  if (variable.role == ZP_FMU_TIME)
+    *value = fmu->time;
+  else if (variable.role == ZP_FMU_INPUT)
+    *value = fmu->input[variable.index];
+  else
+    *value = zp_def_get(&fmu->def, variable.index);
+  return ZP_OK;
+}
+
+static ZpStatus set_input(ZpFmu *fmu, ZpInput input, double value, double rate, ZpError *err) {
+  if (fmu->phase & (ZP_FMU_TERMINATED | ZP_FMU_FAILED))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: the simulation is over", zp_input_name(input));
+  ZpStatus status = fmu->prepared ? zp_sim_set_input(fmu->sim, input, value, rate, err) : ZP_OK;
+  if (status != ZP_OK) return status;
+  fmu->input[input] = value;
+  fmu->rate[input] = rate;
+  fmu->stale = true;
+  return ZP_OK;
+}
+
+static ZpStatus set_parameter(ZpFmu *fmu, int key, double value, ZpError *err) {
+  if (!(fmu->phase & (ZP_FMU_INSTANTIATED | ZP_FMU_INITIALIZING)))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: a parameter can be set until initialization ends", zp_key(key)->name);
+  ZpStatus status = zp_def_set(&fmu->def, key, value, err);
+  if (status == ZP_OK) fmu->prepared = false;
+  return status;
+}
+
+ZpStatus zp_fmu_set(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double value, ZpError *err) {
+  ZpFmuVariable variable;
+  ZpStatus status = find_typed(fmu, reference, type, &variable, err);
+  if (status != ZP_OK) return status;
+  if (variable.role == ZP_FMU_INPUT) return set_input(fmu, (ZpInput)variable.index, value, 0, err);
+  if (variable.role == ZP_FMU_PARAMETER) return set_parameter(fmu, variable.index, value, err);
+  return zp_fail(err, ZP_BAD_INPUT, "%s: only inputs and parameters can be set", zp_fmu_name(variable));
+}
+
+ZpStatus zp_fmu_set_rate(ZpFmu *fmu, uint32_t reference, double rate, ZpError *err) {
+  ZpFmuVariable variable;
+  ZpStatus status = find(fmu, reference, &variable, err);
+  if (status != ZP_OK) return status;
+  if (variable.role != ZP_FMU_INPUT) return zp_fail(err, ZP_BAD_INPUT, "%s: not an input", zp_fmu_name(variable));
+  return set_input(fmu, (ZpInput)variable.index, fmu->input[variable.index], rate, err);
+}
+
+/* -- steps ----------------------------------------------------------------------------------------- */
+
+ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpError *err) {
+  *step = (ZpFmuStep){false, false};
+  double before = zp_sim_get(fmu->sim, "time"), dt = end - fmu->start_time - before;
+  if (!(dt > 0) || isinf(dt))
+    return zp_fail(err, ZP_BAD_INPUT, "a step to %.17g s: the simulation is at %.17g s", end, fmu->time);
+  ZpRunInfo info;
+  ZpOutcome outcome =
+      to_event ? zp_sim_step_to_event(fmu->sim, dt, NULL, &info) : zp_sim_step(fmu->sim, dt, NULL, &info);
+  read_row(fmu);
+  double reached = fmu->row[ZP_FMU_SIGNAL_time];
+  fmu->time = reached < before + dt ? fmu->start_time + reached : end;
+  step->event = outcome == ZP_EVENT;
+  step->terminate = outcome == ZP_SHORT_CIRCUIT;
+  if (outcome == ZP_REACHED_END || step->event || step->terminate) return ZP_OK;
+  fmu->phase = ZP_FMU_FAILED;
+  return zp_fail(err, ZP_MACHINE, "%s", info.message);
+}
+
+ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], ZpError *err) {
+  ZpFmuVariable input;
+  ZpStatus status = find(fmu, by, &input, err);
+  if (status == ZP_OK && input.role != ZP_FMU_INPUT)
+    status = zp_fail(err, ZP_BAD_INPUT, "derivatives by %s: only those by inputs are known", zp_fmu_name(input));
+  if (status == ZP_OK) status = zp_fmu_prepare(fmu, err);
+  if (status == ZP_OK) status = zp_sim_input_slopes(fmu->sim, (ZpInput)input.index, slope, err);
+  for (int k = 0; k < ZP_FMU_SIGNALS && status == ZP_OK; k++)
+    if (!zp_fmu_follows(k, (ZpInput)input.index)) slope[k] = 0;
+  return status;
+}
+
+ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpError *err) {
+  ZpFmuVariable output;
+  ZpStatus status = find(fmu, reference, &output, err);
+  if (status == ZP_OK && output.role != ZP_FMU_OUTPUT)
+    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: only those of outputs are known", zp_fmu_name(output));
+  if (status == ZP_OK) *signal = output.index;
+  return status;
+}

@@ -1,0 +1,81 @@
+/* One instance of the actuator as an FMU, the same for FMI 2 and FMI 3: parameters, inputs, the simulation, and the
+ * phase of its life, which says which calls are allowed. No two instances share anything that changes. */
+#ifndef ZP_FMU_INSTANCE_H
+#define ZP_FMU_INSTANCE_H
+
+#include "fmu/start.h"
+#include "fmu/variables.h"
+
+/* One bit each, so that a call can name those it is allowed in. */
+typedef enum ZpFmuPhase {
+  ZP_FMU_INSTANTIATED = 1,
+  ZP_FMU_INITIALIZING = 2,
+  ZP_FMU_STEPPING = 4,
+  ZP_FMU_AT_EVENT = 8, /* FMI 3: event mode */
+  ZP_FMU_TERMINATED = 16,
+  ZP_FMU_FAILED = 32,
+  ZP_FMU_ANY = 63
+} ZpFmuPhase;
+
+typedef struct ZpFmu {
+  ZpFmuStart start;
+  ZpFmuPhase phase;
+  double start_time, time;                            /* s, as the importer counts it */
+  double input[ZP_INPUT_COUNT], rate[ZP_INPUT_COUNT]; /* as they were set last */
+  ZpActuatorDef def;                                  /* parameters */
+  ZpModel *model;                                     /* of the Def that it holds; NULL: none yet */
+  ZpSim *sim;
+  unsigned char *origin;      /* the snapshot that every run of this model begins with */
+  bool prepared;              /* the simulation has begun with these parameters */
+  bool stale;                 /* inputs have changed since `row` was read */
+  double row[ZP_FMU_SIGNALS]; /* outputs */
+} ZpFmu;
+
+/* How a step ended. */
+typedef struct ZpFmuStep {
+  bool event;     /* at an event, before its end */
+  bool terminate; /* the actuator cannot continue: a short circuit */
+} ZpFmuStep;
+
+/* A new instance in phase instantiated => *out. ZP_BAD_INPUT as zp_fmu_start_def; ZP_MACHINE if there is no memory. */
+ZpStatus zp_fmu_create(const ZpFmuStart *start, ZpFmu **out, ZpError *err);
+void zp_fmu_destroy(ZpFmu *fmu);
+
+/* Back to that phase and to the start values. */
+ZpStatus zp_fmu_reset(ZpFmu *fmu, ZpError *err);
+
+/* Build the model and its simulation of the parameters, unless that is done. ZP_BAD_INPUT says which parameters do not
+ * fit one another, or that there is no hanging equilibrium. */
+ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err);
+
+/* The same, and begin a run at the inputs, unless that is done. ZP_BAD_INPUT also if an input is out of range. */
+ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err);
+
+/* The value of a variable, SI. ZP_BAD_INPUT if there is none of that type with that reference. Outputs of a phase
+ * before the simulation is prepared prepare it. */
+ZpStatus zp_fmu_get(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double *value, ZpError *err);
+
+/* Set an input, whose rate becomes 0, or a parameter. ZP_BAD_INPUT, and nothing is changed, if it is neither, if a
+ * parameter is set after initialization, or if the value is out of range. */
+ZpStatus zp_fmu_set(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double value, ZpError *err);
+
+/* Set how fast an input changes from its value on, per second. */
+ZpStatus zp_fmu_set_rate(ZpFmu *fmu, uint32_t reference, double rate, ZpError *err);
+
+/* Move on to the time `end`, s, or to an event before. ZP_BAD_INPUT, and nothing moves, if that is not after the
+ * present time; ZP_MACHINE, and the phase becomes failed, if the solver fails. Allocates nothing. */
+ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpError *err);
+
+/* The derivatives of outputs by input `by` at this instant, by signals. ZP_BAD_INPUT if `by` is no input. */
+ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], ZpError *err);
+
+/* Which signal an output is. ZP_BAD_INPUT if it is none. */
+ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpError *err);
+
+/* All that evolves and all that was set, as bytes that may be stored. zp_fmu_load: ZP_BAD_INPUT if they are damaged or
+ * of another FMU; ZP_MACHINE if there is no memory for another model. */
+size_t zp_fmu_state_size(const ZpFmu *fmu);
+void zp_fmu_save(const ZpFmu *fmu, void *bytes);
+ZpStatus zp_fmu_load(ZpFmu *fmu, const void *bytes, size_t size, ZpError *err);
+
+#endif

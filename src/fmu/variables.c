@@ -1,0 +1,99 @@
+/* Tables of keys, signals and inputs => variables. */
+#include "fmu/variables.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "fmu/start.h"
+
+/* Value references begin here: far enough apart for all tables. */
+enum { FIRST_INPUT = 1, FIRST_OUTPUT = 100, FIRST_PARAMETER = 1000 };
+
+#define ZP_SIGNAL(name, unit, suffix, help) #name,
+static const char *const signals[] = {
+#include <zipact/signals.def>
+};
+#undef ZP_SIGNAL
+
+static bool is_one_of(const char *name, const char *const *list, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    size_t length = strlen(list[k]);
+    bool group = list[k][length - 1] == '.';
+    if (group ? strncmp(name, list[k], length) == 0 : strcmp(name, list[k]) == 0) return true;
+  }
+  return false;
+}
+
+bool zp_fmu_is_output(int index) {
+  static const char *const others[] = {"time", "sensed_capacitance", "sensed_stroke"};
+  return !is_one_of(signals[index], others, sizeof others / sizeof others[0]);
+}
+
+bool zp_fmu_follows(int index, ZpInput input) {
+  static const char *const electric[] = {"voltage",       "force",         "charge",          "electric_work",
+                                         "field_energy",  "charging_loss", "command",         "source_voltage",
+                                         "source_energy", "leak_current",  "insulator_field", "energy_imbalance"};
+  return input == ZP_INPUT_VOLTAGE && is_one_of(signals[index], electric, sizeof electric / sizeof electric[0]);
+}
+
+bool zp_fmu_is_parameter(int index, double value) {
+  static const char *const others[] = {
+      "preset",   "drive.", "sense.",       "solver.end_time", "solver.stop_when_zipped",
+      "initial.", "data.",  "calibrate.",   "modes.",          "isometric.",
+      "profile.", "cycle.", "sensitivity.", "output."};
+  if (!zp_fmu_has_number(index) || isnan(value)) return false;
+  return !is_one_of(zp_key(index)->name, others, sizeof others / sizeof others[0]);
+}
+
+bool zp_fmu_find(uint32_t reference, ZpFmuVariable *variable) {
+  int place = reference < 1U << 30 ? (int)reference : -1;
+  if (place == 0)
+    *variable = (ZpFmuVariable){ZP_FMU_TIME, 0};
+  else if (place >= FIRST_INPUT && place < FIRST_INPUT + ZP_INPUT_COUNT)
+    *variable = (ZpFmuVariable){ZP_FMU_INPUT, place - FIRST_INPUT};
+  else if (place >= FIRST_OUTPUT && place < FIRST_OUTPUT + ZP_FMU_SIGNALS && zp_fmu_is_output(place - FIRST_OUTPUT))
+    *variable = (ZpFmuVariable){ZP_FMU_OUTPUT, place - FIRST_OUTPUT};
+  else if (place >= FIRST_PARAMETER && place < FIRST_PARAMETER + ZP_FMU_KEYS)
+    *variable = (ZpFmuVariable){ZP_FMU_PARAMETER, place - FIRST_PARAMETER};
+  else
+    return false;
+  return true;
+}
+
+uint32_t zp_fmu_reference(ZpFmuVariable variable) {
+  static const int first[] = {0, FIRST_INPUT, FIRST_OUTPUT, FIRST_PARAMETER};
+  return (uint32_t)(first[variable.role] + variable.index);
+}
+
+const char *zp_fmu_name(ZpFmuVariable variable) {
+  if (variable.role == ZP_FMU_TIME) return "time";
+  if (variable.role == ZP_FMU_INPUT) return zp_input_name((ZpInput)variable.index);
+  if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->name;
+  const char *name = signals[variable.index];
+  return strcmp(name, zp_input_name(ZP_INPUT_VOLTAGE)) == 0 ? "electrode_voltage" : name;
+}
+
+const char *zp_fmu_unit(ZpFmuVariable variable) {
+  static const char *const of_input[ZP_INPUT_COUNT] = {"V", "N"};
+  size_t count;
+  if (variable.role == ZP_FMU_TIME) return "s";
+  if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];
+  if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->unit;
+  return zp_signal_columns(&count)[variable.index].unit;
+}
+
+const char *zp_fmu_help(ZpFmuVariable variable) {
+  static const char *const of_input[ZP_INPUT_COUNT] = {
+      "voltage that the source is told",
+      "force on the whole actuator beside load.mass, without inertia; positive pulls the lower platform down"};
+  size_t count;
+  if (variable.role == ZP_FMU_TIME) return "time since the start";
+  if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];
+  if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->help;
+  return zp_signal_columns(&count)[variable.index].help;
+}
+
+ZpKeyType zp_fmu_type(ZpFmuVariable variable) {
+  ZpKeyType type = variable.role == ZP_FMU_PARAMETER ? zp_key(variable.index)->type : ZP_KEY_REAL;
+  return type == ZP_KEY_REAL_AUTO ? ZP_KEY_REAL : type;
+}

@@ -1,0 +1,360 @@
+/* modelDescription.xml and what stands beside it. One pass over the variables, in the order inputs, outputs,
+ * parameters, serves every part of the file; FMI 2 and FMI 3 differ in words. */
+#include "fmupack/description.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/version.h>
+
+#include "base/fail.h"
+#include "fmu/export/slave.h"
+#include "fmu/variables.h"
+#include "fmupack/base_units.h"
+#include "io/html.h"
+#include "io/number.h"
+#include "io/units.h"
+
+enum { MOST_VARIABLES = 1 + ZP_INPUT_COUNT + ZP_FMU_SIGNALS + ZP_FMU_KEYS };
+
+/* The variables of a plan, in their order. */
+typedef struct List {
+  ZpFmuVariable item[MOST_VARIABLES];
+  int count;
+} List;
+
+static void list_variables(const ZpFmuPlan *plan, List *list) {
+  list->count = 0;
+  if (plan->version == 3) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_TIME, 0};
+  for (int k = 0; k < ZP_INPUT_COUNT; k++)
+    list->item[list->count++] = (ZpFmuVariable){ZP_FMU_INPUT, k};
+  for (int k = 0; k < ZP_FMU_SIGNALS; k++)
+    if (zp_fmu_is_output(k)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_OUTPUT, k};
+  for (int k = 0; k < ZP_FMU_KEYS; k++)
+    if (zp_fmu_is_parameter(k, plan->start->value[k])) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_PARAMETER, k};
+}
+
+/* -- attributes ------------------------------------------------------------------------------------ */
+
+static void put_text(FILE *file, const char *attribute, const char *text) {
+  fprintf(file, " %s=\"", attribute);
+  zp_html_text(file, text);
+  fputc('"', file);
+}
+
+static void put_number(FILE *file, const char *attribute, double value) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(value, text, sizeof text);
+  fprintf(file, " %s=\"%s\"", attribute, text);
+}
+
+/* The unit in which people write it, where that is another; NULL if there is none. */
+static const char *display_unit(ZpFmuVariable variable) {
+  if (variable.role == ZP_FMU_INPUT && variable.index == ZP_INPUT_VOLTAGE)
+    return zp_key(zp_key_find("drive.voltage"))->shown;
+  if (variable.role != ZP_FMU_PARAMETER) return NULL;
+  const ZpKey *key = zp_key(variable.index);
+  return *key->shown && strcmp(key->shown, key->unit) != 0 ? key->shown : NULL;
+}
+
+static bool has_unit(ZpFmuVariable variable) {
+  return zp_fmu_type(variable) == ZP_KEY_REAL && strcmp(zp_fmu_unit(variable), "1") != 0;
+}
+
+/* -- units ----------------------------------------------------------------------------------------- */
+
+static bool same_unit(ZpFmuVariable a, ZpFmuVariable b) {
+  return has_unit(a) && has_unit(b) && strcmp(zp_fmu_unit(a), zp_fmu_unit(b)) == 0;
+}
+
+static bool same_display(ZpFmuVariable a, ZpFmuVariable b) {
+  const char *one = display_unit(a), *other = display_unit(b);
+  return same_unit(a, b) && one && other && strcmp(one, other) == 0;
+}
+
+/* Is item k the first of its kind? */
+static bool is_first(const List *list, int k, bool (*same)(ZpFmuVariable, ZpFmuVariable)) {
+  for (int j = 0; j < k; j++)
+    if (same(list->item[j], list->item[k])) return false;
+  return true;
+}
+
+static void put_power(FILE *file, const char *symbol, int exponent) {
+  if (exponent) fprintf(file, " %s=\"%d\"", symbol, exponent);
+}
+
+/* A display unit: its value is factor times that in SI. */
+static ZpStatus put_display(FILE *file, const char *shown, const char *unit, ZpError *err) {
+  ZpUnitScale scale;
+  ZpStatus status = zp_unit_scale(shown, unit, &scale, err);
+  if (status != ZP_OK) return status;
+  fputs("      <DisplayUnit", file);
+  put_text(file, "name", shown);
+  if (scale.decimal)
+    fprintf(file, " factor=\"1e%d\"", -scale.exponent);
+  else
+    put_number(file, "factor", 1 / scale.factor);
+  fputs("/>\n", file);
+  return ZP_OK;
+}
+
+static ZpStatus put_unit(FILE *file, const List *list, int first, ZpError *err) {
+  ZpBaseUnits powers;
+  ZpStatus status = ZP_OK;
+  const char *unit = zp_fmu_unit(list->item[first]);
+  fputs("    <Unit", file);
+  put_text(file, "name", unit);
+  fputs(">\n", file);
+  if (zp_base_units(unit, &powers)) {
+    fputs("      <BaseUnit", file);
+    put_power(file, "kg", powers.kg);
+    put_power(file, "m", powers.m);
+    put_power(file, "s", powers.s);
+    put_power(file, "A", powers.A);
+    fputs("/>\n", file);
+  }
+  for (int k = first; k < list->count && status == ZP_OK; k++)
+    if (same_unit(list->item[first], list->item[k]) && display_unit(list->item[k]) && is_first(list, k, same_display))
+      status = put_display(file, display_unit(list->item[k]), unit, err);
+  fputs("    </Unit>\n", file);
+  return status;
+}
+
+static ZpStatus put_units(FILE *file, const List *list, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  fputs("  <UnitDefinitions>\n", file);
+  for (int k = 0; k < list->count && status == ZP_OK; k++)
+    if (has_unit(list->item[k]) && is_first(list, k, same_unit)) status = put_unit(file, list, k, err);
+  fputs("  </UnitDefinitions>\n", file);
+  return status;
+}
+
+/* -- types ----------------------------------------------------------------------------------------- */
+
+/* The type of a key of words is called like the key, and no variable is called like it. */
+static void put_type_name(FILE *file, const char *attribute, ZpFmuVariable variable) {
+  fprintf(file, " %s=\"words.%s\"", attribute, zp_fmu_name(variable));
+}
+
+static void put_words(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
+  const ZpKey *key = zp_key(variable.index);
+  bool two = plan->version == 2;
+  fputs(two ? "    <SimpleType" : "    <EnumerationType", file);
+  put_type_name(file, "name", variable);
+  fputs(two ? ">\n      <Enumeration>\n" : ">\n", file);
+  for (int k = 0; k <= (int)key->max; k++) {
+    fputs("        <Item", file);
+    put_text(file, "name", key->choices[k].word);
+    fprintf(file, " value=\"%d\"", k);
+    put_text(file, "description", key->choices[k].help);
+    fputs("/>\n", file);
+  }
+  fputs(two ? "      </Enumeration>\n    </SimpleType>\n" : "    </EnumerationType>\n", file);
+}
+
+static void put_types(FILE *file, const ZpFmuPlan *plan, const List *list) {
+  fputs("  <TypeDefinitions>\n", file);
+  for (int k = 0; k < list->count; k++)
+    if (zp_fmu_type(list->item[k]) == ZP_KEY_ENUM) put_words(file, plan, list->item[k]);
+  fputs("  </TypeDefinitions>\n", file);
+}
+
+/* -- variables ------------------------------------------------------------------------------------- */
+
+static void put_causality(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
+  static const char *const causality[] = {"independent", "input", "output", "parameter"};
+  bool moves = variable.role != ZP_FMU_PARAMETER;
+  fprintf(file, " causality=\"%s\" variability=\"%s\"", causality[variable.role], moves ? "continuous" : "fixed");
+  if (variable.role == ZP_FMU_OUTPUT) fputs(" initial=\"calculated\"", file);
+  if (variable.role == ZP_FMU_PARAMETER) fputs(" initial=\"exact\"", file);
+  if (variable.role == ZP_FMU_INPUT && plan->version == 3) fputs(" initial=\"exact\"", file);
+}
+
+static void put_head(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
+  put_text(file, "name", zp_fmu_name(variable));
+  fprintf(file, " valueReference=\"%u\"", zp_fmu_reference(variable));
+  put_text(file, "description", zp_fmu_help(variable));
+  put_causality(file, plan, variable);
+}
+
+/* Unit, range. */
+static void put_range(FILE *file, ZpFmuVariable variable) {
+  const char *shown = display_unit(variable);
+  if (has_unit(variable)) put_text(file, "unit", zp_fmu_unit(variable));
+  if (has_unit(variable) && shown) put_text(file, "displayUnit", shown);
+  if (zp_fmu_type(variable) == ZP_KEY_BOOL || zp_fmu_type(variable) == ZP_KEY_ENUM) return;
+  bool voltage = variable.role == ZP_FMU_INPUT && variable.index == ZP_INPUT_VOLTAGE;
+  int key = voltage ? zp_key_find("drive.voltage") : variable.role == ZP_FMU_PARAMETER ? variable.index : -1;
+  if (key < 0) return;
+  put_number(file, "min", zp_key(key)->min);
+  put_number(file, "max", zp_key(key)->max);
+}
+
+static void put_start(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
+  double value = variable.role == ZP_FMU_PARAMETER         ? plan->start->value[variable.index]
+                 : variable.index == (int)ZP_INPUT_VOLTAGE ? plan->voltage
+                                                           : 0;
+  if (variable.role != ZP_FMU_PARAMETER && variable.role != ZP_FMU_INPUT) return;
+  if (zp_fmu_type(variable) == ZP_KEY_BOOL)
+    fprintf(file, " start=\"%s\"", value != 0 ? "true" : "false");
+  else
+    put_number(file, "start", value);
+}
+
+/* The word for its type in the standard. */
+static const char *type_word(const ZpFmuPlan *plan, ZpFmuVariable variable) {
+  bool two = plan->version == 2;
+  switch (zp_fmu_type(variable)) {
+  case ZP_KEY_INT:
+    return two ? "Integer" : "Int32";
+  case ZP_KEY_BOOL:
+    return "Boolean";
+  case ZP_KEY_ENUM:
+    return "Enumeration";
+  default:
+    return two ? "Real" : "Float64";
+  }
+}
+
+static void put_variable(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
+  bool two = plan->version == 2;
+  if (two) fputs("    <ScalarVariable", file);
+  if (two) put_head(file, plan, variable);
+  fprintf(file, "%s<%s", two ? ">\n      " : "    ", type_word(plan, variable));
+  if (!two) put_head(file, plan, variable);
+  if (zp_fmu_type(variable) == ZP_KEY_ENUM) put_type_name(file, "declaredType", variable);
+  put_range(file, variable);
+  put_start(file, plan, variable);
+  fputs(two ? "/>\n    </ScalarVariable>\n" : "/>\n", file);
+}
+
+/* What item k, an output, follows at once: as indices of FMI 2, which count from 1, or value references of FMI 3. */
+static void put_dependencies(FILE *file, const ZpFmuPlan *plan, const List *list, int k) {
+  const char *between = "";
+  fputs(" dependencies=\"", file);
+  for (int j = 0; j < list->count; j++) {
+    ZpFmuVariable input = list->item[j];
+    if (input.role != ZP_FMU_INPUT || !zp_fmu_follows(list->item[k].index, (ZpInput)input.index)) continue;
+    fprintf(file, "%s%u", between, plan->version == 2 ? (unsigned)j + 1 : zp_fmu_reference(input));
+    between = " ";
+  }
+  fputc('"', file);
+}
+
+static void put_outputs(FILE *file, const ZpFmuPlan *plan, const List *list, const char *word, bool dependencies) {
+  for (int k = 0; k < list->count; k++) {
+    if (list->item[k].role != ZP_FMU_OUTPUT) continue;
+    unsigned place = plan->version == 2 ? (unsigned)k + 1 : zp_fmu_reference(list->item[k]);
+    fprintf(file, "      <%s %s=\"%u\"", word, plan->version == 2 ? "index" : "valueReference", place);
+    if (dependencies) put_dependencies(file, plan, list, k);
+    fputs("/>\n", file);
+  }
+}
+
+/* What an output is at first follows from all parameters. */
+static void put_structure(FILE *file, const ZpFmuPlan *plan, const List *list) {
+  bool two = plan->version == 2;
+  fputs(two ? "  <ModelStructure>\n    <Outputs>\n" : "  <ModelStructure>\n", file);
+  put_outputs(file, plan, list, two ? "Unknown" : "Output", true);
+  fputs(two ? "    </Outputs>\n    <InitialUnknowns>\n" : "", file);
+  put_outputs(file, plan, list, two ? "Unknown" : "InitialUnknown", false);
+  fputs(two ? "    </InitialUnknowns>\n  </ModelStructure>\n" : "  </ModelStructure>\n", file);
+}
+
+/* -- the file -------------------------------------------------------------------------------------- */
+
+const char *zp_fmu_source_name(const char *file) {
+  static const char folder[] = "sources/";
+  size_t length = strlen(file);
+  bool source = strncmp(file, folder, strlen(folder)) == 0 && length > 2 && strcmp(file + length - 2, ".c") == 0;
+  return source ? file + strlen(folder) : NULL;
+}
+
+static void put_sources(FILE *file, const ZpFmuPlan *plan, const char *word) {
+  for (size_t k = 0; k < plan->sources->count; k++) {
+    const char *name = zp_fmu_source_name(plan->sources->item[k]);
+    if (name) fprintf(file, "      <%s name=\"%s\"/>\n", word, name);
+  }
+}
+
+static void put_root(FILE *file, const ZpFmuPlan *plan) {
+  fprintf(file, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"%d.0\"", plan->version);
+  put_text(file, "modelName", plan->name);
+  put_text(file, plan->version == 2 ? "guid" : "instantiationToken", plan->start->token);
+  put_text(file, "description", "An electrostatic zipping actuator");
+  put_text(file, "version", ZP_VERSION);
+  put_text(file, "generationTool", "zipact " ZP_VERSION);
+  fprintf(file, " variableNamingConvention=\"structured\"%s>\n",
+          plan->version == 2 ? " numberOfEventIndicators=\"0\"" : "");
+}
+
+static void put_capabilities(FILE *file, const ZpFmuPlan *plan) {
+  fputs("  <CoSimulation modelIdentifier=\"" ZP_FMU_IDENTIFIER "\" canHandleVariableCommunicationStepSize=\"true\"",
+        file);
+  if (plan->version == 3) {
+    fputs(" canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" providesDirectionalDerivatives=\"true\""
+          " providesAdjointDerivatives=\"true\" mightReturnEarlyFromDoStep=\"true\" hasEventMode=\"true\"/>\n",
+          file);
+    return;
+  }
+  fputs(" canInterpolateInputs=\"true\" maxOutputDerivativeOrder=\"0\" canNotUseMemoryManagementFunctions=\"true\""
+        " canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" providesDirectionalDerivative=\"true\">\n"
+        "    <SourceFiles>\n",
+        file);
+  put_sources(file, plan, "File");
+  fputs("    </SourceFiles>\n  </CoSimulation>\n", file);
+}
+
+static void put_experiment(FILE *file, const ZpFmuPlan *plan) {
+  fputs("  <LogCategories>\n"
+        "    <Category name=\"" ZP_LOG_EVENTS
+        "\" description=\"events, and what was done in place of what was asked\"/>\n"
+        "    <Category name=\"" ZP_LOG_DISCARD "\" description=\"calls that were refused\"/>\n"
+        "    <Category name=\"" ZP_LOG_ERROR "\" description=\"failures\"/>\n"
+        "  </LogCategories>\n"
+        "  <DefaultExperiment startTime=\"0\"",
+        file);
+  put_number(file, "stopTime", plan->end);
+  put_number(file, "tolerance", plan->start->value[zp_key_find("solver.tolerance")]);
+  put_number(file, "stepSize", plan->step);
+  fputs("/>\n", file);
+}
+
+ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
+  List list;
+  list_variables(plan, &list);
+  put_root(file, plan);
+  put_capabilities(file, plan);
+  ZpStatus status = put_units(file, &list, err);
+  put_types(file, plan, &list);
+  put_experiment(file, plan);
+  fputs("  <ModelVariables>\n", file);
+  for (int k = 0; k < list.count; k++)
+    put_variable(file, plan, list.item[k]);
+  fputs("  </ModelVariables>\n", file);
+  put_structure(file, plan, &list);
+  fputs("</fmiModelDescription>\n", file);
+  return status;
+}
+
+void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan) {
+  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiBuildDescription fmiVersion=\"3.0\">\n"
+        "  <BuildConfiguration modelIdentifier=\"" ZP_FMU_IDENTIFIER "\">\n"
+        "    <SourceFileSet language=\"C99\" compilerOptions=\"-ffp-contract=off -fopenmp-simd\">\n",
+        file);
+  put_sources(file, plan, "SourceFile");
+  fputs("      <IncludeDirectory name=\".\"/>\n    </SourceFileSet>\n"
+        "    <Library name=\"m\" external=\"true\"/>\n  </BuildConfiguration>\n</fmiBuildDescription>\n",
+        file);
+}
+
+void zp_fmu_describe_terminals(FILE *file) {
+  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
+        "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the voltage that the"
+        " source is told, and the mean current over a step\">\n"
+        "      <TerminalMemberVariable variableName=\"voltage\" memberName=\"v\" variableKind=\"signal\"/>\n"
+        "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
+        "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
+        file);
+}

@@ -1,0 +1,33 @@
+/* The XML files of an FMU. */
+#ifndef ZP_FMUPACK_DESCRIPTION_H
+#define ZP_FMUPACK_DESCRIPTION_H
+
+#include <stdio.h>
+
+#include "fmu/start.h"
+#include "fmupack/kit.h"
+
+/* What is said about an FMU. */
+typedef struct ZpFmuPlan {
+  int version;             /* of FMI: 2 or 3 */
+  const char *name;        /* of the model */
+  const ZpFmuStart *start; /* parameters */
+  double voltage;          /* at which the input starts, V */
+  double end, step;        /* default experiment, s */
+  const ZpKit *sources;    /* files of the kit, those in sources/ as well */
+} ZpFmuPlan;
+
+/* Name of all binaries, and of the model in them. */
+#define ZP_FMU_IDENTIFIER "zipact"
+
+/* modelDescription.xml. ZP_MACHINE if units cannot be converted. */
+ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err);
+
+/* FMI 3: sources/buildDescription.xml, terminalsAndIcons/terminalsAndIcons.xml. */
+void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan);
+void zp_fmu_describe_terminals(FILE *file);
+
+/* Is this file of the kit a source to be compiled? => its name below sources/, else NULL. */
+const char *zp_fmu_source_name(const char *file);
+
+#endif

@@ -1,0 +1,23 @@
+/* The kit from which FMUs are made: a folder with `binaries/PLATFORM/zipact.so` or `.dll` and `sources/`. */
+#ifndef ZP_FMUPACK_KIT_H
+#define ZP_FMUPACK_KIT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <zipact/error.h>
+
+/* Names of the files of a kit, with their folders, sorted. */
+typedef struct ZpKit {
+  char **item;
+  size_t count;
+} ZpKit;
+
+/* All files below `folder`. ZP_MACHINE if it cannot be read. Also on failure to be freed by zp_kit_free. */
+ZpStatus zp_kit_list(const char *folder, ZpKit *names, ZpError *err);
+void zp_kit_free(ZpKit *names);
+
+/* A whole file => *bytes, the caller's to free. */
+ZpStatus zp_file_load(const char *path, void **bytes, size_t *size, ZpError *err);
+
+#endif

@@ -1,0 +1,278 @@
+/* A scenario and the kit => an FMU. */
+#include <zipact/fmu.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/version.h>
+
+#include "base/fail.h"
+#include "fmu/instance.h"
+#include "fmupack/archive.h"
+#include "fmupack/description.h"
+#include "io/atomic.h"
+#include "io/html.h"
+#include "io/number.h"
+
+static const double step_size = 1e-3; /* s, of the default experiment */
+enum { MOST_STEPS = 1000 };           /* of it */
+
+/* -- what it begins with --------------------------------------------------------------------------- */
+
+/* Two FNV-1a sums of the version and of all values, in the form of a GUID. */
+static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
+  uint64_t sum[2] = {UINT64_C(0xcbf29ce484222325), UINT64_C(0x9e3779b97f4a7c15)};
+  const unsigned char *byte = (const unsigned char *)start->value;
+  for (int k = 0; k < 2; k++) {
+    for (const char *c = ZP_VERSION; *c; c++)
+      sum[k] = (sum[k] ^ (unsigned char)*c) * UINT64_C(0x100000001b3);
+    for (size_t i = 0; i < sizeof start->value; i++)
+      sum[k] = (sum[k] ^ byte[i]) * UINT64_C(0x100000001b3);
+  }
+  snprintf(token, ZP_FMU_TOKEN_SIZE, "{%08x-%04x-%04x-%04x-%012llx}", (unsigned)(sum[0] >> 32),
+           (unsigned)(sum[0] >> 16) & 0xFFFF, (unsigned)sum[0] & 0xFFFF, (unsigned)(sum[1] >> 48),
+           (unsigned long long)(sum[1] & UINT64_C(0xFFFFFFFFFFFF)));
+}
+
+static ZpStatus check(const ZpScenario *scenario, int version, const ZpActuatorDef *def, ZpError *err) {
+  if (version != 2 && version != 3) return zp_fail(err, ZP_BAD_INPUT, "FMI %d is not known: 2 or 3", version);
+  if (zp_scenario_count(scenario) != 1)
+    return zp_fail(err, ZP_BAD_INPUT, "an FMU is one actuator: the scenario has a list of values");
+  if (def->initial.state == ZP_INITIAL_CHECKPOINT)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "initial.state = checkpoint: an FMU begins at rest or straight; the state that it "
+                   "is to begin with can be set in the tool");
+  return ZP_OK;
+}
+
+/* An FMU has no waveform, and no file of one: its importer says what the voltage is. A waveform other than a step is
+ * kept as a ramp, at whose start there is no voltage. */
+static void fill_start(ZpActuatorDef *def, ZpFmuStart *start) {
+  memset(start, 0, sizeof *start);
+  if (def->drive.waveform != ZP_WAVEFORM_STEP) def->drive.waveform = ZP_WAVEFORM_RAMP;
+  def->drive.offset = 0;
+  memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
+  start->size = sizeof *start;
+  start->layout = zp_def_layout();
+  for (int key = 0; key < ZP_FMU_KEYS; key++)
+    if (zp_fmu_has_number(key)) start->value[key] = zp_def_get(def, key);
+  make_token(start, start->token);
+}
+
+/* -- files of text --------------------------------------------------------------------------------- */
+
+/* A file of the archive that is being written as text. */
+typedef struct Text {
+  FILE *file;
+  char *bytes;
+  size_t size;
+} Text;
+
+static ZpStatus open_text(Text *text, ZpError *err) {
+  *text = (Text){NULL, NULL, 0};
+  text->file = open_memstream(&text->bytes, &text->size);
+  return text->file ? ZP_OK : zp_fail_memory(err);
+}
+
+static ZpStatus add_text(ZpArchive *archive, const char *name, Text *text, ZpStatus status, ZpError *err) {
+  bool whole = !ferror(text->file);
+  whole = fclose(text->file) == 0 && whole;
+  if (status == ZP_OK && whole) return zp_archive_add(archive, name, text->bytes, text->size, err);
+  free(text->bytes);
+  return status == ZP_OK ? zp_fail_memory(err) : status;
+}
+
+static void put_row(FILE *file, ZpFmu *fmu) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(fmu->time, text, sizeof text);
+  fputs(text, file);
+  for (int k = 0; k < ZP_FMU_SIGNALS; k++) {
+    if (!zp_fmu_is_output(k)) continue;
+    zp_number_print(fmu->row[k], text, sizeof text);
+    fprintf(file, ",%s", isnan(fmu->row[k]) ? "" : text);
+  }
+  fputc('\n', file);
+}
+
+/* The outputs of the default experiment, its inputs at their start values. */
+static ZpStatus put_expected(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
+  ZpFmu *fmu;
+  ZpFmuStep step = {false, false};
+  ZpStatus status = zp_fmu_create(plan->start, &fmu, err);
+  if (status != ZP_OK) return status;
+  fputs("time", file);
+  for (int k = 0; k < ZP_FMU_SIGNALS; k++)
+    if (zp_fmu_is_output(k)) fprintf(file, ",%s", zp_fmu_name((ZpFmuVariable){ZP_FMU_OUTPUT, k}));
+  fputc('\n', file);
+  status = zp_fmu_prepare(fmu, err);
+  if (status == ZP_OK) put_row(file, fmu);
+  for (int k = 1; k * plan->step <= plan->end * (1 + 1e-9) && status == ZP_OK && !step.terminate; k++) {
+    status = zp_fmu_step(fmu, k * plan->step, false, &step, err);
+    if (status == ZP_OK) put_row(file, fmu);
+  }
+  zp_fmu_destroy(fmu);
+  return status;
+}
+
+static void put_page(FILE *file, const ZpFmuPlan *plan) {
+  fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", file);
+  zp_html_text(file, plan->name);
+  fputs("</title></head><body>\n<h1>", file);
+  zp_html_text(file, plan->name);
+  fputs("</h1>\n<p>An electrostatic zipping actuator, simulated by zipact " ZP_VERSION
+        ". The input <code>voltage</code> drives it, the input <code>load</code> pulls at it. Outputs are the signals, "
+        "parameters the keys of zipact; modelDescription.xml has a line about each. All numbers are SI.</p>\n"
+        "<p><a href=\"expected.csv\">expected.csv</a> has the outputs of the default experiment.</p>\n</body></html>\n",
+        file);
+}
+
+/* The start values as a source, in place of that of the kit. */
+static void put_start_source(FILE *file, const ZpFmuStart *start) {
+  char text[ZP_NUMBER_SIZE];
+  fprintf(file,
+          "/* What this FMU begins with. */\n#include <math.h>\n\n#include \"fmu/start.h\"\n\n"
+          "const volatile ZpFmuStart zp_fmu_start = {\n  .mark = ZP_FMU_MARK,\n  .size = sizeof(ZpFmuStart),\n  "
+          ".layout = UINT64_C(%llu),\n"
+          "  .token = \"%s\",\n  .value = {\n",
+          (unsigned long long)start->layout, start->token);
+  for (int key = 0; key < ZP_FMU_KEYS; key++) {
+    zp_number_print(start->value[key], text, sizeof text);
+    fprintf(file, "    /* %s */ %s,\n", zp_key(key)->name, isnan(start->value[key]) ? "NAN" : text);
+  }
+  fputs("  }\n};\n", file);
+}
+
+static ZpStatus add_texts(ZpArchive *archive, const ZpFmuPlan *plan, ZpError *err) {
+  Text text;
+  ZpStatus status = open_text(&text, err);
+  if (status == ZP_OK)
+    status = add_text(archive, "modelDescription.xml", &text, zp_fmu_describe(text.file, plan, err), err);
+  if (status == ZP_OK) status = open_text(&text, err);
+  if (status == ZP_OK)
+    status = add_text(archive, "documentation/expected.csv", &text, put_expected(text.file, plan, err), err);
+  if (status == ZP_OK) status = open_text(&text, err);
+  if (status != ZP_OK) return status;
+  put_page(text.file, plan);
+  return add_text(archive, "documentation/index.html", &text, ZP_OK, err);
+}
+
+static ZpStatus add_texts_of_3(ZpArchive *archive, const ZpFmuPlan *plan, ZpError *err) {
+  Text text;
+  ZpStatus status = open_text(&text, err);
+  if (status != ZP_OK) return status;
+  zp_fmu_describe_build(text.file, plan);
+  status = add_text(archive, "sources/buildDescription.xml", &text, ZP_OK, err);
+  if (status == ZP_OK) status = open_text(&text, err);
+  if (status != ZP_OK) return status;
+  zp_fmu_describe_terminals(text.file);
+  return add_text(archive, "terminalsAndIcons/terminalsAndIcons.xml", &text, ZP_OK, err);
+}
+
+/* -- files of the kit ------------------------------------------------------------------------------ */
+
+/* Write the start values where a binary has the mark. */
+static ZpStatus fill_binary(const char *name, unsigned char *byte, size_t size, const ZpFmuStart *start, ZpError *err) {
+  int marks = 0;
+  for (size_t k = 0; k + sizeof *start <= size; k++) {
+    uint64_t room;
+    if (memcmp(byte + k, ZP_FMU_MARK, ZP_FMU_MARK_SIZE) != 0) continue;
+    memcpy(&room, byte + k + offsetof(ZpFmuStart, size), sizeof room);
+    if (room != sizeof *start)
+      return zp_fail(err, ZP_MACHINE, "%.300s: a binary of another version of zipact; `make fmu` makes it again", name);
+    memcpy(byte + k, start, sizeof *start);
+    marks++;
+  }
+  if (marks == 1) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "%.300s: not a binary of this version's kit: it has %d marks, not 1", name, marks);
+}
+
+/* (its name in the kit, where platforms are called as in FMI 3) => its name in the archive, to be freed */
+static char *archive_name(const char *name, int version) {
+  static const char *const platform[][2] = {{"binaries/x86_64-linux/", "binaries/linux64/"},
+                                            {"binaries/x86_64-windows/", "binaries/win64/"}};
+  char *text = NULL;
+  size_t k = 0, count = version == 2 ? sizeof platform / sizeof platform[0] : 0;
+  while (k < count && strncmp(name, platform[k][0], strlen(platform[k][0])) != 0)
+    k++;
+  if (k == count) return strdup(name);
+  return asprintf(&text, "%s%s", platform[k][1], name + strlen(platform[k][0])) < 0 ? NULL : text;
+}
+
+static ZpStatus add_start_source(ZpArchive *archive, const char *name, const ZpFmuStart *start, ZpError *err) {
+  Text text;
+  ZpStatus status = open_text(&text, err);
+  if (status != ZP_OK) return status;
+  put_start_source(text.file, start);
+  return add_text(archive, name, &text, ZP_OK, err);
+}
+
+static ZpStatus add_file(ZpArchive *archive, const ZpFmuPlan *plan, const char *kit, const char *name, ZpError *err) {
+  void *bytes = NULL;
+  size_t size;
+  if (strcmp(name, "sources/fmu/export/start_block.c") == 0) return add_start_source(archive, name, plan->start, err);
+  char *path = zp_path_join(kit, name), *called = archive_name(name, plan->version);
+  ZpStatus status = path && called ? zp_file_load(path, &bytes, &size, err) : zp_fail_memory(err);
+  if (status == ZP_OK && strncmp(name, "binaries/", 9) == 0) status = fill_binary(name, bytes, size, plan->start, err);
+  if (status == ZP_OK)
+    status = zp_archive_add(archive, called, bytes, size, err);
+  else
+    free(bytes);
+  free(path);
+  free(called);
+  return status;
+}
+
+/* -- the FMU --------------------------------------------------------------------------------------- */
+
+static ZpStatus write_archive(const ZpFmuPlan *plan, const char *kit, const char *path, ZpError *err) {
+  ZpArchive *archive;
+  ZpStatus status = zp_archive_open(path, &archive, err);
+  if (status != ZP_OK) return status;
+  status = add_texts(archive, plan, err);
+  if (status == ZP_OK && plan->version == 3) status = add_texts_of_3(archive, plan, err);
+  for (size_t k = 0; k < plan->sources->count && status == ZP_OK; k++)
+    status = add_file(archive, plan, kit, plan->sources->item[k], err);
+  return zp_archive_close(archive, status, err);
+}
+
+/* The kit's files. ZP_MACHINE if it is none. */
+static ZpStatus look_into(const char *kit, ZpKit *names, ZpError *err) {
+  ZpStatus status = zp_kit_list(kit, names, err);
+  if (status != ZP_OK) return status;
+  for (size_t k = 0; k < names->count; k++)
+    if (strncmp(names->item[k], "binaries/", 9) == 0) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "%.300s: no kit for FMUs: it has no binaries", kit);
+}
+
+/* (path) => the name of the file without what follows its last dot, to be freed */
+static char *model_name(const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
+  return dot && dot > name ? strndup(name, (size_t)(dot - name)) : strdup(name);
+}
+
+ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, const char *path, ZpError *err) {
+  ZpActuatorDef def;
+  ZpFmuStart start;
+  ZpKit names = {NULL, 0};
+  ZpStatus status = zp_scenario_def(scenario, 0, &def, err);
+  if (status == ZP_OK) status = check(scenario, version, &def, err);
+  if (status == ZP_OK) status = look_into(kit, &names, err);
+  char *name = status == ZP_OK ? model_name(path) : NULL;
+  if (status == ZP_OK && !name) status = zp_fail_memory(err);
+  if (status == ZP_OK) {
+    fill_start(&def, &start);
+    const double end = fmin(def.solver.end_time, MOST_STEPS * step_size);
+    const ZpFmuPlan plan = {.version = version,
+                            .name = name,
+                            .start = &start,
+                            .voltage = zp_fmu_first_voltage(&def),
+                            .end = end,
+                            .step = fmin(step_size, end),
+                            .sources = &names};
+    status = write_archive(&plan, kit, path, err);
+  }
+  free(name);
+  zp_kit_free(&names);
+  return status;
+}

@@ -1,0 +1,737 @@
+/* The FMUs that `zipact fmu` writes, in an importer: what they say, what they compute, and what they refuse. Every test
+ * is run for FMI 2 and for FMI 3. */
+#include "check_util.h"
+
+#include <pthread.h>
+#include <stdarg.h>
+#include <unistd.h>
+
+#include "fmu_importer.h"
+
+enum { OK = 0, SIGNALS = 64 };
+
+/* -- FMUs of the tests ----------------------------------------------------------------------------- */
+
+#define SMALL  " --set mesh.nodes=9 --set solver.end_time=20ms"
+#define LIQUID " --set mesh.nodes=21 --set solver.end_time=20ms --set liquid.model=bead"
+
+static void run_command(const char *format, ...) {
+  char command[2048];
+  va_list values;
+  va_start(values, format);
+  vsnprintf(command, sizeof command, format, values);
+  va_end(values);
+  ck_assert_msg(system(command) == 0, "%s", command); // NOLINT: the command is the test's own
+}
+
+/* The FMU of these settings. Each test has a folder of its own, for they run beside one another. */
+static Fmu made(int version, const char *settings) {
+  char folder[64], path[80];
+  snprintf(folder, sizeof folder, "fmu-%d-%d", version, (int)getpid());
+  snprintf(path, sizeof path, "%s/arm.fmu", folder);
+  run_command("mkdir -p %s && " ZP_COMMAND " fmu --fmi %d --quiet -o %s %s", folder, version, path, settings);
+  return fmu_open(path, folder);
+}
+
+static void unmake(Fmu *fmu) {
+  fmu_close(fmu);
+  run_command("rm -rf %s", fmu->folder);
+}
+
+static Instance new_instance(const Fmu *fmu) {
+  Instance instance = fmu_instantiate(fmu, fmu->token, WHOLE_STEPS);
+  ck_assert_msg(instance.handle != NULL, "%s", last_message);
+  return instance;
+}
+
+static Instance started(const Fmu *fmu) {
+  Instance instance = new_instance(fmu);
+  fmu_start(&instance);
+  return instance;
+}
+
+static void must_step(Instance *instance, double now, double size) {
+  ck_assert_msg(fmu_step(instance, now, size) == OK, "%s", last_message);
+}
+
+/* All outputs => value; their number. */
+static size_t read_outputs(Instance *instance, double value[SIGNALS]) {
+  size_t count = 0;
+  memset(value, 0, SIGNALS * sizeof *value);
+  for (size_t k = 0; k < instance->fmu->variables; k++) {
+    const Variable *v = &instance->fmu->variable[k];
+    if (strcmp(v->causality, "output") == 0) ck_assert_int_eq(fmu_try_get(instance, v, &value[count++]), OK);
+  }
+  return count;
+}
+
+static void expect_same(const double a[SIGNALS], const double b[SIGNALS]) {
+  for (size_t k = 0; k < SIGNALS; k++)
+    ck_assert_msg(memcmp(&a[k], &b[k], sizeof *a) == 0, "output %zu: %.17g and %.17g", k, a[k], b[k]);
+}
+
+/* -- what it says ---------------------------------------------------------------------------------- */
+
+/* Parameters are the keys, with their units, ranges and values; a key that is auto or none is not among them. */
+static void expect_parameter(const Fmu *fmu, const char *name, double start) {
+  const Variable *v = fmu_find(fmu, name);
+  const ZpKey *key = zp_key(zp_key_find(name));
+  ck_assert_str_eq(v->causality, "parameter");
+  ck_assert(v->has_start && v->description == strlen(key->help));
+  ck_assert_double_eq(v->start, start);
+  if (v->kind == KIND_REAL) ck_assert_str_eq(v->unit, strcmp(key->unit, "1") == 0 ? "" : key->unit);
+  if (v->kind == KIND_REAL) ck_assert(v->has_range && v->min == key->min && v->max == key->max);
+  if (v->kind == KIND_ENUMERATION) ck_assert_int_ne(v->declared[0], 0);
+}
+
+START_TEST(description_is_of_the_tables) {
+  Fmu fmu = made(_i, SMALL " --set 'load.mass=20 g'");
+  const ZpActuatorDef def = zp_actuator_def_default();
+  size_t parameters = 0;
+  for (size_t k = 0; k < fmu.variables; k++)
+    if (strcmp(fmu.variable[k].causality, "parameter") == 0) {
+      const char *name = fmu.variable[k].name;
+      bool given = strcmp(name, "load.mass") == 0 || strcmp(name, "mesh.nodes") == 0;
+      expect_parameter(&fmu, name, given ? fmu.variable[k].start : zp_def_get(&def, zp_key_find(name)));
+      ck_assert(strncmp(name, "drive.", 6) != 0 && strcmp(name, "damping.internal") != 0);
+      parameters++;
+    }
+  expect_parameter(&fmu, "load.mass", 0.02);
+  expect_parameter(&fmu, "mesh.nodes", 9);
+  ck_assert_uint_gt(parameters, 60);
+  ck_assert_str_eq(fmu_find(&fmu, "voltage")->causality, "input");
+  ck_assert_double_eq(fmu_find(&fmu, "voltage")->start, 10e3);
+  ck_assert_str_eq(fmu_find(&fmu, "opening")->unit, "m");
+  ck_assert_str_eq(fmu_find(&fmu, "electrode_voltage")->causality, "output");
+  unmake(&fmu);
+}
+END_TEST
+
+/* The same scenario gives the same bytes. */
+START_TEST(same_bytes) {
+  Fmu fmu = made(_i, SMALL), again;
+  run_command("mv %s/arm.fmu %s/first.fmu", fmu.folder, fmu.folder);
+  again = made(_i, SMALL);
+  run_command("cmp %s/arm.fmu %s/first.fmu", fmu.folder, fmu.folder);
+  fmu_close(&again);
+  unmake(&fmu);
+}
+END_TEST
+
+/* -- what it computes ------------------------------------------------------------------------------ */
+
+/* A row of a CSV file => numbers; NAN of an empty cell. */
+static size_t read_row(FILE *file, double value[SIGNALS]) {
+  char line[4096];
+  size_t count = 0;
+  if (!fgets(line, sizeof line, file)) return 0;
+  for (char *cell = line; cell && count < SIGNALS; count++) {
+    char *comma = strchr(cell, ',');
+    value[count] = *cell == ',' || *cell == '\n' ? NAN : strtod(cell, NULL);
+    cell = comma ? comma + 1 : NULL;
+  }
+  return count;
+}
+
+/* The file in the FMU has what the FMU computes, to the last bit. */
+START_TEST(expected_results) {
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = started(&fmu);
+  char path[600];
+  double row[SIGNALS], now[SIGNALS];
+  size_t rows = 0;
+  snprintf(path, sizeof path, "%s/documentation/expected.csv", fmu.folder);
+  FILE *file = fopen(path, "r");
+  ck_assert_ptr_nonnull(file);
+  read_row(file, row);
+  for (; read_row(file, row); rows++) {
+    if (rows > 0)
+      must_step(&instance, (double)(rows - 1) * fmu.step, (double)rows * fmu.step - (double)(rows - 1) * fmu.step);
+    size_t outputs = read_outputs(&instance, now);
+    for (size_t k = 0; k < outputs; k++)
+      ck_assert(row[k + 1] == now[k] || (isnan(row[k + 1]) && isnan(now[k])));
+  }
+  ck_assert_uint_eq(rows, 21);
+  fclose(file);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+enum { INTERVALS = 100 };
+
+/* A voltage that rises, holds and falls, in pieces of 1 ms, as rows of a CSV file: level in each piece, or straight
+ * between (FMI 2 alone tells an input's slope). */
+static double voltage_of(int k) {
+  return k < 20 ? 400.0 * k : k < 60 ? 8000 : k < 80 ? 8000 - 400.0 * (k - 60) : 0;
+}
+
+static void write_input(const char *path, bool straight) {
+  FILE *file = fopen(path, "w");
+  fprintf(file, "time_s,voltage_V\n");
+  for (int k = 0; k <= INTERVALS; k++) {
+    if (!straight && k > 0) fprintf(file, "%.17g,%.17g\n", k * 1e-3, voltage_of(k - 1));
+    fprintf(file, "%.17g,%.17g\n", k * 1e-3, voltage_of(k));
+  }
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+/* The rows of table.csv at whole milliseconds. */
+static size_t read_actuate(const char *path, double opening[INTERVALS + 1], double charge[INTERVALS + 1]) {
+  double row[SIGNALS];
+  size_t rows = 0;
+  FILE *file = fopen(path, "r");
+  ck_assert_ptr_nonnull(file);
+  read_row(file, row);
+  while (read_row(file, row)) {
+    double place = row[0] * 1e3, whole = round(place);
+    if (fabs(place - whole) > 1e-9 || !isnan(opening[(int)whole])) continue;
+    opening[(int)whole] = row[3];
+    charge[(int)whole] = row[8];
+    rows++;
+  }
+  fclose(file);
+  return rows;
+}
+
+static void expect_actuate(int version, bool straight, const char *settings) {
+  Fmu fmu = made(version, settings);
+  Instance instance = started(&fmu);
+  double opening[INTERVALS + 1], charge[INTERVALS + 1], largest = 0;
+  char path[600];
+  for (int k = 0; k <= INTERVALS; k++)
+    opening[k] = charge[k] = NAN;
+  snprintf(path, sizeof path, "%s/input.csv", fmu.folder);
+  write_input(path, straight);
+  run_command(ZP_COMMAND
+              " actuate %s --set solver.end_time=100ms --set output.samples=100000 --set output.errors=false "
+              "--set drive.waveform=table --set drive.file=%s --no-plots --quiet -o %s/run",
+              settings, path, fmu.folder);
+  snprintf(path, sizeof path, "%s/run/table.csv", fmu.folder);
+  ck_assert_uint_ge(read_actuate(path, opening, charge), INTERVALS / 2);
+  for (int k = 0; k < INTERVALS; k++) {
+    fmu_set(&instance, "voltage", voltage_of(k));
+    if (straight)
+      ck_assert_int_eq(fmu_set_slope(&instance, fmu_find(&fmu, "voltage"), 1e3 * (voltage_of(k + 1) - voltage_of(k))),
+                       OK);
+    must_step(&instance, k * 1e-3, (k + 1) * 1e-3 - k * 1e-3);
+    if (!isnan(opening[k + 1])) largest = fmax(largest, fabs(fmu_get(&instance, "opening") - opening[k + 1]) / 0.02);
+    if (!isnan(charge[k + 1]) && straight)
+      largest = fmax(largest, fabs(fmu_get(&instance, "charge") - charge[k + 1]) / 1e-6);
+  }
+  ck_below(largest, 1e-9);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+
+/* The same input from a CSV file gives what `zipact actuate` gives: dry, in a liquid, behind a supply. */
+START_TEST(agrees_with_actuate) {
+  expect_actuate(_i, false, SMALL);
+  expect_actuate(_i, false, LIQUID);
+  expect_actuate(_i, false,
+                 SMALL
+                 " --set source.model=amplifier --set 'source.slew_rate=1 V/us' --set 'source.current_limit=0.1 mA'");
+}
+END_TEST
+
+START_TEST(follows_slopes_of_inputs) {
+  expect_actuate(2, true, SMALL);
+}
+END_TEST
+
+/* Steps of any size: an equal time later the actuator is in the same place, within the error of its own steps. */
+START_TEST(variable_steps) {
+  Fmu fmu = made(_i, LIQUID " --set solver.tolerance=1e-7");
+  Instance one = started(&fmu), other = started(&fmu);
+  uint64_t seed = 7;
+  double t = 0;
+  must_step(&one, 0, 0.02);
+  while (t < 0.02) {
+    double size = fmin(1e-3 * (1.01 + noise(&seed)), 0.02 - t);
+    must_step(&other, t, size);
+    t += size;
+  }
+  ck_near(fmu_get(&other, "opening"), fmu_get(&one, "opening"), 1e-4);
+  fmu_free(&one);
+  fmu_free(&other);
+  unmake(&fmu);
+}
+END_TEST
+
+/* Parameters that are set before initialization count; they stay until reset. The start time only shifts. */
+START_TEST(parameters) {
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = new_instance(&fmu);
+  fmu_set(&instance, "load.mass", 0.02);
+  fmu_set(&instance, "mesh.nodes", 13);
+  fmu_set(&instance, "liquid.model", 2);
+  fmu_set(&instance, "platform.electrode", 0);
+  ck_assert_int_eq(fmu_enter(&instance, 5), OK);
+  ck_assert_double_eq(fmu_get(&instance, "mesh.nodes"), 13);
+  ck_assert_int_eq(fmu_exit(&instance), OK);
+  must_step(&instance, 5, 1e-3);
+  double opening = fmu_get(&instance, "opening");
+  ZpActuatorDef def = DEF({"load.mass", 0.02}, {"mesh.nodes", 13}, {"liquid.model", 2}, {"platform.electrode", 0});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 1e-3, false, NULL, NULL);
+  ck_near(opening, zp_sim_get(sim, "opening"), 1e-12);
+  ck_assert_int_eq(fmu_reset(&instance), OK);
+  fmu_start(&instance);
+  ck_assert_double_eq(fmu_get(&instance, "load.mass"), 8e-3);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* -- states ---------------------------------------------------------------------------------------- */
+
+/* From a state, also as bytes and in another instance, everything is the same to the last bit. */
+static void expect_round_trip(Instance *instance, Instance *other, double t, double size) {
+  void *state = NULL, *copy = NULL;
+  double before[SIGNALS], after[SIGNALS], again[SIGNALS];
+  size_t bytes;
+  read_outputs(instance, before);
+  ck_assert_int_eq(fmu_get_state(instance, &state), OK);
+  must_step(instance, t, size);
+  read_outputs(instance, after);
+  ck_assert_int_eq(fmu_set_state(instance, state), OK);
+  read_outputs(instance, again);
+  expect_same(before, again);
+  ck_assert_int_eq(fmu_state_size(instance, state, &bytes), OK);
+  char *stored = malloc(bytes);
+  ck_assert_int_eq(fmu_serialize(instance, state, stored, bytes), OK);
+  ck_assert_int_eq(fmu_deserialize(other, stored, bytes, &copy), OK);
+  ck_assert_int_eq(fmu_set_state(other, copy), OK);
+  must_step(other, t, size);
+  read_outputs(other, again);
+  expect_same(after, again);
+  must_step(instance, t, size);
+  read_outputs(instance, again);
+  expect_same(after, again);
+  free(stored);
+  fmu_free_state(instance, &state);
+  fmu_free_state(other, &copy);
+}
+
+START_TEST(states) {
+  Fmu fmu = made(_i, LIQUID);
+  Instance instance = started(&fmu), other = new_instance(&fmu);
+  uint64_t seed = 3;
+  double t = 0;
+  for (int k = 0; k < FULL_OR(100, 10); k++) {
+    double size = 1e-3 * (1.01 + noise(&seed));
+    fmu_set(&instance, "voltage", 5e3 * (1 + noise(&seed)));
+    if (k % 3 == 0) fmu_set(&instance, "load", 0.1 * noise(&seed));
+    expect_round_trip(&instance, &other, t, size);
+    t += size;
+  }
+  fmu_free(&instance);
+  fmu_free(&other);
+  unmake(&fmu);
+}
+END_TEST
+
+/* A state has its parameters: another instance takes them over. What is damaged is refused. */
+START_TEST(states_have_parameters) {
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = new_instance(&fmu), other = started(&fmu);
+  void *state = NULL, *damaged = NULL;
+  size_t bytes;
+  fmu_set(&instance, "load.mass", 0.02);
+  fmu_start(&instance);
+  must_step(&instance, 0, 1e-3);
+  ck_assert_int_eq(fmu_get_state(&instance, &state), OK);
+  ck_assert_int_eq(fmu_set_state(&other, state), OK);
+  ck_assert_double_eq(fmu_get(&other, "load.mass"), 0.02);
+  ck_assert_double_eq(fmu_get(&other, "opening"), fmu_get(&instance, "opening"));
+  ck_assert_int_eq(fmu_state_size(&instance, state, &bytes), OK);
+  unsigned char *stored = malloc(bytes);
+  ck_assert_int_eq(fmu_serialize(&instance, state, stored, bytes), OK);
+  ck_assert_int_ne(fmu_serialize(&instance, state, stored, bytes - 1), OK);
+  stored[bytes / 2] ^= 1;
+  ck_assert_int_eq(fmu_deserialize(&other, stored, bytes, &damaged), OK);
+  ck_assert_int_ne(fmu_set_state(&other, damaged), OK);
+  ck_assert_double_eq(fmu_get(&other, "opening"), fmu_get(&instance, "opening"));
+  fmu_free_state(&other, &damaged);
+  ck_assert_int_eq(fmu_deserialize(&other, stored, 10, &damaged), OK);
+  ck_assert_int_ne(fmu_set_state(&other, damaged), OK);
+  ck_assert_int_ne(fmu_set_state(&other, NULL), OK);
+  free(stored);
+  fmu_free_state(&other, &damaged);
+  fmu_free_state(&instance, &state);
+  fmu_free(&instance);
+  fmu_free(&other);
+  unmake(&fmu);
+}
+END_TEST
+
+/* -- derivatives ----------------------------------------------------------------------------------- */
+
+/* Outputs by an input at one instant against differences of outputs, in two sizes, extrapolated. */
+static void expect_derivatives(Instance *instance, const char *input, double value, double h) {
+  double value_of[4][SIGNALS];
+  static const double at[4] = {-1, 1, -0.5, 0.5};
+  const Variable *known = fmu_find(instance->fmu, input);
+  size_t output = 0;
+  for (size_t k = 0; k < 4; k++) {
+    fmu_set(instance, input, value + at[k] * h);
+    read_outputs(instance, value_of[k]);
+  }
+  fmu_set(instance, input, value);
+  for (size_t k = 0; k < instance->fmu->variables; k++) {
+    const Variable *unknown = &instance->fmu->variable[k];
+    if (strcmp(unknown->causality, "output") != 0) continue;
+    double slope, coarse = (value_of[1][output] - value_of[0][output]) / (2 * h);
+    double fine = (value_of[3][output] - value_of[2][output]) / h, difference = (4 * fine - coarse) / 3;
+    bool follows = unknown->follows[strcmp(input, "load") == 0];
+    ck_assert_int_eq(fmu_derivative(instance, unknown, known, &slope), OK);
+    bool balance = strcmp(unknown->name, "energy_imbalance") == 0; /* it has nothing but rounding */
+    double scale = fabs(slope) + 1e-3 * fabs(value_of[1][output] / value);
+    ck_assert_msg(fabs(slope - difference) <= 1e-6 * scale || balance || !isfinite(value_of[1][output]),
+                  "%s by %s: %.12g, differences %.12g", unknown->name, input, slope, difference);
+    if (!follows)
+      ck_assert_msg(memcmp(&value_of[0][output], &value_of[1][output], sizeof slope) == 0, "%s", unknown->name);
+    output++;
+  }
+}
+
+static void expect_derivatives_of(int version, const char *settings) {
+  Fmu fmu = made(version, settings);
+  Instance instance = started(&fmu);
+  double slope;
+  for (int k = 0; k < 10; k++) {
+    must_step(&instance, k * 2e-3, 2e-3);
+    expect_derivatives(&instance, "voltage", 10e3, 0.1);
+    expect_derivatives(&instance, "load", 0.01, 1e-3);
+  }
+  ck_assert_int_ne(fmu_derivative(&instance, fmu_find(&fmu, "opening"), fmu_find(&fmu, "load.mass"), &slope), OK);
+  ck_assert_int_ne(fmu_derivative(&instance, fmu_find(&fmu, "load.mass"), fmu_find(&fmu, "voltage"), &slope), OK);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+
+START_TEST(derivatives) {
+  expect_derivatives_of(_i, LIQUID);
+  expect_derivatives_of(_i, SMALL " --set source.model=amplifier --set source.resistance=1Mohm");
+  expect_derivatives_of(_i, SMALL " --set insulator.resistivity=1e12 --set medium.resistivity=1e11");
+}
+END_TEST
+
+/* Seeds times the matrix, and the other way round. */
+START_TEST(adjoint_derivatives) {
+  Fmu fmu = made(3, SMALL);
+  Instance instance = started(&fmu);
+  double charge, force, adjoint[2];
+  const double seed[2] = {3, 2};
+  const uint32_t unknown[2] = {fmu_find(&fmu, "charge")->reference, fmu_find(&fmu, "force")->reference};
+  const uint32_t known[2] = {fmu_find(&fmu, "load")->reference, fmu_find(&fmu, "voltage")->reference};
+  __typeof__(&fmi3GetAdjointDerivative) get =
+      (__typeof__(&fmi3GetAdjointDerivative))fmu_function(&fmu, "GetAdjointDerivative");
+  must_step(&instance, 0, 1e-3);
+  fmu_derivative(&instance, fmu_find(&fmu, "charge"), fmu_find(&fmu, "voltage"), &charge);
+  fmu_derivative(&instance, fmu_find(&fmu, "force"), fmu_find(&fmu, "voltage"), &force);
+  ck_assert_int_eq(get(instance.handle, unknown, 2, known, 2, seed, 2, adjoint, 2), OK);
+  ck_assert_double_eq(adjoint[0], 0);
+  ck_assert_double_eq(adjoint[1], 3 * charge + 2 * force);
+  ck_assert_int_ne(get(instance.handle, unknown, 2, known, 2, seed, 1, adjoint, 2), OK);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* -- events ---------------------------------------------------------------------------------------- */
+
+typedef struct Ended {
+  bool event, terminate, early;
+  double reached;
+} Ended;
+
+static Ended step_3(Instance *instance, double now, double size) {
+  Ended end;
+  __typeof__(&fmi3DoStep) step = (__typeof__(&fmi3DoStep))fmu_function(instance->fmu, "DoStep");
+  ck_assert_int_eq(step(instance->handle, now, size, true, &end.event, &end.terminate, &end.early, &end.reached), OK);
+  return end;
+}
+
+static void handle_event(Instance *instance) {
+  bool again = true, terminate, nominals, states, defined;
+  double next;
+  const Fmu *fmu = instance->fmu;
+  ck_assert_int_eq(((__typeof__(&fmi3EnterEventMode))fmu_function(fmu, "EnterEventMode"))(instance->handle), OK);
+  ck_assert_int_eq(((__typeof__(&fmi3UpdateDiscreteStates))fmu_function(fmu, "UpdateDiscreteStates"))(
+                       instance->handle, &again, &terminate, &nominals, &states, &defined, &next),
+                   OK);
+  ck_assert(!again && !terminate && !nominals && !states && !defined);
+  ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(fmu, "EnterStepMode"))(instance->handle), OK);
+}
+
+/* One step over a whole zip ends where the actuator closes, and the rest of it goes on from there. */
+START_TEST(early_return_at_closing) {
+  Fmu fmu = made(3, SMALL);
+  Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS), whole = started(&fmu);
+  fmu_start(&instance);
+  ck_assert_int_ne(fmu_step(&instance, 0, 1e-3), OK); /* it begins in event mode */
+  ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(&fmu, "EnterStepMode"))(instance.handle), OK);
+  Ended end = step_3(&instance, 0, 0.2);
+  ck_assert(end.event && end.early && !end.terminate && end.reached > 0 && end.reached < 0.2);
+  ck_assert_double_le(fmu_get(&instance, "contraction"), 1.01);
+  ck_assert_double_ge(fmu_get(&instance, "contraction"), 0.99);
+  handle_event(&instance);
+  end = step_3(&instance, end.reached, 0.2 - end.reached);
+  ck_assert(!end.event && !end.early && end.reached == 0.2);
+  Ended other = step_3(&whole, 0, 0.2);
+  ck_assert(!other.event && !other.early && other.reached == 0.2);
+  ck_near(fmu_get(&instance, "charge"), fmu_get(&whole, "charge"), 1e-6);
+  fmu_free(&instance);
+  fmu_free(&whole);
+  unmake(&fmu);
+}
+END_TEST
+
+/* A supply that reaches its limit of the current is an event, too. */
+START_TEST(early_return_at_limits) {
+  Fmu fmu = made(3, SMALL
+                 " --set source.model=amplifier --set 'source.current_limit=0.1 mA' --set 'source.resistance=1 Mohm'");
+  Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS);
+  fmu_start(&instance);
+  ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(&fmu, "EnterStepMode"))(instance.handle), OK);
+  Ended end = step_3(&instance, 0, 0.2);
+  ck_assert(end.event && end.early);
+  ck_below(fmu_get(&instance, "contraction"), 0.9);
+  ck_near(fmu_get(&instance, "charge"), 0.1e-3 * end.reached, 1e-3);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* Electrodes without an insulator that touch end the simulation: the FMU asks for that. */
+START_TEST(short_circuit_terminates) {
+  Fmu fmu = made(_i, " --set actuator.kind=flange --set ribbon.length=45mm --set electro.gap_offset=0.2mm "
+                     "--set insulator.thickness=0 --set gravity=0 --set load.mass=0 --set drive.voltage=60 "
+                     "--set mesh.nodes=31 --set solver.end_time=1ms");
+  Instance instance = started(&fmu);
+  int status = OK, terminated = 0;
+  for (int k = 0; k < 1000 && status == OK && !terminated; k++) {
+    if (_i == 2) {
+      status = fmu_step(&instance, k * 1e-3, 1e-3);
+      ((__typeof__(&fmi2GetBooleanStatus))fmu_function(&fmu, "GetBooleanStatus"))(instance.handle, fmi2Terminated,
+                                                                                  &terminated);
+    } else {
+      terminated = step_3(&instance, k * 1e-3, 1e-3).terminate;
+    }
+  }
+  ck_assert_int_eq(status, _i == 2 ? (int)fmi2Discard : OK);
+  ck_assert_int_eq(terminated, 1);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* -- many ------------------------------------------------------------------------------------------ */
+
+/* Memory of this process, pages. */
+static long pages(void) {
+  long size = 0, resident = 0;
+  FILE *file = fopen("/proc/self/statm", "r");
+  ck_assert_int_eq(fscanf(file, "%ld %ld", &size, &resident), 2);
+  fclose(file);
+  return resident;
+}
+
+/* Reset, start, one step, again and again: the same numbers, and no more memory. */
+START_TEST(resets) {
+  enum { USUAL = 1000 };
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = new_instance(&fmu);
+  double first[SIGNALS], now[SIGNALS];
+  long before = 0;
+  for (int k = 0; k < FULL_OR(_i == 3 ? 100000 : 5000, 300); k++) {
+    fmu_start(&instance);
+    must_step(&instance, 0, 1e-4);
+    read_outputs(&instance, k == 0 ? first : now);
+    if (k > 0) expect_same(first, now);
+    if (k == USUAL) before = pages();
+    ck_assert_int_eq(fmu_reset(&instance), OK);
+  }
+  if (!SANITIZED) ck_assert_int_le(pages() - before, 16);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* A thousand instances at once, twice: each computes the same, and what they took is given back. */
+START_TEST(instances) {
+  enum { MOST = 1000 };
+  const int count = FULL_OR(MOST, 100);
+  static Instance instance[MOST];
+  Fmu fmu = made(_i, SMALL);
+  double first[SIGNALS], now[SIGNALS];
+  long before = 0;
+  for (int round = 0; round < 3; round++) {
+    for (int k = 0; k < count; k++)
+      instance[k] = started(&fmu);
+    for (int k = 0; k < count; k++) {
+      must_step(&instance[k], 0, 1e-3);
+      read_outputs(&instance[k], k == 0 ? first : now);
+      if (k > 0) expect_same(first, now);
+    }
+    for (int k = 0; k < count; k++)
+      fmu_free(&instance[k]);
+    if (round == 0) before = pages();
+  }
+  if (!SANITIZED) ck_assert_int_le(pages() - before, 64);
+  unmake(&fmu);
+}
+END_TEST
+
+static void *run_in_thread(void *user) {
+  Instance *instance = user;
+  double t = 0;
+  for (int k = 0; k < FULL_OR(40, 10); k++) {
+    if (fmu_step(instance, t, 1e-3) != OK) return user;
+    t += 1e-3;
+  }
+  return NULL;
+}
+
+START_TEST(threads) {
+  enum { THREADS = 8 };
+  Fmu fmu = made(_i, SMALL);
+  Instance instance[THREADS];
+  pthread_t thread[THREADS];
+  double first[SIGNALS], now[SIGNALS];
+  for (int k = 0; k < THREADS; k++) {
+    instance[k] = started(&fmu);
+    ck_assert_int_eq(pthread_create(&thread[k], NULL, run_in_thread, &instance[k]), 0);
+  }
+  for (int k = 0; k < THREADS; k++) {
+    void *failed = NULL;
+    pthread_join(thread[k], &failed);
+    ck_assert_ptr_null(failed);
+    read_outputs(&instance[k], k == 0 ? first : now);
+    if (k > 0) expect_same(first, now);
+    fmu_free(&instance[k]);
+  }
+  unmake(&fmu);
+}
+END_TEST
+
+/* -- what it refuses ------------------------------------------------------------------------------- */
+
+START_TEST(wrong_calls) {
+  Fmu fmu = made(_i, SMALL);
+  ck_assert_ptr_null(fmu_instantiate(&fmu, "another token", WHOLE_STEPS).handle);
+  Instance instance = new_instance(&fmu);
+  const Variable *opening = fmu_find(&fmu, "opening"), *mass = fmu_find(&fmu, "load.mass"),
+                 *voltage = fmu_find(&fmu, "voltage"), *nodes = fmu_find(&fmu, "mesh.nodes");
+  Variable other = *opening;
+  double value;
+  ck_assert_int_ne(fmu_step(&instance, 0, 1e-3), OK); /* before it is initialized */
+  ck_assert_int_ne(fmu_try_get(&instance, opening, &value), OK);
+  ck_assert_int_ne(fmu_exit(&instance), OK);
+  ck_assert_int_ne(fmu_terminate(&instance), OK);
+  ck_assert_int_ne(fmu_try_set(&instance, mass, -1), OK); /* out of range */
+  ck_assert_msg(strstr(last_message, "load.mass") != NULL, "%s", last_message);
+  ck_assert_int_ne(fmu_try_set(&instance, mass, NAN), OK);
+  ck_assert_int_ne(fmu_try_set(&instance, opening, 0), OK);
+  ck_assert_int_ne(fmu_enter(&instance, NAN), OK);
+  fmu_start(&instance);
+  ck_assert_int_ne(fmu_enter(&instance, 0), OK);
+  ck_assert_int_ne(fmu_try_set(&instance, mass, 0.01), OK); /* fixed from now on */
+  ck_assert_int_ne(fmu_try_set(&instance, voltage, -1), OK);
+  ck_assert_int_ne(fmu_try_set(&instance, voltage, NAN), OK);
+  ck_assert_int_ne(fmu_step(&instance, 0, 0), OK);
+  ck_assert_int_ne(fmu_step(&instance, 0, -1e-3), OK);
+  ck_assert_int_ne(fmu_step(&instance, 0, NAN), OK);
+  ck_assert_int_ne(fmu_step(&instance, 0.5, 1e-3), OK); /* not where it is */
+  other.reference = 99999;
+  ck_assert_int_ne(fmu_try_get(&instance, &other, &value), OK);
+  other.reference = nodes->reference; /* not a real number */
+  ck_assert_int_ne(fmu_try_get(&instance, &other, &value), OK);
+  other.reference = (uint32_t)zp_key_find("damping.internal") + 1000; /* auto: not a parameter */
+  ck_assert_int_ne(fmu_try_get(&instance, &other, &value), OK);
+  must_step(&instance, 0, 1e-3); /* none of that has done any harm */
+  ck_assert_double_eq(fmu_get(&instance, "voltage"), 10e3);
+  ck_assert_int_eq(fmu_terminate(&instance), OK);
+  ck_assert_int_eq(fmu_try_get(&instance, opening, &value), OK);
+  ck_assert_int_ne(fmu_step(&instance, 1e-3, 1e-3), OK);
+  ck_assert_int_ne(fmu_try_set(&instance, voltage, 0), OK);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* Parameters that do not fit one another are found where initialization ends; a reset helps. */
+START_TEST(parameters_that_do_not_fit) {
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = new_instance(&fmu);
+  fmu_set(&instance, "platform.length", 0.5); /* longer than the ribbon */
+  ck_assert_int_eq(fmu_enter(&instance, 0), OK);
+  ck_assert_int_ne(fmu_exit(&instance), OK);
+  ck_assert_msg(strstr(last_message, "platform.length") != NULL, "%s", last_message);
+  ck_assert_int_ne(fmu_step(&instance, 0, 1e-3), OK);
+  ck_assert_int_eq(fmu_reset(&instance), OK);
+  fmu_start(&instance);
+  must_step(&instance, 0, 1e-3);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* What the command refuses, and that nothing is written then. */
+START_TEST(wrong_commands) {
+  static const struct {
+    const char *arguments;
+    int status;
+  } wrong[] = {{"fmu", 2},
+               {"fmu --fmi 1 -o no.fmu", 2},
+               {"fmu --jobs 2 -o no.fmu", 2},
+               {"fmu --json -o no.fmu", 2},
+               {"stationary --fmi 2", 2},
+               {"fmu --set 'load.mass=[1 g, 2 g]' -o no.fmu", 2},
+               {"fmu --set load.mass=1m -o no.fmu", 2},
+               {"fmu --set initial.state=checkpoint --set initial.file=none.zps -o no.fmu", 2},
+               {"fmu -o /nowhere/at/all/no.fmu", 3}};
+  for (size_t k = 0; k < LENGTH_OF(wrong); k++)
+    run_command(ZP_COMMAND " %s >/dev/null 2>&1; test $? = %d && test ! -e no.fmu", wrong[k].arguments,
+                wrong[k].status);
+}
+END_TEST
+
+/* A case for each test, so that CK_RUN_CASE can choose one. */
+static void add(Suite *suite, const TTest *test, const char *name, bool loop) {
+  TCase *tcase = tcase_create(name);
+  suite_add_tcase(suite, tcase);
+  if (loop)
+    tcase_add_loop_test(tcase, test, 2, 4);
+  else
+    tcase_add_test(tcase, test);
+}
+
+int main(void) {
+  Suite *suite = suite_create("fmu");
+  add(suite, description_is_of_the_tables, "description_is_of_the_tables", true);
+  add(suite, same_bytes, "same_bytes", true);
+  add(suite, expected_results, "expected_results", true);
+  add(suite, agrees_with_actuate, "agrees_with_actuate", true);
+  add(suite, follows_slopes_of_inputs, "follows_slopes_of_inputs", false);
+  add(suite, variable_steps, "variable_steps", true);
+  add(suite, parameters, "parameters", true);
+  add(suite, states, "states", true);
+  add(suite, states_have_parameters, "states_have_parameters", true);
+  add(suite, derivatives, "derivatives", true);
+  add(suite, adjoint_derivatives, "adjoint_derivatives", false);
+  add(suite, early_return_at_closing, "early_return_at_closing", false);
+  add(suite, early_return_at_limits, "early_return_at_limits", false);
+  add(suite, short_circuit_terminates, "short_circuit_terminates", true);
+  add(suite, resets, "resets", true);
+  add(suite, instances, "instances", true);
+  add(suite, threads, "threads", true);
+  add(suite, wrong_calls, "wrong_calls", true);
+  add(suite, parameters_that_do_not_fit, "parameters_that_do_not_fit", true);
+  add(suite, wrong_commands, "wrong_commands", false);
+  return run_suite(suite);
+}
