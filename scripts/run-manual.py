@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
-PAGES = ["getting-started.md", "studies.md"]
+PAGES = ["getting-started.md", "studies.md", "actuators.md"]
 PICTURES = {
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
@@ -37,6 +37,8 @@ PICTURES = {
     "bead.svg": "bead/plots/forces.svg",
     "hold.svg": "hold/plots/interface.svg",
     "meter.svg": "meter/plots/sense.svg",
+    "pre-opened.svg": "pre-opened/plots/shapes.svg",
+    "return-spring.svg": "spring/plots/stroke.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 

@@ -190,6 +190,13 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->actuator.kind = ZP_KIND_RIBBON;
     def->ribbon.length = value;
   }
+  if (strncmp(key, "lower.segment_", 14) == 0 && strstr(key, ".length") && value > 0) {
+    def->ribbon.length = 2 * value;
+    def->platform.length = 0;
+  }
+  if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
+  if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;
+  if (strcmp(key, "load.rest_opening") == 0) def->load.stiffness = 1;
   if (strcmp(key, "insulator.thickness") == 0 && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;
   bool of_bezier = strcmp(key, "electro.switch_offset") == 0 || strcmp(key, "electro.refresh_period") == 0;

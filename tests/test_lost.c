@@ -169,6 +169,22 @@ START_TEST(a_limit_point_may_be_just_below_the_voltage) {
 }
 END_TEST
 
+/* A front that is far shorter than an element passes node by node as the load falls: the search ended after 40 of these
+ * ripples, and told no largest load. */
+START_TEST(a_front_may_pass_many_nodes) {
+  ZpActuatorDef def =
+      DEF({"ribbon.length", 0.2027688723017764}, {"ribbon.width", 0.003635957385695796},
+          {"ribbon.thickness", 1.1008653342774954e-05}, {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34},
+          {"ribbon.density", 8960}, {"platform.length", 0.020276887230177641},
+          {"insulator.thickness", 2.6362772824232017e-05}, {"load.mass", 0}, {"mesh.nodes", 136},
+          {"drive.voltage", 13119.99847555616}, {"output.errors", 0});
+  ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  ck_assert_double_gt(zp_result_get(result, "max_load_kg"), 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("lost");
   TCase *branch = tcase_create("branch");
@@ -183,6 +199,7 @@ int main(void) {
   tcase_add_test(branch, folded_ribbons_do_not_hang);
   tcase_add_test(branch, folded_ribbons_are_not_held);
   tcase_add_test(branch, a_limit_point_may_be_just_below_the_voltage);
+  tcase_add_test(branch, a_front_may_pass_many_nodes);
   suite_add_tcase(suite, branch);
   return run_suite(suite);
 }

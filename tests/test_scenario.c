@@ -260,6 +260,8 @@ static const struct {
     {"ribbon.thickness: 70 um\npreset: paper-code\n", "ribbon.thickness", 70e-6},
     {"preset: paper-code", "ribbon.thickness", 100e-6},
     {"actuator.kind: ribbon", "load.share", 1},
+    {"lower:\n  ribbon: {density: 1}\n  insulator:\n    thickness: 5 um\n", "lower.insulator.thickness", 5e-6},
+    {"lower:\n  ribbon.density: 1\nribbon:\n  density: 2\n", "lower.ribbon.density", 1},
 };
 
 START_TEST(test_good_text) {
@@ -297,6 +299,10 @@ static const struct {
     {"load: {mass: 1}\nload.mass: 2", "test.yaml:2: load.mass", "given twice, first in line 1"},
     {"load.mass: 2\nload:\n  mass: 1", "test.yaml:3: load.mass", "given twice, first in line 1"},
     {"load: {mass: 1}\nload: {share: 1}", "test.yaml:2: load", "given twice, first in line 1"},
+    {"lower: {ribbon: {density: 1}}\nlower: {insulator: {density: 1}}", "test.yaml:2: lower",
+     "given twice, first in line 1"},
+    {"lower:\n  ribbon: {density: 1}\n  ribbon: {thickness: 1um}", "test.yaml:3: lower.ribbon",
+     "given twice, first in line 2"},
     {"a: &x 1", "test.yaml:1", "anchors"},
     {"load: &x {mass: 1}", "test.yaml:1", "anchors"},
     {"load.mass: *x", "test.yaml:1", "anchors"},

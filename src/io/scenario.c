@@ -39,13 +39,16 @@ static const char *part_name(size_t part) {
   return part < FIRST_WORD ? own_part_name[part] : zp_spread_word[part - FIRST_WORD + 1];
 }
 
+enum { DEPTHS = 2 }; /* groups and groups inside them, such as lower and lower.ribbon */
+
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
   int key;           /* of --set; -1 when keys come from the text */
   ZpSlot *slot;      /* [keys] filled */
   int *line;         /* [keys] where the key was given; 0: not yet */
-  int *group_line;   /* [keys] where the group was opened whose first key this is; 0: not yet */
+  int *group_line;   /* [keys * DEPTHS] where the group, and the one inside it, was opened whose first key this is; 0:
+                        not yet */
   int part_key;      /* whose range is being read, where there is a part */
   char *part[PARTS]; /* of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
@@ -118,7 +121,7 @@ static ZpStatus open_reader(Reader *reader, const ZpSource *source, int key, ZpE
   *reader = (Reader){.source = source, .key = key};
   reader->slot = calloc(key_count(), sizeof *reader->slot);
   reader->line = calloc(key_count(), sizeof *reader->line);
-  reader->group_line = calloc(key_count(), sizeof *reader->group_line);
+  reader->group_line = calloc(key_count() * DEPTHS, sizeof *reader->group_line);
   return reader->slot && reader->line && reader->group_line ? ZP_OK : zp_fail_memory(err);
 }
 
@@ -166,7 +169,7 @@ static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err)
   if (*item->path == 0) return check_no_parts(reader, -1, item->line, err);
   int first = first_of_group(item->path);
   if (first < 0) return fail_unknown(reader, item, err);
-  int *line = &reader->group_line[first];
+  int *line = &reader->group_line[first * DEPTHS + (strchr(item->path, '.') != NULL)];
   if (*line)
     return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path, *line);
   *line = item->line;

@@ -199,7 +199,7 @@ static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
  * point on the way that is no ripple is `first` (NULL: not asked for). */
 static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
-  enum { MOST = 40 };
+  enum { MOST = 1000 }; /* limit points: of ripples there are many where a front passes node by node */
   double sign = target > parameter(f) ? 1 : -1;
   bool was_closed = zp_slow_is_closed(f);
   for (int k = 0; k < MOST; k++) {
