@@ -127,7 +127,7 @@ static void set_key(const char *name, const mxArray *value) {
   if (zp_scenario_set(call.scenario, text.start, &err) != ZP_OK) fail(&err);
 }
 
-/* The fields of a struct: keys, or groups of keys, which are structs. */
+/* The fields of a struct: keys, or groups of keys, which are structs; NULL is the group of all. */
 static void set_fields(const mxArray *fields, const char *group) {
   if (mxGetNumberOfElements(fields) != 1) fail_input("%.80s: takes one struct, not an array", group ? group : "keys");
   for (int i = 0; i < mxGetNumberOfFields(fields); i++) {
@@ -137,8 +137,8 @@ static void set_fields(const mxArray *fields, const char *group) {
     if (group) append(&key, group), append(&key, ".");
     append(&key, name);
     if (!value) fail_input("%.80s: no value", key.start);
-    if (!group && mxIsStruct(value))
-      set_fields(value, name);
+    if (mxIsStruct(value) && zp_key_find(key.start) < 0)
+      set_fields(value, key.start);
     else
       set_key(key.start, value);
   }

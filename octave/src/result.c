@@ -65,6 +65,20 @@ mxArray *keys_struct(void) {
   return keys;
 }
 
+/* The struct that key `name` is a field of: "lower.ribbon.thickness" is one of all.lower.ribbon; => *field, its name.
+ */
+static mxArray *group_of(mxArray *all, const char *name, const char **field) {
+  const char *dot;
+  for (; (dot = strchr(name, '.')); name = dot + 1) {
+    char group[32];
+    snprintf(group, sizeof group, "%.*s", (int)(dot - name), name);
+    if (!mxGetField(all, 0, group)) set(all, 0, group, new_struct());
+    all = mxGetField(all, 0, group);
+  }
+  *field = name;
+  return all;
+}
+
 /* All keys, groups as structs: what zipact takes, too. */
 static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
   mxArray *all = new_struct();
@@ -72,15 +86,9 @@ static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
     const ZpKey *key = zp_key(i);
     mxArray *value =
         key_value(key, key->offset == ZP_NO_FIELD ? (double)study : zp_def_get(def, i), zp_def_text(def, i));
-    const char *dot = strchr(key->name, '.');
-    if (!dot) {
-      set(all, 0, key->name, value);
-      continue;
-    }
-    char group[32];
-    snprintf(group, sizeof group, "%.*s", (int)(dot - key->name), key->name);
-    if (!mxGetField(all, 0, group)) set(all, 0, group, new_struct());
-    set(mxGetField(all, 0, group), 0, dot + 1, value);
+    const char *field;
+    mxArray *group = group_of(all, key->name, &field);
+    set(group, 0, field, value);
   }
   return all;
 }
