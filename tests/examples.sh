@@ -6,7 +6,9 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 passed=0 failed=0
 for scenario in "$here"/examples/*.yaml; do
   name=$(basename "$scenario" .yaml)
-  if "$zipact" run "$scenario" -o "$scratch/$name" --quiet && [ -s "$scratch/$name/summary.json" ] &&
+  command=run
+  grep -q '^optimize:' "$scenario" && command=optimize
+  if "$zipact" $command "$scenario" -o "$scratch/$name" --quiet && [ -s "$scratch/$name/summary.json" ] &&
     [ -n "$(find "$scratch/$name/plots" -name '*.svg' -size +1k)" ]; then
     passed=$((passed + 1))
   else

@@ -6,17 +6,19 @@
 #include "io/report.h"
 #include "io/units.h"
 
-/* Lengths or forces. */
-static bool is_force(const ZpTable *table) {
-  return strcmp(table->column[1].name, "measured_N") == 0;
+/* The columns of a calibration: x, measured and computed, both in the unit of what was measured. */
+enum { X, MEASURED, COMPUTED };
+
+static double value_at(const ZpTable *table, size_t row, size_t column) {
+  return table->value[row * table->columns + column];
 }
 
-static double measured(const ZpTable *table, size_t row) {
-  return zp_table_get(table, row, is_force(table) ? "measured_N" : "measured_m");
-}
-
-static double computed(const ZpTable *table, size_t row) {
-  return zp_table_get(table, row, is_force(table) ? "fitted_N" : "fitted_m");
+/* What was measured, by its unit. */
+static const char *quantity(const ZpTable *table) {
+  static const struct { const char *unit, *name; } of[] = {{"N", "force"}, {"s", "zip time"}, {"F", "capacitance"}};
+  for (size_t k = 0; k < sizeof of / sizeof of[0]; k++)
+    if (strcmp(table->column[MEASURED].unit, of[k].unit) == 0) return of[k].name;
+  return "stroke or opening";
 }
 
 static bool has_fit(const ZpPlot *plot) {
@@ -24,7 +26,7 @@ static bool has_fit(const ZpPlot *plot) {
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = zp_report_result(plot->report, run)->series;
     for (size_t row = 0; table && row < table->rows; row++)
-      if (isfinite(computed(table, row))) return true;
+      if (isfinite(value_at(table, row, COMPUTED))) return true;
   }
   return false;
 }
@@ -34,9 +36,9 @@ static void data_fit(const ZpPlot *plot, FILE *file) {
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = zp_report_result(plot->report, run)->series;
     for (size_t row = 0; table && row < table->rows; row++) {
-      zp_plot_put(file, table->value[row * table->columns], ' ');
-      zp_plot_put(file, measured(table, row), ' ');
-      zp_plot_put(file, computed(table, row), '\n');
+      zp_plot_put(file, value_at(table, row, X), ' ');
+      zp_plot_put(file, value_at(table, row, MEASURED), ' ');
+      zp_plot_put(file, value_at(table, row, COMPUTED), '\n');
     }
   }
 }
@@ -79,10 +81,9 @@ static const char *axes(const ZpTable *table) {
 
 static void script_fit(const ZpPlot *plot, FILE *file) {
   const ZpTable *table = zp_report_result(plot->report, 0)->series;
-  const bool force = is_force(table);
-  const char *const shown[] = {table->column[1].name, table->column[2].name, NULL};
+  const char *const shown[] = {table->column[MEASURED].name, table->column[COMPUTED].name, NULL};
   char label[128];
-  const ZpPlotUnit y = zp_plot_table_unit(table, shown, force ? "N" : "m");
+  const ZpPlotUnit y = zp_plot_table_unit(table, shown, table->column[MEASURED].unit);
   const ZpPlotUnit x = unit_of_x(&table->column[0], label, sizeof label);
   ZpActuatorDef def;
   bool resolved = zp_scenario_def(plot->report->scenario, 0, &def, NULL) == ZP_OK;
@@ -94,8 +95,8 @@ static void script_fit(const ZpPlot *plot, FILE *file) {
           "\nset ylabel '%s / %s' offset 0.5\n%s"
           "plot 'fit.dat' using ($1*%g):($2*%g) with points pt 6 ps 1.2 lw 1.5 lc rgb '%s' title 'measured', \\\n"
           "     'fit.dat' using ($1*%g):($3*%g) with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title '%s'\n",
-          force ? "force" : "stroke or opening", y.text, axes(table), x.factor, y.factor, zp_plot_colour(0), x.factor,
-          y.factor, zp_plot_colour(1), fitted ? "fitted" : "computed");
+          quantity(table), y.text, axes(table), x.factor, y.factor, zp_plot_colour(0), x.factor, y.factor,
+          zp_plot_colour(1), fitted ? "fitted" : "computed");
 }
 
 const ZpPicture zp_fit_pictures[] = {
