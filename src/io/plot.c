@@ -86,12 +86,16 @@ ZpPlotUnit zp_plot_box_unit(const ZpPlotBox *box) {
   return zp_plot_unit(fmax(fmax(fabs(box->left), fabs(box->right)), box->top - box->bottom), "m");
 }
 
-void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics) {
-  double least = fmax(box->right - box->left, box->top - box->bottom) * unit.factor / tics;
-  if (!(least > 0)) return;
+double zp_plot_step(double range, int tics) {
+  double least = range / tics;
+  if (!(least > 0)) return 0;
   double power = pow(10, floor(log10(least))), step = least / power;
-  step = power * (step <= 1 ? 1 : step <= 2 ? 2 : step <= 5 ? 5 : 10);
-  fprintf(file, "set size ratio -1\nset xtics %.6g\nset ytics %.6g\n", step, step);
+  return power * (step <= 1 ? 1 : step <= 2 ? 2 : step <= 5 ? 5 : 10);
+}
+
+void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics) {
+  double step = zp_plot_step(fmax(box->right - box->left, box->top - box->bottom) * unit.factor, tics);
+  if (step > 0) fprintf(file, "set size ratio -1\nset xtics %.6g\nset ytics %.6g\n", step, step);
 }
 
 void zp_plot_put(FILE *file, double value, char after) {

@@ -90,6 +90,9 @@ bool zp_plot_fits_same_scale(const ZpPlotBox *box);
 /* The unit for both axes. */
 ZpPlotUnit zp_plot_box_unit(const ZpPlotBox *box);
 
+/* The distance of tics, 1, 2 or 5 times a power of ten, of which at most `tics` fit into `range`; 0 of no range. */
+double zp_plot_step(double range, int tics);
+
 /* Give both axes the same scale and tics, about as many as `tics` on the longer one. */
 void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics);
 

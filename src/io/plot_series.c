@@ -208,10 +208,23 @@ static bool has_loops(const ZpPlot *plot) {
          zp_plot_has(series(plot), "charge_C");
 }
 
+/* Tics of a panel of half the width: their labels stand side by side. */
+static void few_tics(const ZpTable *table, const char *column, ZpPlotUnit unit, FILE *file) {
+  enum { TICS = 6 };
+  double least = INFINITY, largest = -INFINITY;
+  for (size_t row = 0; row < table->rows; row++) {
+    least = fmin(least, zp_table_get(table, row, column));
+    largest = fmax(largest, zp_table_get(table, row, column));
+  }
+  double step = zp_plot_step((largest - least) * unit.factor, TICS);
+  if (step > 0) fprintf(file, "set xtics %.6g\n", step);
+}
+
 /* One closed curve: a column against another. */
-static void plot_loop(FILE *file, const char *x, ZpPlotUnit x_unit, const char *x_label, const char *y,
-                      ZpPlotUnit y_unit, const char *y_label) {
+static void plot_loop(const ZpTable *table, FILE *file, const char *x, ZpPlotUnit x_unit, const char *x_label,
+                      const char *y, ZpPlotUnit y_unit, const char *y_label) {
   fprintf(file, "set xlabel '%s / %s'\nset ylabel '%s / %s' offset 0.5\n", x_label, x_unit.text, y_label, y_unit.text);
+  few_tics(table, x, x_unit, file);
   fprintf(file, "plot '../table.csv' using (column('%s')*%g):(column('%s')*%g) with lines lw 2 lc rgb '%s' notitle\n",
           x, x_unit.factor, y, y_unit.factor, zp_plot_colour(0));
 }
@@ -225,9 +238,9 @@ static void script_loops(const ZpPlot *plot, FILE *file) {
   zp_plot_head(plot, file, "loops", "A cycle: the area of the left loop is what the source gives", 0.96);
   fputs("set datafile separator ','\nset key autotitle columnhead\n", file);
   fputs("set multiplot\nset lmargin at screen 0.10\nset rmargin at screen 0.47\n", file);
-  plot_loop(file, "charge_C", charge, "charge", "voltage_V", voltage, "voltage");
+  plot_loop(table, file, "charge_C", charge, "charge", "voltage_V", voltage, "voltage");
   fputs("unset label\nset lmargin at screen 0.60\nset rmargin at screen 0.97\n", file);
-  plot_loop(file, "opening_m", length, "opening", "force_N", force, "electric force");
+  plot_loop(table, file, "opening_m", length, "opening", "force_N", force, "electric force");
   fputs("unset multiplot\n", file);
 }
 

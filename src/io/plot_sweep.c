@@ -456,7 +456,7 @@ static void script_bode(const ZpPlot *plot, FILE *file) {
   fprintf(file, "set logscale y\nset ylabel 'amplitude / %s' offset 0.5\n", length.text);
   plot_bode(plot, file, amplitude, true);
   zp_plot_lower_panel(file, RIGHT, "frequency / Hz");
-  fputs("unset logscale y\nset ylabel 'phase / deg' offset 0.5\n", file);
+  fputs("unset logscale y\nset ytics 45\nset ylabel 'phase / deg' offset 0.5\n", file);
   plot_bode(plot, file, "$3*180/pi", false);
   fputs("unset multiplot\n", file);
 }
