@@ -96,7 +96,11 @@ static void end_others(int size) {
 
 static void answer(ZpStatus status, const void *byte, size_t size) {
   char *message = malloc(size + 1);
-  if (!message || size >= INT_MAX) MPI_Abort(MPI_COMM_WORLD, EXIT_MACHINE);
+  if (!message || size >= INT_MAX) {
+    free(message);
+    MPI_Abort(MPI_COMM_WORLD, EXIT_MACHINE);
+    return;
+  }
   message[0] = (char)status;
   memcpy(message + 1, byte, size);
   MPI_Send(message, (int)size + 1, MPI_BYTE, FIRST, TAG_RESULTS, MPI_COMM_WORLD);

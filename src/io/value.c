@@ -151,7 +151,7 @@ ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *
 }
 
 static ZpStatus read_number(int index, const char *text, double *value, ZpError *err) {
-  double number;
+  double number = NAN;
   ZpStatus status = zp_value_quantity(index, text, &number, err);
   if (status == ZP_OK) status = check_number(index, number, err);
   if (status == ZP_OK) *value = number;
