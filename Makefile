@@ -5,6 +5,8 @@
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
 # make check-report  looks at the page of `zipact reproduce` in a browser
 # make fmu     the actuator of examples/fmu.yaml as an FMU in out/, with a binary for Windows if mingw-w64 is there
+# make install; make uninstall removes what it installed
+# make deb     Debian packages in build-deb
 # make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make html without
 #              remaking them; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
@@ -15,7 +17,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install clean
+.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install uninstall deb clean
 all: $(BUILD)/zipact
 
 deps:
@@ -66,7 +68,9 @@ bench-tables: $(BUILD)/zipact
 
 docs: $(BUILD)/zipact
 	scripts/make-keys-page.sh $(BUILD)/zipact
+	scripts/make-materials-page.py
 	scripts/make-factor-page.sh $(BUILD)/zipact
+	scripts/make-benchmark-page.py $(BUILD)/zipact
 	scripts/run-manual.py $(BUILD)/zipact
 	@$(MAKE) --no-print-directory html
 
@@ -99,8 +103,22 @@ check-web: $(BUILD)/zipact
 format:
 	clang-format -i include/zipact/*.h src/*/*.[ch] src/*/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch] octave/src/*.[ch] web/*.c
 
+# What was installed last, which `make uninstall` removes.
+INSTALLED ?= $(BUILD)/installed.txt
+
 install: $(BUILD)/zipact
 	cmake --build $(BUILD) -j $(JOBS) && cmake --install $(BUILD)
+	@cp $(BUILD)/install_manifest.txt $(INSTALLED)
+
+uninstall:
+	@test -f $(INSTALLED) || { echo "nothing to uninstall: make install has not written $(INSTALLED)" >&2; exit 1; }
+	@while read -r file || [ -n "$$file" ]; do rm -f "$(DESTDIR)$$file"; done <$(INSTALLED)
+	@sed 's|/[^/]*$$||' $(INSTALLED) | grep zipact | sort -ru | while read -r folder; do \
+	  while rmdir "$(DESTDIR)$$folder" 2>/dev/null; do folder=$${folder%/*}; case $$folder in *zipact*) ;; *) break ;; esac; done; done
+	@rm $(INSTALLED)
+
+deb:
+	scripts/make-deb.sh $(BUILD)
 
 clean:
 	rm -rf $(BUILD) out web/build web/dist web/node_modules

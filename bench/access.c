@@ -46,6 +46,7 @@ static void measure_reading(const char *model, ZpSim *sim) {
 static void measure(const char *name, ZpElectroModel model) {
   ZpActuatorDef def = zp_actuator_def_default();
   def.electro.model = model;
+  def.liquid.model = ZP_LIQUID_NONE;
   ZpModel *actuator;
   ZpSim *sim;
   ZpError err;

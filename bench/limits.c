@@ -52,6 +52,7 @@ static void measure(const char *name, ZpStudy study, ZpActuatorDef def, int runs
 int main(int argc, char **argv) {
   ZpActuatorDef def = zp_actuator_def_default();
   def.output.errors = false;
+  def.liquid.model = ZP_LIQUID_NONE;
   def.mesh.nodes = argc > 1 ? atoi(argv[1]) : 61;
   if (argc > 2) {
     ZpResult *first = run(ZP_STUDY_LIMITS, &def, NULL);

@@ -15,6 +15,8 @@ rows = json.load(sys.stdin)["rows"]
 table = csv.DictWriter(sys.stdout, rows[0].keys(), lineterminator="\n")
 table.writeheader()
 table.writerows(rows)' >bench.csv
+./meter.py "$build" >meter.csv
+gnuplot meter.gp
 for motion in swing zip; do
   "$build/precision" $motion >$motion.csv
   gnuplot -e "motion='$motion'" precision.gp

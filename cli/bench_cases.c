@@ -50,7 +50,8 @@ ZpStatus bench_rests(int nodes, Row *row, ZpError *err) {
 /* Limits, each but one in 16 from the one before. */
 ZpStatus bench_limits(int nodes, Row *row, ZpError *err) {
   return bench_cases("case of limits",
-                     "study: limits\nload.mass: {from: 2 g, to: 12 g, count: 32}\nribbon.thickness: [50 um, 60 um]",
+                     "study: limits\nliquid.model: none\nload.mass: {from: 2 g, to: 12 g, count: 32}\n"
+                     "ribbon.thickness: [50 um, 60 um]",
                      nodes, row, err);
 }
 

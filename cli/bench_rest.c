@@ -78,6 +78,7 @@ ZpStatus bench_table2(int nodes, Row *row, ZpError *err) {
 ZpStatus bench_field(int nodes, Row *row, ZpError *err) {
   enum { TRIES = 10 };
   ZpActuatorDef def = zp_actuator_def_default();
+  def.liquid.model = ZP_LIQUID_NONE;
   def.profile.shape = ZP_PROFILE_CUBIC;
   def.mesh.nodes = nodes;
   double best = INFINITY, off = NAN, equations = NAN;

@@ -23,10 +23,10 @@ typedef struct Crew {
 
 /* What the words of the command line say. */
 typedef struct Options {
-  const char *scenario; /* NULL: the defaults */
+  const char *scenario; /* NULL: the defaults; of `completion` the shell */
   const char **set;     /* [sets] values of --set, in order */
   int sets;
-  const char *directory; /* what -o names; NULL: out/STUDY */
+  const char *directory; /* what -o names; NULL: not given */
   int jobs;              /* processors to use; 0: all */
   int fmi;               /* version of FMI that was asked for; 0: none */
   bool resume, no_plots, json, yaml, quiet, help;
@@ -50,10 +50,16 @@ int cli_flush(int status);
 
 /* `study` NULL: the one that the scenario names. */
 int cli_study(const char *study, const Options *options);
+
+/* The commands of words.def. */
+int cli_run(const Options *options);
 int cli_optimize(const Options *options);
 int cli_batch(const Options *options);
 int cli_fmu(const Options *options);
 int cli_keys(const Options *options);
+int cli_schema(const Options *options);
+int cli_completion(const Options *options);
+int cli_man(const Options *options);
 int cli_bench(const Options *options);
 int cli_reproduce(const Options *options);
 

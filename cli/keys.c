@@ -1,13 +1,20 @@
-/* zipact keys. */
+/* zipact keys, zipact schema. */
 #include <stdio.h>
 
 #include "cli.h"
 
+static int print_keys(ZpKeysFormat format) {
+  ZpError err;
+  return zp_keys_write(format, stdout, &err) == ZP_OK ? EXIT_DONE : cli_fail(&err);
+}
+
 int cli_keys(const Options *options) {
   if (options->json && options->yaml)
     return cli_fail(&(ZpError){ZP_BAD_INPUT, "keys: give --json or --yaml, not both"});
-  ZpKeysFormat format = options->json ? ZP_KEYS_JSON : options->yaml ? ZP_KEYS_YAML : ZP_KEYS_TEXT;
-  ZpError err;
-  if (zp_keys_write(format, stdout, &err) != ZP_OK) return cli_fail(&err);
-  return EXIT_DONE;
+  return print_keys(options->json ? ZP_KEYS_JSON : options->yaml ? ZP_KEYS_YAML : ZP_KEYS_TEXT);
+}
+
+int cli_schema(const Options *options) {
+  (void)options;
+  return print_keys(ZP_KEYS_SCHEMA);
 }

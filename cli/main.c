@@ -4,43 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#include "cli.h"
+#include "words.h"
 
 /* Largest value of --jobs. */
 enum { JOBS_MOST = 1024 };
-
-static const char usage[] =
-    "zipact STUDY [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n"
-    "zipact run SCENARIO.yaml            the study that the scenario names (key `study`)\n"
-    "zipact optimize SCENARIO.yaml       best values of some keys (keys `optimize.*`), for any study; options as "
-    "above\n"
-    "zipact batch [SCENARIO.yaml] [--set KEY=VALUE]... [--jobs N]   cases as JSON on standard input, one per line;\n"
-    "                                    results as JSON on standard output\n"
-    "zipact fmu [SCENARIO.yaml] [--set KEY=VALUE]... [--fmi 2|3] -o FILE.fmu   the actuator as an FMU for "
-    "co-simulation\n"
-    "zipact keys [--json | --yaml]       every key: unit, default, range, help; --yaml is a starter scenario\n"
-    "zipact reproduce [-o DIR]           the tables and figures of the paper beside our own\n"
-    "zipact bench [--json]               speed on this machine\n"
-    "zipact --version | --help | STUDY --help\n"
-    "\n"
-    "Studies\n";
-
-static const char study_usage[] =
-    "\n"
-    "  SCENARIO.yaml     values of keys; keys not given keep their defaults. A list of values is a sweep\n"
-    "  --set KEY=VALUE   the value of a key, as in \"load.mass=20 g\"; overrides the file; may be repeated.\n"
-    "                    \"load.mass=1 g .. 100 g : 5 log\" is a sweep, too: 5 values, \"log\" by equal factors\n"
-    "  -o, --output DIR  folder of the results (default: out/STUDY)\n"
-    "  --no-plots        no pictures; the same as --set output.plots=false\n"
-    "  --jobs N          number of processors to use (default: all); the results do not depend on it\n"
-    "  --resume          continue the sweep in the folder of the results: cases that are done are not run again\n"
-    "  --json            print only the summary, as JSON, to standard output\n"
-    "  --quiet           no progress and no messages except errors\n"
-    "\n"
-    "Values take units (\"130 um\", \"10 kV\", \"8 g\"); a number without a unit is in SI. `zipact keys` lists the "
-    "keys.\n"
-    "Exit status: 0 done; 1 the solver failed; 2 wrong input; 3 the machine failed; 130 interrupted.\n";
 
 void cli_notice(const char *message) {
   fprintf(stderr, "zipact: %s\n", message);
@@ -61,27 +30,6 @@ static int fail_usage(const char *what, const char *word) {
   return EXIT_INPUT;
 }
 
-static const ZpKey *study_key(void) {
-  return zp_key(zp_key_find("study"));
-}
-
-static void print_help(void) {
-  fputs(usage, stdout);
-  for (int i = 0; i <= (int)study_key()->max; i++)
-    printf("  %-14s %s\n", study_key()->choices[i].word, study_key()->choices[i].help);
-  fputs(study_usage, stdout);
-}
-
-static int print_study_help(const char *study) {
-  int place = zp_key_choice(zp_key_find("study"), study);
-  printf(
-      "zipact %s [SCENARIO.yaml] [--set KEY=VALUE]... [-o DIR] [--no-plots] [--jobs N] [--resume] [--json] [--quiet]\n",
-      study);
-  printf("%s\n", place >= 0 ? study_key()->choices[place].help : "the study that the scenario names");
-  fputs(study_usage, stdout);
-  return EXIT_DONE;
-}
-
 /* => false unless `text` is a whole number of processors. */
 static bool read_jobs(const char *text, int *jobs) {
   char *end;
@@ -91,117 +39,123 @@ static bool read_jobs(const char *text, int *jobs) {
   return end > text && *end == 0 && errno == 0 && value >= 1 && value <= JOBS_MOST;
 }
 
-/* Read what follows the first word; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
-static int read_options(int argc, char **argv, const char **set, Options *options) {
-  static const struct option known[] = {{"set", required_argument, NULL, 's'},
-                                        {"output", required_argument, NULL, 'o'},
-                                        {"no-plots", no_argument, NULL, 'p'},
-                                        {"jobs", required_argument, NULL, 'n'},
-                                        {"resume", no_argument, NULL, 'r'},
-                                        {"json", no_argument, NULL, 'j'},
-                                        {"fmi", required_argument, NULL, 'f'},
-                                        {"yaml", no_argument, NULL, 'y'},
-                                        {"quiet", no_argument, NULL, 'q'},
-                                        {"help", no_argument, NULL, 'h'},
-                                        {NULL, 0, NULL, 0}};
-  *options = (Options){.set = set};
-  for (int c; (c = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
-    if (c == 's')
-      set[options->sets++] = optarg;
-    else if (c == 'o')
-      options->directory = optarg;
-    else if (c == 'p')
-      options->no_plots = true;
-    else if (c == 'r')
-      options->resume = true;
-    else if (c == 'n') {
-      if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
-    } else if (c == 'f') {
-      if (strcmp(optarg, "2") != 0 && strcmp(optarg, "3") != 0) return fail_usage("--fmi takes 2 or 3, not ", optarg);
-      options->fmi = *optarg - '0';
-    } else if (c == 'j')
-      options->json = true;
-    else if (c == 'y')
-      options->yaml = true;
-    else if (c == 'q')
-      options->quiet = true;
-    else if (c == 'h')
-      options->help = true;
-    else
-      return EXIT_INPUT; /* getopt has said why */
+/* Take the option that getopt answered. => EXIT_DONE or EXIT_INPUT. */
+static int take_option(int letter, const char **set, Options *options) {
+  switch (letter) {
+  case 's':
+    set[options->sets++] = optarg;
+    break;
+  case 'o':
+    options->directory = optarg;
+    break;
+  case 'p':
+    options->no_plots = true;
+    break;
+  case 'r':
+    options->resume = true;
+    break;
+  case 'n':
+    if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
+    break;
+  case 'f':
+    if (strcmp(optarg, "2") != 0 && strcmp(optarg, "3") != 0) return fail_usage("--fmi takes 2 or 3, not ", optarg);
+    options->fmi = *optarg - '0';
+    break;
+  case 'j':
+    options->json = true;
+    break;
+  case 'y':
+    options->yaml = true;
+    break;
+  case 'q':
+    options->quiet = true;
+    break;
+  case 'h':
+    options->help = true;
+    break;
+  default:
+    return EXIT_INPUT; /* getopt has said why */
   }
-  if (optind < argc) options->scenario = argv[optind++];
-  return optind < argc ? fail_usage("only one scenario at a time; unexpected argument ", argv[optind]) : EXIT_DONE;
-}
-
-static int no_scenario_options(const char *word, const Options *o) {
-  if (o->scenario) return fail_usage("does not take a scenario: ", word);
-  if (o->sets) return fail_usage("does not take --set: ", word);
-  if (o->no_plots) return fail_usage("does not take --no-plots: ", word);
-  if (o->resume) return fail_usage("does not take --resume: ", word);
-  if (o->jobs) return fail_usage("does not take --jobs: ", word);
   return EXIT_DONE;
 }
 
-static int dispatch_batch(const Options *o) {
-  if (o->help) {
-    print_help();
-    return EXIT_DONE;
-  }
-  if (o->directory) return fail_usage("does not take -o: ", "batch");
-  if (o->resume) return fail_usage("does not take --resume: ", "batch");
-  if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", "batch");
-  return cli_batch(o);
+/* "load.mass=8g" without --set, and no file of that name. */
+static bool is_assignment(const char *word) {
+  return strchr(word, '=') && access(word, F_OK) != 0;
 }
 
-static int dispatch_optimize(const Options *o) {
-  if (o->help) {
-    print_help();
-    return EXIT_DONE;
+/* What is no option: one scenario, or the word that the command takes. */
+static int take_arguments(int argc, char **argv, Options *options) {
+  for (int i = optind; i < argc; i++) {
+    if (is_assignment(argv[i])) {
+      fprintf(stderr, "zipact: %s: to give a value write --set \"%s\"\n", argv[i], argv[i]);
+      return EXIT_INPUT;
+    }
+    if (options->scenario) return fail_usage("only one scenario at a time; unexpected argument ", argv[i]);
+    options->scenario = argv[i];
   }
-  if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", "optimize");
-  return cli_optimize(o);
+  return EXIT_DONE;
 }
 
-static int dispatch_fmu(const Options *o) {
-  if (o->help) {
-    print_help();
-    return EXIT_DONE;
+/* Read what follows the first word; `set` has room for argc pointers; *given are the bits of the options.
+ * => EXIT_DONE or EXIT_INPUT. */
+static int read_options(int argc, char **argv, const char **set, Options *options, unsigned *given) {
+  struct option known[OPTION_COUNT + 1] = {0};
+  for (int i = 0; i < OPTION_COUNT; i++)
+    known[i] = (struct option){word_option(i)->word, word_option(i)->argument ? required_argument : no_argument, NULL,
+                               word_option(i)->letter};
+  *options = (Options){.set = set};
+  *given = 0;
+  for (int letter; (letter = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
+    const int status = take_option(letter, set, options);
+    if (status != EXIT_DONE) return status;
+    for (int i = 0; i < OPTION_COUNT; i++)
+      if (word_option(i)->letter == letter) *given |= 1u << i;
   }
-  if (!o->directory) return fail_usage("fmu needs a file to write: -o FILE.fmu", "");
-  if (o->no_plots) return fail_usage("does not take --no-plots: ", "fmu");
-  if (o->resume) return fail_usage("does not take --resume: ", "fmu");
-  if (o->jobs) return fail_usage("does not take --jobs: ", "fmu");
-  if (o->json) return fail_usage("does not take --json: ", "fmu");
-  if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", "fmu");
-  Options filled = *o;
-  if (!filled.fmi) filled.fmi = 3;
-  return cli_fmu(&filled);
+  return take_arguments(argc, argv, options);
 }
 
-static int dispatch(const char *word, const Options *o) {
-  if (strcmp(word, "fmu") == 0) return dispatch_fmu(o);
-  if (o->fmi) return fail_usage("--fmi is an option of fmu, not of ", word);
-  bool is_study = zp_key_choice(zp_key_find("study"), word) >= 0, is_run = strcmp(word, "run") == 0;
-  if (is_study || is_run) {
-    if (o->help) return print_study_help(word);
-    if (o->yaml) return fail_usage("--yaml is an option of keys, not of ", word);
-    if (is_run && !o->scenario) return fail_usage("run needs a scenario file", "");
-    return cli_study(is_run ? NULL : word, o);
+/* "keys does not take --jobs" */
+static int fail_taken(const Command *command, const char *what) {
+  fprintf(stderr, "zipact: %s does not take %s; see zipact %s --help\n", command->word, what, command->word);
+  return EXIT_INPUT;
+}
+
+static int check_words(const Command *command, const Options *o, unsigned given) {
+  for (int i = 0; i < OPTION_COUNT; i++) {
+    char word[32];
+    const Option *option = word_option(i);
+    snprintf(word, sizeof word, option->letter == 'o' ? "-o" : "--%s", option->word);
+    if (given & ~command->options & 1u << i) return fail_taken(command, word);
   }
-  if (strcmp(word, "batch") == 0) return dispatch_batch(o);
-  if (strcmp(word, "optimize") == 0) return dispatch_optimize(o);
-  bool is_keys = strcmp(word, "keys") == 0, is_reproduce = strcmp(word, "reproduce") == 0;
-  if (!is_keys && !is_reproduce && strcmp(word, "bench") != 0) return fail_usage("unknown study or command: ", word);
+  if (command->argument == NOTHING && o->scenario) return fail_taken(command, "a scenario");
+  if (command->argument == A_SCENARIO && !o->scenario) return fail_usage(command->word, " needs a scenario file");
+  if (command->argument == A_SHELL && !o->scenario)
+    return fail_usage(command->word, " needs a shell: bash, zsh or fish");
+  return EXIT_DONE;
+}
+
+static int fail_word(const char *word) {
+  const char *nearest = word_nearest(word);
+  fprintf(stderr, "zipact: unknown study or command: %s%s%s%s\n", word,
+          nearest ? "; did you mean " : "; see zipact --help", nearest ? nearest : "", nearest ? "?" : "");
+  return EXIT_INPUT;
+}
+
+static int dispatch(const char *word, const Options *o, unsigned given) {
+  Command command;
+  if (!word_find(word, &command)) return fail_word(word);
   if (o->help) {
-    print_help();
+    help_print_command(&command);
     return EXIT_DONE;
   }
-  int status = no_scenario_options(word, o);
+  const int status = check_words(&command, o, given);
   if (status != EXIT_DONE) return status;
-  if (o->yaml && !is_keys) return fail_usage("--yaml is an option of keys, not of ", word);
-  if (o->directory && !is_reproduce) return fail_usage("does not take -o: ", word);
-  return is_keys ? cli_keys(o) : is_reproduce ? cli_reproduce(o) : cli_bench(o);
+  return command.run ? command.run(o) : cli_study(word, o);
+}
+
+int cli_run(const Options *options) {
+  return cli_study(NULL, options);
 }
 
 int cli_main(int argc, char **argv, const Crew *crew) {
@@ -213,15 +167,16 @@ int cli_main(int argc, char **argv, const Crew *crew) {
     return cli_flush(EXIT_DONE);
   }
   if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
-    print_help();
+    help_print();
     return cli_flush(EXIT_DONE);
   }
   const char **set = calloc((size_t)argc, sizeof *set);
   if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   Options options;
-  int status = read_options(argc - 1, argv + 1, set, &options);
+  unsigned given;
+  int status = read_options(argc - 1, argv + 1, set, &options, &given);
   options.crew = crew;
-  if (status == EXIT_DONE) status = dispatch(argv[1], &options);
+  if (status == EXIT_DONE) status = dispatch(argv[1], &options, given);
   free(set);
   return cli_flush(status);
 }

@@ -1,5 +1,4 @@
 /* zipact STUDY and zipact run: scenario => runs => report. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -8,98 +7,28 @@
 #include <zipact/calibrate.h>
 
 #include "cli.h"
+#include "summary.h"
+
+/* A number without a unit may be meant in another unit than SI. */
+static void note_bare_numbers(const ZpScenario *scenario) {
+  double value;
+  for (int i = 0; i < zp_key_count(); i++) {
+    if (!zp_scenario_bare_number(scenario, i, &value)) continue;
+    const ZpKey *key = zp_key(i);
+    fprintf(stderr, "zipact: %s: %.6g taken as %.6g %s\n", key->name, value, value, key->unit);
+  }
+}
 
 ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
   if (status == ZP_OK && o->no_plots) status = zp_scenario_set(scenario, "output.plots=false", err);
+  if (status == ZP_OK && !o->quiet) note_bare_numbers(scenario);
   if (!study || status != ZP_OK) return status;
   char assignment[64];
   snprintf(assignment, sizeof assignment, "study=%s", study);
   return zp_scenario_set(scenario, assignment, err);
-}
-
-static void print_scalar(const ZpScalar *scalar) {
-  bool bare = strcmp(scalar->unit, "1") == 0 || strcmp(scalar->unit, "count") == 0;
-  if (isnan(scalar->value))
-    printf("  %-28s %14s\n", scalar->name, "-");
-  else
-    printf("  %-28s %14.6g %s\n", scalar->name, scalar->value, bare ? "" : scalar->unit);
-}
-
-/* What a row of a sweep shows of its result. */
-typedef struct Shown {
-  ZpStudy study;
-  const char *scalar, *label;
-  double factor;
-  const char *unit;
-} Shown;
-
-static void print_answers(const ZpResult *result) {
-  static const Shown shown[] = {
-#define ZP_HEADLINE(enumerator, scalar, label, factor, unit) {enumerator, scalar, label, factor, unit},
-#include <zipact/studies.def>
-  };
-  for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
-    double value = zp_result_get(result, shown[i].scalar);
-    if (shown[i].study == result->study && !isnan(value))
-      printf("  %s %8.3f %s", shown[i].label, value * shown[i].factor, shown[i].unit);
-  }
-}
-
-/* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
-static void print_row(const ZpReport *report, size_t index) {
-  size_t lists;
-  const int *list = zp_scenario_lists(report->scenario, &lists);
-  const ZpResult *result = report->rows->get(report->rows->user, index);
-  ZpActuatorDef def;
-  if (zp_scenario_def(report->scenario, index, &def, NULL) != ZP_OK) return;
-  for (size_t k = 0; k < lists; k++) {
-    char text[64];
-    zp_value_print(list[k], zp_def_get(&def, list[k]), text, sizeof text);
-    printf("  %s = %-10s", zp_key(list[k])->name, text);
-  }
-  printf("  %-12s", zp_outcome_name(result->outcome));
-  print_answers(result);
-  printf("\n");
-}
-
-/* The best cases of an optimisation. */
-static void print_optimum(const ZpReport *report) {
-  printf("%s\n", report->optimum->message);
-  for (size_t i = 0; i < report->optimum->count; i++) {
-    print_row(report, report->optimum->row[i]);
-    for (size_t k = 0; k < report->optimum->objectives; k++)
-      printf(
-          "    %s = %.6g\n", report->optimum->objective[k],
-          zp_result_get(report->rows->get(report->rows->user, report->optimum->row[i]), report->optimum->objective[k]));
-  }
-}
-
-static void print_rows(const ZpReport *report) {
-  enum { PRINTED = 100 };
-  for (size_t i = 0; i < report->count && i < PRINTED; i++)
-    print_row(report, i);
-  if (report->count > PRINTED) printf("  ... and %zu more rows in table.csv\n", report->count - PRINTED);
-}
-
-static void print_result(const ZpResult *result) {
-  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
-  for (size_t i = 0; i < result->scalars; i++)
-    print_scalar(&result->scalar[i]);
-  for (size_t i = 0; i < result->notes; i++)
-    printf("  note: %s\n", result->note[i]);
-}
-
-static void print_summary(const ZpReport *report, bool plots) {
-  if (report->optimum)
-    print_optimum(report);
-  else if (report->rows)
-    print_rows(report);
-  else if (report->count > 0)
-    print_result(report->result[0]);
-  printf("results: %s/ (summary.json, table.csv, results.h5%s)\n", report->directory, plots ? ", plots/" : "");
 }
 
 /* Write and print a report => EXIT_DONE or why not. */
@@ -115,7 +44,7 @@ static int write_report(const ZpReport *what, const Options *o) {
   if (o->json) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
   } else if (!o->quiet) {
-    print_summary(&report, !o->no_plots);
+    summary_print(&report, !o->no_plots);
   }
   return EXIT_DONE;
 }

@@ -32,6 +32,9 @@
 %      sim = zipact('open', KEY, VALUE, ...)       % or FILE, or a struct, as above
 %      time = zipact('step', sim, dt)              % s, or a text as '1 ms'
 %      time = zipact('step', sim, dt, voltage)     % V; holds from now on
+%      time = zipact('control', sim, @(time, opening) 1e6 * (opening - 8e-3), 'opening', 1e-3, 0.5)
+%                                                  % a controller: asked at once and every 1 ms
+%                                                  % until 0.5 s; what it returns is the voltage
 %      now = zipact('read', sim)                   % all signals: now.stroke_m ...
 %      shape = zipact('shape', sim)                % as in RESULT.shapes, one frame
 %      state = zipact('save', sim)                 % bytes; of use to the same actuator only
@@ -44,5 +47,20 @@
 %
 %   See also ZIPACT_PLOT.
 function varargout = zipact(varargin)
+  if nargin > 2 && isequal(varargin{1}, 'control') && isa(varargin{3}, 'function_handle')
+    law = varargin{3};
+    varargin{3} = @(time, signal) asked(law, time, signal);
+  end
   varargout = zipact_mex(varargin{:});
+end
+
+% What a controller answers, or why it does not: an error must not cross the library.
+function [voltage, problem] = asked(law, time, signal)
+  problem = '';
+  try
+    voltage = law(time, signal);
+  catch caught
+    voltage = NaN;
+    problem = caught.message;
+  end
 end

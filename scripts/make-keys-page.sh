@@ -31,6 +31,8 @@ import re, sys
 print("\n# Columns of table.csv\n\n| column | unit | meaning |\n|---|---|---|")
 for name, unit, suffix, text in re.findall(r'^ZP_SIGNAL\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', open(sys.argv[1]).read(), re.M):
     print(f"| `{name}{suffix}` | {unit} | {text} |")
+for name, text in re.findall(r'^ZP_CONTROLLED\((\w+), "([^"]*)"\)', open(sys.argv[1]).read(), re.M):
+    print(f"| `{name}`, with a controller `{name}_m`, `{name}` or `{name}_F` | that of control.signal | {text} |")
 PYTHON
 if $check; then
   cmp -s "$made" "$page" || { echo "docs/keys.md is out of date: make docs"; exit 1; }

@@ -3,7 +3,7 @@
 
     scripts/run-manual.py [--check] ZIPACT      with --check, says whether the numbers are up to date
 
-In the console blocks of PAGES, what stands after "$ " (and "> ", where it continues) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their first word; "..."
+In the console blocks of PAGES, what stands after "$ " (and "> ", where it continues) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their label; "..."
 stands for what is left out. PICTURES are copied from the results.
 """
 
@@ -34,6 +34,7 @@ PICTURES = {
     "reproduce.svg": "reproduce/plots/fig-8.svg",
     "sweep.svg": "sweep/plots/contraction.svg",
     "release.svg": "release/plots/stroke.svg",
+    "film.svg": "actuate/plots/film.svg",
     "bead.svg": "bead/plots/forces.svg",
     "hold.svg": "hold/plots/interface.svg",
     "meter.svg": "meter/plots/sense.svg",
@@ -51,6 +52,12 @@ def run(command, folder):
     return result.stdout.splitlines()
 
 
+def label(line):
+    """What a line says before its first number, or of a sentence its first word: "zip time" of "  zip time   152 ms"."""
+    found = re.match(r"\s*(.*?\S)(?:  +[-+.\d]|  +-$|: )", line + " ")
+    return found.group(1) if found else line.split()[0] if line.split() else ""
+
+
 def renewed(shown, printed):
     """The lines `shown`, as they are now among those `printed`."""
     rest = iter(printed)
@@ -58,8 +65,7 @@ def renewed(shown, printed):
         if line == "...":
             yield line
             continue
-        first = line.split()[0]
-        found = next((new for new in rest if new.split()[:1] == [first]), None)
+        found = next((new for new in rest if label(new) == label(line)), None)
         if found is None:
             sys.exit("the manual shows a line that is not printed: " + line)
         yield found.rstrip()

@@ -63,13 +63,14 @@ static inline ZpStatus resolve(ZpActuatorDef *def, const Setting *list, size_t c
   return zp_def_resolve(def, assignment, count, err);
 }
 
+/* The same of what is in order: without liquid and without estimates of errors, unless the settings say otherwise. */
 static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
   ZpActuatorDef def;
   ZpError err = {ZP_OK, ""};
-  Setting all[64] = {{"output.errors", 0}}; /* two more solutions, which test_estimate asks for */
-  ck_assert_uint_lt(count, LENGTH_OF(all));
-  memcpy(all + 1, list, count * sizeof *list);
-  ck_assert_msg(resolve(&def, all, count + 1, &err) == ZP_OK, "%s", err.message);
+  Setting all[64] = {{"output.errors", 0}, {"liquid.model", ZP_LIQUID_NONE}};
+  ck_assert_uint_lt(count + 1, LENGTH_OF(all));
+  memcpy(all + 2, list, count * sizeof *list);
+  ck_assert_msg(resolve(&def, all, count + 2, &err) == ZP_OK, "%s", err.message);
   return def;
 }
 #define DEF(...) def_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
@@ -80,6 +81,20 @@ static inline ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   return result;
+}
+
+/* The same of a study that must answer. */
+static inline ZpResult *answer_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = study_of(study, def);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
+  return result;
+}
+
+static inline double answered_value(ZpStudy study, const ZpActuatorDef *def, const char *name) {
+  ZpResult *result = answer_of(study, def);
+  double value = zp_result_get(result, name);
+  zp_result_destroy(result);
+  return value;
 }
 
 static inline ZpModel *model_of(const ZpActuatorDef *def) {

@@ -32,7 +32,7 @@ MAY_INCLUDE = {
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "sim": ["rest", "paper/motion", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "sample": [],
+    "sample": ["base"],
     "fmu": ["sim", "actuator", "def", "base"],
     "fmu/export": ["fmu", "sim", "actuator", "def", "base"],
     "io": ["sample", "base"],
@@ -57,6 +57,7 @@ PUBLIC = {
     "keys.def": "def",
     "studies.def": "def",
     "presets.def": "def",
+    "materials.def": "def",
     "drive.h": "drive",
     "model.h": "actuator",
     "rest.h": "rest",
@@ -225,6 +226,7 @@ def rule_signals_documented(repo, files):
     pages = "\n".join(read(repo, name) for name in files if name.startswith("docs/") and name.endswith(".md"))
     text = read(repo, "include/zipact/signals.def")
     signals = list(re.finditer(r'^ZP_SIGNAL\((\w+),\s*"[^"]*",\s*"([^"]*)"', text, re.M))
+    signals += list(re.finditer(r"^ZP_CONTROLLED\((\w+)()", text, re.M))
     yield len(signals) > 10, "include/zipact/signals.def:1", "only %d signals found" % len(signals)
     for found in signals:
         column = found.group(1) + found.group(2)

@@ -404,6 +404,35 @@ START_TEST(implicit_steps_allocate_nothing) {
 }
 END_TEST
 
+/* A control loop steps again and again, in a liquid, with the model's controller. */
+START_TEST(controlled_steps_allocate_nothing) {
+  ZpActuatorDef def = short_def();
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpError err;
+  def.drive.voltage = 8e3;
+  def.liquid.model = ZP_LIQUID_BEAD;
+  def.control.kind = ZP_CONTROL_BOOST_PI;
+  def.control.proportional = def.control.boost_voltage = 1e3;
+  def.solver.end_time = 0.2;
+  def.control.delay = 2.5e-3;
+  def.control.noise = 1e-5;
+  def.setpoint.value = 1e-3;
+  ck_assert_msg(zp_model_create(&def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s",
+                err.message);
+  ZpOutcome outcome = ZP_REACHED_END;
+  watch(0);
+  for (int k = 0; k < 100 && outcome == ZP_REACHED_END; k++)
+    outcome = zp_sim_step(sim, 1e-3, NULL, NULL);
+  look_away();
+  ck_assert_int_eq(outcome, ZP_REACHED_END);
+  ck_assert_msg(ledger.calls == 0, "%ld allocations", ledger.calls);
+  ck_assert(zp_sim_get(sim, "voltage") > 0);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* The whole life: sagging, zipping pair after pair, closed. */
 START_TEST(zipping_allocates_nothing) {
   ZpActuatorDef def = short_def();
@@ -820,6 +849,7 @@ int main(void) {
   tcase_add_test(core, steps_allocate_nothing);
   tcase_add_test(core, explicit_survives_every_failure);
   tcase_add_test(core, implicit_steps_allocate_nothing);
+  tcase_add_test(core, controlled_steps_allocate_nothing);
   tcase_add_test(core, zipping_allocates_nothing);
   tcase_add_test(core, bezier_steps_allocate_nothing);
   tcase_add_test(files, table_survives_every_failure);

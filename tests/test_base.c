@@ -253,17 +253,6 @@ START_TEST(test_defaults_are_those_of_keys_def) {
   ck_assert_str_eq(d.path name, def);                                                                                  \
   check_key(&i, #path #name, NAN, NAN, 0, ZP_TEXT_SIZE - 1);
 #include <zipact/keys.def>
-#undef ZP_GROUP
-#undef ZP_GROUP_END
-#undef ZP_REAL
-#undef ZP_REAL_AS
-#undef ZP_REAL_AUTO
-#undef ZP_REAL_NONE
-#undef ZP_INT
-#undef ZP_BOOL
-#undef ZP_ENUM
-#undef ZP_TEXT
-#undef ZP_OF_SCENARIO
   ck_assert_int_eq(i, zp_key_count());
   ZpError err;
   ck_assert_int_eq(zp_def_check(&d, &err), ZP_OK);

@@ -3,6 +3,7 @@
 #include "check_util.h"
 
 #include "rest/rest.h"
+#include "sim/sim_internal.h"
 
 #define BEAD                                                                                                           \
   { "liquid.model", ZP_LIQUID_BEAD }
@@ -42,6 +43,7 @@ static const Case cases[] = {
     {"local law", 50e-9, 0, 6e3, ZP_SYMMETRY_HALF},
     {"suction", 50e-9, 1, 6e3, ZP_SYMMETRY_HALF},
     {"suction, below the platform", 0.9e-6, 1, 6e3, ZP_SYMMETRY_HALF},
+    {"suction, all but wet", 1.0155e-6, 1, 6e3, ZP_SYMMETRY_HALF},
     {"local law, whole", 60e-9, 0, 6e3, ZP_SYMMETRY_NONE},
     {"suction, whole", 60e-9, 0.7, 6e3, ZP_SYMMETRY_NONE},
     {"capillarity alone", 30e-9, 1, 0, ZP_SYMMETRY_HALF},
@@ -505,6 +507,33 @@ START_TEST(test_what_is_refused) {
 }
 END_TEST
 
+/* -- what is shown of it --------------------------------------------------------------------------- */
+
+/* Attraction along the ribbon adds up to the force, with air beyond the bead; the film ends with the bead, and its
+ * thickness and pressure are those of the law. */
+START_TEST(test_attraction_and_film_along_the_ribbon) {
+  ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 121}, {"platform.electrode", 0});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 20e-3, false, NULL, NULL);
+  ZpLiquid liquid = zp_sim_liquid(sim);
+  ZpShape shape = zp_sim_shape(sim);
+  double reach = zp_sim_get(sim, "wet_length"), sum = 0, quarter = zp_sim_get(sim, "film_thickness"), most = 0;
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    bool wet = (double)i * model->l <= reach;
+    sum += 0.5 * model->l * (shape.line_force[i] + shape.line_force[i + 1]);
+    ck_assert(wet ? liquid.thickness[i] >= def.film.roughness : liquid.thickness[i] == 0 && liquid.pressure[i] == 0);
+    if (wet) ck_near(liquid.pressure[i], sim->dynamics.eval.film.head[i], 1e-9);
+    most = fmax(most, liquid.pressure[i]);
+  }
+  ck_assert(reach > 5e-3 && reach < 0.04 && most > 100);
+  ck_near(liquid.thickness[30], quarter, 1e-12);
+  ck_near(2 * sum, zp_sim_get(sim, "force"), 0.02);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("bead");
   TCase *c = tcase_create("bead");
@@ -525,6 +554,7 @@ int main(void) {
   tcase_add_test(c, test_time_does_not_depend_on_roughness_and_mesh);
   tcase_add_test(c, test_whole_is_two_halves);
   tcase_add_test(c, test_bead_is_kept_in_a_snapshot);
+  tcase_add_test(c, test_attraction_and_film_along_the_ribbon);
   tcase_add_loop_test(c, test_what_is_refused, 0, 6);
   suite_add_tcase(suite, c);
   return run_suite(suite);

@@ -34,18 +34,23 @@ static void set_text(ZpActuatorDef *def, const char *key, const char *text) {
 
 static ZpActuatorDef calibration(const char *file, const char *keys) {
   ZpActuatorDef def = zp_actuator_def_default();
+  def.liquid.model = ZP_LIQUID_NONE;
   set_text(&def, "data.file", file);
   set_text(&def, "calibrate.fit", keys);
   set(&def, "mesh.nodes", FULL_OR(31, 15));
   return def;
 }
 
-static ZpResult *fit(const ZpActuatorDef *def) {
+static ZpResult *fit_to(ZpOutcome outcome, const ZpActuatorDef *def) {
   ZpResult *result;
   ZpError err = {0};
   ck_assert_msg(zp_data_study_run(ZP_STUDY_CALIBRATE, def, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  ck_assert_msg(result->outcome == outcome, "%s: %s", zp_outcome_name(result->outcome), result->message);
   return result;
+}
+
+static ZpResult *fit(const ZpActuatorDef *def) {
+  return fit_to(ZP_CONVERGED, def);
 }
 
 /* Stroke of the hanging default actuator, m. */
@@ -229,7 +234,10 @@ START_TEST(bounds_are_kept) {
   truth.ribbon.young_modulus = 100e9;
   make_data("bounds.csv", truth, 0);
   set(&def, "calibrate.lower", 0.8);
-  ZpResult *result = fit(&def);
+  ZpResult *result = fit_to(ZP_AT_BOUND, &def);
+  ck_assert(zp_outcome_good(ZP_AT_BOUND));
+  ck_assert_str_eq(zp_outcome_name(ZP_AT_BOUND), "at_bound");
+  ck_assert_ptr_nonnull(strstr(result->message, "at its bound: ribbon.young_modulus"));
   assert_near(zp_result_get(result, "ribbon.young_modulus"), 160e9, 1e-6);
   ck_assert(zp_result_get(result, "ribbon.young_modulus") >= 160e9);
   ck_assert(isnan(zp_result_get(result, "ribbon.young_modulus_standard_error")));
@@ -238,8 +246,103 @@ START_TEST(bounds_are_kept) {
   zp_result_destroy(result);
   truth.load.share = 0.5;
   set_text(&def, "calibrate.fit", "load.share"); /* the key's own range ends at 1, not at 5 * 0.5 */
-  result = fit(&def);
+  result = fit_to(ZP_AT_BOUND, &def);
   ck_assert(zp_result_get(result, "load.share") <= 1);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Bounds in the key's unit, in place of multiples of the start. */
+START_TEST(bounds_have_units) {
+  const char *text[] = {"ribbon.young_modulus = 190 GPa .. 250 GPa", "ribbon.young_modulus = 50 GPa .. 0.25 TPa"};
+  const double value[] = {190e9, 100e9};
+  for (int i = 0; i < 2; i++) {
+    ZpActuatorDef def = calibration("units.csv", "ribbon.young_modulus"), truth = def;
+    truth.ribbon.young_modulus = 100e9;
+    make_data("units.csv", truth, 0);
+    set_text(&def, "calibrate.bounds", text[i]);
+    ZpResult *result = fit_to(i ? ZP_CONVERGED : ZP_AT_BOUND, &def);
+    assert_near(zp_result_get(result, "ribbon.young_modulus"), value[i], 1e-6);
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
+/* -- files as spreadsheets and instruments write them ---------------------------------------------- */
+
+/* Strokes of a ribbon of 180 GPa under these loads. */
+static const double grams[] = {4, 8, 15, 30};
+
+typedef void (*WriteRow)(FILE *file, double g, double mm);
+
+static void write_german(FILE *file, double g, double mm) {
+  char text[64];
+  snprintf(text, sizeof text, "%.15g", mm);
+  *strchr(text, '.') = ',';
+  fprintf(file, "\"a; b \"\"c\"\"\";%g,0;\"%s\"\r\n", g, text);
+}
+static void write_tabs(FILE *file, double g, double mm) {
+  fprintf(file, "%.17g\t%.17g\t\n", mm, g);
+}
+static void write_quoted(FILE *file, double g, double mm) {
+  fprintf(file, "\"%g\",\"%.17g\"\n", g, mm);
+}
+
+/* Rows `from` to `to` in a format. */
+static void write_measured(const char *path, const char *head, WriteRow write, int from, int to) {
+  ZpActuatorDef truth = calibration(path, "ribbon.young_modulus");
+  truth.ribbon.young_modulus = 180e9;
+  FILE *file = fopen(path, "w");
+  fputs(head, file);
+  for (int i = from; i < to; i++)
+    write(file, grams[i], 1e3 * stroke(truth, 1e-3 * grams[i]));
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+static void find_180_GPa(const char *files, const char *columns, size_t rows) {
+  ZpActuatorDef def = calibration(files, "ribbon.young_modulus");
+  set_text(&def, "data.columns", columns);
+  set_text(&def, "calibrate.x", "load_g");
+  set_text(&def, "calibrate.y", "Stroke (mm)");
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-8);
+  ck_assert_uint_eq(result->series->rows, rows);
+  zp_result_destroy(result);
+}
+
+START_TEST(files_of_all_kinds) {
+  write_measured("german.csv", "\xEF\xBB\xBF\"Bemerkung\";\"Gewicht (g)\";\"Hub [mm]\"\r\n", write_german, 0, 4);
+  write_measured("tabs.csv", "Stroke (mm)\tLoad [g]\tRemark\n", write_tabs, 0, 4);
+  write_measured("quoted.csv", "\"Load (g)\",\"stroke_mm\"\n", write_quoted, 0, 4);
+  find_180_GPa("german.csv", "Gewicht (g) = load_g; Hub_mm = stroke_mm", 4);
+  find_180_GPa("tabs.csv", "", 4);
+  find_180_GPa("quoted.csv", "", 4);
+  write_measured("first.csv", "load_g,stroke_mm\n", write_quoted, 0, 2);
+  write_measured("second.csv", "Stroke (mm)\tLoad (g)\twho\n", write_tabs, 2, 4);
+  find_180_GPa("first.csv; second.csv", "", 4);
+  find_180_GPa("first.csv;tabs.csv;german.csv", "Gewicht_g = load_g; Hub [mm] = stroke_mm", 10);
+}
+END_TEST
+
+/* Two groups of rows that contradict each other: the mean weighted by 1/sigma^2 comes out, and its standard error is
+ * that of the sigmas, whatever the residuals are. */
+START_TEST(standard_deviations_weigh) {
+  ZpActuatorDef def = calibration("sigma.csv", "ribbon.young_modulus");
+  const double low = stroke(def, 8e-3), s1 = 1e-5, s2 = 3e-5, y1 = low - 2e-5, y2 = low + 4e-5;
+  const double mean = (y1 / (s1 * s1) + y2 / (s2 * s2)) / (1 / (s1 * s1) + 1 / (s2 * s2));
+  char text[256];
+  snprintf(text, sizeof text, "load_g,stroke_mm,Sigma (um)\n8,%.17g,%g\n8,%.17g,%g\n", 1e3 * y1, 1e6 * s1, 1e3 * y2,
+           1e6 * s2);
+  write_file("sigma.csv", text);
+  ZpResult *result = fit(&def);
+  ZpActuatorDef found = def;
+  found.ribbon.young_modulus = zp_result_get(result, "ribbon.young_modulus");
+  assert_near(stroke(found, 8e-3), mean, 1e-9);
+  found.ribbon.young_modulus *= 1 + 1e-4;
+  const double slope = (stroke(found, 8e-3) - mean) / (1e-4 * zp_result_get(result, "ribbon.young_modulus"));
+  const double error = sqrt(1 / (1 / (s1 * s1) + 1 / (s2 * s2))) / fabs(slope);
+  assert_near(zp_result_get(result, "ribbon.young_modulus_standard_error"), error, 1e-3);
+  assert_near(zp_result_get(result, "reduced_chi_square"), (y2 - y1) * (y2 - y1) / (s1 * s1 + s2 * s2), 1e-6);
   zp_result_destroy(result);
 }
 END_TEST
@@ -275,7 +378,7 @@ END_TEST
 static void refuse(ZpStudy study, const ZpActuatorDef *def, const char *words) {
   ZpError err = {0};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_data_check(study, def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(zp_data_check(study, def, &err) == ZP_BAD_INPUT, "not refused: %s", words);
   ck_assert_msg(strstr(err.message, words) != NULL, "%s", err.message);
   ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_ptr_null(result);
@@ -316,6 +419,31 @@ START_TEST(bad_input_is_refused) {
   refuse_file("load_g,load.mass_g,stroke_mm\n8,9,2\n9,9,3\n", "load.mass", "cannot be fitted");
   refuse_file("time_ms,stroke_mm\n2,2\n1,3\n", E, "bad.csv:3: times must not be negative");
   refuse_file("time_ms,stroke_mm,load_g\n1,2,8\n2,3,8\n", E, "no key can change");
+  refuse_file("load_g,stroke_mm,load.mass_kg\n8,2,0.008\n9,3,0.009\n", E,
+              "column load.mass_kg: another column sets load.mass");
+  refuse_file("load_g,stroke_mm,voltage_kV,drive.voltage_V\n8,2,1,1\n", E, "another column sets drive.voltage");
+  refuse_file("load_g,stroke_mm\n8,\"2\n", E, "bad.csv:2: a quote is not closed");
+  refuse_file("load_g;stroke_mm\n8;1.234,5\n", E, "text in a number column");
+  refuse_file("load_g,stroke_mm\n8,\"1,5\"\n", E, "text in a number column");
+  refuse_file("load_g,stroke_mm,sigma_mm\n8,2,0\n", E,
+              "bad.csv:2: column sigma_mm: a standard deviation must be above 0");
+  refuse_file("load_g,stroke_mm,sigma_g\n8,2,1\n", E, "column sigma_g: not in a unit");
+  write_file("good.csv", good);
+  ZpActuatorDef several = calibration("good.csv; bad.csv", E), renamed = calibration("good.csv", E), bounded = renamed;
+  write_file("bad.csv", "load_g,opening_mm\n8,2\n");
+  refuse(ZP_STUDY_CALIBRATE, &several, "bad.csv: no column stroke_mm, which good.csv has");
+  write_file("bad.csv", "load_g,stroke_mm\n8,x\n");
+  refuse(ZP_STUDY_CALIBRATE, &several, "bad.csv:2: column stroke_mm");
+  set_text(&renamed, "data.columns", "Masse = voltage_kV");
+  refuse(ZP_STUDY_CALIBRATE, &renamed, "Masse: no such column in good.csv, which has load_g, stroke_mm");
+  set_text(&renamed, "data.columns", "load_g");
+  refuse(ZP_STUDY_CALIBRATE, &renamed, "their name = our name");
+  set_text(&bounded, "calibrate.bounds", "ribbon.thickness = 40 um .. 60 um");
+  refuse(ZP_STUDY_CALIBRATE, &bounded, "ribbon.thickness is not in calibrate.fit");
+  set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 GPa .. 250 GPa");
+  refuse(ZP_STUDY_CALIBRATE, &bounded, "starts at 2e+11 Pa, which is not within them");
+  set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 mm .. 250 GPa");
+  refuse(ZP_STUDY_CALIBRATE, &bounded, "calibrate.bounds: ribbon.young_modulus = \"210 mm\": not a pressure");
   refuse_file(good, "load.mass", "cannot be fitted");
   refuse_file(good, "mass_spring.shear_coefficient", "is auto");
   refuse_file(good, "damping.drag", "is 0");
@@ -508,6 +636,9 @@ int main(void) {
   tcase_add_test(fits, voltage_data);
   tcase_add_test(fits, zip_times_show_the_pull_in);
   tcase_add_test(fits, bounds_are_kept);
+  tcase_add_test(fits, bounds_have_units);
+  tcase_add_test(fits, files_of_all_kinds);
+  tcase_add_test(fits, standard_deviations_weigh);
   tcase_add_test(fits, table_1_of_the_paper);
   tcase_add_test(fits, rows_of_different_actuators_are_compared);
   tcase_add_test(fits, published_experiments_of_length_and_width_are_compared);

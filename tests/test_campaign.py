@@ -36,8 +36,8 @@ def listed(first, last, count, unit):
 
 CASES = {
     "rest": ["stationary", "--set", "load.mass=" + listed(1, 100, 30, "g"), "--set", "ribbon.thickness=" + listed(20, 200, 20, "um"), "--set", "mesh.nodes=31"],
-    "limits": ["limits", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
-    "samples": ["limits", "--set", "load.mass=[8 g, 9 g]", "--set", "ribbon.thickness=normal(50 um, 1 um)", "--set", "insulator.thickness=uniform(120 um, 140 um)",
+    "limits": ["limits", "--set", "liquid.model=none", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
+    "samples": ["limits", "--set", "liquid.model=none", "--set", "load.mass=[8 g, 9 g]", "--set", "ribbon.thickness=normal(50 um, 1 um)", "--set", "insulator.thickness=uniform(120 um, 140 um)",
                 "--set", "sampling.count=8", "--set", "sampling.indices=true", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
@@ -146,7 +146,7 @@ def check_samples(zipact, scratch):
     spoil(longer, "UPDATE row SET message = 'kept'")
     ok("samples: 16", subprocess.run([*words, "--set", "sampling.count=16"]).returncode == 0)
     ok("samples: the first 8 are kept", [row["message"] == "kept" for row in json.loads((longer / "summary.json").read_text())["rows"]] == [True] * 8 + [False] * 8)
-    missing = subprocess.run([zipact.program, "limits", "--set", "drive.voltage=uniform(4 kV, 7 kV)", "--set", "mesh.nodes=21", "--set", "sampling.count=16",
+    missing = subprocess.run([zipact.program, "limits", "--set", "liquid.model=none", "--set", "drive.voltage=uniform(4 kV, 7 kV)", "--set", "mesh.nodes=21", "--set", "sampling.count=16",
                               "--set", "output.errors=false", "--no-plots", "--json", "-o", str(scratch / "censored")], stdout=subprocess.PIPE, text=True)
     found = json.loads(missing.stdout)["statistics"][0]["outputs"]["pull_in_voltage_V"]
     ok("samples: those that do not pull in are counted", missing.returncode == 0 and 0 < found["missing"] < 16 and found["count"] + found["missing"] == 16)
@@ -192,7 +192,7 @@ def rows_so_far(folder):
 def check_gap(zipact, scratch):
     """Two workers: the third case is done while the second still runs. Files show rows up to that gap."""
     folder = scratch / "gap"
-    words = [zipact.program, "actuate", "--set", "solver.end_time=[1 ms, 10000 s, 1 ms]", "--set", "mesh.nodes=11", "--set", "drive.voltage=1 kV",
+    words = [zipact.program, "actuate", "--set", "solver.end_time=[1 ms, 10000 s, 1 ms]", "--set", "mesh.nodes=11", "--set", "drive.voltage=1 kV", "--set", "drive.waveform=sine", "--set", "drive.frequency=50 Hz",
              "--set", "output.errors=false", "--no-plots", "--quiet", "--jobs", "2", "-o", str(folder)]
     process = subprocess.Popen(words)
     while rows_so_far(folder) != [0, 2] and process.poll() is None:
@@ -207,7 +207,7 @@ def check_gap(zipact, scratch):
 def check_failures(zipact, scratch):
     """A case whose solver fails is a row; the campaign goes on and its status says 1."""
     folder = scratch / "failing"
-    run = subprocess.run([zipact.program, "actuate", "--set", "solver.max_steps=[3, 1000000]", "--set", "drive.voltage=[0, 8 kV]", "--set", "mesh.nodes=11",
+    run = subprocess.run([zipact.program, "actuate", "--set", "liquid.model=none", "--set", "solver.max_steps=[3, 1000000]", "--set", "drive.voltage=[0, 8 kV]", "--set", "mesh.nodes=11",
                           "--set", "solver.end_time=2 ms", "--set", "output.errors=false", "--no-plots", "--quiet", "-o", str(folder)])
     outcomes = [outcome for _, outcome in rows_of(folder)]
     ok("failures: status 1", run.returncode == 1)

@@ -642,6 +642,23 @@ END_TEST
 
 /* Of a tiny hanging opening, faces touch before 1 % of it is left. The zip time was then beyond the end of the run: 228
  * us, where the run had ended, closed, at 1 us. */
+/* Thin insulators, no cap: an iteration that overlapped them by all their thickness found an attraction without bound
+ * there, and a state that was none. */
+START_TEST(faces_do_not_fall_through_thin_insulators) {
+  ZpActuatorDef def =
+      DEF({"ribbon.length", 0.095996535493478072}, {"ribbon.width", 0.0293876398949647},
+          {"ribbon.thickness", 0.00010484438020689578}, {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34},
+          {"ribbon.density", 8960}, {"platform.length", 0.0095996535493478082},
+          {"insulator.thickness", 1.1620675241647858e-05}, {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6},
+          {"load.mass", 0.051256339918866592}, {"mesh.nodes", 25}, {"electro.breakdown_cap", false},
+          {"drive.voltage", 4087.4108915543775});
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_msg(result->outcome == ZP_ZIPPED, "%s", result->message);
+  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
 START_TEST(test_zip_time_is_within_the_run) {
   ZpActuatorDef def = DEF(IMPLICIT, {"load.mass", 0}, {"ribbon.thickness", 500e-6}, {"ribbon.length", 40e-3},
                           {"platform.length", 4e-3});
@@ -884,6 +901,7 @@ int main(void) {
   tcase_add_test(two, test_error_of_a_small_motion);
   tcase_add_test(two, test_closing_instant_within_a_step);
   tcase_add_test(two, test_zip_time_is_within_the_run);
+  tcase_add_test(two, faces_do_not_fall_through_thin_insulators);
   if (!SANITIZED) { /* of code that the others run, too */
     tcase_add_test(two, test_zip_time);
     tcase_add_loop_test(two, test_zip_explicit, 0, 2);

@@ -12,7 +12,7 @@ enum { OK = 0, SIGNALS = 64 };
 
 /* -- FMUs of the tests ----------------------------------------------------------------------------- */
 
-#define SMALL  " --set mesh.nodes=9 --set solver.end_time=20ms"
+#define SMALL  " --set mesh.nodes=9 --set liquid.model=none --set solver.end_time=20ms"
 #define LIQUID " --set mesh.nodes=21 --set solver.end_time=20ms --set liquid.model=bead"
 
 static void run_command(const char *format, ...) {
@@ -91,7 +91,8 @@ START_TEST(description_is_of_the_tables) {
   for (size_t k = 0; k < fmu.variables; k++)
     if (strcmp(fmu.variable[k].causality, "parameter") == 0) {
       const char *name = fmu.variable[k].name;
-      bool given = strcmp(name, "load.mass") == 0 || strcmp(name, "mesh.nodes") == 0;
+      bool given =
+          strcmp(name, "load.mass") == 0 || strcmp(name, "mesh.nodes") == 0 || strcmp(name, "liquid.model") == 0;
       expect_parameter(&fmu, name, given ? fmu.variable[k].start : zp_def_get(&def, zp_key_find(name)));
       ck_assert(strncmp(name, "drive.", 6) != 0 && strcmp(name, "damping.internal") != 0);
       parameters++;
@@ -160,18 +161,26 @@ END_TEST
 
 enum { INTERVALS = 100 };
 
-/* A voltage that rises, holds and falls, in pieces of 1 ms, as rows of a CSV file: level in each piece, or straight
- * between (FMI 2 alone tells an input's slope). */
-static double voltage_of(int k) {
-  return k < 20 ? 400.0 * k : k < 60 ? 8000 : k < 80 ? 8000 - 400.0 * (k - 60) : 0;
+/* What an FMU is told: a voltage, or of a plant under control what is to be held. */
+typedef struct Input {
+  const char *name, *column, *keys; /* of the input, of a CSV file of it, and the group of its waveform */
+  double most;
+} Input;
+static const Input voltage = {"voltage", "voltage_V", "drive", 8000},
+                   setpoint = {"setpoint", "setpoint", "setpoint", 0.3};
+
+/* It rises, holds and falls, in pieces of 1 ms, as rows of a CSV file: level in each piece, or straight between (FMI 2
+ * alone tells an input's slope). */
+static double input_at(const Input *input, int k) {
+  return input->most * (k < 20 ? 0.05 * k : k < 60 ? 1 : k < 80 ? 1 - 0.05 * (k - 60) : 0);
 }
 
-static void write_input(const char *path, bool straight) {
+static void write_input(const char *path, const Input *input, bool straight) {
   FILE *file = fopen(path, "w");
-  fprintf(file, "time_s,voltage_V\n");
+  fprintf(file, "time_s,%s\n", input->column);
   for (int k = 0; k <= INTERVALS; k++) {
-    if (!straight && k > 0) fprintf(file, "%.17g,%.17g\n", k * 1e-3, voltage_of(k - 1));
-    fprintf(file, "%.17g,%.17g\n", k * 1e-3, voltage_of(k));
+    if (!straight && k > 0) fprintf(file, "%.17g,%.17g\n", k * 1e-3, input_at(input, k - 1));
+    fprintf(file, "%.17g,%.17g\n", k * 1e-3, input_at(input, k));
   }
   ck_assert_int_eq(fclose(file), 0);
 }
@@ -194,7 +203,7 @@ static size_t read_actuate(const char *path, double opening[INTERVALS + 1], doub
   return rows;
 }
 
-static void expect_actuate(int version, bool straight, const char *settings) {
+static void expect_actuate(int version, const Input *input, bool straight, const char *settings) {
   Fmu fmu = made(version, settings);
   Instance instance = started(&fmu);
   double opening[INTERVALS + 1], charge[INTERVALS + 1], largest = 0;
@@ -202,18 +211,17 @@ static void expect_actuate(int version, bool straight, const char *settings) {
   for (int k = 0; k <= INTERVALS; k++)
     opening[k] = charge[k] = NAN;
   snprintf(path, sizeof path, "%s/input.csv", fmu.folder);
-  write_input(path, straight);
+  write_input(path, input, straight);
   run_command(ZP_COMMAND
               " actuate %s --set solver.end_time=100ms --set output.samples=100000 --set output.errors=false "
-              "--set drive.waveform=table --set drive.file=%s --no-plots --quiet -o %s/run",
-              settings, path, fmu.folder);
+              "--set %s.waveform=table --set %s.file=%s --no-plots --quiet -o %s/run",
+              settings, input->keys, input->keys, path, fmu.folder);
   snprintf(path, sizeof path, "%s/run/table.csv", fmu.folder);
   ck_assert_uint_ge(read_actuate(path, opening, charge), INTERVALS / 2);
   for (int k = 0; k < INTERVALS; k++) {
-    fmu_set(&instance, "voltage", voltage_of(k));
-    if (straight)
-      ck_assert_int_eq(fmu_set_slope(&instance, fmu_find(&fmu, "voltage"), 1e3 * (voltage_of(k + 1) - voltage_of(k))),
-                       OK);
+    fmu_set(&instance, input->name, input_at(input, k));
+    double slope = 1e3 * (input_at(input, k + 1) - input_at(input, k));
+    if (straight) ck_assert_int_eq(fmu_set_slope(&instance, fmu_find(&fmu, input->name), slope), OK);
     must_step(&instance, k * 1e-3, (k + 1) * 1e-3 - k * 1e-3);
     if (!isnan(opening[k + 1])) largest = fmax(largest, fabs(fmu_get(&instance, "opening") - opening[k + 1]) / 0.02);
     if (!isnan(charge[k + 1]) && straight)
@@ -226,16 +234,26 @@ static void expect_actuate(int version, bool straight, const char *settings) {
 
 /* The same input from a CSV file gives what `zipact actuate` gives: dry, in a liquid, behind a supply. */
 START_TEST(agrees_with_actuate) {
-  expect_actuate(_i, false, SMALL);
-  expect_actuate(_i, false, LIQUID);
-  expect_actuate(_i, false,
+  expect_actuate(_i, &voltage, false, SMALL);
+  expect_actuate(_i, &voltage, false, LIQUID);
+  expect_actuate(_i, &voltage, false,
                  SMALL
                  " --set source.model=amplifier --set 'source.slew_rate=1 V/us' --set 'source.current_limit=0.1 mA'");
 }
 END_TEST
 
+/* So does one whose plant has a controller, told what is to be held: dry with its delay, in a liquid. */
+START_TEST(agrees_with_actuate_under_control) {
+#define CONTROL                                                                                                        \
+  " --set control.kind=pi --set control.signal=contraction --set setpoint.value=0.3 --set 'control.proportional=8 kV'" \
+  " --set 'control.integral=200 kV/s'"
+  expect_actuate(_i, &setpoint, false, SMALL CONTROL " --set control.delay=2.4ms");
+  expect_actuate(_i, &setpoint, false, LIQUID CONTROL);
+}
+END_TEST
+
 START_TEST(follows_slopes_of_inputs) {
-  expect_actuate(2, true, SMALL);
+  expect_actuate(2, &voltage, true, SMALL);
 }
 END_TEST
 
@@ -281,6 +299,44 @@ START_TEST(parameters) {
   ck_assert_double_eq(fmu_get(&instance, "load.mass"), 8e-3);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
+/* Gains and the tolerance may change on the way: from there on all is as in a run that continues with the new ones. */
+START_TEST(tunable_parameters) {
+  Fmu fmu = made(_i, SMALL " --set control.kind=pi --set setpoint.value=15mm --set control.proportional=100");
+  Instance instance = started(&fmu);
+  must_step(&instance, 0, 0.01);
+  ck_assert_int_ne(fmu_try_set(&instance, fmu_find(&fmu, "load.mass"), 0.01), OK);
+  ck_assert_int_ne(fmu_try_set(&instance, fmu_find(&fmu, "solver.tolerance"), -1), OK); /* and all is as before */
+  fmu_set(&instance, "control.proportional", 4e5);
+  fmu_set(&instance, "solver.tolerance", 1e-5);
+  ck_assert_double_eq(fmu_get(&instance, "control.proportional"), 4e5);
+  must_step(&instance, 0.01, 0.02);
+  double opening = fmu_get(&instance, "opening"), voltage = fmu_get(&instance, "electrode_voltage");
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"solver.end_time", 0.03}, {"control.kind", ZP_CONTROL_PI},
+                          {"setpoint.value", 15e-3}, {"control.proportional", 100}),
+                tuned = def;
+  tuned.control.proportional = 4e5;
+  tuned.solver.tolerance = 1e-5;
+  ZpModel *model[] = {model_of(&def), model_of(&tuned)};
+  ZpSim *sim[] = {sim_of(model[0]), sim_of(model[1])};
+  ZpError err;
+  ck_assert(zp_outcome_good(zp_sim_step(sim[0], 0.01, NULL, NULL)));
+  char *bytes = malloc(zp_sim_state_size(sim[0]));
+  zp_sim_save(sim[0], bytes);
+  ck_assert_int_eq(zp_sim_restore(sim[1], bytes, zp_sim_state_size(sim[0]), &err), ZP_OK);
+  ck_assert(zp_outcome_good(zp_sim_step(sim[1], 0.02, NULL, NULL)));
+  ck_near(opening, zp_sim_get(sim[1], "opening"), 1e-12);
+  ck_near(voltage, zp_sim_get(sim[1], "voltage"), 1e-12);
+  ck_assert(fabs(voltage) > 1e3);
+  free(bytes);
+  for (int k = 0; k < 2; k++) {
+    zp_sim_destroy(sim[k]);
+    zp_model_destroy(model[k]);
+  }
   fmu_free(&instance);
   unmake(&fmu);
 }
@@ -468,7 +524,7 @@ static void handle_event(Instance *instance) {
   ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(fmu, "EnterStepMode"))(instance->handle), OK);
 }
 
-/* One step over a whole zip ends where the actuator closes, and the rest of it goes on from there. */
+/* A step over a whole zip returns early, where the actuator closes; the next step completes it. */
 START_TEST(early_return_at_closing) {
   Fmu fmu = made(3, SMALL);
   Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS), whole = started(&fmu);
@@ -717,9 +773,11 @@ int main(void) {
   add(suite, same_bytes, "same_bytes", true);
   add(suite, expected_results, "expected_results", true);
   add(suite, agrees_with_actuate, "agrees_with_actuate", true);
+  add(suite, agrees_with_actuate_under_control, "agrees_with_actuate_under_control", true);
   add(suite, follows_slopes_of_inputs, "follows_slopes_of_inputs", false);
   add(suite, variable_steps, "variable_steps", true);
   add(suite, parameters, "parameters", true);
+  add(suite, tunable_parameters, "tunable_parameters", true);
   add(suite, states, "states", true);
   add(suite, states_have_parameters, "states_have_parameters", true);
   add(suite, derivatives, "derivatives", true);

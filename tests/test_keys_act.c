@@ -52,6 +52,17 @@
 /* The same with a meter of its capacitance. */
 #define METERED LEAKING " solver.end_time=2s sense.frequency=1kHz sense.amplitude=50V sense.sampling_rate=16kHz"
 
+/* The same under a controller of its capacitance, 199.8 pF, which stays: samples at 0, 1 ms ... 9 ms. */
+#define STEERED                                                                                                        \
+  "study=actuate liquid.model=none initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 "                        \
+  "electro.breakdown_cap=false drive.voltage=50V solver.end_time=9.9ms control.signal=capacitance "                    \
+  "setpoint.value=300pF"
+#define HELD_BY_PI STEERED " control.kind=pi"
+#define WAVING                                                                                                         \
+  "study=actuate liquid.model=none initial.state=straight mesh.nodes=11 gravity=0 load.mass=0 "                        \
+  "electro.breakdown_cap=false drive.voltage=50V solver.end_time=9.9ms control.signal=capacitance control.kind=pi "    \
+  "control.proportional=0.1V/pF"
+
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
@@ -153,6 +164,11 @@ static const Row rows[] = {
      "half",
      "none",
      {{SAME, "frequency_1_Hz", 0, 1e-7}, {LESS, "frequency_2_Hz", 0.995, 0}}},
+    {"ribbon.material",
+     STRIP,
+     "none",
+     "copper",
+     {{TIMES, "y_m", (200e9 / 120e9) * (1 - 0.34 * 0.34) / (1 - NU2), 1e-4}}},
     {"ribbon.length", STRIP, "0.1m", "0.05m", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
     {"ribbon.width", STRIP, "10mm", "20mm", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"ribbon.thickness", STRIP, "50um", "100um", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
@@ -167,6 +183,7 @@ static const Row rows[] = {
      {{TIMES, "frequency_1_Hz", 0.5, 1e-6}, {TIMES, "frequency_5_Hz", 0.5, 1e-6}}},
     {"ribbon.plane", STRIP, "stress", "strain", {{TIMES, "y_m", 1 - NU2, 1e-4}}},
     /* deflections of the discrete cantilevers: sums of squared moments over the joints */
+    {"ribbon.plane", STRIP, "anticlastic", "stress", {{TIMES, "y_m", 1, 2e-3}}},
     {"ribbon.model", CANTILEVER, "rod", "mass_spring", {{TIMES, "y_m", 41.0 / 44, 2e-4}}},
 
     /* 40 mm at the clamp are twice as thick; the compliances add */
@@ -230,6 +247,7 @@ static const Row rows[] = {
      "100um",
      "200um",
      {{TIMES, "capacitance_F", 0.5, 1e-6}, {TIMES, "force_N", 0.25, 1e-6}}},
+    {"insulator.material", UNCAPPED, "none", "kapton", {{TIMES, "capacitance_F", 3.4 / 4.62, 1e-6}}},
     {"insulator.permittivity", UNCAPPED, "3", "6", {{TIMES, "capacitance_F", 2, 1e-6}, {TIMES, "force_N", 4, 1e-6}}},
     {"insulator.density",
      TUNED " insulator.thickness=100um",
@@ -248,6 +266,11 @@ static const Row rows[] = {
      "10MV/m",
      {{MORE, "notes", 0, 0}, {TIMES, "breakdown_margin", 0.1, 1e-12}, {SAME, "force_N", 0, 1e-12}}},
     /* of two strips in series the lower one is half of what gives way */
+    {"lower.ribbon.material",
+     SLIGHT " lower.ribbon.density=0",
+     "none",
+     "copper",
+     {{TIMES, "opening_m", (1 + (200e9 / 120e9) * (1 - 0.34 * 0.34) / (1 - NU2)) / 2, 1e-4}}},
     {"lower.ribbon.thickness", SLIGHT, "50um", "100um", {{TIMES, "opening_m", (1 + 1.0 / 8) / 2, 1e-4}}},
     {"lower.ribbon.young_modulus", SLIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 1.5, 1e-4}}},
     {"lower.ribbon.poisson_ratio",
@@ -306,6 +329,7 @@ static const Row rows[] = {
      "0",
      "0.002",
      {{PLUS, "opening_m", RISES(4.5e-3, 9e-3), 1e-3}}},
+    {"lower.insulator.material", UNCAPPED, "none", "kapton", {{TIMES, "capacitance_F", 2 / (1 + 4.62 / 3.4), 1e-6}}},
     {"lower.insulator.thickness",
      UNCAPPED,
      "130um",
@@ -324,6 +348,7 @@ static const Row rows[] = {
      "10MV/m",
      {{TIMES, "breakdown_margin", 0.25, 1e-12}, {SAME, "capacitance_F", 0, 1e-12}}},
     /* closed faces have no liquid between them: only the force on it, eps E^2 / 2, knows that it is there */
+    {"medium.material", UNCAPPED, "none", "mineral_oil", {{TIMES, "force_N", 2.75 / 2.2, 1e-6}}},
     {"medium.permittivity", UNCAPPED, "2", "4", {{TIMES, "force_N", 0.5, 1e-6}, {SAME, "capacitance_F", 0, 1e-8}}},
     {"medium.breakdown_field",
      CLOSED " drive.voltage=10kV electro.breakdown_cap=true",
@@ -368,8 +393,12 @@ static const Row rows[] = {
     /* a spring that hardly gives way is a force */
     {"load.stiffness", SLIGHT " load.mass=0 load.rest_opening=10m", "1e-6", "2e-6", {{TIMES, "opening_m", 2, 1e-4}}},
     {"load.rest_opening", SLIGHT " load.mass=0 load.stiffness=1e-6", "5m", "10m", {{TIMES, "opening_m", 2, 1e-4}}},
+    {"load.force", STRIP, "0", "98.1uN", {{TIMES, "y_m", 2, 1e-3}}},
+    {"load.stop_opening", "study=stationary mesh.nodes=21", "none", "5mm", {{BECOMES, "opening_m", 5e-3, 2e-3}}},
+    {"load.stop_stiffness", SLIGHT " load.stop_opening=0", "1e4", "2e4", {{TIMES, "opening_m", 0.5, 2e-3}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
+    {"mount.tilt", STRIP, "0", "180degree", {{TIMES, "y_m", -1, 1e-9}}},
     /* a discrete cantilever of rods is too soft by 1 / (2 (N - 1)^2) */
     {"mesh.nodes", CANTILEVER, "9", "5", {{TIMES, "y_m", 1, 1e-6}}},
 
@@ -524,6 +553,70 @@ static const Row rows[] = {
     {"sense.bits", METERED, "8", "16", {{LESS, "sense_capacitance_error_F", 0.1, 0}}},
     {"sense.range", METERED " sense.bits=12", "1mA", "8mA", {{MORE, "sense_capacitance_error_F", 2, 0}}},
     {"sense.seed", METERED " sense.noise=1nA", "1", "2", {{MORE, "sense_capacitance_error_F", 1.001, 0}}},
+    /* the capacitance follows the squeeze of the faces, by up to 1e-3 */
+    {"control.kind",
+     STEERED " control.boost_voltage=10V control.proportional=0.1V/pF",
+     "pi",
+     "boost_pi",
+     {{PLUS, "voltage_V", 10, 1e-4}}},
+    {"control.signal",
+     HELD_BY_PI " control.proportional=0.1V/pF",
+     "capacitance",
+     "contraction",
+     {{LESS, "voltage_V", 0.1, 0}}},
+    {"control.proportional", HELD_BY_PI, "0.1V/pF", "0.2V/pF", {{TIMES, "voltage_V", 2, 1e-4}}},
+    {"control.integral", HELD_BY_PI, "10V/pF/s", "20V/pF/s", {{TIMES, "voltage_V", 2, 1e-4}}},
+    /* 10 samples of 1 ms, 4 of 3 ms */
+    {"control.period", HELD_BY_PI " control.integral=10V/pF/s", "1ms", "3ms", {{TIMES, "voltage_V", 1.2, 1e-4}}},
+    {"control.delay", HELD_BY_PI " control.integral=10V/pF/s", "0", "2ms", {{TIMES, "voltage_V", 0.8, 1e-4}}},
+    {"control.noise", HELD_BY_PI " control.proportional=0.1V/pF", "1e-9pF", "10pF", {{MORE, "measured_F", 1.001, 0}}},
+    {"control.seed",
+     HELD_BY_PI " control.proportional=0.1V/pF control.noise=10pF",
+     "4",
+     "1",
+     {{MORE, "measured_F", 1.001, 0}}},
+    {"control.boost_voltage", STEERED " control.kind=boost_pi", "10V", "20V", {{TIMES, "voltage_V", 2, 1e-4}}},
+    {"control.boost_band",
+     STEERED " control.kind=boost_pi control.boost_voltage=10V",
+     "1",
+     "2",
+     {{TIMES, "voltage_V", 0.5, 1e-4}}},
+    {"setpoint.value", HELD_BY_PI " control.proportional=0.1V/pF", "300pF", "400pF", {{PLUS, "voltage_V", 10, 1e-4}}},
+    {"setpoint.waveform",
+     WAVING " setpoint.value=300pF setpoint.offset=500pF",
+     "sine",
+     "square",
+     {{LESS, "setpoint_F", 0.7, 0}}},
+    {"setpoint.offset",
+     WAVING " setpoint.value=500pF setpoint.waveform=ramp setpoint.rise_time=18ms",
+     "300pF",
+     "200pF",
+     {{PLUS, "voltage_V", -5, 1e-4}}},
+    {"setpoint.rise_time",
+     WAVING " setpoint.value=500pF setpoint.offset=300pF setpoint.waveform=ramp",
+     "18ms",
+     "36ms",
+     {{PLUS, "voltage_V", -5, 1e-4}}},
+    {"setpoint.frequency",
+     WAVING " setpoint.value=300pF setpoint.offset=500pF setpoint.waveform=square",
+     "100Hz",
+     "40Hz",
+     {{BECOMES, "setpoint_F", 300e-12, 1e-9}}},
+    {"setpoint.duty",
+     WAVING " setpoint.value=300pF setpoint.offset=500pF setpoint.waveform=square setpoint.frequency=50Hz",
+     "0.6",
+     "0.4",
+     {{BECOMES, "setpoint_F", 500e-12, 1e-9}}},
+    {"setpoint.table",
+     WAVING " setpoint.waveform=table",
+     "0ms=300pF,18ms=500pF",
+     "0ms=300pF,36ms=500pF",
+     {{PLUS, "voltage_V", -5, 1e-4}}},
+    {"setpoint.file",
+     WAVING " setpoint.waveform=table",
+     "rises.csv",
+     "rises_slowly.csv",
+     {{PLUS, "voltage_V", -5, 1e-4}}},
     {"cycle.closing_frequency",
      "study=cycle mesh.nodes=7 drive.voltage=8kV drive.waveform=sine drive.frequency=4Hz damping.internal=20ms "
      "cycle.most_cycles=4",
@@ -572,6 +665,16 @@ static const Row rows[] = {
      {{PLUS, "simulated_time_s", -1e-3, 0.1}}},
 
     {"data.file", FITTED, "soft.csv", "stiff.csv", {{TIMES, "ribbon.young_modulus", 4, 1e-3}}},
+    {"data.columns",
+     FITTED,
+     "ribbon.width_mm=ribbon.width_mm",
+     "ribbon.width_mm=ribbon.length_cm",
+     {{TIMES, "ribbon.young_modulus", CUBE(1.27), 1e-3}}},
+    {"calibrate.bounds",
+     FITTED,
+     "ribbon.young_modulus=40GPa..1000GPa",
+     "ribbon.young_modulus=160GPa..1000GPa",
+     {{TIMES, "ribbon.young_modulus", 1.6, 1e-3}}},
     {"calibrate.fit",
      FITTED " data.file=stiff.csv",
      "ribbon.young_modulus",
@@ -650,7 +753,7 @@ static void set_all(ZpScenario *scenario, const char *settings) {
     ck_assert_msg(zp_scenario_set(scenario, word, &err) == ZP_OK, "%s: %s", word, err.message);
 }
 
-/* The study of a scene with key = value. */
+/* The study of a scene with key = value; without liquid unless the scene has one. */
 static ZpResult *run_scene(const char *scene, const char *key, const char *value) {
   ZpScenario *scenario = zp_scenario_create();
   ZpActuatorDef def;
@@ -658,6 +761,7 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
   ZpError err = {ZP_OK, ""};
   char setting[256];
   snprintf(setting, sizeof setting, "%s=%s", key, value);
+  set_all(scenario, "liquid.model=none");
   set_all(scenario, scene);
   set_all(scenario, setting);
   ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s %s: %s", scene, setting, err.message);
@@ -761,6 +865,8 @@ static void write_strokes(const char *name, double E) {
 static void write_files(void) {
   write_text("fast.csv", "time_ms,voltage_kV\n0,0\n2,2\n");
   write_text("slow.csv", "time_ms,voltage_kV\n0,0\n4,2\n");
+  write_text("rises.csv", "time_ms,setpoint_pF\n0,300\n18,500\n");
+  write_text("rises_slowly.csv", "time_ms,setpoint_pF\n0,300\n36,500\n");
   write_checkpoint("early.zps", "1ms");
   write_checkpoint("late.zps", "2ms");
   write_strokes("soft.csv", 100e9);

@@ -207,7 +207,7 @@ static void same(const ZpResult *a, const ZpResult *b, const char *name, double 
 
 static ZpActuatorDef design(int k) {
   const ZpActuatorDef designs[] = {
-      zp_actuator_def_default(),
+      DEF({"output.errors", true}),
       DEF({"electro.breakdown_cap", false}),
       DEF({"mesh.nodes", 41}, {"load.mass", 1e-3}),
       DEF({"ribbon.thickness", 200e-6}), /* closes gradually, after a limit point */
@@ -499,7 +499,7 @@ static const double of_ripples = 5e-5;
 
 START_TEST(test_limits_from_a_neighbour) {
   static const char *const keys[] = {"load.mass", "ribbon.thickness", "ribbon.length", "drive.voltage"};
-  ZpActuatorDef def = zp_actuator_def_default();
+  ZpActuatorDef def = DEF({"output.errors", true});
   ZpResult *near = limits_of(&def);
   double starts = 0;
   for (int k = 0; k < 6; k++) {

@@ -5,19 +5,6 @@
 #include "def/check.h"
 #include "rest/rest.h"
 
-static ZpResult *answer_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = study_of(study, def);
-  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
-  return result;
-}
-
-static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result = answer_of(study, def);
-  double value = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return value;
-}
-
 /* -- bowed ribbons ----------------------------------------------------------------------------------- */
 
 /* Stiff ribbons of no weight without a load, so that nothing but their natural curvature opens them. */
@@ -40,7 +27,7 @@ START_TEST(bowed_ribbons_open) {
   static const double k = 0.2, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k});
   if (_i) def.actuator.symmetry = ZP_SYMMETRY_NONE;
-  ck_near(value_of(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-5);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-5);
 }
 END_TEST
 
@@ -49,9 +36,9 @@ END_TEST
 START_TEST(each_ribbon_has_its_own_curvature) {
   static const double k = 0.02, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
-  ck_near(value_of(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4);
   def.lower.segment_1.curvature = -k;
-  ck_below(fabs(value_of(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-9);
+  ck_below(fabs(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-9);
 }
 END_TEST
 
@@ -67,9 +54,9 @@ START_TEST(ribbons_can_be_exchanged) {
   ck_assert_double_eq(other.ribbon.thickness, 50e-6);
   static const char *const names[] = {"pull_in_voltage_V", "release_voltage_V"};
   for (size_t k = 0; k < LENGTH_OF(names); k++) {
-    double value = value_of(ZP_STUDY_LIMITS, &def, names[k]);
+    double value = answered_value(ZP_STUDY_LIMITS, &def, names[k]);
     ck_assert_double_gt(value, 0);
-    ck_near(value_of(ZP_STUDY_LIMITS, &other, names[k]), value, 1e-6);
+    ck_near(answered_value(ZP_STUDY_LIMITS, &other, names[k]), value, 1e-6);
   }
 }
 END_TEST
@@ -79,12 +66,12 @@ END_TEST
 /* They lie in series: 100 and 160 um attract as twice 130 um do, and 130 um of permittivity 6 and 3 as of 4. */
 START_TEST(insulators_lie_in_series) {
   ZpActuatorDef def = DEF({"insulator.permittivity", 4});
-  double alike = value_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
+  double alike = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
   def.insulator.thickness = 100e-6, def.lower.insulator.thickness = 160e-6;
-  ck_near(value_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
   def.insulator.thickness = 130e-6, def.lower.insulator.thickness = NAN;
   def.insulator.permittivity = 6, def.lower.insulator.permittivity = 3;
-  ck_near(value_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
 }
 END_TEST
 
@@ -94,10 +81,10 @@ START_TEST(weaker_insulator_breaks_down_first) {
   ZpActuatorDef def = DEF({"insulator.thickness", 100e-6}, {"insulator.permittivity", 3},
                           {"insulator.breakdown_field", 100e6}, {"lower.insulator.thickness", 200e-6},
                           {"lower.insulator.permittivity", 5}, {"lower.insulator.breakdown_field", 40e6});
-  ck_near(value_of(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 40e6 * 5 * (100e-6 / 3 + 200e-6 / 5), 1e-12);
-  ck_near(value_of(ZP_STUDY_LIMITS, &def, "insulator_field_V_per_m"), 10e3 / 5 / (100e-6 / 3 + 200e-6 / 5), 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 40e6 * 5 * (100e-6 / 3 + 200e-6 / 5), 1e-12);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "insulator_field_V_per_m"), 10e3 / 5 / (100e-6 / 3 + 200e-6 / 5), 1e-9);
   def.lower.insulator.thickness = 0;
-  ck_near(value_of(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 100e6 * 100e-6, 1e-12);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 100e6 * 100e-6, 1e-12);
 }
 END_TEST
 
@@ -106,11 +93,11 @@ END_TEST
 /* The margin is that of the metal that is nearest to its yield, whichever ribbon is stressed most. */
 START_TEST(yield_is_of_each_ribbon) {
   ZpActuatorDef def = DEF({"drive.voltage", 0});
-  double stress = value_of(ZP_STUDY_STATIONARY, &def, "max_stress_Pa");
+  double stress = answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa");
   def.lower.ribbon.yield_stress = 0.2 * def.ribbon.yield_stress;
-  double margin = value_of(ZP_STUDY_STATIONARY, &def, "yield_margin");
+  double margin = answered_value(ZP_STUDY_STATIONARY, &def, "yield_margin");
   ck_below(margin, 0.25 * def.ribbon.yield_stress / stress);
-  ck_near(margin * value_of(ZP_STUDY_STATIONARY, &def, "max_stress_Pa"), 0.2 * def.ribbon.yield_stress, 1e-12);
+  ck_near(margin * answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa"), 0.2 * def.ribbon.yield_stress, 1e-12);
 }
 END_TEST
 

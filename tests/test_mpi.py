@@ -18,7 +18,7 @@ passed = failed = 0
 
 CASES = {
     "rest": ["stationary", "--set", "load.mass=1 g .. 100 g : 30", "--set", "ribbon.thickness=20 um .. 200 um : 10", "--set", "mesh.nodes=21"],
-    "limits": ["limits", "--set", "load.mass=2 g .. 20 g : 12", "--set", "ribbon.thickness=40 um .. 80 um : 5", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
+    "limits": ["limits", "--set", "liquid.model=none", "--set", "load.mass=2 g .. 20 g : 24", "--set", "ribbon.thickness=40 um .. 80 um : 5", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3"]
@@ -68,10 +68,11 @@ def check_lost_process(zipact_mpi, scratch):
     process = subprocess.Popen([*MPIRUN, zipact_mpi, *words("limits", torn)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while not (torn / "journal.sqlite-wal").exists() and process.poll() is None:
         time.sleep(0.02)
-    time.sleep(0.3)
     members = of_group(process.pid)
-    if members:
+    try:
         os.kill(members[-1], signal.SIGKILL)
+    except (IndexError, ProcessLookupError):
+        pass  # this machine was faster: nothing is missing, and --resume has nothing to do
     process.wait()
     ok("a process is lost, and resumed: the same bytes",
        subprocess.run([*MPIRUN, zipact_mpi, *words("limits", torn, "--resume")]).returncode == 0 and results(torn) == results(scratch / "limits-alone"))

@@ -15,6 +15,7 @@ SETTINGS = [
     f"source.resistance={OHM}",
     f"source.capacitance={FARAD}",
     "source.slew_rate=1e6",
+    "liquid.model=none",
     "electro.breakdown_cap=false",  # its charge is capacitance times voltage
     f"drive.voltage={VOLT}",
     "mesh.nodes=21",

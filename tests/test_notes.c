@@ -60,6 +60,7 @@ START_TEST(nothing_to_note) {
   ck_assert(!notes(ZP_STUDY_STATIONARY, &def, " "));
   ck_assert(!notes(ZP_STUDY_MODES, &def, " "));
   def = zp_actuator_def_default();
+  def.liquid.model = ZP_LIQUID_NONE;
   ck_assert(!notes(ZP_STUDY_EQUILIBRIUM, &def, " "));
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_uint_eq(result->notes, 1);

@@ -260,6 +260,18 @@ static const struct {
     {"ribbon.thickness: 70 um\npreset: paper-code\n", "ribbon.thickness", 70e-6},
     {"preset: paper-code", "ribbon.thickness", 100e-6},
     {"actuator.kind: ribbon", "load.share", 1},
+    {"ribbon.material: steel_1.4310", "ribbon.young_modulus", 185e9},
+    {"ribbon.material: none", "ribbon.young_modulus", 200e9},
+    {"ribbon.density: 8000\nribbon.material: brass\n", "ribbon.density", 8000},
+    {"ribbon.density: 8000\nribbon.material: brass\n", "ribbon.yield_stress", 430e6},
+    {"ribbon.material: brass\npreset: paper-fe\n", "ribbon.young_modulus", 110e9},
+    {"insulator.material: pvc_tape", "insulator.young_modulus", 30e6},
+    {"insulator.material: kapton", "insulator.resistivity", NAN},
+    {"medium.material: silicone_oil_350cst", "medium.kinematic_viscosity", 350e-6},
+    {"lower.ribbon.material: copper", "lower.ribbon.density", 8940},
+    {"lower.ribbon.material: copper", "ribbon.density", 7850},
+    {"ribbon.material: copper", "lower.ribbon.density", NAN},
+    {"lower.insulator: {material: pdms, density: 0}", "lower.insulator.density", 0},
     {"lower:\n  ribbon: {density: 1}\n  insulator:\n    thickness: 5 um\n", "lower.insulator.thickness", 5e-6},
     {"lower:\n  ribbon.density: 1\nribbon:\n  density: 2\n", "lower.ribbon.density", 1},
 };
@@ -477,6 +489,68 @@ START_TEST(distributions_are_sampled) {
 END_TEST
 
 /* Lists that are walked through together make one axis, in the place of the last of them. */
+/* Each material fills every key of its group but resistivity, with a value in its range. */
+START_TEST(materials_fill_their_group) {
+  static const struct {
+    const char *key;
+    int fills;
+  } of[] = {{"ribbon.material", 4},
+            {"insulator.material", 4},
+            {"medium.material", 5},
+            {"lower.ribbon.material", 4},
+            {"lower.insulator.material", 4}};
+  const int key = zp_key_find(of[_i].key);
+  for (int word = 0; word <= (int)zp_key(key)->max; word++) {
+    const ZpAssignment given = {key, word};
+    ZpActuatorDef def;
+    ZpError err;
+    int filled = 0;
+    ck_assert_int_eq(zp_def_resolve(&def, &given, 1, &err), ZP_OK);
+    ck_assert_msg(zp_def_check(&def, &err) == ZP_OK, "%s", err.message);
+    for (int i = 0; i < zp_key_count(); i++) {
+      const ZpMaterialValue *value = zp_material_value(&def, i);
+      if (!value) continue;
+      filled++;
+      ck_assert_double_eq(zp_def_get(&def, i), value->value);
+      ck_assert(value->spread > 0 && strlen(value->source) > 0);
+    }
+    ck_assert_int_eq(filled, word ? of[_i].fills : 0);
+  }
+}
+END_TEST
+
+static void assert_written(const ZpScenario *s, const char *part) {
+  char *text = written(s);
+  ck_assert_msg(strstr(text, part) != NULL, "no \"%s\" in %s", part, text);
+  free(text);
+}
+
+static size_t count_varied(const ZpScenario *s) {
+  size_t count;
+  zp_scenario_lists(s, &count);
+  return count;
+}
+
+/* Keys that a material fills vary as it says; a key that is given does not, or as it says itself. */
+START_TEST(materials_have_tolerances) {
+  ZpScenario *s = scenario_of("ribbon: {material: brass, density: 8000}\nlower.insulator.material: pdms\n"
+                              "sampling: {tolerances: materials, count: 4}\n");
+  ck_assert_uint_eq(count_varied(s), 3 + 4);
+  ck_assert_uint_eq(zp_scenario_count(s), 4);
+  ck_assert_double_eq(def_of(s, 3).ribbon.density, 8000);
+  ck_assert(def_of(s, 0).ribbon.young_modulus != def_of(s, 1).ribbon.young_modulus);
+  assert_written(s, "young_modulus: lognormal(110 GPa, 0.04)");
+  assert_round_trip(s);
+  ck_assert_int_eq(zp_scenario_set(s, "ribbon.young_modulus=normal(100 GPa, 1 GPa)", NULL), ZP_OK);
+  ck_assert_uint_eq(count_varied(s), 3 + 4);
+  assert_written(s, "young_modulus: normal(100 GPa, 1 GPa)");
+  ck_assert_int_eq(zp_scenario_set(s, "sampling.tolerances=given", NULL), ZP_OK);
+  ck_assert_uint_eq(count_varied(s), 1);
+  ck_assert_double_eq(def_of(s, 0).ribbon.yield_stress, 430e6);
+  zp_scenario_destroy(s);
+}
+END_TEST
+
 START_TEST(lists_together) {
   ZpError err = {0};
   ZpActuatorDef def;
@@ -692,7 +766,8 @@ START_TEST(test_scenario_round_trip) {
     snprintf(line, sizeof line, "%s: %s\n", key->name, value);
     ZpScenario *s = scenario_of(line);
     char *text = written(s);
-    const char *point = strrchr(key->name, '.'); /* lower.ribbon.width stands as width in its group */
+    if (strcmp(value, "auto") == 0) line[strlen(line) - 1] = 0; /* what it stands for may follow */
+    const char *point = strrchr(key->name, '.');                /* lower.ribbon.width stands as width in its group */
     const char *leaf = point ? line + (point + 1 - key->name) : line;
     ck_assert_msg(strstr(text, leaf) != NULL, "%s", line);
     ZpScenario *back = scenario_of(text);
@@ -920,6 +995,8 @@ int main(void) {
   tcase_add_test(scenarios, test_layers);
   tcase_add_test(scenarios, test_lists);
   tcase_add_test(scenarios, distributions_are_sampled);
+  tcase_add_loop_test(scenarios, materials_fill_their_group, 0, 5);
+  tcase_add_test(scenarios, materials_have_tolerances);
   tcase_add_test(scenarios, lists_together);
   tcase_add_loop_test(scenarios, bad_spread_says_why, 0, LENGTH_OF(bad_spreads));
   tcase_add_loop_test(scenarios, test_ranges, 0, LENGTH_OF(ranges));

@@ -81,9 +81,17 @@ END_TEST
 /* Pull-in, a jump that closes, release, largest load; the corner of the breakdown cap is somewhere along the ribbon. */
 START_TEST(limits_change_as_differences_say) {
   ZpActuatorDef def = zp_actuator_def_default();
+  def.liquid.model = ZP_LIQUID_NONE;
   check_differences(ZP_STUDY_LIMITS, &def,
                     "ribbon.thickness, ribbon.length, load.mass, insulator.permittivity, medium.breakdown_field", 5e-4,
                     1e-6);
+}
+END_TEST
+
+/* A bead moves with the ribbons: what it does to the forces is no gradient. */
+START_TEST(rests_with_a_bead_change_as_differences_say) {
+  ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_BEAD});
+  check_differences(ZP_STUDY_LIMITS, &def, "bead.volume, ribbon.thickness", 5e-4, 1e-6);
 }
 END_TEST
 
@@ -265,6 +273,7 @@ int main(void) {
   TCase *tests = tcase_create("slopes");
   tcase_add_test(tests, strokes_change_as_differences_say);
   tcase_add_test(tests, limits_change_as_differences_say);
+  tcase_add_test(tests, rests_with_a_bead_change_as_differences_say);
   tcase_add_test(tests, pull_in_of_springs_changes_as_differences_say);
   tcase_add_test(tests, held_forces_change_as_differences_say);
   tcase_add_test(tests, frequencies_change_as_differences_say);

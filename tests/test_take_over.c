@@ -11,6 +11,7 @@ static Run start(double length, double load) {
   Run run = {.def = zp_actuator_def_default()};
   run.def.solver.integrator = ZP_INTEGRATOR_IMPLICIT;
   run.def.contact.model = ZP_CONTACT_UNILATERAL;
+  run.def.liquid.model = ZP_LIQUID_NONE;
   run.def.mesh.nodes = 21;
   run.def.ribbon.length = length;
   run.def.load.mass = load;
@@ -96,6 +97,35 @@ START_TEST(test_another_mesh_is_refused) {
 }
 END_TEST
 
+static Run start_with(const Setting *set, size_t count) {
+  Run run = {.def = def_with(set, count)};
+  run.model = model_of(&run.def);
+  run.sim = sim_of(run.model);
+  return run;
+}
+
+/* A slow supply in place of the ideal one begins at the voltage that there is; and back again. */
+START_TEST(test_another_supply) {
+  static const Setting ideal[] = {{"mesh.nodes", 21}, {"drive.voltage", 5e3}, {"liquid.model", ZP_LIQUID_NONE}},
+                       slow[] = {{"mesh.nodes", 21},
+                                 {"drive.voltage", 5e3},
+                                 {"liquid.model", ZP_LIQUID_NONE},
+                                 {"source.supply", ZP_SUPPLY_POCKET_6KV}};
+  Run first = start_with(ideal, LENGTH_OF(ideal)), next = start_with(slow, LENGTH_OF(slow)),
+      last = start_with(ideal, LENGTH_OF(ideal));
+  zp_sim_run(first.sim, 0.01, false, NULL, NULL);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(next.sim, 0.011, false, NULL, NULL), ZP_REACHED_END);
+  ck_near(zp_sim_get(next.sim, "voltage"), 5e3, 1e-9);
+  ck_assert_int_eq(zp_sim_take_over(last.sim, next.sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(last.sim, 0.02, false, NULL, NULL), ZP_REACHED_END);
+  ck_near(zp_sim_get(last.sim, "voltage"), 5e3, 1e-9);
+  end(&first);
+  end(&next);
+  end(&last);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("take over");
   TCase *all = tcase_create("take over");
@@ -103,6 +133,7 @@ int main(void) {
   tcase_add_test(all, test_stretches_to_another_length);
   tcase_add_test(all, test_the_same_model_goes_on_as_if_nothing_was);
   tcase_add_test(all, test_another_mesh_is_refused);
+  tcase_add_test(all, test_another_supply);
   suite_add_tcase(suite, all);
   return run_suite(suite);
 }

@@ -3,7 +3,7 @@ import {address, launch} from './browser.mjs';
 
 const browser = await launch();
 const page = await browser.newPage({viewport: {width: 1440, height: 910}, colorScheme: 'light'});
-await page.goto(`${address}#slow=20`);
+await page.goto(`${address}#liquid.model=bead&bead.volume=100uL&slow=20`);
 await page.waitForFunction(() => document.getElementById('n-letgo').textContent !== '–');
 await page.click('#step');
 await page.waitForFunction(() => Number(document.getElementById('n-zipped').textContent) >= 12);

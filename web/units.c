@@ -9,10 +9,18 @@
 static const struct {
   const char *prefix;
   int exponent;
-} prefixes[] = {{"", 0}, {"n", -9}, {"u", -6}, {"µ", -6}, {"m", -3}, {"c", -2}, {"k", 3}, {"M", 6}, {"G", 9}};
+} prefixes[] = {{"", 0},   {"p", -12}, {"n", -9}, {"u", -6}, {"µ", -6},
+                {"m", -3}, {"c", -2},  {"k", 3},  {"M", 6},  {"G", 9}};
 
-static const char *const others[] = {"m",   "g",     "s",    "V",   "Pa",  "N",      "Hz",
-                                     "V/m", "kg/m3", "m/s2", "N/m", "1/m", "N s2/m2"};
+/* Units whose prefix is not that of the whole, or that have a name of their own. */
+static const struct {
+  const char *unit, *base;
+  int exponent;
+} named[] = {{"mm2/s", "m2/s", -6}, {"cSt", "m2/s", -6}, {"uL", "m3", -9},
+             {"mL", "m3", -6},      {"V/us", "V/s", 6},  {"V/ms", "V/s", 3}};
+
+static const char *const others[] = {"m",   "g",   "s",       "V",    "Pa", "N",   "Hz", "V/m", "kg/m3", "m/s2",
+                                     "N/m", "1/m", "N s2/m2", "m2/s", "m3", "V/s", "A",  "ohm", "F",     "ohm m"};
 
 /* (unit with its prefix, unit without) => does it fit? Then its power of ten, too. */
 static bool read_prefix(const char *unit, const char *base, int *exponent) {
@@ -27,8 +35,18 @@ static bool read_prefix(const char *unit, const char *base, int *exponent) {
 ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err) {
   bool mass = strcmp(to, "kg") == 0;
   int exponent;
+  for (size_t i = 0; i < sizeof named / sizeof named[0]; i++)
+    if (strcmp(from, named[i].unit) == 0) {
+      if (strcmp(to, named[i].base) != 0) return zp_unit_fail_dimension(to, err);
+      *scale = (ZpUnitScale){.decimal = true, .exponent = named[i].exponent, .factor = 1};
+      return ZP_OK;
+    }
   if (read_prefix(from, mass ? "g" : to, &exponent)) {
     *scale = (ZpUnitScale){.decimal = true, .exponent = exponent - (mass ? 3 : 0), .factor = 1};
+    return ZP_OK;
+  }
+  if (strcmp(to, "rad") == 0 && (strcmp(from, "degree") == 0 || strcmp(from, "deg") == 0)) {
+    *scale = (ZpUnitScale){.factor = 0.017453292519943295};
     return ZP_OK;
   }
   for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)

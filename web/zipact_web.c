@@ -12,9 +12,18 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "io/value.h"
 
 #define EXPORT __attribute__((visibility("default"), used))
+
+/* How many signals there are. */
+#define ZP_SIGNAL(name, unit, suffix, help) +1
+enum {
+  SIGNALS = 0
+#include <zipact/signals.def>
+};
+#undef ZP_SIGNAL
 
 enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
 
@@ -28,6 +37,7 @@ typedef struct ZpWeb {
   ZpModelInfo info; /* of the scenario as resolved */
   ZpModel *model;
   ZpSim *sim;
+  double row[SIGNALS];
   ZpResult *result;
 } ZpWeb;
 
@@ -88,6 +98,19 @@ EXPORT double zp_web_key_max(int index) {
 
 EXPORT double zp_web_key_default(int index) {
   return zp_key(index)->def;
+}
+
+/* How many words a choice key takes; 0: it is no choice. */
+EXPORT int zp_web_key_choices(int index) {
+  return zp_key(index)->choices ? (int)zp_key(index)->max + 1 : 0;
+}
+
+EXPORT const char *zp_web_choice_word(int index, int choice) {
+  return zp_key(index)->choices[choice].word;
+}
+
+EXPORT const char *zp_web_choice_help(int index, int choice) {
+  return zp_key(index)->choices[choice].help;
 }
 
 /* Value of a key in the scenario as resolved, SI. */
@@ -183,6 +206,7 @@ EXPORT double zp_web_key_effective(const ZpWeb *web, int index) {
                    {"electro.insulator_offset", web->info.insulator_offset},
                    {"mass_spring.shear_coefficient", web->info.shear_coefficient}};
   double value = zp_def_get(&web->def, index);
+  if (strcmp(zp_key(index)->name, "liquid.model") == 0) return (double)zp_def_liquid(&web->def);
   for (size_t i = 0; isnan(value) && i < sizeof automatic / sizeof automatic[0]; i++)
     if (strcmp(zp_key(index)->name, automatic[i].name) == 0) return automatic[i].value;
   return value;
@@ -233,6 +257,22 @@ EXPORT double zp_web_signal(ZpWeb *web) {
   return zp_sim_get(web->sim, web->text);
 }
 
+EXPORT int zp_web_signals(void) {
+  return SIGNALS;
+}
+
+/* The column of a table that has the signal. */
+EXPORT const char *zp_web_signal_column(int index) {
+  size_t count;
+  return zp_signal_columns(&count)[index].name;
+}
+
+/* A row: present values of all signals; its mean current and power count from the last row. */
+EXPORT const double *zp_web_read(ZpWeb *web) {
+  zp_sim_read(web->sim, web->row);
+  return web->row;
+}
+
 EXPORT double zp_web_zip_time(ZpWeb *web) {
   return zp_sim_zip_time(web->sim);
 }
@@ -261,6 +301,15 @@ EXPORT const double *zp_web_gap(ZpWeb *web) {
 
 EXPORT const double *zp_web_line_force(ZpWeb *web) {
   return zp_sim_shape(web->sim).line_force;
+}
+
+/* Of the liquid [nodes]; NULL where there is none. */
+EXPORT const double *zp_web_film(ZpWeb *web) {
+  return zp_sim_liquid(web->sim).thickness;
+}
+
+EXPORT const double *zp_web_pressure(ZpWeb *web) {
+  return zp_sim_liquid(web->sim).pressure;
 }
 
 /* -- study ---------------------------------------------------------------------------------------- */

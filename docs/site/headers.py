@@ -33,7 +33,7 @@ def field(match):
 
 def keys(text):
     """The fields of keys.def."""
-    text = re.sub(r"^ZP_OF_SCENARIO\(.*\)\n", "", text, flags=re.M)
+    text = re.sub(r"^ZP_OF_SCENARIO\(.*\)\n|^#undef .*\n", "", text, flags=re.M)
     text = re.sub(r"^ZP_GROUP\(\w+\)", "struct {", text, flags=re.M)
     text = re.sub(r"^ZP_GROUP_END\((\w+)\)", r"} \1; /* the keys of \1 */", text, flags=re.M)
     return re.sub(r"^ZP_(\w+)\((.*)\)$", field, text, flags=re.M)

@@ -74,6 +74,7 @@ static bool check(ZpSim *sim, const Supply *supply) {
 int main(void) {
   ZpActuatorDef def = zp_actuator_def_default();
   def.mesh.nodes = 21;
+  def.liquid.model = ZP_LIQUID_NONE;
   def.drive.voltage = 0; /* ours takes over */
   Supply supply = {10e3, 1e9, 10e-12};
   ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};

@@ -59,17 +59,6 @@ typedef struct ZpActuatorDef {
   uint64_t layout; /* zp_def_layout of the headers that the program was compiled with; not to be changed */
 #include <zipact/keys.def>
 } ZpActuatorDef;
-#undef ZP_GROUP
-#undef ZP_GROUP_END
-#undef ZP_REAL
-#undef ZP_REAL_AS
-#undef ZP_REAL_AUTO
-#undef ZP_REAL_NONE
-#undef ZP_INT
-#undef ZP_BOOL
-#undef ZP_ENUM
-#undef ZP_TEXT
-#undef ZP_OF_SCENARIO
 
 /* Kind of value that a key takes. */
 typedef enum ZpKeyType {
@@ -111,6 +100,15 @@ typedef struct ZpAssignment {
   double value; /* SI; NAN for auto and none; the place of a word in its list; 0 or 1 */
 } ZpAssignment;
 
+/* What a material says of one key of its group: one row of materials.def. */
+typedef struct ZpMaterialValue {
+  int material;       /* place of its word in the list of key `material` of the group */
+  const char *name;   /* of the key without its group: "young_modulus" */
+  double value;       /* SI */
+  double spread;      /* standard deviation of the natural logarithm, from one delivery to another; above 0 */
+  const char *source; /* where the value comes from, one line */
+} ZpMaterialValue;
+
 /* Number of keys. */
 ZP_API int zp_key_count(void);
 
@@ -119,6 +117,10 @@ ZP_API const ZpKey *zp_key(int index);
 
 /* Index of the key called `name`, or -1. */
 ZP_API int zp_key_find(const char *name);
+
+/* How many letters must be inserted, deleted or replaced to make one word of the other, whatever their case. Of words
+ * with more than 63 letters the rest is ignored. */
+ZP_API int zp_word_distance(const char *a, const char *b);
 
 /* The key name that differs least from `name`, for "did you mean". Never NULL. */
 ZP_API const char *zp_key_nearest(const char *name);
@@ -140,6 +142,13 @@ ZP_API const char *zp_def_text(const ZpActuatorDef *def, int index);
  * of another type; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
 
+/* Does this key name a material (ribbon.material and the like), whose values fill other keys before anything is
+ * computed? */
+ZP_API bool zp_key_is_material(int index);
+
+/* What the material that `def` names for the group of key `index` fills into that key; NULL if it fills nothing. */
+ZP_API const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index);
+
 /* As zp_def_resolve, where def->layout is set already: for that function and zp_actuator_def_default. ZP_BAD_INPUT, and
  * nothing but it is looked at, if the layout is not that of the library. */
 ZP_API ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
@@ -152,10 +161,18 @@ ZP_API ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
  * ZP_BAD_INPUT names the key. Of a Def that zp_def_check has passed. */
 ZP_API ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
 
+/* Does a model of this Def take a table (zp_model_create_driven): of the setpoint's waveform where there is a
+ * controller, else of the drive's? */
+ZP_API bool zp_def_takes_table(const ZpActuatorDef *def);
+
 /* Check that `voltage` (V, any sign) is no short circuit: without an insulator (insulator.thickness 0) only 0 V is
  * allowed where electrodes touch even at rest, at the clip of electro_ribbon or the clamp of a flange without a gap. A
  * flange with a gap may have none; a study then ends where it touches. ZP_BAD_INPUT says so. */
 ZP_API ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
+
+/* liquid.model, or what its word auto stands for with the other keys of `def`: ZP_LIQUID_BEAD where a bead is
+ * modelled, else ZP_LIQUID_NONE. ZP_LIQUID_NONE also for a Def that is not of this library. */
+ZP_API ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
 
 #ifdef __cplusplus
 }
@@ -179,9 +196,9 @@ static inline ZpActuatorDef zp_actuator_def_default(void) {
   return def;
 }
 
-/* Fill `def` from the defaults, those of the kind, the preset and `count` assignments, in this order;
- * later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the
- * user and it is not given. */
+/* Fill `def` from the defaults, those of the kind, the preset, supply and materials, and `count` assignments, in this
+ * order; later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the user and it
+ * is not given. */
 static inline ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   def->layout = zp_def_layout();
   return zp_def_fill(def, list, count, err);

@@ -1,4 +1,4 @@
-/* A voltage of the user's own over time, for drive.waveform table. */
+/* A voltage or a setpoint of the user's own over time, for drive.waveform or setpoint.waveform table. */
 #ifndef ZIPACT_DRIVE_H
 #define ZIPACT_DRIVE_H
 
@@ -15,7 +15,7 @@ extern "C" {
 typedef struct ZpDriveTable {
   size_t rows;           /* two or more */
   const double *time;    /* [rows] s, from 0 on; never falls */
-  const double *voltage; /* [rows] V */
+  const double *voltage; /* [rows] V; of a setpoint in the unit of control.signal */
 } ZpDriveTable;
 
 /* What is wrong with a table, in half a sentence, and in which row (from 0); NULL if nothing is. */

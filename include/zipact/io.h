@@ -42,6 +42,10 @@ ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 /* Keys that have lists or distributions, in key order; *count of them. Valid until the scenario changes. */
 ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
+/* Whether `key`, which has a unit, was given as a number without one, other than 0: then it was taken as SI, and *value
+ * is the first such value, SI. */
+ZP_API bool zp_scenario_bare_number(const ZpScenario *scenario, int key, double *value);
+
 /* Whether the results of a sweep keep their series: output.series. */
 ZP_API bool zp_scenario_keeps_series(const ZpScenario *scenario);
 
@@ -61,8 +65,9 @@ static inline ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index,
 /* Write the scenario as YAML, all keys as resolved, lists as lists: it reads back to the same bits. */
 ZP_API ZpStatus zp_scenario_write(const ZpScenario *scenario, FILE *file, ZpError *err);
 
-/* Write the table of keys: as JSON, as a starter scenario with help as comments, or for people. */
-typedef enum ZpKeysFormat { ZP_KEYS_TEXT, ZP_KEYS_JSON, ZP_KEYS_YAML } ZpKeysFormat;
+/* Write the table of keys: for people, as JSON, as a starter scenario with help as comments, or as a JSON schema of
+ * scenarios (draft 7), with which editors complete and check them. */
+typedef enum ZpKeysFormat { ZP_KEYS_TEXT, ZP_KEYS_JSON, ZP_KEYS_YAML, ZP_KEYS_SCHEMA } ZpKeysFormat;
 ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
 
 /* Read a value for key `index` as a person writes it: "130 um", "auto", "true", "plates"; a bare number
@@ -135,6 +140,9 @@ typedef struct ZpReport {
   int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
   const ZpOptimum *optimum;   /* of an optimisation; else NULL */
 } ZpReport;
+
+/* The largest number `scalar` of the rows whose number `where` is 1; NAN if there is none. */
+ZP_API double zp_report_largest(const ZpReport *report, const char *scalar, const char *where);
 
 /* Write summary.json (also what --json prints) to `file`. */
 ZP_API ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);

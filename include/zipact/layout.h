@@ -41,17 +41,6 @@ static inline uint64_t zp_def_layout(void) {
 #undef ZP_LETTER
 #undef ZP_NAME_TERM
 #undef ZP_KEY_TERM
-#undef ZP_GROUP
-#undef ZP_GROUP_END
-#undef ZP_REAL
-#undef ZP_REAL_AS
-#undef ZP_REAL_AUTO
-#undef ZP_REAL_NONE
-#undef ZP_INT
-#undef ZP_BOOL
-#undef ZP_ENUM
-#undef ZP_TEXT
-#undef ZP_OF_SCENARIO
 }
 
 #ifdef __cplusplus

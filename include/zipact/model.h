@@ -16,8 +16,8 @@ typedef struct ZpModel ZpModel;
  * `err` says why (ZP_BAD_INPUT, or ZP_MACHINE if there is no memory). */
 ZP_API ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err);
 
-/* The same, driven by the rows of `table`, which are copied; drive.waveform must be `table`. NULL: as
- * zp_model_create. ZP_BAD_INPUT as zp_drive_table_fault says. */
+/* The same with the rows of `table`, which are copied: of drive.waveform, or with a controller of setpoint.waveform,
+ * which must be `table`. NULL: as zp_model_create. ZP_BAD_INPUT as zp_drive_table_fault says. */
 ZP_API ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **model,
                                        ZpError *err);
 

@@ -28,7 +28,8 @@ typedef enum ZpOutcome {
   ZP_BAD_ARGUMENT,  /* "bad_argument": a call asked for what cannot be; nothing was done */
   ZP_SHORT_CIRCUIT, /* "short_circuit": electrodes without an insulator touched under a voltage */
   ZP_PULLED_IN,     /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
-  ZP_EVENT          /* "event": zp_sim_step_to_event has ended at an event */
+  ZP_EVENT,         /* "event": zp_sim_step_to_event has ended at an event */
+  ZP_AT_BOUND       /* "at_bound": what fits best lies at a bound of a fitted key, or beyond it */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" of any other number. */
@@ -115,10 +116,13 @@ ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
 /* What a program can change while a simulation runs. */
 typedef enum ZpInput {
-  ZP_INPUT_VOLTAGE, /* "voltage": potential difference, V; range of drive.voltage */
-  ZP_INPUT_LOAD,    /* "load": a force on the whole actuator, N, beside load.mass, without inertia; positive pulls the
-                       lower platform down (one ribbon: the right end); -10 kN to 10 kN, 0 until set; the modelled part
-                       carries load.share of it */
+  ZP_INPUT_VOLTAGE,  /* "voltage": potential difference, V; range of drive.voltage */
+  ZP_INPUT_LOAD,     /* "load": a force on the whole actuator, N, beside load.mass, without inertia; positive pulls the
+                        lower platform down (one ribbon: the right end); -10 kN to 10 kN, 0 until set; the modelled part
+                        carries load.share of it */
+  ZP_INPUT_SETPOINT, /* "setpoint": what a controller of the model (control.kind) holds, in the unit of
+                        control.signal; -1000 to 1000; setpoint.waveform does not count any more. The voltage cannot be
+                        set then */
   ZP_INPUT_COUNT
 } ZpInput;
 
@@ -175,6 +179,15 @@ ZP_API void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start);
 /* Present shape; its pointers are valid until the simulation continues. */
 ZP_API ZpShape zp_sim_shape(ZpSim *sim);
 
+/* The liquid between the faces at each station, counted as in the shape. */
+typedef struct ZpLiquid {
+  const double *thickness; /* [nodes] of its film, m; 0 where there is none */
+  const double *pressure; /* [nodes] above that around the actuator, Pa: mean across the width and over the last step */
+} ZpLiquid;
+
+/* It now; both pointers are valid until the simulation continues, and NULL without liquid.model. */
+ZP_API ZpLiquid zp_sim_liquid(ZpSim *sim);
+
 /* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN
  * if not yet. */
 ZP_API double zp_sim_zip_time(const ZpSim *sim);
@@ -196,6 +209,12 @@ ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpErr
 
 /* The columns of a time series: one per line of signals.def. */
 ZP_API const ZpColumn *zp_signal_columns(size_t *count);
+
+/* The same with the units of this Def: setpoint and measured are in that of control.signal. */
+ZP_API const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count);
+
+/* The unit of what control.signal holds: "m", "F" or "1". */
+ZP_API const char *zp_control_unit(const ZpActuatorDef *def);
 
 /* Continue from where `from` is, a simulation of another model with as many ribbons and nodes: its time, voltage,
  * contact, velocities and shape, stretched to this model's length. Energy and losses count from here on; contraction

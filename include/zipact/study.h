@@ -86,7 +86,7 @@ ZP_API ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError 
 
 /* What a study takes beside a Def; NULL where it does not. */
 typedef struct ZpStudyInput {
-  const ZpDriveTable *table; /* actuate: with drive.waveform table, as zp_model_create_driven */
+  const ZpDriveTable *table; /* actuate: with drive.waveform or setpoint.waveform table, as zp_model_create_driven */
   const ZpCheckpoint *start; /* actuate: with initial.state checkpoint, as zp_sim_continue */
   const ZpResult *neighbour; /* limits: the result of a Def that differs little: it starts from its states, some
                                        times faster; what it finds differs by less than 1e-6 */

@@ -2,7 +2,9 @@
  * open, so that a number of anything else is an error. */
 #include "binding.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 typedef struct Simulation {
@@ -11,6 +13,7 @@ typedef struct Simulation {
   ZpModel *model;
   ZpSim *sim;
   bool ended; /* numbers are beyond use until a state is restored */
+  bool runs;  /* its controller is being asked: it can be read only */
 } Simulation;
 
 static Simulation *simulations; /* that are open */
@@ -34,6 +37,14 @@ static Simulation **find(const mxArray *value) {
   for (Simulation **place = &simulations; *place; place = &(*place)->next)
     if ((*place)->handle == handle) return place;
   fail_input("simulation: closed, or not one that zipact('open', ...) returned");
+}
+
+/* The same of one that is to move or to go. */
+static Simulation **find_free(const mxArray *value) {
+  Simulation **place = find(value);
+  if ((*place)->runs)
+    fail_input("simulation: its controller is being asked; until that has answered it can be read only");
+  return place;
 }
 
 /* Numbers from the clock: none comes again, even where the function has been cleared and loaded anew. */
@@ -73,7 +84,7 @@ mxArray *simulation_open(int count, const mxArray *const *value) {
 /* simulation, dt, voltage => time */
 mxArray *simulation_step(int count, const mxArray *const *value) {
   take_arguments("step", count, 2, 3);
-  Simulation *simulation = *find(value[0]);
+  Simulation *simulation = *find_free(value[0]);
   double dt = quantity_of("solver.end_time", "dt", value[1]);
   double voltage = count > 2 ? quantity_of("drive.voltage", "voltage", value[2]) : 0;
   ZpRunInfo info = {0};
@@ -85,6 +96,77 @@ mxArray *simulation_step(int count, const mxArray *const *value) {
   watch_end();
   simulation->ended = outcome == ZP_DIVERGED;
   if (outcome == ZP_INTERRUPTED) fail_interrupted();
+  if (outcome != ZP_REACHED_END) fail_numerics(info.message);
+  return new_double(zp_sim_get(simulation->sim, "time"));
+}
+
+/* -- a controller of the user's own -------------------------------------------------------------------- */
+
+/* What is asked at each sample, and what has gone wrong. zipact.m wraps the user's function: it answers a voltage and a
+ * text, empty where there was no error. */
+typedef struct Controller {
+  mxArray *function;
+  const char *signal;
+  bool failed;       /* it gave no voltage, */
+  char trouble[400]; /* for this reason, if it said one */
+} Controller;
+
+/* An answer that is no number ends the run. */
+static double ask(void *user, ZpSim *sim, double time) {
+  Controller *controller = user;
+  mxArray *given[3] = {controller->function, new_double(time), new_double(zp_sim_get(sim, controller->signal))};
+  mxArray *answer[2] = {NULL, NULL};
+  bool ran = mexCallMATLABWithTrap(2, answer, 3, given, "feval") == NULL;
+  bool number = ran && answer[0] && mxIsDouble(answer[0]) && mxGetNumberOfElements(answer[0]) == 1;
+  double voltage = number ? mxGetScalar(answer[0]) : NAN;
+  if (ran && answer[1] && mxIsChar(answer[1])) mxGetString(answer[1], controller->trouble, sizeof controller->trouble);
+  controller->failed = !number || *controller->trouble;
+  for (int k = 0; k < 2; k++) {
+    mxDestroyArray(given[k + 1]);
+    if (answer[k]) mxDestroyArray(answer[k]);
+  }
+  return voltage;
+}
+
+static _Noreturn void fail_controller(const Controller *controller) {
+  if (*controller->trouble) fail_input("controller: %s", controller->trouble);
+  fail_input("controller: takes a function that returns one number, the voltage");
+}
+
+static void check_signal(const char *signal) {
+  size_t count;
+  const ZpColumn *column = zp_signal_columns(&count);
+  for (size_t k = 0; k < count; k++) {
+    size_t length = strlen(signal);
+    bool same = strncmp(column[k].name, signal, length) == 0;
+    if (same && length && (column[k].name[length] == 0 || column[k].name[length] == '_')) return;
+  }
+  fail_input("signal: there is no %.60s; such as opening, contraction or capacitance", signal);
+}
+
+/* simulation, function, signal, period, end => time */
+mxArray *simulation_control(int count, const mxArray *const *value) {
+  take_arguments("control", count, 5, 5);
+  Simulation *simulation = *find_free(value[0]);
+  ZpRunInfo info = {0};
+  ZpError err;
+  if (!mxIsFunctionHandle(value[1])) fail_input("controller: takes a function handle, @(time, signal) voltage");
+  Controller controller = {.function = (mxArray *)value[1], .signal = text_of(value[2], "signal")};
+  check_signal(controller.signal);
+  double period = quantity_of("control.period", "period", value[3]);
+  double end = quantity_of("solver.end_time", "end time", value[4]);
+  if (simulation->ended) fail_numerics("the simulation has diverged; restore a state to continue");
+  if (zp_sim_set_controller(simulation->sim, &(ZpController){period, &controller, ask}, &err) != ZP_OK) fail(&err);
+  simulation->runs = true;
+  watch_begin();
+  ZpOutcome outcome = zp_sim_run(simulation->sim, end, false, &watch_hooks, &info);
+  watch_end();
+  simulation->runs = false;
+  zp_sim_set_controller(simulation->sim, NULL, NULL);
+  simulation->ended = outcome == ZP_DIVERGED;
+  if (controller.failed) fail_controller(&controller);
+  if (outcome == ZP_INTERRUPTED) fail_interrupted();
+  if (outcome == ZP_BAD_ARGUMENT) fail_input("%s", info.message);
   if (outcome != ZP_REACHED_END) fail_numerics(info.message);
   return new_double(zp_sim_get(simulation->sim, "time"));
 }
@@ -124,7 +206,7 @@ mxArray *simulation_save(int count, const mxArray *const *value) {
 /* simulation, state => time */
 mxArray *simulation_restore(int count, const mxArray *const *value) {
   take_arguments("restore", count, 2, 2);
-  Simulation *simulation = *find(value[0]);
+  Simulation *simulation = *find_free(value[0]);
   ZpError err;
   if (!mxIsUint8(value[1]) || mxIsSparse(value[1]) || mxIsComplex(value[1]))
     fail_input("state: takes the bytes that zipact('save', ...) returned");
@@ -135,7 +217,7 @@ mxArray *simulation_restore(int count, const mxArray *const *value) {
 
 mxArray *simulation_close(int count, const mxArray *const *value) {
   take_arguments("close", count, 1, 1);
-  Simulation **place = find(value[0]), *closed = *place;
+  Simulation **place = find_free(value[0]), *closed = *place;
   *place = closed->next;
   free_simulation(closed);
   return NULL;

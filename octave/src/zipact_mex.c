@@ -117,6 +117,7 @@ static const struct {
     {"version", version},
     {"open", simulation_open},
     {"step", simulation_step},
+    {"control", simulation_control},
     {"read", simulation_read},
     {"shape", simulation_shape},
     {"save", simulation_save},
@@ -128,8 +129,9 @@ static mxArray *answer(const char *name, int count, const mxArray *const *value)
   for (size_t i = 0; i < sizeof command / sizeof *command; i++)
     if (strcmp(name, command[i].name) == 0) return command[i].answer(count, value);
   if (zp_key_choice(zp_key_find("study"), name) >= 0) return run_study(name, count, value);
-  fail_input("%.80s: neither a study nor one of run, keys, version, open, step, read, shape, save, restore, close",
-             name);
+  fail_input(
+      "%.80s: neither a study nor one of run, keys, version, open, step, control, read, shape, save, restore, close",
+      name);
 }
 
 void mexFunction(int outputs, mxArray *output[], int inputs, const mxArray *input[]) {

@@ -35,6 +35,23 @@ check(isequal(fieldnames(run.series), fieldnames(zipact('read', other))), 'names
 shape = zipact('shape', other);
 check(isequal(size(shape.y_m), [21 2]) && abs(shape.gap_m(end) - there.opening_m) < 1e-15, 'the shape');
 
+% a controller: asked at 0, 1 ms ...; the same as step by step, to the same bits
+law = @(time, opening) 500 + 1e6 * (opening - 8e-3) * (time > 1.5e-3);
+steered = zipact('open', 'mesh.nodes', 21, 'liquid.model', 'none');
+by_hand = zipact('open', 'mesh.nodes', 21, 'liquid.model', 'none');
+check(abs(zipact('control', steered, law, 'opening', '1 ms', '5 ms') - 5e-3) < 1e-15, 'the time after a controller');
+for k = 0:4
+  zipact('step', by_hand, (k + 1) * 1e-3 - k * 1e-3, law(k * 1e-3, zipact('read', by_hand).opening_m));
+end
+check(abs(zipact('read', steered).opening_m / zipact('read', by_hand).opening_m - 1) < 1e-9, 'as step by step');
+zipact('control', steered, @(time, u) u, 'voltage', 1e-4, 0.02); % warm
+started = cputime();
+zipact('control', steered, @(time, u) u, 'voltage', 1e-6, 0.04);
+with = cputime() - started;
+printf('%.1f us a sample, with the step that it cuts\n', with / 0.02);
+zipact('close', steered);
+zipact('close', by_hand);
+
 % closed ones are gone, the others stay
 zipact('close', sim);
 check(zipact('read', other).time_s == there.time_s, 'the other one is open');

@@ -31,6 +31,18 @@ n = refused(n, 'short circuit', 'open', 'study', 'stationary', 'insulator.thickn
 n = refused(n, 'takes nothing more', 'keys', 1);
 n = refused(n, 'takes nothing more', 'version', 1);
 
+% controllers
+sim = zipact('open', 'mesh.nodes', 21, 'liquid.model', 'none');
+n = refused(n, 'control: takes 5 to 5', 'control', sim);
+n = refused(n, 'takes a function handle', 'control', sim, 3, 'opening', 1e-3, 1e-2);
+n = refused(n, 'there is no openin;', 'control', sim, @(t, y) 0, 'openin', 1e-3, 1e-2);
+n = refused(n, 'period', 'control', sim, @(t, y) 0, 'opening', 0, 1e-2);
+n = refused(n, 'returns one number', 'control', sim, @(t, y) 'a lot', 'opening', 1e-3, 1e-2);
+n = refused(n, 'controller''s voltage at', 'control', sim, @(t, y) -1, 'opening', 1e-3, 1e-2);
+n = refused(n, 'read only', 'control', sim, @(t, y) zipact('step', sim, 1e-3), 'opening', 1e-3, 1e-2);
+n = refused(n, 'controller: of its own', 'control', sim, @(t, y) error('of its own'), 'opening', 1e-3, 1e-2);
+zipact('close', sim);
+
 % keys
 n = refused(n, 'unknown key; did you mean load.mass\?', 'stationary', 'load.mas', 1);
 n = refused(n, 'unknown key', 'stationary', '', 1);

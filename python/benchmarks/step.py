@@ -4,29 +4,14 @@ The integrator's step is held at DT, so that one call of step(DT) and each of th
 step(MANY * DT) do the same in C; the difference is the call. Best of several rounds.
 """
 
-import time
-
 import numpy as np
+import rounds
 import zipact
-
-DT, MANY, ROUNDS = 1e-8, 2000, 60
-
-
-def best_of_rounds(work) -> float:
-    """us per step"""
-    times = []
-    for _ in range(ROUNDS):
-        start = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - start)
-    return 1e6 * min(times) / MANY
+from rounds import DT, MANY, best_of_rounds
 
 
 def main() -> None:
-    actuator = zipact.Actuator(
-        mesh__nodes=21, solver__time_step=DT, solver__integrator="explicit", contact__model="sequential"
-    )
-    simulation = zipact.Simulation(actuator)
+    simulation = rounds.simulation()
     out = np.empty(len(zipact.SIGNALS))
 
     def calls():

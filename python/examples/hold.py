@@ -42,7 +42,7 @@ def hold(actuator: zipact.Actuator, end_time: float) -> np.ndarray:
 
 
 def main(picture: str = "hold.png") -> None:
-    actuator = zipact.Actuator(load__mass="8 g", damping__internal="100 ms")
+    actuator = zipact.Actuator(load__mass="8 g", liquid__model="none", damping__internal="100 ms")
     pull_in = actuator.run("equilibrium")["pull_in_voltage_V"]
     time, aim, stroke, voltage = hold(actuator, end_time=2.4).T
     late = (time > 0.7) & (time < 0.8) | (time > 1.5) & (time < 1.6) | (time > 2.3)

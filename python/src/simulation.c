@@ -152,8 +152,8 @@ static PyObject *simulation_set_input(PyObject *object, PyObject *args, PyObject
   while (input < ZP_INPUT_COUNT && strcmp(zp_input_name(input), name) != 0)
     input++;
   if (input == ZP_INPUT_COUNT)
-    return raise_input(self->state, "%.40s: no input; there are %s, %s", name, zp_input_name(ZP_INPUT_VOLTAGE),
-                       zp_input_name(ZP_INPUT_LOAD));
+    return raise_input(self->state, "%.40s: no input; there are %s, %s, %s", name, zp_input_name(ZP_INPUT_VOLTAGE),
+                       zp_input_name(ZP_INPUT_LOAD), zp_input_name(ZP_INPUT_SETPOINT));
   ZpError err;
   if (zp_sim_set_input(self->sim, input, value, rate, &err) != ZP_OK) return raise_error(self->state, &err);
   self->hand_voltage = NAN; /* of the next step's voltage none is a repetition */

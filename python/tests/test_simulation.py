@@ -64,7 +64,7 @@ def test_many_short_explicit_steps_are_one_long(dt):
 
 @both
 def test_zips(integrator):
-    simulation = make(**integrator)
+    simulation = make(liquid__model="none", **integrator)
     while not np.isfinite(simulation.zip_time):
         simulation.step("1 ms", voltage="10 kV")
     assert 0.04 < simulation.zip_time <= simulation.time < 0.1
@@ -248,7 +248,7 @@ def test_inputs_with_a_rate(integrator):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (("mass", 1.0), "mass: no input; there are voltage, load"),
+        (("mass", 1.0), "mass: no input; there are voltage, load, setpoint"),
         (("load", 2e4), "load = 20000 N is out of range"),
         (("voltage", -1.0), "drive.voltage"),
         (("voltage", 1.0, float("nan")), "a rate of nan V/s is out of range"),

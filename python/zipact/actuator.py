@@ -35,7 +35,7 @@ class Key(NamedTuple):
 KEYS: dict[str, Key] = {row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()}
 """Every key by its name, "load.mass"."""
 
-FILES = ("data.file", "drive.file", "initial.file")  # as in a scenario, they are kept absolute
+FILES = ("data.file", "drive.file", "setpoint.file", "initial.file")  # as in a scenario, they are kept absolute
 
 
 def key_name(keyword: str) -> str:

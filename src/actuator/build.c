@@ -13,7 +13,18 @@ static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
       {thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density},
       {def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density},
   };
-  return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane == ZP_PLANE_STRAIN);
+  return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane != ZP_PLANE_STRESS);
+}
+
+/* Eqs. (2.5) and (2.6), of a ribbon without segments. */
+static ZpCurl curl_of(const ZpActuatorDef *def) {
+  ZpActuatorDef narrow = *def;
+  narrow.ribbon.plane = ZP_PLANE_STRESS;
+  ZpSection wide = section_of(def, def->ribbon.thickness);
+  double width2 = def->ribbon.width * def->ribbon.width;
+  double missing = wide.EI - section_of(&narrow, def->ribbon.thickness).EI;
+  if (def->ribbon.plane != ZP_PLANE_ANTICLASTIC) return (ZpCurl){0, 0};
+  return (ZpCurl){missing, width2 * width2 * wide.EA / (4 * wide.EI)};
 }
 
 /* What lies along a ribbon from its left end on; of the lower one, a mirror image, natural curvatures turn: `up` = -1.
@@ -25,7 +36,7 @@ static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
       {section_of(def, def->segment_3.thickness), up * def->segment_3.curvature, def->segment_3.length},
       {section_of(def, def->ribbon.thickness), 0, INFINITY},
   };
-  ZpRibbon ribbon = {.yields = def->ribbon.yield_stress};
+  ZpRibbon ribbon = {.yields = def->ribbon.yield_stress, .curl = curl_of(def)};
   double along = 0;
   for (int k = 0; k < ZP_PLACES; k++) {
     ribbon.place[k] = place[k];
@@ -154,33 +165,37 @@ static double platform_length(const ZpModel *model) {
   return zp_is_pair(&model->topology) ? model->def.platform.length / 2 : 0;
 }
 
-/* Of bare metal, thickness 0, the other insulator is the weaker one. */
+/* What a layer withstands, as a displacement over eps0; of bare metal anything: the other insulator is the weaker one.
+ */
+static double strength_of(const ZpActuatorDef *def) {
+  return def->insulator.thickness == 0 ? INFINITY : def->insulator.permittivity * def->insulator.breakdown_field;
+}
+
 static ZpSeriesParams series_of(const ZpActuatorDef *upper, const ZpActuatorDef *lower) {
-  const ZpActuatorDef *of[] = {upper, lower}, *weaker = NULL;
-  double thickness = 0;
-  for (int k = 0; k < 2; k++) {
-    double strength = of[k]->insulator.permittivity * of[k]->insulator.breakdown_field;
-    thickness += of[k]->insulator.thickness / of[k]->insulator.permittivity;
-    if (of[k]->insulator.thickness == 0) continue;
-    if (!weaker || strength < weaker->insulator.permittivity * weaker->insulator.breakdown_field) weaker = of[k];
-  }
-  if (!weaker) weaker = upper;
+  const ZpActuatorDef *weaker = strength_of(lower) < strength_of(upper) ? lower : upper;
+  double thickness = upper->insulator.thickness / upper->insulator.permittivity +
+                     lower->insulator.thickness / lower->insulator.permittivity;
   return (ZpSeriesParams){thickness, weaker->insulator.permittivity, weaker->insulator.breakdown_field,
                           upper->medium.permittivity};
 }
 
+/* Insulators give way by some hundredths of their thickness. An iteration may overlap them by more than all of it:
+ * there attraction must not outgrow the push of the faces. Bare faces that touch: a nanometre is no liquid. */
+static double least_h(double d) {
+  return fmax(0.5 * d, 1e-9);
+}
+
 static ZpPlatesParams plates_of(const ZpModel *model) {
-  /* Bare faces that touch: below this the law would divide by nothing. A nanometre is no liquid. */
-  static const double least_gap = 1e-9;
   const ZpActuatorDef *def = &model->def;
   double share = def->electro.voltage_share, offset = def->electro.insulator_offset;
-  double eps_m = def->medium.permittivity;
+  double eps_m = def->medium.permittivity, d = isnan(offset) ? model->series.thickness * eps_m : offset;
   return (ZpPlatesParams){.nodes = model->nodes,
                           .stride = model->stride,
                           .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
-                          .d = isnan(offset) ? model->series.thickness * eps_m : offset,
+                          .relative = 1,
+                          .d = d,
                           .h_per_volt = def->electro.breakdown_cap ? share / def->medium.breakdown_field : 0,
-                          .h_least = least_gap,
+                          .h_least = least_h(d),
                           .h_switch_per_volt = def->electro.switch_offset > 0 ? share / def->medium.breakdown_field : 0,
                           .switch_offset = def->electro.switch_offset,
                           .platform = model->topology.platform.first,
@@ -293,7 +308,7 @@ static void fill_masses(ZpModel *model, Arrays *a) {
     a->py1[j] = held_y ? 0 : 1 / pseudo;
     if (!held_y) weight += a->weight[j];
   }
-  model->total_weight = weight / (double)t->halves;
+  model->total_weight = weight / (double)t->halves + model->def.load.share * fabs(model->def.load.force);
   for (size_t i = 0; zp_is_pair(t) && i < model->nodes; i++) {
     size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
     a->x2[i] = joined(a->x1[upper], a->x1[lower]);
@@ -316,6 +331,7 @@ static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
                        .S = a->rod_S,
                        .B = a->rod_B,
                        .k0 = a->rod_k0,
+                       .curl = {model->ribbon[0].curl, model->ribbon[1].curl},
                        .rigid = platform->first,
                        .rigid_end = platform->last};
 }
@@ -413,18 +429,18 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-/* Of both layers pressed together, per length of ribbon, N/m^2. */
-static double layer_stiffness(const ZpModel *model) {
+/* How a layer gives way under a pressure, m/Pa. */
+static double compliance_of(const ZpActuatorDef *def) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
+  double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
+  return fmax(def->insulator.thickness, thinnest) / E;
+}
+
+/* Of all layers pressed together, per length of ribbon, N/m^2. */
+static double layer_stiffness(const ZpModel *model, const ZpActuatorDef *lower) {
   const ZpActuatorDef *def = &model->def;
-  ZpActuatorDef of[] = {*def, zp_def_lower(def)};
-  double compliance = 0;
-  for (size_t k = 0; k < model->s; k++) {
-    double E = of[k].insulator.young_modulus > 0 ? of[k].insulator.young_modulus : typical;
-    compliance += fmax(of[k].insulator.thickness, thinnest) / E;
-  }
-  return def->ribbon.width / compliance;
+  return def->ribbon.width / (compliance_of(def) + (model->s > 1 ? compliance_of(lower) : 0));
 }
 
 /* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
@@ -446,11 +462,11 @@ static double settling_time(const ZpModel *model) {
 }
 
 /* Eq. (9.2). */
-static ZpFacesParams faces_of(const ZpModel *model) {
+static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
   static const double least = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
   double depth = fmin(fmax(part * model->plates.d, least), ZP_CLOSED_GAP);
   const ZpActuatorDef *def = &model->def;
-  double stiffest = layer_stiffness(model) * depth / 3;
+  double stiffest = layer_stiffness(model, lower) * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it presses no faces */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
@@ -471,6 +487,8 @@ static ZpPlatesParams air_of(const ZpModel *model) {
   ZpPlatesParams air = model->plates;
   air.k /= def->medium.permittivity;
   air.d /= def->medium.permittivity;
+  air.h_least = least_h(air.d);
+  air.relative /= def->medium.permittivity;
   air.h_per_volt = def->electro.voltage_share / def->air.breakdown_field;
   return air;
 }
@@ -500,7 +518,7 @@ static ZpFilmParams film_of(const ZpModel *model) {
 
 /* A bead has air outside. */
 static ZpOuterParams outer_of(const ZpActuatorDef *def) {
-  if (zp_liquid_of(def) == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
+  if (zp_def_liquid(def) == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
   return (ZpOuterParams){.w = def->ribbon.width,
                          .rho = def->liquid.inertia ? def->medium.density : 0,
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};
@@ -527,11 +545,19 @@ static double contact_frequency(const ZpModel *model) {
   return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
 }
 
-/* Of the platform on the spring beside the load, rad/s. */
+/* Of the platform on spring and stop, rad/s. */
 static double spring_frequency(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + def->load.share * def->load.mass;
-  return sqrt(def->load.share * def->load.stiffness / mass);
+  double stop = isnan(def->load.stop_opening) ? 0 : def->load.stop_stiffness;
+  return sqrt(def->load.share * (def->load.stiffness + stop) / mass);
+}
+
+/* Direction of gravity, eq. (27.4); a part that is 0 but for the rounding of the angle is none. */
+static void find_fall(ZpModel *model) {
+  double turns = model->def.mount.tilt / (2 * zp_pi), fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
+  for (int k = 0; k < 2; k++)
+    model->fall[k] = fabs(fall[k]) < zp_tilt_rounding ? 0 : fall[k];
 }
 
 static void derive(ZpModel *model) {
@@ -552,6 +578,7 @@ static void derive(ZpModel *model) {
   model->ribbon[0] = ribbon_of(def, 1);
   model->ribbon[1] = ribbon_of(&lower, -1);
   model->series = series_of(def, &lower);
+  find_fall(model);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
@@ -560,10 +587,10 @@ static void derive(ZpModel *model) {
   model->plates = plates_of(model);
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;
   model->cross_section = cross_section_of(model);
-  model->faces = faces_of(model);
+  model->faces = faces_of(model, &lower);
   model->film = film_of(model);
-  model->has_film = model->field && zp_liquid_of(def) != ZP_LIQUID_NONE;
-  model->has_bead = model->has_film && zp_liquid_of(def) == ZP_LIQUID_BEAD;
+  model->has_film = model->field && zp_def_liquid(def) != ZP_LIQUID_NONE;
+  model->has_bead = model->has_film && zp_def_liquid(def) == ZP_LIQUID_BEAD;
   model->bead = bead_of(def);
   model->air = air_of(model);
   if (model->has_bead) model->plates.air = &model->air;
@@ -587,10 +614,11 @@ static void derive(ZpModel *model) {
 static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err) {
   size_t row;
   if (!table) return ZP_OK;
-  if (def->drive.waveform != ZP_WAVEFORM_TABLE)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform: a table was given, which requires drive.waveform table");
+  const char *of = def->control.kind == ZP_CONTROL_NONE ? "drive" : "setpoint";
+  if (!zp_def_takes_table(def))
+    return zp_fail(err, ZP_BAD_INPUT, "%s.waveform: a table was given, which requires %s.waveform table", of, of);
   const char *fault = zp_drive_table_fault(table, &row);
-  return fault ? zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: row %zu: %s", row + 1, fault) : ZP_OK;
+  return fault ? zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: row %zu: %s", of, row + 1, fault) : ZP_OK;
 }
 
 static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) {
@@ -600,7 +628,11 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
     memcpy(a->voltage, table->voltage, bytes);
   }
   ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage};
-  model->waveform = zp_waveform_of(&model->def, &copy);
+  const ZpDriveTable none = {0};
+  bool controlled = model->def.control.kind != ZP_CONTROL_NONE;
+  model->waveform = zp_waveform_of(&model->def, controlled ? &none : &copy);
+  model->setpoint = zp_setpoint_of(&model->def, controlled ? &copy : &none);
+  model->control = zp_control_of(&model->def);
   model->supply = zp_supply_of(&model->def);
   model->supply.acts &= model->field;
 }

@@ -12,6 +12,7 @@
 
 #include "actuator/topology.h"
 #include "contact/faces.h"
+#include "drive/control.h"
 #include "drive/supply.h"
 #include "electro/edges.h"
 #include "electro/field.h"
@@ -45,6 +46,7 @@ enum { ZP_REST = 3, ZP_PLACES };
 typedef struct ZpRibbon {
   ZpPlace place[ZP_PLACES];
   double yields; /* yield stress of its metal, Pa */
+  ZpCurl curl;   /* across its width */
 } ZpRibbon;
 
 struct ZpModel {
@@ -82,10 +84,13 @@ struct ZpModel {
   ZpFieldParams cross_section;
   ZpWaveform waveform;
   ZpSupply supply;
+  ZpControl control;
+  ZpWaveform setpoint;  /* of the controller, in the unit of its signal */
   double field_scale;   /* force_scale * voltage_share^2 */
   ZpMasses masses;      /* true masses */
   ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */
   double pseudo_mass;   /* kg, in units of the pseudo-time step */
+  double fall[2];       /* direction of gravity, x and y: a unit vector */
   const double *weight; /* [stride] of each node with its load, N */
   const double *mass;   /* [stride] kg */
   double total_weight;  /* of what moves, of one half, N */
@@ -123,6 +128,9 @@ typedef struct ZpState {
   ZpRamp voltage_input;    /* V; counts where by_hand */
   ZpRamp load_input;       /* N, down on the lower platform (one ribbon: the right end) of the whole actuator */
   double load_work;        /* per part: of that force so far, J */
+  ZpControlState control;  /* of the model's controller */
+  bool setpoint_by_hand;   /* the user has set it: its waveform does not count any more */
+  ZpRamp setpoint_input;   /* in the unit of the signal; counts where setpoint_by_hand */
   ZpSupplyState supply;    /* behind a supply: what of it evolves, */
   size_t supply_mode;      /* which of its limits acts (sim/feed.c), */
   double source_charge;    /* and of the whole actuator: charge that it has given, C, */
@@ -165,9 +173,10 @@ static inline double zp_load_share(const ZpModel *model) {
   return (double)zp_load_ends(&model->topology) * model->def.load.share;
 }
 
-/* Weight of the load that the whole actuator carries, N. */
-static inline double zp_load_weight(const ZpModel *model) {
-  return model->parts * zp_load_share(model) * model->def.load.mass * model->def.gravity;
+/* What the load of the whole actuator pulls down with, N: load.force, and as much of its weight as acts downwards. */
+static inline double zp_load_pull(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);
 }
 
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */

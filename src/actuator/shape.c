@@ -6,9 +6,19 @@
 #include "electro/series.h"
 
 void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
+  room->interface = NULL;
+  room->reach[0] = room->reach[1] = INFINITY;
   room->line_force = zp_carve(carver, model->nodes);
   room->insulator_field = zp_carve(carver, model->nodes);
   room->stress = zp_carve(carver, model->count);
+  room->film = zp_carve(carver, model->nodes);
+  room->pressure = zp_carve(carver, model->nodes);
+}
+
+bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
+  size_t from_clip = zp_topology_station_image(&model->topology, i);
+  bool second = from_clip != i;
+  return (double)from_clip * model->l <= room->reach[second];
 }
 
 /* What of charge between insulators and liquid is at station i, as a voltage: that of the nearest place. */
@@ -18,11 +28,14 @@ static double interface_at(const ZpModel *model, const ZpShapeRoom *room, size_t
   return room->interface[last ? ZP_PLATES_PLACES * i - 2 : ZP_PLATES_PLACES * i];
 }
 
-/* Eqs. (4.10) and (25.2). */
+/* Eqs. (4.10) and (25.2); beyond a bead with air between the faces. */
 static void fill_fields(const ZpModel *model, const ZpShapeRoom *room, const ZpShape *shape, size_t i) {
   double Z = interface_at(model, room, i), Y = shape->voltage + Z, gap = shape->gap[i];
-  double field = zp_series_at(&model->series, Y, gap).insulator;
-  room->line_force[i] = zp_plates_law(&model->plates, Y, gap).W;
+  bool wet = zp_shape_is_wet(model, room, i);
+  ZpSeriesParams series = model->series;
+  if (!wet) series.eps_m = 1;
+  double field = zp_series_at(&series, Y, gap).insulator;
+  room->line_force[i] = zp_plates_law(wet ? &model->plates : &model->air, Y, gap).W;
   room->insulator_field[i] = Z == 0 ? field : fabs(copysign(field, Y) - Z / zp_insulation(&model->def));
 }
 

@@ -9,12 +9,18 @@
 /* Room for what follows from a shape. */
 typedef struct ZpShapeRoom {
   const double *interface; /* [ZP_PLATES_PLACES N] interface voltages of what leaks; NULL: there is no charge */
+  double reach[ZP_BEADS];  /* wet length of each half, m; INFINITY: no bead ends there */
   double *line_force;      /* [nodes] */
   double *insulator_field; /* [nodes] */
   double *stress;          /* [count] */
+  double *film, *pressure; /* [nodes] */
 } ZpShapeRoom;
 
+/* Without interface voltages, with liquid everywhere. */
 void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver);
+
+/* Is there liquid at station i? */
+bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i);
 
 /* A shape whose time, voltage, positions and, with electrodes, gaps are known => the rest of it, in `room`. */
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape);

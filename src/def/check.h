@@ -4,11 +4,14 @@
 
 #include <zipact/def.h>
 
+/* A mount.tilt nearer than this to a right angle is one: what degrees written with five digits round to, rad. */
+static const double zp_tilt_rounding = 1e-5;
+
 /* (name of a choice key, place in its list) => the word. */
 const char *zp_word_of(const char *key, int choice);
 
-/* liquid.model, or what auto stands for. */
-ZpLiquidModel zp_liquid_of(const ZpActuatorDef *def);
+/* What liquid.model bead asks of other keys, whatever liquid.model is: where it is refused, auto stands for none. */
+ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 
 /* The keys of the lower ribbon: those of the upper one, but where lower.* says otherwise. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);

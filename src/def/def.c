@@ -43,17 +43,6 @@
 static const ZpKey keys[] = {
 #include <zipact/keys.def>
 };
-#undef ZP_GROUP
-#undef ZP_GROUP_END
-#undef ZP_REAL
-#undef ZP_REAL_AS
-#undef ZP_REAL_AUTO
-#undef ZP_REAL_NONE
-#undef ZP_INT
-#undef ZP_BOOL
-#undef ZP_ENUM
-#undef ZP_TEXT
-#undef ZP_OF_SCENARIO
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
@@ -93,6 +82,25 @@ static const PresetValue preset_values[] = {
 #undef ZP_PRESET_VALUE
 #undef ZP_PRESET_AT
 
+#define ZP_STRIP(material, name, value, spread, source) {material, name, value, spread, source},
+#define ZP_INSULATOR(material, name, value, spread, source)
+#define ZP_MEDIUM(material, name, value, spread, source)
+static const ZpMaterialValue strip_values[] = {
+#include <zipact/materials.def>
+};
+#define ZP_STRIP(material, name, value, spread, source)
+#define ZP_INSULATOR(material, name, value, spread, source) {material, name, value, spread, source},
+#define ZP_MEDIUM(material, name, value, spread, source)
+static const ZpMaterialValue insulator_values[] = {
+#include <zipact/materials.def>
+};
+#define ZP_STRIP(material, name, value, spread, source)
+#define ZP_INSULATOR(material, name, value, spread, source)
+#define ZP_MEDIUM(material, name, value, spread, source) {material, name, value, spread, source},
+static const ZpMaterialValue medium_values[] = {
+#include <zipact/materials.def>
+};
+
 enum {
   KIND_VALUES = sizeof kind_values / sizeof kind_values[0],
   SUPPLY_VALUES = sizeof supply_values / sizeof supply_values[0],
@@ -113,6 +121,11 @@ int zp_key_find(const char *name) {
   return -1;
 }
 
+/* ASCII only: names of this program have no other letters. */
+static char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
 /* Of a text, at most `most`. */
 static int length_within(const char *text, int most) {
   int length = 0;
@@ -121,8 +134,7 @@ static int length_within(const char *text, int most) {
   return length;
 }
 
-/* Edit distance (insert, delete, replace) of two words of at most 63 characters; longer ones are cut. */
-static int edit_distance(const char *a, const char *b) {
+int zp_word_distance(const char *a, const char *b) {
   enum { LONGEST = 64 };
   int row[LONGEST] = {0};
   int len = length_within(b, LONGEST - 1);
@@ -132,7 +144,7 @@ static int edit_distance(const char *a, const char *b) {
     int diagonal = row[0];
     row[0] = i;
     for (int j = 1; j <= len; j++) {
-      int replaced = diagonal + (a[i - 1] != b[j - 1]);
+      int replaced = diagonal + (lower(a[i - 1]) != lower(b[j - 1]));
       int shifted = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
       diagonal = row[j];
       row[j] = replaced < shifted ? replaced : shifted;
@@ -146,8 +158,8 @@ const char *zp_key_nearest(const char *name) {
   int least = 1000;
   for (int i = 0; i < KEY_COUNT; i++) {
     const char *dot = strrchr(keys[i].name, '.');
-    int whole = edit_distance(name, keys[i].name);
-    int last = dot ? edit_distance(name, dot + 1) + 1 : whole;
+    int whole = zp_word_distance(name, keys[i].name);
+    int last = dot ? zp_word_distance(name, dot + 1) + 1 : whole;
     int distance = whole < last ? whole : last;
     if (distance < least) {
       least = distance;
@@ -316,6 +328,59 @@ static void apply_values(ZpActuatorDef *def, const PresetValue *value, int count
     if (value[i].selector == selector) store(def, &keys[zp_key_find(value[i].key)], value[i].value);
 }
 
+#define VALUES_OF(array) array, sizeof(array) / sizeof(array)[0]
+
+/* Groups that a material fills: how their keys begin, where the material is named, what the table says. */
+typedef struct MaterialGroup {
+  const char *prefix;
+  size_t offset;
+  const ZpMaterialValue *value;
+  size_t values;
+} MaterialGroup;
+
+static const MaterialGroup material_groups[] = {
+    {"ribbon.", offsetof(ZpActuatorDef, ribbon.material), VALUES_OF(strip_values)},
+    {"insulator.", offsetof(ZpActuatorDef, insulator.material), VALUES_OF(insulator_values)},
+    {"medium.", offsetof(ZpActuatorDef, medium.material), VALUES_OF(medium_values)},
+    {"lower.ribbon.", offsetof(ZpActuatorDef, lower.ribbon.material), VALUES_OF(strip_values)},
+    {"lower.insulator.", offsetof(ZpActuatorDef, lower.insulator.material), VALUES_OF(insulator_values)},
+};
+
+static const MaterialGroup *material_group_of(const char *key) {
+  for (size_t g = 0; g < sizeof material_groups / sizeof material_groups[0]; g++)
+    if (strncmp(key, material_groups[g].prefix, strlen(material_groups[g].prefix)) == 0) return &material_groups[g];
+  return NULL;
+}
+
+/* To give a resistivity adds the law of leakage, which not every model has: it is listed, and stays with the user. */
+static bool is_filled(const char *name) {
+  return strcmp(name, "resistivity") != 0;
+}
+
+bool zp_key_is_material(int index) {
+  const char *last = strrchr(keys[index].name, '.');
+  return last && strcmp(last, ".material") == 0;
+}
+
+const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
+  const MaterialGroup *group = is_ours(def) ? material_group_of(keys[index].name) : NULL;
+  int material;
+  if (!group) return NULL;
+  memcpy(&material, (const char *)def + group->offset, sizeof material);
+  const char *name = keys[index].name + strlen(group->prefix);
+  for (size_t i = 0; i < group->values; i++)
+    if (group->value[i].material == material && strcmp(group->value[i].name, name) == 0)
+      return is_filled(name) ? &group->value[i] : NULL;
+  return NULL;
+}
+
+static void apply_materials(ZpActuatorDef *def, const ZpActuatorDef *given) {
+  for (int i = 0; i < KEY_COUNT; i++) {
+    const ZpMaterialValue *filled = zp_material_value(given, i);
+    if (filled) store(def, &keys[i], filled->value);
+  }
+}
+
 /* A key that the preset has only for certain N must be given for any other. */
 static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssignment *list, size_t count,
                                       ZpError *err) {
@@ -349,6 +414,7 @@ ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count,
   apply_values(def, kind_values, KIND_VALUES, (int)kind);
   apply_preset(def, given.preset, given.mesh.nodes);
   apply_values(def, supply_values, SUPPLY_VALUES, (int)given.source.supply);
+  apply_materials(def, &given);
   return apply_assignments(def, list, count, err);
 }
 
@@ -391,41 +457,123 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_check_insulator_of_field(def, err) : status;
 }
 
-static ZpStatus check_square(const ZpActuatorDef *def, ZpError *err) {
-  double shorter = fmin(def->drive.duty, 1 - def->drive.duty) / def->drive.frequency;
-  if (def->drive.rise_time <= shorter) return ZP_OK;
+/* The keys of a waveform have a group: drive or setpoint. */
+static int key_in(const char *group, const char *name) {
+  char whole[64];
+  snprintf(whole, sizeof whole, "%s.%s", group, name);
+  return zp_key_find(whole);
+}
+
+static double value_in(const ZpActuatorDef *def, const char *group, const char *name) {
+  return zp_def_get(def, key_in(group, name));
+}
+
+/* Is a key other than by default? */
+static bool is_set(const ZpActuatorDef *def, int key) {
+  const char *text = zp_def_text(def, key);
+  double value = text ? 0 : zp_def_get(def, key);
+  return text ? *text != 0 : value != keys[key].def && !(isnan(value) && isnan(keys[key].def));
+}
+
+static ZpStatus check_square(const ZpActuatorDef *def, const char *group, ZpError *err) {
+  double duty = value_in(def, group, "duty"), rise_time = value_in(def, group, "rise_time");
+  double shorter = fmin(duty, 1 - duty) / value_in(def, group, "frequency");
+  if (rise_time <= shorter) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
-                 "drive.rise_time = %g s: longer than the shorter part of the square wave, %g s (drive.duty / "
-                 "drive.frequency)",
-                 def->drive.rise_time, shorter);
+                 "%s.rise_time = %g s: longer than the shorter part of the square wave, %g s (%s.duty / %s.frequency)",
+                 group, rise_time, shorter, group, group);
 }
 
 /* A key that the waveform does not use must not be given: it would be a mistake in the one or the other. */
-static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
+static ZpStatus check_waveform(const ZpActuatorDef *def, const char *group, ZpError *err) {
   static const struct {
-    const char *key, *goes_with;
+    const char *name, *goes_with;
     bool used[ZpWaveformKind_COUNT];
-  } of[] = {{"drive.offset", "ramp, sine or square", {0, 1, 1, 1, 0}},
-            {"drive.rise_time", "ramp or square", {0, 1, 0, 1, 0}},
-            {"drive.frequency", "sine or square", {0, 0, 1, 1, 0}},
-            {"drive.duty", "square", {0, 0, 0, 1, 0}},
-            {"drive.table", "table", {0, 0, 0, 0, 1}},
-            {"drive.file", "table", {0, 0, 0, 0, 1}}};
-  ZpWaveformKind kind = def->drive.waveform;
-  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
-    int key = zp_key_find(of[i].key);
-    const char *text = zp_def_text(def, key);
-    bool given = text ? *text != 0 : zp_def_get(def, key) != keys[key].def;
-    if (given && !of[i].used[kind])
-      return zp_fail(err, ZP_BAD_INPUT, "%s: requires drive.waveform %s, but it is %s", of[i].key, of[i].goes_with,
-                     words_of_ZpWaveformKind[kind].word);
+  } of[] = {{"offset", "ramp, sine or square", {0, 1, 1, 1, 0}},
+            {"rise_time", "ramp or square", {0, 1, 0, 1, 0}},
+            {"frequency", "sine or square", {0, 0, 1, 1, 0}},
+            {"duty", "square", {0, 0, 0, 1, 0}},
+            {"table", "table", {0, 0, 0, 0, 1}},
+            {"file", "table", {0, 0, 0, 0, 1}}};
+  ZpWaveformKind kind = (ZpWaveformKind)value_in(def, group, "waveform");
+  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+    if (is_set(def, key_in(group, of[i].name)) && !of[i].used[kind])
+      return zp_fail(err, ZP_BAD_INPUT, "%s.%s: requires %s.waveform %s, but it is %s", group, of[i].name, group,
+                     of[i].goes_with, words_of_ZpWaveformKind[kind].word);
+  if (is_set(def, key_in(group, "table")) && is_set(def, key_in(group, "file")))
+    return zp_fail(err, ZP_BAD_INPUT, "%s.table: %s.file is given as well; give only one of them", group, group);
+  if (kind == ZP_WAVEFORM_RAMP && value_in(def, group, "rise_time") == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "%s.rise_time = 0 s: a ramp needs a rise time above 0; or use %s.waveform step",
+                   group, group);
+  return kind == ZP_WAVEFORM_SQUARE ? check_square(def, group, err) : ZP_OK;
+}
+
+bool zp_def_takes_table(const ZpActuatorDef *def) {
+  bool controlled = def->control.kind != ZP_CONTROL_NONE;
+  return (controlled ? def->setpoint.waveform : def->drive.waveform) == ZP_WAVEFORM_TABLE;
+}
+
+/* Without a controller its keys would do nothing. */
+static ZpStatus check_no_control(const ZpActuatorDef *def, ZpError *err) {
+  for (int i = 0; i < KEY_COUNT; i++) {
+    bool of_it = strncmp(keys[i].name, "control.", 8) == 0 || strncmp(keys[i].name, "setpoint.", 9) == 0;
+    if (of_it && is_set(def, i))
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires control.kind pi or boost_pi, but it is none", keys[i].name);
   }
-  if (*def->drive.table && *def->drive.file)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.table: drive.file is given as well; give only one of them");
-  if (kind == ZP_WAVEFORM_RAMP && def->drive.rise_time == 0)
+  return ZP_OK;
+}
+
+/* A setpoint that no actuator can have. */
+static ZpStatus check_reach(const ZpActuatorDef *def, ZpError *err) {
+  static const double most = 1;
+  double value = def->setpoint.value;
+  bool moves = def->setpoint.waveform != ZP_WAVEFORM_STEP && def->setpoint.waveform != ZP_WAVEFORM_TABLE;
+  double low = moves ? fmin(value, def->setpoint.offset) : value,
+         high = moves ? fmax(value, def->setpoint.offset) : value;
+  ZpControlSignal signal = def->control.signal;
+  if (def->setpoint.waveform == ZP_WAVEFORM_TABLE) return ZP_OK;
+  if (isnan(value)) return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: control.kind is given, which requires it");
+  if (signal == ZP_CONTROL_CONTRACTION && high > most)
+    return zp_fail(err, ZP_BAD_INPUT, "setpoint.value = %g: a contraction is at most %g", high, most);
+  if ((signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CAPACITANCE) && low < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "setpoint.value = %g: this signal, control.signal = %s, is at least 0", low,
+                   zp_word_of("control.signal", (int)signal));
+  return ZP_OK;
+}
+
+/* What a controller asks of the actuator and of the drive. */
+static ZpStatus check_plant(const ZpActuatorDef *def, ZpError *err) {
+  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  ZpControlSignal signal = def->control.signal;
+  if (def->actuator.kind == ZP_KIND_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "control.kind: requires electrodes; actuator.kind is ribbon");
+  if (!two && (signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CONTRACTION))
+    return zp_fail(err, ZP_BAD_INPUT, "control.signal = %s: requires actuator.kind electro_ribbon; use stroke",
+                   zp_word_of("control.signal", (int)signal));
+  if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "drive.rise_time = 0 s: a ramp needs a rise time above 0; or use drive.waveform step");
-  return kind == ZP_WAVEFORM_SQUARE ? check_square(def, err) : ZP_OK;
+                   "drive.waveform = %s: with control.kind the controller sets the voltage; use step, whose "
+                   "drive.voltage is its limit, and setpoint.waveform",
+                   zp_word_of("drive.waveform", (int)def->drive.waveform));
+  return ZP_OK;
+}
+
+static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
+  static const double periods = 8, most = 1e6; /* of the delay; samples in a run */
+  if (def->control.kind == ZP_CONTROL_NONE) return check_no_control(def, err);
+  double period = def->control.period;
+  if (def->control.delay > periods * period)
+    return zp_fail(err, ZP_BAD_INPUT, "control.delay = %g s: at most %g periods, %g s", def->control.delay, periods,
+                   periods * period);
+  if (period > def->solver.end_time)
+    return zp_fail(err, ZP_BAD_INPUT, "control.period = %g s: longer than the run, solver.end_time = %g s", period,
+                   def->solver.end_time);
+  if (def->solver.end_time > most * period)
+    return zp_fail(err, ZP_BAD_INPUT, "control.period = %g s: more than %g samples until solver.end_time = %g s",
+                   period, most, def->solver.end_time);
+  ZpStatus status = check_plant(def, err);
+  if (status == ZP_OK) status = check_waveform(def, "setpoint", err);
+  return status == ZP_OK ? check_reach(def, err) : status;
 }
 
 /* Keys of a source that would do nothing. */
@@ -436,9 +584,8 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
     char name[32];
     snprintf(name, sizeof name, "source.%s", of_amplifier[i]);
     int key = zp_key_find(name);
-    double value = zp_def_get(def, key);
-    bool given = !(isnan(value) && isnan(keys[key].def)) && value != keys[key].def;
-    if (given) return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", name);
+    if (is_set(def, key))
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", name);
   }
   return ZP_OK;
 }
@@ -606,7 +753,7 @@ static const Need film_needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
 enum { FILM_NEEDS = sizeof film_needs / sizeof film_needs[0] };
 
 /* Beyond a bead the local law of plates goes on with air. */
-static ZpStatus check_bead(const ZpActuatorDef *def, ZpError *err) {
+ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_needs(def, "liquid.model = bead", film_needs, FILM_NEEDS, "liquid.model none", err);
   if (status != ZP_OK) return status;
   if (def->electro.model == ZP_ELECTRO_FIELD)
@@ -617,20 +764,26 @@ static ZpStatus check_bead(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "liquid.model = bead: requires electro.edges false, but it is true: what lateral edges add is known "
                    "for one liquid everywhere; use liquid.model submerged");
+  if (!isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = bead: requires %s none: what leaks beyond a bead is not modelled; use liquid.model "
+                   "none or submerged",
+                   isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity");
   return ZP_OK;
 }
 
-ZpLiquidModel zp_liquid_of(const ZpActuatorDef *def) {
+ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def) {
+  if (!is_ours(def)) return ZP_LIQUID_NONE;
   if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
-  return check_bead(def, NULL) == ZP_OK ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
+  return zp_check_bead(def, NULL) == ZP_OK ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
 }
 
 static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
-  switch (zp_liquid_of(def)) {
+  switch (zp_def_liquid(def)) {
   case ZP_LIQUID_SUBMERGED:
     return check_needs(def, "liquid.model = submerged", film_needs, FILM_NEEDS, "liquid.model none", err);
   case ZP_LIQUID_BEAD:
-    return check_bead(def, err);
+    return zp_check_bead(def, err);
   default:
     return ZP_OK;
   }
@@ -656,11 +809,6 @@ static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT, "%s: requires electro.edges false: no charge gathers in the field at the edges",
                    given->name);
-  if (zp_liquid_of(def) == ZP_LIQUID_BEAD)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "%s: requires liquid.model none or submerged, but it is bead: what leaks beyond a bead is not modelled",
-        given->name);
   ZpStatus alike = zp_check_like_insulators(def, given->name, err);
   return alike == ZP_OK ? check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err) : alike;
 }
@@ -702,6 +850,32 @@ static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "sense.frequency: requires electrodes; actuator.kind is ribbon");
   return ZP_OK;
+}
+
+/* The stop of the platforms. */
+static ZpStatus check_stop(const ZpActuatorDef *def, ZpError *err) {
+  bool given = def->load.stop_stiffness != keys[zp_key_find("load.stop_stiffness")].def;
+  if (isnan(def->load.stop_opening))
+    return given ? zp_fail(err, ZP_BAD_INPUT, "load.stop_stiffness: requires load.stop_opening") : ZP_OK;
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "load.stop_opening: requires actuator.kind electro_ribbon, whose platforms it holds");
+  if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
+    return zp_fail(err, ZP_BAD_INPUT, "load.stop_opening: requires contact.model unilateral");
+  return ZP_OK;
+}
+
+/* A half is the mirror image of the other only where gravity is vertical. */
+static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
+  static const double half_turn = 3.14159265358979323846;
+  bool mirrored = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->actuator.symmetry == ZP_SYMMETRY_HALF;
+  double tilt = fabs(def->mount.tilt);
+  if (!mirrored || tilt < zp_tilt_rounding || half_turn - tilt < zp_tilt_rounding) return ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "mount.tilt = %g degree: requires actuator.symmetry none, but it is half, whose halves are mirror images "
+      "at 0 and 180 degree only",
+      def->mount.tilt * 180 / half_turn);
 }
 
 /* The spring beside the load. */
@@ -756,7 +930,10 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    def->electro.refresh_period);
   ZpStatus status = zp_check_ribbons(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
-  if (status == ZP_OK) status = check_drive(def, err);
+  if (status == ZP_OK) status = check_stop(def, err);
+  if (status == ZP_OK) status = check_tilt(def, err);
+  if (status == ZP_OK) status = check_waveform(def, "drive", err);
+  if (status == ZP_OK) status = check_control(def, err);
   if (status == ZP_OK) status = check_source(def, err);
   if (status == ZP_OK) status = check_initial(def, err);
   if (status == ZP_OK) status = check_symmetry(def, err);

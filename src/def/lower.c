@@ -7,10 +7,12 @@
 
 static const char prefix[] = "lower.";
 
-/* Is this a key of lower.* that is given? */
+/* Is this a key of lower.* that is given? Of a material, the word none is not. */
 static bool is_given(const ZpActuatorDef *def, int key) {
   size_t offset = zp_key(key)->offset, first = offsetof(ZpActuatorDef, lower);
-  return offset >= first && offset < first + sizeof def->lower && !isnan(zp_def_get(def, key));
+  if (offset < first || offset >= first + sizeof def->lower) return false;
+  double value = zp_def_get(def, key);
+  return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
 }
 
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
@@ -47,6 +49,12 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
     return zp_fail(err, ZP_BAD_INPUT,
                    "%ssegment_1.length to %ssegment_3.length: %g m together, more than the ribbon's %g m", prefixed,
                    prefixed, segments, flexible);
+  if (segments > 0 && ribbon->ribbon.plane == ZP_PLANE_ANTICLASTIC)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "%ssegment_1.length to %ssegment_3.length: %g m together, but ribbon.plane anticlastic knows ribbons "
+        "without segments only",
+        prefixed, prefixed, segments);
   if (segments > 0 && ribbon->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT, "%ssegment_1.length = %g m: segments require ribbon.model rod", prefixed,
                    ribbon->segment_1.length);
@@ -70,6 +78,8 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_segments(def, "", flexible, err);
+  if (def->ribbon.plane == ZP_PLANE_ANTICLASTIC && def->ribbon.model != ZP_RIBBON_ROD)
+    return zp_fail(err, ZP_BAD_INPUT, "ribbon.plane = anticlastic: requires ribbon.model rod");
   if (status == ZP_OK) status = check_lower(def, err);
   if (status == ZP_OK) status = check_segments(&lower, prefix, flexible, err);
   return status;

@@ -1,8 +1,8 @@
 #include "drive/meter.h"
 
 #include <math.h>
-#include <stdint.h>
 
+#include "drive/noise.h"
 #include "math/elementary.h"
 
 ZpMeter zp_meter_of(const ZpActuatorDef *def, double capacitance) {
@@ -23,17 +23,6 @@ ZpMeter zp_meter_of(const ZpActuatorDef *def, double capacitance) {
 
 double zp_meter_window(const ZpMeter *meter) {
   return (double)meter->periods / meter->frequency;
-}
-
-/* Nearly normal, of unit variance: the sum of 12 even ones; the same everywhere. */
-static double unit_noise(uint64_t *seed) {
-  enum { TERMS = 12 };
-  double sum = 0;
-  for (int k = 0; k < TERMS; k++) {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    sum += (double)(*seed >> 11) * 0x1p-53;
-  }
-  return sum - 0.5 * TERMS;
 }
 
 /* A current as it is read. */
@@ -61,7 +50,7 @@ void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t windo
     double sum = 0;
     for (size_t k = 0; k < count; k++) {
       double turns = (double)(k % per) / (double)per, t = (double)(w * count + k) / rate;
-      double noise = meter->noise > 0 ? meter->noise * unit_noise(&seed) : 0;
+      double noise = meter->noise > 0 ? meter->noise * zp_unit_noise(&seed) : 0;
       sum += readable(meter, current_at(meter, trace, t, turns, &at) + noise) * zp_cosine_of(turns);
     }
     capacitance[w] = 2 * sum / ((double)count * gain);

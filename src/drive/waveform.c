@@ -22,6 +22,16 @@ ZpWaveform zp_waveform_of(const ZpActuatorDef *def, const ZpDriveTable *table) {
                       .table = table ? *table : (ZpDriveTable){0}};
 }
 
+ZpWaveform zp_setpoint_of(const ZpActuatorDef *def, const ZpDriveTable *table) {
+  return (ZpWaveform){.kind = def->setpoint.waveform,
+                      .offset = def->setpoint.offset,
+                      .voltage = def->setpoint.value,
+                      .rise_time = def->setpoint.rise_time,
+                      .frequency = def->setpoint.frequency,
+                      .duty = def->setpoint.duty,
+                      .table = *table};
+}
+
 /* -- knots ---------------------------------------------------------------------------------------- */
 
 enum { PER_CYCLE = 4 }; /* knots of a square wave */

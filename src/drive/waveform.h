@@ -22,6 +22,9 @@ typedef struct ZpWaveform {
 /* The waveform of the keys; the rows stay the caller's. */
 ZpWaveform zp_waveform_of(const ZpActuatorDef *def, const ZpDriveTable *table);
 
+/* The waveform of the setpoint's keys, in the unit of control.signal. */
+ZpWaveform zp_setpoint_of(const ZpActuatorDef *def, const ZpDriveTable *table);
+
 /* Voltage from time t >= 0 on; at a jump that behind it. */
 double zp_waveform_voltage(const ZpWaveform *w, double t);
 

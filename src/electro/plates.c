@@ -191,14 +191,13 @@ static void add_elements_with_edges(const ZpPlatesParams *p, const ZpPlatesEval 
 }
 
 /* Capacitance counts over that of the liquid. */
-static void add_part(const ZpPlatesParams *p, const ZpPlatesParams *law, double U, double gap, double length,
-                     ZpPlatesTotals *totals) {
+static void add_part(const ZpPlatesParams *law, double U, double gap, double length, ZpPlatesTotals *totals) {
   ZpPlatesTotals part = {0, 0, 0, 0};
   add_piece(law, U, gap, length, &part);
   totals->force += part.force;
   totals->potential += part.potential;
   totals->charge += part.charge;
-  totals->inverse_gap += law->k / p->k * part.inverse_gap;
+  totals->inverse_gap += law->relative * part.inverse_gap;
 }
 
 static void add_covered(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesTotals *totals) {
@@ -209,7 +208,7 @@ static void add_covered(const ZpPlatesParams *p, const ZpPlatesEval *e, double U
       for (int q = 0; q < GAUSS; q++) {
         double gap = e->gap[i] + (e->gap[i + 1] - e->gap[i]) * zp_plates_share(p, &piece[k], i, q);
         double length = gauss_weight[q] * (piece[k].to - piece[k].from) * e->dx[i];
-        add_part(p, piece[k].law, U, gap, length, totals);
+        add_part(piece[k].law, U, gap, length, totals);
       }
   }
 }
@@ -218,7 +217,7 @@ static void add_platform(const ZpPlatesParams *p, const ZpPlatesEval *e, double 
   for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++) {
     double wet = zp_plates_flat(p, e->cover, i);
     add_piece(p, U, e->gap[i], wet * p->flat_length, totals);
-    if (wet < 1) add_part(p, p->air, U, e->gap[i], (1 - wet) * p->flat_length, totals);
+    if (wet < 1) add_part(p->air, U, e->gap[i], (1 - wet) * p->flat_length, totals);
   }
 }
 

@@ -20,6 +20,7 @@ typedef struct ZpPlatesParams {
   size_t nodes;                  /* N stations */
   size_t stride;                 /* places of arrays over the nodes of both ribbons, at least 2 N */
   double k;                      /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
+  double relative;               /* permittivity over that of the liquid: 1, of air below it */
   double d;                      /* liquid thickness that stands for both insulators, m */
   double h_per_volt;             /* g + d at which breakdown sets in, per volt: share / E_bd; 0 without cap */
   double h_least;                /* g + d below which the law is not followed further, m */
@@ -32,8 +33,8 @@ typedef struct ZpPlatesParams {
   double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
 
   const struct ZpEdgeLaw *edges;    /* what lateral edges add, edges.h; NULL without */
-  const struct ZpPlatesParams *air; /* the law where there is no liquid, of which k, d, h_per_volt and h_least count;
-                                       NULL: liquid is everywhere */
+  const struct ZpPlatesParams *air; /* the law where there is no liquid; k, relative, d, h_per_volt and h_least of it
+                                       count. NULL: liquid is everywhere */
 } ZpPlatesParams;
 
 /* Written by zp_plates_gaps. */

@@ -78,12 +78,20 @@ static bool at_bound(const ZpFit *fit, const double *z, int k) {
   return z[k] <= fit->lower[k] * (1 + 1e-6) || z[k] >= fit->upper[k] * (1 - 1e-6);
 }
 
-/* What the summary says of the keys; `square`: sum of squared residuals. */
+/* The first key at a bound; NULL if there is none. */
+static const char *key_at_bound(const ZpFit *fit, const double *z) {
+  for (int k = 0; k < fit->n; k++)
+    if (at_bound(fit, z, k)) return zp_key(fit->key[k])->name;
+  return NULL;
+}
+
+/* What the summary says of the keys; `square`: sum of squared weighted residuals. */
 static void report_keys(const ZpFit *fit, const double *z, const double *J, double square, ZpResult *result) {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   bool told_apart = J && covariance(fit, J, C);
   size_t n = (size_t)fit->n;
-  double variance = fit->rows > n ? square / (double)(fit->rows - n) : NAN;
+  double reduced = fit->rows > n ? square / (double)(fit->rows - n) : NAN;
+  double variance = fit->sigma ? 1 : reduced; /* of a weighted residual */
   for (int k = 0; k < fit->n; k++) {
     const ZpKey *key = zp_key(fit->key[k]);
     bool known = told_apart && !at_bound(fit, z, k);
@@ -96,6 +104,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
     if (at_bound(fit, z, k))
       zp_result_note(result, "%s is at a bound of its range: it has no standard error", key->name);
   }
+  if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
   if (!told_apart && n > 0)
     zp_result_note(result, "the data cannot distinguish the fitted keys: they have no standard errors");
 }
@@ -153,6 +162,10 @@ static const struct {
                            {"s", "residual_rms_s", "ms", 1e3},
                            {"F", "residual_rms_F", "pF", 1e12}};
 
+const char *zp_fit_unit(const ZpFit *fit) {
+  return of_kind[fit->kind].unit;
+}
+
 /* The static pull-in of the model as fitted, of the last row: zip times just above it show where it is. */
 static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result) {
   ZpActuatorDef def;
@@ -167,24 +180,28 @@ static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result
 }
 
 static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult *result, ZpError *err) {
-  double z[ZP_FIT_MOST] = {0}, square = 0;
+  double z[ZP_FIT_MOST] = {0}, square = 0, weighted = 0;
   for (int k = 0; k < fit->n; k++)
     z[k] = fmin(fmax(1, fit->lower[k]), fit->upper[k]);
   if (!zp_fit_solve(fit, z, fitted) && fit->status != ZP_OK) return fit->status;
-  for (size_t i = 0; i < fit->rows; i++)
+  for (size_t i = 0; i < fit->rows; i++) {
     square += (fitted[i] - fit->y[i]) * (fitted[i] - fit->y[i]);
+    weighted += zp_fit_residual(fit, fitted, i) * zp_fit_residual(fit, fitted, i);
+  }
+  const char *bound = key_at_bound(fit, z);
   bool good = isfinite(square) && !fit->stopped;
   bool has_J = good && zp_fit_jacobian(fit, z, J);
   if (fit->status != ZP_OK) return fit->status;
-  result->outcome = good ? ZP_CONVERGED : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  result->outcome = good ? (bound ? ZP_AT_BOUND : ZP_CONVERGED) : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
   if (good)
-    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms", fit->rows,
-             fit->n > 0 ? "fitted" : "compared", of_kind[fit->kind].factor * rms, of_kind[fit->kind].shown);
+    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms%s%s", fit->rows,
+             fit->n > 0 ? "fitted" : "compared", of_kind[fit->kind].factor * rms, of_kind[fit->kind].shown,
+             bound ? "; at its bound: " : "", bound ? bound : "");
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "some rows have no equilibrium within the bounds");
-  report_keys(fit, z, has_J ? J : NULL, square, result);
+  report_keys(fit, z, has_J ? J : NULL, weighted, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   if (good && fit->kind == ZP_FIT_TIME && note_pull_in(fit, z, result) != ZP_OK) return zp_fail_memory(err);
   zp_result_add(result, of_kind[fit->kind].residual, of_kind[fit->kind].unit, rms);

@@ -19,7 +19,7 @@ static ZpStatus run_none(ZpStudy study, const ZpActuatorDef *def, const ZpHooks 
   return zp_study_run(study, def, NULL, hooks, result, err);
 }
 
-/* -- course: a table of voltages, a checkpoint ------------------------------------------------------- */
+/* -- course: a table of voltages or setpoints, a checkpoint ------------------------------------------------------- */
 
 typedef struct Files {
   ZpDriveRows rows;
@@ -47,7 +47,7 @@ static ZpStatus read_checkpoint(const ZpActuatorDef *def, ZpCheckpoint **start, 
 static ZpStatus open_files(const ZpActuatorDef *def, Files *files, ZpError *err) {
   ZpStatus status = ZP_OK;
   *files = (Files){0};
-  if (def->drive.waveform == ZP_WAVEFORM_TABLE) {
+  if (zp_def_takes_table(def)) {
     status = zp_drive_rows_read(def, &files->rows, err);
     files->table = zp_drive_rows_table(&files->rows);
     files->input.table = &files->table;

@@ -28,6 +28,7 @@ typedef struct ZpFit {
   bool opening; /* of the lengths the opening is measured, else the stroke */
   size_t rows;
   double *x, *y; /* [rows] SI */
+  double *sigma; /* [rows] standard deviations of y; NULL: not given, all alike */
   int evaluations;
   bool stopped;    /* the progress hook asked for it */
   ZpStatus status; /* of the machine */
@@ -52,7 +53,13 @@ bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
 ZpStatus zp_fit_check(const ZpActuatorDef *def, ZpError *err);
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err);
 
-/* Derivative of the fitted values by z => J [rows][n]. False where there is none. */
+/* The unit of what is measured: "m", "N", "s" or "F". */
+const char *zp_fit_unit(const ZpFit *fit);
+
+/* Fitted minus measured over its standard deviation, or as it is where none are given. */
+double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row);
+
+/* Derivative of the fitted values by z, as residuals are weighted => J [rows][n]. False where there is none. */
 bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J);
 
 #endif

@@ -3,17 +3,20 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/fail.h"
 #include "fit/fit.h"
 #include "io/data.h"
+#include "io/range.h"
 
 void zp_fit_close(ZpFit *fit) {
   free(fit->x);
   free(fit->y);
+  free(fit->sigma);
   for (int k = 0; k < fit->others; k++)
     free(fit->other[k]);
-  fit->x = fit->y = NULL;
+  fit->x = fit->y = fit->sigma = NULL;
   fit->others = 0;
 }
 
@@ -27,6 +30,33 @@ static void find_bounds(ZpFit *fit, int i) {
   double start = fit->start[i], at_min = key->min / start, at_max = key->max / start;
   fit->lower[i] = fmax(fit->def->calibrate.lower, fmin(at_min, at_max));
   fit->upper[i] = fmin(fit->def->calibrate.upper, fmax(at_min, at_max));
+}
+
+/* "ribbon.young_modulus = 100 GPa .. 250 GPa": in place of the multiples of the start. */
+static ZpStatus set_bounds(ZpFit *fit, char *text, ZpError *err) {
+  ZpInterval bounds;
+  ZpStatus status = zp_interval_read("calibrate.bounds", text, &bounds, err);
+  if (status != ZP_OK) return status;
+  int i = 0;
+  while (i < fit->n && fit->key[i] != bounds.key)
+    i++;
+  const char *name = zp_key(bounds.key)->name;
+  if (i == fit->n) return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s is not in calibrate.fit", name);
+  const double start = fit->start[i], from = bounds.from / start, to = bounds.to / start;
+  fit->lower[i] = fmin(from, to);
+  fit->upper[i] = fmax(from, to);
+  if (fit->lower[i] <= 1 && fit->upper[i] >= 1) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s starts at %g %s, which is not within them", name, start,
+                 zp_key(bounds.key)->unit);
+}
+
+static ZpStatus read_bounds(ZpFit *fit, ZpError *err) {
+  char list[ZP_TEXT_SIZE], *rest = list;
+  ZpStatus status = ZP_OK;
+  memcpy(list, fit->def->calibrate.bounds, sizeof list);
+  for (char *part = strsep(&rest, ";"); part && status == ZP_OK; part = strsep(&rest, ";"))
+    if (part[strspn(part, " \t")]) status = set_bounds(fit, part, err);
+  return status;
 }
 
 static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
@@ -98,8 +128,14 @@ static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, in
   return status;
 }
 
-/* A key that a column sets cannot be fitted as well. */
+/* A key that a column sets cannot be fitted as well, nor set by another column. */
 static ZpStatus check_set(const ZpFit *fit, int key, const char *column, ZpError *err) {
+  bool twice = fit->others > 0 && fit->x_key == key;
+  for (int i = 0; i + 1 < fit->others; i++)
+    twice |= fit->other_key[i] == key;
+  if (twice)
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", column,
+                   zp_key(key)->name);
   for (int i = 0; i < fit->n; i++)
     if (fit->key[i] == key)
       return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is given by column %.60s and cannot be fitted",
@@ -109,10 +145,12 @@ static ZpStatus check_set(const ZpFit *fit, int key, const char *column, ZpError
 
 /* Times of one run must rise from 0 on. */
 static ZpStatus check_times(const ZpFit *fit, const ZpData *data, ZpError *err) {
-  for (size_t i = 0; i < fit->rows; i++)
+  for (size_t i = 0; i < fit->rows; i++) {
+    int line;
+    const char *path = zp_data_place(data, i, &line);
     if (!(fit->x[i] >= (i ? fit->x[i - 1] : 0)))
-      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must not be negative and must not decrease", data->path,
-                     data->line[i + 1]);
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must not be negative and must not decrease", path, line);
+  }
   return ZP_OK;
 }
 
@@ -177,8 +215,36 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
     if (!zp_fit_row(fit, start, i, &def, &voltage)) continue; /* read_column has said it */
-    if (check_row(fit, &def, voltage, &reason) != ZP_OK)
-      return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, data->line[i + 1], reason.message);
+    if (check_row(fit, &def, voltage, &reason) == ZP_OK) continue;
+    int line;
+    const char *path = zp_data_place(data, i, &line);
+    return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", path, line, reason.message);
+  }
+  return ZP_OK;
+}
+
+/* The standard deviations of what is measured, where a column has them: "sigma_mm". */
+static ZpStatus read_sigma(ZpFit *fit, const ZpData *data, ZpError *err) {
+  const char *unit = zp_fit_unit(fit);
+  double factor, divisor;
+  size_t column = 0;
+  while (column < data->columns && strncasecmp(data->cell[column], "sigma", 5) != 0)
+    column++;
+  if (column == data->columns) return ZP_OK;
+  if (!zp_data_unit(data->cell[column], "sigma", unit, &factor, &divisor))
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: not in a unit of what is measured, %s",
+                   data->cell[column], unit);
+  fit->sigma = calloc(fit->rows, sizeof *fit->sigma);
+  if (!fit->sigma) return zp_fail_memory(err);
+  for (size_t i = 0; i < fit->rows; i++) {
+    int line;
+    const char *path = zp_data_place(data, i, &line);
+    ZpStatus status = zp_data_number(data, i, column, &fit->sigma[i], err);
+    if (status != ZP_OK) return status;
+    fit->sigma[i] = fit->sigma[i] * factor / divisor;
+    if (!(fit->sigma[i] > 0))
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: column %.60s: a standard deviation must be above 0", path, line,
+                     data->cell[column]);
   }
   return ZP_OK;
 }
@@ -208,6 +274,7 @@ static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err)
     status = zp_data_number(data, i, (size_t)column, &fit->y[i], err);
     fit->y[i] = fit->y[i] * factor / divisor;
   }
+  if (status == ZP_OK) status = read_sigma(fit, data, err);
   return status == ZP_OK ? check_rows(fit, data, err) : status;
 }
 
@@ -252,9 +319,10 @@ ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
   if (*def->data.file == 0)
     return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
   ZpStatus status = read_keys(fit, err);
+  if (status == ZP_OK) status = read_bounds(fit, err);
   if (status != ZP_OK) return status;
   ZpData data;
-  status = zp_data_read("data.file", def->data.file, &data, err);
+  status = zp_data_read_all("data.file", def->data.file, def->data.columns, &data, err);
   if (status == ZP_OK) status = read_data(fit, &data, err);
   zp_data_destroy(&data);
   return status;

@@ -136,13 +136,21 @@ static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
   return all;
 }
 
+static double weight(const ZpFit *fit, size_t row) {
+  return fit->sigma ? 1 / fit->sigma[row] : 1;
+}
+
+double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row) {
+  return (fitted[row] - fit->y[row]) * weight(fit, row);
+}
+
 /* Sum of squares; a row that is not there counts as twice the largest measured value. */
 static double squares(const ZpFit *fit, const double *fitted) {
   double sum = 0, largest = 0;
   for (size_t i = 0; i < fit->rows; i++)
     largest = fmax(largest, fabs(fit->y[i]));
   for (size_t i = 0; i < fit->rows; i++) {
-    double r = isfinite(fitted[i]) ? fitted[i] - fit->y[i] : 2 * largest;
+    double r = isfinite(fitted[i]) ? zp_fit_residual(fit, fitted, i) : 2 * largest * weight(fit, i);
     sum += r * r;
   }
   return sum;
@@ -260,7 +268,11 @@ static bool difference_all(ZpFit *fit, const double *z, double *J) {
 }
 
 bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
-  return differentiate(fit, z, J) || difference_all(fit, z, J);
+  if (!differentiate(fit, z, J) && !difference_all(fit, z, J)) return false;
+  for (size_t i = 0; i < fit->rows; i++)
+    for (int k = 0; k < fit->n; k++)
+      J[i * (size_t)fit->n + (size_t)k] *= weight(fit, i);
+  return true;
 }
 
 /* Solve A x = b, n at most ZP_FIT_MOST, by elimination with pivoting; false if A is singular. */
@@ -297,7 +309,7 @@ static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted
   double A[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, b[ZP_FIT_MOST] = {0}, g[ZP_FIT_MOST] = {0};
   for (int k = 0; k < n; k++) {
     for (size_t i = 0; i < fit->rows; i++)
-      g[k] += J[i * (size_t)n + (size_t)k] * (fit->y[i] - fitted[i]);
+      g[k] -= J[i * (size_t)n + (size_t)k] * zp_fit_residual(fit, fitted, i);
     bool stays = (z[k] <= fit->lower[k] && g[k] < 0) || (z[k] >= fit->upper[k] && g[k] > 0);
     if (!stays) free_key[used++] = k;
     step[k] = 0;

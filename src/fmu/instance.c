@@ -17,6 +17,7 @@ ZpStatus zp_fmu_reset(ZpFmu *fmu, ZpError *err) {
   memset(fmu->rate, 0, sizeof fmu->rate);
   memset(fmu->input, 0, sizeof fmu->input);
   fmu->input[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&fmu->def);
+  fmu->input[ZP_INPUT_SETPOINT] = zp_fmu_first_setpoint(&fmu->def);
   fmu->prepared = false;
   return ZP_OK;
 }
@@ -89,6 +90,10 @@ ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err) {
   return is_built(fmu) ? ZP_OK : build(fmu, err);
 }
 
+static bool has_input(const ZpFmu *fmu, int input) {
+  return zp_fmu_is_input(input, fmu->def.control.kind != ZP_CONTROL_NONE);
+}
+
 static ZpStatus apply_input(ZpFmu *fmu, ZpInput input, ZpError *err) {
   return zp_sim_set_input(fmu->sim, input, fmu->input[input], fmu->rate[input], err);
 }
@@ -113,7 +118,7 @@ ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err) {
   ZpStatus status = zp_fmu_need_model(fmu, err);
   if (status == ZP_OK) status = zp_sim_restore(fmu->sim, fmu->origin, zp_sim_state_size(fmu->sim), err);
   for (int input = 0; input < ZP_INPUT_COUNT && status == ZP_OK; input++)
-    status = apply_input(fmu, (ZpInput)input, err);
+    if (has_input(fmu, input)) status = apply_input(fmu, (ZpInput)input, err);
   if (status != ZP_OK) return status;
   fmu->row[ZP_FMU_SIGNAL_current] = fmu->row[ZP_FMU_SIGNAL_power] = 0;
   read_row_again(fmu);
@@ -127,6 +132,7 @@ static ZpStatus find(const ZpFmu *fmu, uint32_t reference, ZpFmuVariable *variab
   bool found = zp_fmu_find(reference, variable);
   if (found && variable->role == ZP_FMU_PARAMETER)
     found = zp_fmu_is_parameter(variable->index, fmu->start.value[variable->index]);
+  if (found && variable->role == ZP_FMU_INPUT) found = has_input(fmu, variable->index);
   return found ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "value reference %u: there is no such variable", reference);
 }
 
@@ -170,9 +176,28 @@ static ZpStatus set_input(ZpFmu *fmu, ZpInput input, double value, double rate, 
   return ZP_OK;
 }
 
+/* The simulation continues where it is, in a model with another value of a key. If that fails all is as before. */
+static ZpStatus tune(ZpFmu *fmu, int key, double value, ZpError *err) {
+  size_t size = zp_fmu_state_size(fmu);
+  unsigned char *before = zp_calloc(2, size), *after = before + size;
+  if (!before) return zp_fail_memory(err);
+  zp_fmu_save(fmu, before);
+  ZpStatus status = zp_def_set(&fmu->def, key, value, err);
+  if (status == ZP_OK) {
+    zp_fmu_save(fmu, after);
+    status = zp_fmu_load(fmu, after, size, err);
+    ZpError ignored;
+    if (status != ZP_OK) zp_fmu_load(fmu, before, size, &ignored);
+  }
+  zp_free(before);
+  return status;
+}
+
 static ZpStatus set_parameter(ZpFmu *fmu, int key, double value, ZpError *err) {
+  bool running = fmu->phase & (ZP_FMU_STEPPING | ZP_FMU_AT_EVENT);
+  if (running && zp_fmu_is_tunable(key)) return tune(fmu, key, value, err);
   if (!(fmu->phase & (ZP_FMU_INSTANTIATED | ZP_FMU_INITIALIZING)))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: a parameter can be set until initialization ends", zp_key(key)->name);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: a fixed parameter can be set until initialization ends", zp_key(key)->name);
   ZpStatus status = zp_def_set(&fmu->def, key, value, err);
   if (status == ZP_OK) fmu->prepared = false;
   return status;

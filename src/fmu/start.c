@@ -1,6 +1,8 @@
 /* Start values => Def. */
 #include "fmu/start.h"
 
+#include <math.h>
+
 #include "base/fail.h"
 
 bool zp_fmu_has_number(int index) {
@@ -20,4 +22,8 @@ ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *
 
 double zp_fmu_first_voltage(const ZpActuatorDef *def) {
   return def->drive.waveform == ZP_WAVEFORM_STEP ? def->drive.voltage : 0;
+}
+
+double zp_fmu_first_setpoint(const ZpActuatorDef *def) {
+  return isnan(def->setpoint.value) ? 0 : def->setpoint.value;
 }

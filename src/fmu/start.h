@@ -24,17 +24,6 @@ enum {
   ZP_FMU_KEYS = 0
 #include <zipact/keys.def>
 };
-#undef ZP_GROUP
-#undef ZP_GROUP_END
-#undef ZP_REAL
-#undef ZP_REAL_AS
-#undef ZP_REAL_AUTO
-#undef ZP_REAL_NONE
-#undef ZP_INT
-#undef ZP_BOOL
-#undef ZP_ENUM
-#undef ZP_TEXT
-#undef ZP_OF_SCENARIO
 
 /* 16 bytes that stand nowhere else in a binary, without a final 0; as text for a source. */
 #define ZP_FMU_MARK "\x93zipact-fmu-v1\r\n"
@@ -58,6 +47,9 @@ ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *
 
 /* The voltage that the input has until it is set: that of a step; of other waveforms, which an FMU has not, 0. V */
 double zp_fmu_first_voltage(const ZpActuatorDef *def);
+
+/* The setpoint that the input has until it is set: setpoint.value, or where that is none, 0. */
+double zp_fmu_first_setpoint(const ZpActuatorDef *def);
 
 /* Does key `index` have a number? All but texts and keys of the scenario. */
 bool zp_fmu_has_number(int index);

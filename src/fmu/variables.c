@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <zipact/checkpoint.h>
+
 #include "fmu/start.h"
 
 /* Value references begin here: far enough apart for all tables. */
@@ -25,8 +27,12 @@ static bool is_one_of(const char *name, const char *const *list, size_t count) {
 }
 
 bool zp_fmu_is_output(int index) {
-  static const char *const others[] = {"time", "sensed_capacitance", "sensed_stroke"};
+  static const char *const others[] = {"time", "setpoint", "sensed_capacitance", "sensed_stroke"};
   return !is_one_of(signals[index], others, sizeof others / sizeof others[0]);
+}
+
+bool zp_fmu_is_input(int index, bool controlled) {
+  return index == ZP_INPUT_LOAD || (index == ZP_INPUT_SETPOINT) == controlled;
 }
 
 bool zp_fmu_follows(int index, ZpInput input) {
@@ -38,11 +44,16 @@ bool zp_fmu_follows(int index, ZpInput input) {
 
 bool zp_fmu_is_parameter(int index, double value) {
   static const char *const others[] = {
-      "preset",   "drive.", "sense.",       "solver.end_time", "solver.stop_when_zipped",
-      "initial.", "data.",  "calibrate.",   "modes.",          "isometric.",
-      "profile.", "cycle.", "sensitivity.", "output."};
-  if (!zp_fmu_has_number(index) || isnan(value)) return false;
+      "preset",       "drive.",         "sense.",     "solver.end_time", "solver.stop_when_zipped",
+      "control.kind", "control.signal", "setpoint.",  "initial.",        "data.",
+      "calibrate.",   "modes.",         "isometric.", "profile.",        "cycle.",
+      "sensitivity.", "sampling.",      "optimize.",  "output."};
+  if (!zp_fmu_has_number(index) || zp_key_is_material(index) || isnan(value)) return false;
   return !is_one_of(zp_key(index)->name, others, sizeof others / sizeof others[0]);
+}
+
+bool zp_fmu_is_tunable(int index) {
+  return !zp_checkpoint_holds(index);
 }
 
 bool zp_fmu_find(uint32_t reference, ZpFmuVariable *variable) {
@@ -74,7 +85,7 @@ const char *zp_fmu_name(ZpFmuVariable variable) {
 }
 
 const char *zp_fmu_unit(ZpFmuVariable variable) {
-  static const char *const of_input[ZP_INPUT_COUNT] = {"V", "N"};
+  static const char *const of_input[ZP_INPUT_COUNT] = {"V", "N", "1"};
   size_t count;
   if (variable.role == ZP_FMU_TIME) return "s";
   if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];
@@ -85,7 +96,8 @@ const char *zp_fmu_unit(ZpFmuVariable variable) {
 const char *zp_fmu_help(ZpFmuVariable variable) {
   static const char *const of_input[ZP_INPUT_COUNT] = {
       "voltage that the source is told",
-      "force on the whole actuator beside load.mass, without inertia; positive pulls the lower platform down"};
+      "force on the whole actuator beside load.mass, without inertia; positive pulls the lower platform down",
+      "what the controller is to hold, in the unit of control.signal, SI"};
   size_t count;
   if (variable.role == ZP_FMU_TIME) return "time since the start";
   if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];

@@ -40,14 +40,21 @@ const char *zp_fmu_help(ZpFmuVariable variable);
  * _ENUM. */
 ZpKeyType zp_fmu_type(ZpFmuVariable variable);
 
-/* Is signal `index` an output? All but the time, and what only a study finds. */
+/* Is signal `index` an output? All but the time, the setpoint, which is an input, and what only a study finds. */
 bool zp_fmu_is_output(int index);
+
+/* Has an FMU of these keys that input? With a controller the setpoint takes the place of the voltage. */
+bool zp_fmu_is_input(int index, bool controlled);
 
 /* Does output `index` follow the input at once, while nothing moves? */
 bool zp_fmu_follows(int index, ZpInput input);
 
 /* Is key `index` a parameter where its value is `value`? Keys of the actuator and its solver with a number or a word;
- * not the drive, which the inputs replace, nor `auto` and `none`, for which no tool has a number. */
+ * not the drive nor the setpoint, which the inputs replace, nor `auto` and `none`, for which no tool has a number. */
 bool zp_fmu_is_parameter(int index, double value);
+
+/* Can parameter `index` change while the simulation runs? Gains of the controller, its noise and what steps may err by
+ * can. What makes the actuator, its supply or its liquid cannot, since the state is one of these. */
+bool zp_fmu_is_tunable(int index);
 
 #endif

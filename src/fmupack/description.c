@@ -28,7 +28,7 @@ static void list_variables(const ZpFmuPlan *plan, List *list) {
   list->count = 0;
   if (plan->version == 3) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_TIME, 0};
   for (int k = 0; k < ZP_INPUT_COUNT; k++)
-    list->item[list->count++] = (ZpFmuVariable){ZP_FMU_INPUT, k};
+    if (zp_fmu_is_input(k, plan->controlled)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_INPUT, k};
   for (int k = 0; k < ZP_FMU_SIGNALS; k++)
     if (zp_fmu_is_output(k)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_OUTPUT, k};
   for (int k = 0; k < ZP_FMU_KEYS; k++)
@@ -164,8 +164,10 @@ static void put_types(FILE *file, const ZpFmuPlan *plan, const List *list) {
 
 static void put_causality(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
   static const char *const causality[] = {"independent", "input", "output", "parameter"};
-  bool moves = variable.role != ZP_FMU_PARAMETER;
-  fprintf(file, " causality=\"%s\" variability=\"%s\"", causality[variable.role], moves ? "continuous" : "fixed");
+  const char *variability = variable.role != ZP_FMU_PARAMETER   ? "continuous"
+                            : zp_fmu_is_tunable(variable.index) ? "tunable"
+                                                                : "fixed";
+  fprintf(file, " causality=\"%s\" variability=\"%s\"", causality[variable.role], variability);
   if (variable.role == ZP_FMU_OUTPUT) fputs(" initial=\"calculated\"", file);
   if (variable.role == ZP_FMU_PARAMETER) fputs(" initial=\"exact\"", file);
   if (variable.role == ZP_FMU_INPUT && plan->version == 3) fputs(" initial=\"exact\"", file);
@@ -192,10 +194,8 @@ static void put_range(FILE *file, ZpFmuVariable variable) {
 }
 
 static void put_start(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
-  double value = variable.role == ZP_FMU_PARAMETER         ? plan->start->value[variable.index]
-                 : variable.index == (int)ZP_INPUT_VOLTAGE ? plan->voltage
-                                                           : 0;
   if (variable.role != ZP_FMU_PARAMETER && variable.role != ZP_FMU_INPUT) return;
+  double value = variable.role == ZP_FMU_PARAMETER ? plan->start->value[variable.index] : plan->first[variable.index];
   if (zp_fmu_type(variable) == ZP_KEY_BOOL)
     fprintf(file, " start=\"%s\"", value != 0 ? "true" : "false");
   else
@@ -349,12 +349,14 @@ void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan) {
         file);
 }
 
-void zp_fmu_describe_terminals(FILE *file) {
-  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
-        "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the voltage that the"
-        " source is told, and the mean current over a step\">\n"
-        "      <TerminalMemberVariable variableName=\"voltage\" memberName=\"v\" variableKind=\"signal\"/>\n"
-        "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
-        "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
-        file);
+void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan) {
+  fprintf(
+      file,
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
+      "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the voltage that the"
+      " source is told, and the mean current over a step\">\n"
+      "      <TerminalMemberVariable variableName=\"%s\" memberName=\"v\" variableKind=\"signal\"/>\n"
+      "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
+      "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
+      plan->controlled ? "command" : "voltage");
 }

@@ -4,17 +4,20 @@
 
 #include <stdio.h>
 
+#include <zipact/sim.h>
+
 #include "fmu/start.h"
 #include "fmupack/kit.h"
 
 /* What is said about an FMU. */
 typedef struct ZpFmuPlan {
-  int version;             /* of FMI: 2 or 3 */
-  const char *name;        /* of the model */
-  const ZpFmuStart *start; /* parameters */
-  double voltage;          /* at which the input starts, V */
-  double end, step;        /* default experiment, s */
-  const ZpKit *sources;    /* files of the kit, those in sources/ as well */
+  int version;                  /* of FMI: 2 or 3 */
+  const char *name;             /* of the model */
+  const ZpFmuStart *start;      /* parameters */
+  bool controlled;              /* the setpoint is an input, not the voltage */
+  double first[ZP_INPUT_COUNT]; /* at which inputs start */
+  double end, step;             /* default experiment, s */
+  const ZpKit *sources;         /* files of the kit, those in sources/ as well */
 } ZpFmuPlan;
 
 /* Name of all binaries, and of the model in them. */
@@ -25,7 +28,7 @@ ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err);
 
 /* FMI 3: sources/buildDescription.xml, terminalsAndIcons/terminalsAndIcons.xml. */
 void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan);
-void zp_fmu_describe_terminals(FILE *file);
+void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan);
 
 /* Is this file of the kit a source to be compiled? => its name below sources/, else NULL. */
 const char *zp_fmu_source_name(const char *file);

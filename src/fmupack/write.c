@@ -46,12 +46,23 @@ static ZpStatus check(const ZpScenario *scenario, int version, const ZpActuatorD
   return ZP_OK;
 }
 
+/* The setpoint that its waveform begins with, for the same reason. */
+static void still_setpoint(ZpActuatorDef *def) {
+  ZpActuatorDef fresh = zp_actuator_def_default();
+  ZpWaveformKind kind = def->setpoint.waveform;
+  fresh.setpoint.value = kind == ZP_WAVEFORM_STEP    ? def->setpoint.value
+                         : kind == ZP_WAVEFORM_TABLE ? 0
+                                                     : def->setpoint.offset;
+  def->setpoint = fresh.setpoint;
+}
+
 /* An FMU has no waveform, and no file of one: its importer says what the voltage is. A waveform other than a step is
  * kept as a ramp, at whose start there is no voltage. */
 static void fill_start(ZpActuatorDef *def, ZpFmuStart *start) {
   memset(start, 0, sizeof *start);
   if (def->drive.waveform != ZP_WAVEFORM_STEP) def->drive.waveform = ZP_WAVEFORM_RAMP;
   def->drive.offset = 0;
+  if (def->control.kind != ZP_CONTROL_NONE) still_setpoint(def);
   memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
   start->size = sizeof *start;
   start->layout = zp_def_layout();
@@ -120,11 +131,13 @@ static void put_page(FILE *file, const ZpFmuPlan *plan) {
   zp_html_text(file, plan->name);
   fputs("</title></head><body>\n<h1>", file);
   zp_html_text(file, plan->name);
-  fputs("</h1>\n<p>An electrostatic zipping actuator, simulated by zipact " ZP_VERSION
-        ". The input <code>voltage</code> drives it, the input <code>load</code> pulls at it. Outputs are the signals, "
-        "parameters the keys of zipact; modelDescription.xml has a line about each. All numbers are SI.</p>\n"
-        "<p><a href=\"expected.csv\">expected.csv</a> has the outputs of the default experiment.</p>\n</body></html>\n",
-        file);
+  fprintf(
+      file,
+      "</h1>\n<p>An electrostatic zipping actuator, simulated by zipact " ZP_VERSION
+      ". The input <code>%s</code> drives it, the input <code>load</code> pulls at it. Outputs are the signals, "
+      "parameters the keys of zipact; modelDescription.xml has a line about each. All numbers are SI.</p>\n"
+      "<p><a href=\"expected.csv\">expected.csv</a> has the outputs of the default experiment.</p>\n</body></html>\n",
+      zp_input_name(plan->controlled ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
 }
 
 /* The start values as a source, in place of that of the kit. */
@@ -165,7 +178,7 @@ static ZpStatus add_texts_of_3(ZpArchive *archive, const ZpFmuPlan *plan, ZpErro
   status = add_text(archive, "sources/buildDescription.xml", &text, ZP_OK, err);
   if (status == ZP_OK) status = open_text(&text, err);
   if (status != ZP_OK) return status;
-  zp_fmu_describe_terminals(text.file);
+  zp_fmu_describe_terminals(text.file, plan);
   return add_text(archive, "terminalsAndIcons/terminalsAndIcons.xml", &text, ZP_OK, err);
 }
 
@@ -263,13 +276,15 @@ ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, 
   if (status == ZP_OK) {
     fill_start(&def, &start);
     const double end = fmin(def.solver.end_time, MOST_STEPS * step_size);
-    const ZpFmuPlan plan = {.version = version,
-                            .name = name,
-                            .start = &start,
-                            .voltage = zp_fmu_first_voltage(&def),
-                            .end = end,
-                            .step = fmin(step_size, end),
-                            .sources = &names};
+    const ZpFmuPlan plan = {
+        .version = version,
+        .name = name,
+        .start = &start,
+        .controlled = def.control.kind != ZP_CONTROL_NONE,
+        .first = {[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&def), [ZP_INPUT_SETPOINT] = zp_fmu_first_setpoint(&def)},
+        .end = end,
+        .step = fmin(step_size, end),
+        .sources = &names};
     status = write_archive(&plan, kit, path, err);
   }
   free(name);

@@ -1,5 +1,5 @@
-/* CSV: names in the first row, numbers below. A cell is looked at only when its column is used, so that columns
- * of remarks do no harm. Quoted cells are not known. */
+/* CSV: names in the first row, numbers below, as spreadsheets of any country and instruments write them. A cell is
+ * looked at only when its column is used, so that columns of remarks do no harm. */
 #include "io/data.h"
 
 #include <ctype.h>
@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/fail.h"
 #include "io/source.h"
@@ -16,11 +17,29 @@
 
 enum { LARGEST_FILE = 1 << 24 };
 
+enum { LONGEST_NAME = 200, LONGEST_NUMBER = 64 };
+
 void zp_data_destroy(ZpData *data) {
-  free(data->text);
+  for (size_t i = 0; i < data->owns; i++)
+    free(data->owned[i]);
+  free(data->owned);
+  free(data->paths);
   free(data->cell);
   free(data->line);
+  free(data->file);
   *data = (ZpData){0};
+}
+
+/* Take over a text, which is freed if there is no memory. */
+static ZpStatus own(ZpData *data, char *text, ZpError *err) {
+  char **more = text ? realloc(data->owned, (data->owns + 1) * sizeof *more) : NULL;
+  if (!more) {
+    free(text);
+    return zp_fail_memory(err);
+  }
+  data->owned = more;
+  data->owned[data->owns++] = text;
+  return ZP_OK;
 }
 
 static ZpStatus read_text(const char *key, const char *path, char **text, ZpError *err) {
@@ -57,49 +76,128 @@ static size_t count_char(const char *text, char c) {
   return count;
 }
 
+/* -- cells ------------------------------------------------------------------------------------------ */
+
+/* End of the cell that begins at `text`: its separator or the end of the line; NULL if a quote is not closed. */
+static char *cell_end(char *text, char separator) {
+  bool quoted = false;
+  for (; *text && (quoted || *text != separator); text++)
+    quoted ^= *text == '"';
+  return quoted ? NULL : text;
+}
+
+/* "a ""b""" => a "b", in place. */
+static char *unquote(char *cell) {
+  size_t length = strlen(cell), used = 0;
+  if (length < 2 || cell[0] != '"' || cell[length - 1] != '"') return cell;
+  for (size_t i = 1; i + 1 < length; i++) {
+    cell[used++] = cell[i];
+    i += cell[i] == '"' && cell[i + 1] == '"' && i + 2 < length;
+  }
+  cell[used] = 0;
+  return trim(cell);
+}
+
+/* Cut the next cell off a line, in place; NULL at the end of the line before. */
+static char *next_cell(char **line, char separator) {
+  char *cell = *line, *end = cell_end(cell, separator);
+  *line = *end ? end + 1 : NULL;
+  *end = 0;
+  return unquote(trim(cell));
+}
+
+/* Semicolon before tab before comma, as the row of names has them outside of quotes. */
+static char find_separator(char *names) {
+  static const char separators[] = ";\t,";
+  for (const char *c = separators; *c; c++) {
+    char *end = cell_end(names, *c);
+    if (end && *end) return *c;
+  }
+  return ',';
+}
+
+/* Cells of a line, 0 if a quote is not closed. */
+static size_t count_cells(char *line, char separator) {
+  size_t count = 1;
+  for (char *end = cell_end(line, separator); !end || *end; end = cell_end(end + 1, separator), count++)
+    if (!end) return 0;
+  return count;
+}
+
+/* "Zip time (ms)" => Zip_time_ms, in place: shorter than before. */
+static void plain_name(char *name) {
+  const size_t length = strlen(name);
+  char *open = strrchr(name, '[') ? strrchr(name, '[') : strrchr(name, '(');
+  const bool closed = length > 0 && strchr(")]", name[length - 1]);
+  if (!open || !closed || open == name) return;
+  name[length - 1] = 0;
+  char *unit = trim(open + 1), *end = open;
+  while (end > name && end[-1] == ' ')
+    end--;
+  for (char *c = name; c < end; c++)
+    if (*c == ' ') *c = '_';
+  if (!*unit) {
+    *end = 0;
+    return;
+  }
+  *end = '_';
+  memmove(end + 1, unit, strlen(unit) + 1);
+}
+
 /* Cut a line into the cells of the next row. */
 static ZpStatus take_line(ZpData *data, char *line, int number, size_t *rows, ZpError *err) {
   ZpSource source = {.name = data->path};
-  size_t cells = count_char(line, ',') + 1;
+  size_t cells = count_cells(line, data->separator);
+  if (cells == 0) return zp_source_fail(&source, number, err, "a quote is not closed");
   if (cells != data->columns)
     return zp_source_fail(&source, number, err, "%zu cells; the header has %zu", cells, data->columns);
   char **cell = data->cell + *rows * data->columns;
   for (size_t i = 0; i < cells; i++) {
-    char *comma = strchr(line, ',');
-    if (comma) *comma = 0;
-    cell[i] = trim(line);
-    if (comma) line = comma + 1;
+    cell[i] = next_cell(&line, data->separator);
+    if (*rows == 0) plain_name(cell[i]);
   }
   data->line[(*rows)++] = number;
   return ZP_OK;
 }
 
 static bool counts(const char *line) {
+  line += strspn(line, " \t");
   return *line && *line != '#';
 }
 
-static ZpStatus cut(ZpData *data, ZpError *err) {
-  size_t lines = count_char(data->text, '\n') + 1, rows = 0;
-  char *start = data->text + (strncmp(data->text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0); /* a byte order mark */
+/* Room for the rows of a text of so many lines, by its row of names. */
+static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err) {
+  data->separator = find_separator(names);
+  data->columns = count_cells(names, data->separator);
+  if (data->columns > 1000)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: more than 1000 columns", data->key, data->path);
+  data->cell = calloc(lines * (data->columns + 1), sizeof *data->cell);
+  return data->cell ? ZP_OK : zp_fail_memory(err);
+}
+
+/* A line without its end; blanks at the ends stay where they may be cells. */
+static char *take_end(char *start) {
+  char *end = strchr(start, '\n');
+  if (!end) return NULL;
+  *end = 0;
+  if (end > start && end[-1] == '\r') end[-1] = 0;
+  return end + 1;
+}
+
+static ZpStatus cut(ZpData *data, char *text, ZpError *err) {
+  size_t lines = count_char(text, '\n') + 1, rows = 0;
+  char *start = text + (strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0); /* a byte order mark */
   ZpStatus status = ZP_OK;
   int number = 0;
   data->line = calloc(lines, sizeof *data->line);
-  if (!data->line) return zp_fail_memory(err);
+  data->file = calloc(lines, sizeof *data->file);
+  if (!data->line || !data->file) return zp_fail_memory(err);
   for (char *next; start && status == ZP_OK; start = next) {
-    char *end = strchr(start, '\n');
-    if (end) *end = 0;
-    next = end ? end + 1 : NULL;
+    next = take_end(start);
     number++;
-    char *line = trim(start);
-    if (!counts(line)) continue;
-    if (!data->cell) {
-      data->columns = count_char(line, ',') + 1;
-      if (data->columns > 1000)
-        return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: more than 1000 columns", data->key, data->path);
-      data->cell = calloc(lines * data->columns, sizeof *data->cell);
-      if (!data->cell) return zp_fail_memory(err);
-    }
-    status = take_line(data, line, number, &rows, err);
+    if (!counts(start)) continue;
+    if (!data->cell) status = open_rows(data, start, lines, err);
+    if (status == ZP_OK) status = take_line(data, start, number, &rows, err);
   }
   if (status == ZP_OK && rows == 0)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: empty; needs a row of names and rows of numbers", data->key,
@@ -109,36 +207,169 @@ static ZpStatus cut(ZpData *data, ZpError *err) {
 }
 
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
-  *data = (ZpData){.key = key, .path = path};
-  ZpStatus status = read_text(key, path, &data->text, err);
-  return status == ZP_OK ? cut(data, err) : status;
+  *data = (ZpData){.key = key, .path = path, .files = 1};
+  char *text = NULL;
+  data->paths = calloc(1, sizeof *data->paths);
+  if (!data->paths) return zp_fail_memory(err);
+  data->paths[0] = path;
+  ZpStatus status = read_text(key, path, &text, err);
+  if (status != ZP_OK) {
+    free(text);
+    return status;
+  }
+  status = own(data, text, err);
+  return status == ZP_OK ? cut(data, text, err) : status;
+}
+
+/* -- names ------------------------------------------------------------------------------------------- */
+
+/* Names differ in more than the case of letters; that of a unit counts. */
+static bool same_name(const char *a, const char *b) {
+  const char *unit = strrchr(a, '_');
+  const size_t stem = unit ? (size_t)(unit - a) : strlen(a);
+  return strncasecmp(a, b, stem) == 0 && strcmp(a + stem, b + (strlen(b) < stem ? strlen(b) : stem)) == 0;
+}
+
+static int find_column(const ZpData *data, const char *plain) {
+  for (size_t i = 0; i < data->columns; i++)
+    if (same_name(data->cell[i], plain)) return (int)i;
+  return -1;
 }
 
 int zp_data_column(const ZpData *data, const char *name) {
-  for (size_t i = 0; i < data->columns; i++)
-    if (strcmp(data->cell[i], name) == 0) return (int)i;
-  return -1;
+  char plain[LONGEST_NAME];
+  snprintf(plain, sizeof plain, "%s", name);
+  plain_name(plain);
+  return find_column(data, plain);
+}
+
+/* "Gewicht = load_g": `part` is cut in place and outlives the data. */
+static ZpStatus rename_column(ZpData *data, char *part, ZpError *err) {
+  char *equals = strchr(part, '=');
+  if (!equals)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "data.columns: \"%.80s\": write \"their name = our name\", as in Gewicht = load_g", part);
+  *equals = 0;
+  char *theirs = trim(part), *ours = trim(equals + 1);
+  plain_name(theirs);
+  const int column = find_column(data, theirs);
+  if (column >= 0) data->cell[column] = ours;
+  if (column >= 0 || find_column(data, ours) >= 0) return ZP_OK;
+  char names[LONGEST_NAME] = "";
+  for (size_t i = 0; i < data->columns; i++) {
+    const size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", data->cell[i]);
+  }
+  return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.80s: no such column in %.200s, which has %s", theirs, data->path,
+                 names);
+}
+
+static ZpStatus rename_columns(ZpData *data, const char *renamed, ZpError *err) {
+  char *rest = strdup(renamed);
+  ZpStatus status = own(data, rest, err);
+  for (char *part = status == ZP_OK ? strsep(&rest, ";") : NULL; part && status == ZP_OK; part = strsep(&rest, ";"))
+    if (*trim(part)) status = rename_column(data, part, err);
+  return status;
+}
+
+/* -- several files ----------------------------------------------------------------------------------- */
+
+/* Room for the rows, texts and paths of two. */
+static bool grow(ZpData *data, const ZpData *more) {
+  const size_t rows = 1 + data->rows + more->rows;
+  char **cell = realloc(data->cell, rows * (data->columns + 1) * sizeof *cell);
+  if (cell) data->cell = cell;
+  int *line = realloc(data->line, rows * sizeof *line);
+  if (line) data->line = line;
+  size_t *file = realloc(data->file, rows * sizeof *file);
+  if (file) data->file = file;
+  char **owned = realloc(data->owned, (data->owns + more->owns) * sizeof *owned);
+  if (owned) data->owned = owned;
+  const char **paths = realloc(data->paths, (data->files + 1) * sizeof *paths);
+  if (paths) data->paths = paths;
+  return cell && line && file && owned && paths;
+}
+
+/* Append the rows of `more`, which gives its texts away. */
+static ZpStatus append(ZpData *data, ZpData *more, ZpError *err) {
+  if (!grow(data, more)) return zp_fail_memory(err);
+  for (size_t c = 0; c < data->columns; c++) {
+    const int column = find_column(more, data->cell[c]);
+    if (column < 0)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: %.200s: no column %.60s, which %.120s has", data->key, more->path,
+                     data->cell[c], data->path);
+    for (size_t i = 1; i <= more->rows; i++)
+      data->cell[(data->rows + i) * data->columns + c] = more->cell[i * more->columns + (size_t)column];
+  }
+  for (size_t i = 1; i <= more->rows; i++) {
+    data->line[data->rows + i] = more->line[i];
+    data->file[data->rows + i] = data->files;
+  }
+  memcpy(data->owned + data->owns, more->owned, more->owns * sizeof *more->owned);
+  data->owns += more->owns;
+  more->owns = 0;
+  data->paths[data->files++] = more->path;
+  data->rows += more->rows;
+  data->separator = ';'; /* a decimal comma may be in any of them */
+  return ZP_OK;
+}
+
+static ZpStatus read_one(const char *key, const char *path, const char *renamed, ZpData *data, ZpError *err) {
+  ZpStatus status = zp_data_read(key, path, data, err);
+  return status == ZP_OK ? rename_columns(data, renamed, err) : status;
+}
+
+ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpData *data, ZpError *err) {
+  char *rest = strdup(paths), *list = rest;
+  *data = (ZpData){0};
+  ZpStatus status = rest ? read_one(key, trim(strsep(&rest, ";")), renamed, data, err) : zp_fail_memory(err);
+  while (rest && status == ZP_OK) {
+    ZpData more;
+    status = read_one(key, trim(strsep(&rest, ";")), renamed, &more, err);
+    if (status == ZP_OK) status = append(data, &more, err);
+    zp_data_destroy(&more);
+  }
+  if (status == ZP_OK) return own(data, list, err);
+  zp_data_destroy(data);
+  free(list);
+  return status;
+}
+
+/* -- numbers ----------------------------------------------------------------------------------------- */
+
+const char *zp_data_place(const ZpData *data, size_t row, int *line) {
+  *line = data->line[row + 1];
+  return data->paths[data->file[row + 1]];
+}
+
+/* A copy with a decimal point; false if it is no decimal. */
+static bool plain_decimal(const char *text, char separator, char copy[LONGEST_NUMBER]) {
+  snprintf(copy, LONGEST_NUMBER, "%s", text);
+  char *comma = separator != ',' && !strchr(copy, '.') ? strchr(copy, ',') : NULL;
+  if (comma) *comma = '.';
+  return *text && strlen(text) < LONGEST_NUMBER && strspn(copy, "+-.0123456789eE") == strlen(copy);
 }
 
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err) {
   const char *text = data->cell[(row + 1) * data->columns + column];
-  ZpSource source = {.name = data->path};
-  char *end = NULL;
+  int line;
+  ZpSource source = {.name = zp_data_place(data, row, &line)};
+  char copy[LONGEST_NUMBER], *end = NULL;
   *value = NAN;
   locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
   if (!c_locale) return zp_fail_memory(err);
-  if (*text && strspn(text, "+-.0123456789eE") == strlen(text)) *value = strtod_l(text, &end, c_locale);
+  if (plain_decimal(text, data->separator, copy)) *value = strtod_l(copy, &end, c_locale);
   freelocale(c_locale);
-  if (end && end > text && *end == 0 && isfinite(*value)) return ZP_OK;
-  return zp_source_fail(&source, data->line[row + 1], err, "column %.60s: \"%.60s\": text in a number column",
-                        data->cell[column], text);
+  if (end && end > copy && *end == 0 && isfinite(*value)) return ZP_OK;
+  return zp_source_fail(&source, line, err, "column %.60s: \"%.60s\": text in a number column", data->cell[column],
+                        text);
 }
 
 bool zp_data_unit(const char *name, const char *stem, const char *unit, double *factor, double *divisor) {
   size_t length = strlen(stem);
   ZpUnitScale scale;
   *factor = *divisor = 1;
-  if (strncmp(name, stem, length) != 0) return false;
+  if (strncasecmp(name, stem, length) != 0) return false;
   if (name[length] == 0) return true;
   if (name[length] != '_' || name[length + 1] == 0) return false;
   if (zp_unit_scale(name + length + 1, unit, &scale, NULL) != ZP_OK) return false;

@@ -1,4 +1,5 @@
-/* Times and voltages of drive.waveform table, from the scenario or a CSV file. */
+/* Times and voltages of drive.waveform table, or setpoints of setpoint.waveform table, from the scenario or a CSV file.
+ */
 #ifndef ZP_IO_DRIVE_TABLE_H
 #define ZP_IO_DRIVE_TABLE_H
 
@@ -11,8 +12,8 @@ typedef struct ZpDriveRows {
   double *time, *voltage;
 } ZpDriveRows;
 
-/* Read drive.table or drive.file and check the rows. To be freed whatever the status. ZP_BAD_INPUT names the row, or
- * file, line and column, and what is wrong. */
+/* Read drive.table or drive.file, with a controller setpoint.table or setpoint.file, and check the rows. To be freed
+ * whatever the status. ZP_BAD_INPUT names the row, or file, line and column, and what is wrong. */
 ZpStatus zp_drive_rows_read(const ZpActuatorDef *def, ZpDriveRows *rows, ZpError *err);
 void zp_drive_rows_free(ZpDriveRows *rows);
 

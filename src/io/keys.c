@@ -8,6 +8,7 @@
 #include <jansson.h>
 
 #include "base/fail.h"
+#include "io/schema.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
@@ -141,19 +142,24 @@ static json_t *json_of_key(int index) {
                    json_of_choices(key), "help", key->help);
 }
 
-static ZpStatus write_json(FILE *file, ZpError *err) {
+/* The list of keys => the caller's; NULL if there is no memory. */
+static json_t *list_keys(void) {
   json_t *list = json_array();
   int failed = !list;
   for (int i = 0; i < zp_key_count() && !failed; i++)
     failed = json_array_append_new(list, json_of_key(i));
-  if (failed) {
-    json_decref(list);
-    return zp_fail_memory(err);
-  }
-  /* 15 digits give back every number of keys.def, none of which is written with more; 17 would show
-   * 0.1 as 0.10000000000000001. */
-  failed = json_dumpf(list, file, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
+  if (!failed) return list;
   json_decref(list);
+  return NULL;
+}
+
+/* Write `json`, which is freed; NULL: there was no memory for it. */
+static ZpStatus write_json(json_t *json, FILE *file, ZpError *err) {
+  if (!json) return zp_fail_memory(err);
+  /* 16 digits give back every number of keys.def, none of which is written with more; 17 would show
+   * 0.1 as 0.10000000000000001. */
+  const int failed = json_dumpf(json, file, JSON_INDENT(2) | JSON_REAL_PRECISION(16));
+  json_decref(json);
   if (failed) return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));
   fputc('\n', file);
   return ZP_OK;
@@ -166,7 +172,10 @@ ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err) {
     write_text(file);
     break;
   case ZP_KEYS_JSON:
-    status = write_json(file, err);
+    status = write_json(list_keys(), file, err);
+    break;
+  case ZP_KEYS_SCHEMA:
+    status = write_json(zp_schema_make(), file, err);
     break;
   case ZP_KEYS_YAML:
     write_yaml(file);

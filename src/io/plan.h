@@ -15,6 +15,7 @@ typedef struct ZpSlot {
   double *value; /* [count], SI; NULL if the key is not given. Of a distribution one, which means nothing */
   size_t count;
   bool is_list;          /* a list of one is a list: it makes a row in the table */
+  bool is_bare;          /* of a key with a unit a value was given without one */
   char *text;            /* of a text key, whose value is NAN; else NULL */
   ZpDistribution spread; /* of a key whose values are drawn */
 } ZpSlot;

@@ -126,6 +126,28 @@ void zp_plot_text(FILE *file, const char *text) {
   fputc('\'', file);
 }
 
+double zp_plot_at_time(const ZpTable *table, const char *column, double time) {
+  size_t nearest = 0;
+  double least = INFINITY;
+  for (size_t row = 0; table && row < table->rows; row++) {
+    double distance = fabs(zp_table_get(table, row, "time_s") - time);
+    if (distance < least) {
+      least = distance;
+      nearest = row;
+    }
+  }
+  return table && table->rows > 0 ? zp_table_get(table, nearest, column) : (double)NAN;
+}
+
+size_t zp_plot_frame_at(const ZpShapes *shapes, double part) {
+  double start = zp_shapes_get(shapes, 0).time,
+         wanted = start + part * (zp_shapes_get(shapes, shapes->frames - 1).time - start);
+  size_t nearest = 0;
+  for (size_t i = 1; i < shapes->frames; i++)
+    if (fabs(zp_shapes_get(shapes, i).time - wanted) < fabs(zp_shapes_get(shapes, nearest).time - wanted)) nearest = i;
+  return nearest;
+}
+
 bool zp_plot_is_half(const ZpPlot *plot) {
   return plot->single->shapes->ribbons > 1 && plot->def.actuator.symmetry == ZP_SYMMETRY_HALF;
 }
@@ -160,7 +182,7 @@ void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *
 }
 
 const char *zp_plot_drag_note(const ZpPlot *plot) {
-  if (plot->def.liquid.model != ZP_LIQUID_NONE) return "times have not been compared with measured ones";
+  if (zp_def_liquid(&plot->def) != ZP_LIQUID_NONE) return "times have not been compared with measured ones";
   return plot->def.damping.drag > 0
              ? "the only drag is c |v| v on each particle, not that of the liquid: times are not predictions"
              : "the drag of the liquid is not modelled: times are not predictions";

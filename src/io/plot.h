@@ -52,6 +52,7 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 /* All pictures that any report may have; the last has no name. */
 extern const ZpPicture zp_series_pictures[];
 extern const ZpPicture zp_shape_pictures[];
+extern const ZpPicture zp_liquid_pictures[];
 extern const ZpPicture zp_sweep_pictures[];
 extern const ZpPicture zp_map_pictures[];
 extern const ZpPicture zp_path_pictures[];
@@ -99,6 +100,25 @@ void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int t
 /* Write a frame: lines of x and y, then of `more`. A row of NaN ends a ribbon, not an empty one: for that
  * gnuplot 5.4 uses a colour that it never set, and its picture is not the same each time. */
 void zp_plot_put_shape(FILE *file, const ZpShapes *shapes, const ZpShape *shape, double more);
+
+/* Is it a run of two ribbons with liquid, or with a bead, between them? */
+bool zp_plot_has_liquid(const ZpPlot *plot);
+bool zp_plot_has_bead(const ZpPlot *plot);
+
+/* How a half is drawn: x counts from `middle` (m), times `sign`; of the whole actuator, from its right end on. */
+typedef struct ZpPlotSide {
+  double middle, sign;
+  bool from_right;
+} ZpPlotSide;
+
+/* Write lines of x and both y where there is liquid between the ribbons of one half, from its clip on. */
+void zp_plot_put_liquid(const ZpPlot *plot, FILE *file, const ZpShape *shape, const ZpPlotSide *side);
+
+/* Frame nearest to a part (0 .. 1) of the time from the first frame to the last. */
+size_t zp_plot_frame_at(const ZpShapes *shapes, double part);
+
+/* Value of a column at the row nearest to a time; NAN if there is none. */
+double zp_plot_at_time(const ZpTable *table, const char *column, double time);
 
 /* Write a number of a .dat file so that it reads back the same. */
 void zp_plot_put(FILE *file, double value, char after);

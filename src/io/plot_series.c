@@ -1,5 +1,5 @@
-/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, source.svg, loops.svg, energies.svg,
- * electric.svg, stress.svg. */
+/* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, source.svg, control.svg, loops.svg,
+ * energies.svg, electric.svg, stress.svg. */
 #include <math.h>
 #include <string.h>
 
@@ -202,6 +202,34 @@ static void script_sense(const ZpPlot *plot, FILE *file) {
              &(Panel){"capacitance", farad, capacitances, 2});
 }
 
+/* Of a controller. */
+static bool has_control(const ZpPlot *plot) {
+  return is_film(plot) && plot->def.control.kind != ZP_CONTROL_NONE && zp_plot_has(series(plot), "command_V");
+}
+
+static void script_control(const ZpPlot *plot, FILE *file) {
+  static const struct {
+    const char *column, *setpoint, *measured, *label;
+  } of[ZpControlSignal_COUNT] = {
+      [ZP_CONTROL_OPENING] = {"opening_m", "setpoint_m", "measured_m", "opening"},
+      [ZP_CONTROL_STROKE] = {"stroke_m", "setpoint_m", "measured_m", "stroke"},
+      [ZP_CONTROL_CONTRACTION] = {"contraction", "setpoint", "measured", "contraction"},
+      [ZP_CONTROL_CAPACITANCE] = {"capacitance_F", "setpoint_F", "measured_F", "capacitance"}};
+  size_t signal = (size_t)plot->def.control.signal;
+  const char *si = zp_control_unit(&plot->def);
+  const char *const curves[][2] = {{of[signal].measured, "measured"},
+                                   {of[signal].setpoint, "setpoint"},
+                                   {of[signal].column, of[signal].label}},
+                    *const voltages[][2] = {{"command_V", "command"}, {"voltage_V", "electrodes"}};
+  bool noisy = plot->def.control.noise > 0, ideal = plot->def.source.model == ZP_SOURCE_IDEAL;
+  ZpPlotUnit unit = {100, "%"};
+  if (strcmp(si, "1") != 0) unit = zp_plot_table_unit(series(plot), (const char *const[]){of[signal].column, NULL}, si);
+  ZpPlotUnit voltage = zp_plot_table_unit(series(plot), (const char *const[]){"command_V", NULL}, "V");
+  two_panels(plot, file, "control", "What is held, and the voltage that holds it",
+             &(Panel){of[signal].label, unit, curves + !noisy, 2 + noisy},
+             &(Panel){"voltage", voltage, voltages, ideal ? 1 : 2});
+}
+
 /* Of a cycle. */
 static bool has_loops(const ZpPlot *plot) {
   return is_film(plot) && isfinite(zp_result_get(plot->single, "energy_per_cycle_J")) &&
@@ -338,6 +366,7 @@ const ZpPicture zp_series_pictures[] = {
     {"source", "svg", has_source, script_source, NULL},
     {"interface", "svg", has_interface, script_interface, NULL},
     {"sense", "svg", has_sense, script_sense, NULL},
+    {"control", "svg", has_control, script_control, NULL},
     {"loops", "svg", has_loops, script_loops, NULL},
     {"energies", "svg", has_energies, script_energies, NULL},
     {"electric", "svg", has_electric, script_electric, NULL},

@@ -21,15 +21,6 @@ static double time_of(const ZpShapes *shapes, size_t frame) {
   return zp_shapes_get(shapes, frame).time;
 }
 
-/* Frame nearest to a part (0 .. 1) of the time from the first frame to the last. */
-static size_t frame_at(const ZpShapes *shapes, double part) {
-  double start = time_of(shapes, 0), wanted = start + part * (time_of(shapes, shapes->frames - 1) - start);
-  size_t nearest = 0;
-  for (size_t i = 1; i < shapes->frames; i++)
-    if (fabs(time_of(shapes, i) - wanted) < fabs(time_of(shapes, nearest) - wanted)) nearest = i;
-  return nearest;
-}
-
 static bool has_shapes(const ZpPlot *plot) {
   if (plot->shows != ZP_SHOWS_motion || !plot->single || !plot->single->shapes) return false;
   return film(plot)->frames >= 2 && isfinite(zp_plot_box(film(plot)).left);
@@ -58,7 +49,7 @@ static void data_profiles(const ZpPlot *plot, FILE *file) {
   size_t before = shapes->frames;
   fputs("# x_m y_m time_s; NaN between the lines of each snapshot and ribbon (upper, lower)\n", file);
   for (size_t k = 0; k < SNAPSHOTS; k++) {
-    size_t frame = frame_at(shapes, (double)k / (SNAPSHOTS - 1));
+    size_t frame = zp_plot_frame_at(shapes, (double)k / (SNAPSHOTS - 1));
     if (frame == before) continue;
     before = frame;
     const ZpShape shape = zp_shapes_get(shapes, frame);
@@ -121,7 +112,7 @@ static Stage stage_of(const ZpPlot *plot) {
 }
 
 static size_t film_frame(const ZpShapes *shapes, const Stage *stage, size_t index) {
-  return frame_at(shapes, (double)index / (double)(stage->frames - 1));
+  return zp_plot_frame_at(shapes, (double)index / (double)(stage->frames - 1));
 }
 
 static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, const Stage *stage, size_t node,
@@ -132,13 +123,23 @@ static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, c
   }
 }
 
-/* One index per frame: all nodes, of the left half then those of its mirror image. */
+/* Of one frame where a bead is: a block of the left half, one of the right. */
+static void put_beads(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Stage *stage) {
+  const bool half = zp_plot_is_half(plot);
+  zp_plot_put_liquid(plot, file, shape, &(ZpPlotSide){stage->middle, 1, false});
+  fputc('\n', file);
+  zp_plot_put_liquid(plot, file, shape, &(ZpPlotSide){stage->middle, half ? -1 : 1, !half});
+  fputs("\n\n", file);
+}
+
+/* One index per frame: all nodes, of the left half then those of its mirror image. Of a bead one more. */
 static void data_animation(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   const Stage stage = stage_of(plot);
   fputs(shapes->ribbons > 1 ? "# x_upper_m y_upper_m x_lower_m y_lower_m, from the middle; one index per frame\n"
                             : "# x_m y_m, from the middle; one index per frame\n",
         file);
+  if (zp_plot_has_bead(plot)) fputs("# and after it one of x_m y_upper_m y_lower_m where its beads are\n", file);
   for (size_t k = 0; k < stage.frames; k++) {
     const ZpShape shape = zp_shapes_get(shapes, film_frame(shapes, &stage, k));
     for (size_t i = 0; i < shapes->nodes; i++)
@@ -146,21 +147,8 @@ static void data_animation(const ZpPlot *plot, FILE *file) {
     for (size_t i = shapes->nodes; zp_plot_is_half(plot) && i-- > 0;)
       put_node(file, &shape, shapes, &stage, i, -1);
     fputs("\n\n", file);
+    if (zp_plot_has_bead(plot)) put_beads(plot, file, &shape, &stage);
   }
-}
-
-/* Value of a column at the row nearest to a time; NAN if there is none. */
-static double column_at(const ZpTable *table, const char *column, double time) {
-  size_t nearest = 0;
-  double least = INFINITY;
-  for (size_t row = 0; table && row < table->rows; row++) {
-    double distance = fabs(zp_table_get(table, row, "time_s") - time);
-    if (distance < least) {
-      least = distance;
-      nearest = row;
-    }
-  }
-  return table && table->rows > 0 ? zp_table_get(table, nearest, column) : (double)NAN;
 }
 
 /* What the caption of a frame says. */
@@ -181,9 +169,9 @@ static double caption_value(const ZpPlot *plot, Caption what, const ZpShape *sha
   case CAPTION_VOLTAGE:
     return shape->voltage;
   case CAPTION_CONTRACTION:
-    return column_at(plot->single->series, "contraction", shape->time);
+    return zp_plot_at_time(plot->single->series, "contraction", shape->time);
   case CAPTION_STROKE:
-    return is_path(plot) ? shape->y[0] - shape->y[end] : column_at(plot->single->series, "stroke_m", shape->time);
+    return is_path(plot) ? shape->y[0] - shape->y[end] : zp_plot_at_time(plot->single->series, "stroke_m", shape->time);
   case CAPTION_END_X:
     return shape->x[end];
   default:
@@ -304,12 +292,44 @@ static void animation_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit time, Z
   fputs("  set label 1 caption at screen 0.5,0.96 center\n", file);
 }
 
+/* A bath is behind everything. */
+static void animation_bath(const ZpPlot *plot, FILE *file) {
+  if (!zp_plot_has_liquid(plot) || zp_plot_has_bead(plot)) return;
+  fputs("set object 4 rectangle from graph 0,0 to graph 1,1 behind fc rgb '#e2f1fa' fs solid noborder\n"
+        "set label 6 'liquid' at graph 0.02,0.07 front\n",
+        file);
+}
+
+/* Ribbons over their beads. */
+static void plot_frame(const ZpPlot *plot, FILE *file, ZpPlotUnit mm) {
+  const ZpShapes *shapes = film(plot);
+  const bool bead = zp_plot_has_bead(plot);
+  const char *index = bead ? "2*i-2" : "i-1";
+  if (bead)
+    fprintf(file,
+            "  set key bottom left samplen 1.5\n"
+            "  plot 'animation.dat' index 2*i-1 using ($1*%g):($2*%g):($3*%g) with filledcurves fc rgb '#56b4e9' "
+            "title 'liquid', \\\n    ''",
+            mm.factor, mm.factor, mm.factor);
+  else
+    fputs("  plot 'animation.dat'", file);
+  fprintf(file, " index %s using ($1*%g):($2*%g) with lines lw 2 lc rgb '%s' notitle", index, mm.factor, mm.factor,
+          zp_plot_colour(0));
+  if (shapes->ribbons > 1)
+    fprintf(file,
+            ", \\\n    '' index %s using ($3*%g):($4*%g) with lines lw 2 lc rgb '%s' notitle"
+            ", \\\n    '' index %s every %zu using ($3*%g):($4*%g) with points pt 5 ps 1.5 lc rgb '#555555' notitle",
+            index, mm.factor, mm.factor, zp_plot_colour(1), index, (zp_plot_is_half(plot) ? 2 : 1) * shapes->nodes - 1,
+            mm.factor, mm.factor);
+}
+
 static void script_animation(const ZpPlot *plot, FILE *file) {
   const Stage s = stage_of(plot);
   const ZpShapes *shapes = film(plot);
   ZpPlotUnit mm = zp_plot_unit(s.half, "m"), time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
   animation_head(plot, file, &s, mm);
   animation_scene(plot, file, &s, mm);
+  animation_bath(plot, file);
   put_array(plot, file, &s, "now", CAPTION_TIME);
   put_array(plot, file, &s, "potential", CAPTION_VOLTAGE);
   put_array(plot, file, &s, "contraction", CAPTION_CONTRACTION);
@@ -319,14 +339,7 @@ static void script_animation(const ZpPlot *plot, FILE *file) {
   fprintf(file, "do for [k=1:%zu] {\n  i = k > %zu ? %zu : k\n", s.frames + FILM_HOLD, s.frames, s.frames);
   animation_caption(plot, file, time, mm);
   animation_load(plot, file, &s, mm);
-  fprintf(file, "  plot 'animation.dat' index i-1 using ($1*%g):($2*%g) with lines lw 2 lc rgb '%s'", mm.factor,
-          mm.factor, zp_plot_colour(0));
-  if (shapes->ribbons > 1)
-    fprintf(file,
-            ", \\\n    '' index i-1 using ($3*%g):($4*%g) with lines lw 2 lc rgb '%s'"
-            ", \\\n    '' index i-1 every %zu using ($3*%g):($4*%g) with points pt 5 ps 1.5 lc rgb '#555555'",
-            mm.factor, mm.factor, zp_plot_colour(1), (zp_plot_is_half(plot) ? 2 : 1) * shapes->nodes - 1, mm.factor,
-            mm.factor);
+  plot_frame(plot, file, mm);
   fputs("\n}\n", file);
 }
 

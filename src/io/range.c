@@ -15,8 +15,7 @@ bool zp_range_is(const char *text) {
   return strstr(text, "..") != NULL;
 }
 
-/* The text without blanks at its ends, in place. */
-static char *trim(char *text) {
+char *zp_trim(char *text) {
   text += strspn(text, " \t");
   for (size_t length = strlen(text); length > 0 && strchr(" \t", text[length - 1]);)
     text[--length] = 0;
@@ -28,11 +27,11 @@ ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err) {
   if (!colon)
     return zp_fail(err, ZP_BAD_INPUT, "not a range; write \"10 um .. 200 um : 20\", with \"log\" at its end if wanted");
   *dots = *colon = 0;
-  *range = (ZpRange){.from = trim(text), .to = trim(dots + 2), .count = trim(colon + 1)};
+  *range = (ZpRange){.from = zp_trim(text), .to = zp_trim(dots + 2), .count = zp_trim(colon + 1)};
   char *blank = strpbrk(colon + 1 + strspn(colon + 1, " \t"), " \t");
   if (!blank) return ZP_OK;
   *blank = 0;
-  range->spacing = trim(blank + 1);
+  range->spacing = zp_trim(blank + 1);
   return ZP_OK;
 }
 
@@ -61,12 +60,6 @@ static ZpStatus read_spacing(const char *text, double from, double to, bool *by_
   if (*by_factors && !(from > 0 && to > 0))
     return zp_fail(err, ZP_BAD_INPUT, "spacing = \"log\": both ends must be above 0");
   return ZP_OK;
-}
-
-double zp_rounded(double value) {
-  char text[32];
-  snprintf(text, sizeof text, "%.11e", value);
-  return strtod(text, NULL);
 }
 
 static double value_at(double from, double to, double share, bool by_factors) {
@@ -100,4 +93,41 @@ ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *
   free(*value);
   *value = NULL;
   return status;
+}
+
+/* -- intervals --------------------------------------------------------------------------------------- */
+
+static ZpStatus read_interval_end(const char *setting, int key, const char *text, double *value, ZpError *err) {
+  ZpError reason = {ZP_BAD_INPUT, "give a number"};
+  ZpStatus status = zp_value_read(key, text, value, &reason);
+  if (status == ZP_OK && isfinite(*value)) return ZP_OK;
+  return zp_fail(err, reason.status, "%s: %s = \"%.60s\": %.200s", setting, zp_key(key)->name, text, reason.message);
+}
+
+static ZpStatus check_interval(const char *setting, const ZpInterval *i, ZpError *err) {
+  const char *name = zp_key(i->key)->name;
+  if (!(i->from < i->to))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %s: the upper end must be larger than the lower", setting, name);
+  if (i->by_factors && !(i->from > 0))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %s: with log, both ends must be above 0", setting, name);
+  return ZP_OK;
+}
+
+ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval, ZpError *err) {
+  char *equals = strchr(text, '='), *dots = equals ? strstr(equals, "..") : NULL;
+  *interval = (ZpInterval){0};
+  if (!dots)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: \"%.80s\": write \"ribbon.thickness = 20 um .. 200 um\"", setting, text);
+  *equals = *dots = 0;
+  char *name = zp_trim(text), *to = zp_trim(dots + 2), *blank = strrchr(to, ' ');
+  interval->by_factors = blank && strcmp(blank + 1, "log") == 0;
+  if (interval->by_factors) *blank = 0;
+  interval->key = zp_key_find(name);
+  if (interval->key < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %.80s: unknown key; did you mean %s?", setting, name, zp_key_nearest(name));
+  if (zp_key(interval->key)->type != ZP_KEY_REAL && zp_key(interval->key)->type != ZP_KEY_REAL_AUTO)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not a real number", setting, name);
+  ZpStatus status = read_interval_end(setting, interval->key, zp_trim(equals + 1), &interval->from, err);
+  if (status == ZP_OK) status = read_interval_end(setting, interval->key, zp_trim(to), &interval->to, err);
+  return status == ZP_OK ? check_interval(setting, interval, err) : status;
 }

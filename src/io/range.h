@@ -23,7 +23,17 @@ ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err);
  * 0.00002 and not 0.000019999999999999998 => *value [*count], to be freed. ZP_BAD_INPUT says which part is wrong. */
 ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *count, ZpError *err);
 
-/* To 12 digits: more than any key needs, and fewer than the rounding of what is computed reaches. */
-double zp_rounded(double value);
+/* The text without blanks at its ends, in place. */
+char *zp_trim(char *text);
+
+/* An interval of a key: "ribbon.thickness = 20 um .. 200 um log". */
+typedef struct ZpInterval {
+  int key;
+  double from, to; /* SI */
+  bool by_factors; /* log: in equal factors, both ends above 0 */
+} ZpInterval;
+
+/* Read one, in place; `setting` is the key that has it, for messages. ZP_BAD_INPUT says what is wrong. */
+ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval, ZpError *err);
 
 #endif

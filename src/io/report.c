@@ -1,6 +1,7 @@
 /* How a report is read. */
 #include "io/report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,6 +19,15 @@ const ZpResult *zp_report_result(const ZpReport *report, size_t index) {
 
 const ZpResult *zp_report_single(const ZpReport *report) {
   return report->count > 0 && !zp_report_is_sweep(report) ? zp_report_result(report, 0) : NULL;
+}
+
+double zp_report_largest(const ZpReport *report, const char *scalar, const char *where) {
+  double largest = NAN;
+  for (size_t i = 0; i < report->count; i++) {
+    const ZpResult *row = zp_report_result(report, i);
+    if (zp_result_get(row, where) == 1) largest = fmax(largest, zp_result_get(row, scalar));
+  }
+  return largest;
 }
 
 const char *zp_report_study(const ZpReport *report) {

@@ -1,10 +1,10 @@
 /* Scenarios: values for keys, some of them lists, from a file and from --set.
  *
  * Two layers of slots, one slot per key, keep what the file gave and what --set gave; the second wins
- * whatever the order of calls. Nothing is resolved before a Def is asked for, so it does not matter where
- * `preset` is written. A text is first read into a layer of its own and then exchanged slot by slot with
- * the one that it changes; exchanging again undoes it, so a failure leaves the scenario as it was.
- * Which Defs a scenario stands for is io/plan.h. */
+ * whatever the order of calls. A third, below both, has the distributions of materials that sampling.tolerances asks
+ * for. Nothing is resolved before a Def is asked for, so it does not matter where `preset` is written. A text is first
+ * read into a layer of its own and then exchanged slot by slot with the one that it changes; exchanging again undoes
+ * it, so a failure leaves the scenario as it was. Which Defs a scenario stands for is io/plan.h. */
 #include <zipact/io.h>
 
 #include <errno.h>
@@ -20,12 +20,14 @@
 #include "io/sampled.h"
 #include "io/source.h"
 #include "io/spread.h"
+#include "io/unknown.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
 struct ZpScenario {
   ZpSlot *file;        /* [keys] from files */
   ZpSlot *set;         /* [keys] from --set; these win */
+  ZpSlot *drawn;       /* [keys] of materials; both win over these. A value is that of its own distribution */
   const ZpSlot **held; /* [keys] the one of these that holds */
   ZpPlan plan;
   char *name; /* of the file read last, NULL before */
@@ -65,10 +67,34 @@ static void free_slots(ZpSlot *slot) {
   free(slot);
 }
 
+/* A definition with the materials and sampling.tolerances that are given, else with defaults. */
+static ZpActuatorDef materials_of(const ZpScenario *s) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  for (size_t i = 0; i < key_count(); i++) {
+    const bool asked = zp_key_is_material((int)i) || strcmp(zp_key((int)i)->name, "sampling.tolerances") == 0;
+    if (asked && s->held[i]->count) zp_def_set(&def, (int)i, s->held[i]->value[0], NULL);
+  }
+  return def;
+}
+
+/* Keys that are not given, but filled by a material, vary as it says. */
+static void draw_materials(ZpScenario *s) {
+  const ZpActuatorDef def = materials_of(s);
+  for (size_t i = 0; i < key_count(); i++) {
+    const ZpMaterialValue *filled = zp_material_value(&def, (int)i);
+    if (!filled || s->held[i]->count || def.sampling.tolerances != ZP_TOLERANCES_MATERIALS) continue;
+    ZpSlot *slot = &s->drawn[i];
+    *slot = (ZpSlot){.count = 1, .spread = {ZP_DISTRIBUTION_LOGNORMAL, filled->value, filled->spread}};
+    slot->value = &slot->spread.a;
+    s->held[i] = slot;
+  }
+}
+
 /* --set wins over the file. */
 static void hold(ZpScenario *s) {
   for (size_t i = 0; i < key_count(); i++)
     s->held[i] = s->set[i].count ? &s->set[i] : &s->file[i];
+  draw_materials(s);
 }
 
 ZpScenario *zp_scenario_create(void) {
@@ -76,8 +102,9 @@ ZpScenario *zp_scenario_create(void) {
   if (!s) return NULL;
   s->file = calloc(key_count(), sizeof *s->file);
   s->set = calloc(key_count(), sizeof *s->set);
+  s->drawn = calloc(key_count(), sizeof *s->drawn);
   s->held = calloc(key_count(), sizeof *s->held);
-  if (zp_plan_create(&s->plan) && s->file && s->set && s->held) {
+  if (zp_plan_create(&s->plan) && s->file && s->set && s->drawn && s->held) {
     hold(s);
     return s;
   }
@@ -89,6 +116,7 @@ void zp_scenario_destroy(ZpScenario *s) {
   if (!s) return;
   free_slots(s->file);
   free_slots(s->set);
+  free(s->drawn);
   free(s->held);
   zp_plan_free(&s->plan);
   free(s->name);
@@ -149,8 +177,9 @@ static int first_of_group(const char *path) {
 }
 
 static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpError *err) {
-  return zp_source_fail(reader->source, item->line, err, "%.80s: unknown key; did you mean %s?", item->path,
-                        zp_key_nearest(item->path));
+  char reason[ZP_VALUE_SIZE];
+  zp_unknown_key(item->path, reason, sizeof reason);
+  return zp_source_fail(reader->source, item->line, err, "%.80s: %s", item->path, reason);
 }
 
 /* The parts of a range or a distribution stand together, in a group of their own: what is left of one is a mistake. */
@@ -208,17 +237,42 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
 }
 
 /* A file named in a scenario is looked for in the folder of that scenario, one of --set in the current folder;
- * kept as an absolute path, so that the written scenario finds it from wherever it is. => path to be freed. */
-static char *absolute_path(const ZpSource *source, const char *path) {
+ * kept as an absolute path, so that the written scenario finds it from wherever it is. => `length` bytes of `path` to
+ * be freed. */
+static char *absolute_path(const ZpSource *source, const char *path, int length) {
   const char *slash = source->argument ? NULL : strrchr(source->name, '/');
   int folder = slash ? (int)(slash - source->name) + 1 : 0;
-  if (*path == 0 || *path == '/') return strdup(path);
+  if (length == 0 || *path == '/') return strndup(path, (size_t)length);
   char *here = slash == NULL || *source->name != '/' ? getcwd(NULL, 0) : strdup("");
   char *whole = NULL;
   const char *between = here && *here && strcmp(here, "/") != 0 ? "/" : "";
-  if (here && asprintf(&whole, "%s%s%.*s%s", here, between, folder, source->name, path) < 0) whole = NULL;
+  if (here && asprintf(&whole, "%s%s%.*s%.*s", here, between, folder, source->name, length, path) < 0) whole = NULL;
   free(here);
   return whole;
+}
+
+/* The same of several between semicolons. */
+static char *absolute_paths(const ZpSource *source, const char *paths) {
+  char *whole = strdup("");
+  while (whole && *paths) {
+    paths += strspn(paths, " ;");
+    int length = (int)strcspn(paths, ";"), next = length;
+    while (length > 0 && paths[length - 1] == ' ')
+      length--;
+    char *one = length > 0 ? absolute_path(source, paths, length) : strdup(""), *both = NULL;
+    if (!one || asprintf(&both, "%s%s%s", whole, *whole && *one ? "; " : "", one) < 0) both = NULL;
+    free(one);
+    free(whole);
+    whole = both;
+    paths += next;
+  }
+  return whole;
+}
+
+/* data.file alone may name several. */
+static char *resolve_path(const Reader *reader, int key, const char *path) {
+  if (strcmp(zp_key(key)->name, "data.file") == 0) return absolute_paths(reader->source, path);
+  return absolute_path(reader->source, path, (int)strlen(path));
 }
 
 static bool names_file(int key) {
@@ -228,11 +282,9 @@ static bool names_file(int key) {
 
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
   bool is_path = names_file(key);
-  ZpSlot slot = {calloc(1, sizeof(double)),
-                 1,
-                 false,
-                 is_path ? absolute_path(reader->source, item->word) : strdup(item->word),
-                 {0}};
+  ZpSlot slot = {.value = calloc(1, sizeof(double)),
+                 .count = 1,
+                 .text = is_path ? resolve_path(reader, key, item->word) : strdup(item->word)};
   ZpActuatorDef scratch = zp_actuator_def_default();
   ZpError reason;
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
@@ -256,7 +308,9 @@ static bool takes_range(int key) {
 
 /* The values of a range; `word` is what to quote of it. */
 static ZpStatus take_range(Reader *reader, int key, const ZpRange *range, int line, const char *word, ZpError *err) {
-  ZpSlot slot = {.is_list = true};
+  ZpSlot slot = {.is_list = true,
+                 .is_bare = (range->from && zp_value_is_bare(key, range->from)) ||
+                            (range->to && zp_value_is_bare(key, range->to))};
   ZpError reason;
   if (zp_range_read(key, range, &slot.value, &slot.count, &reason) != ZP_OK)
     return fail_value(reader, key, line, word, &reason, true, err);
@@ -271,7 +325,7 @@ static bool takes_spread(int key) {
 
 /* A distribution; `word` is what to quote of it. */
 static ZpStatus take_spread(Reader *reader, int key, const ZpSpread *spread, int line, const char *word, ZpError *err) {
-  ZpSlot slot = {calloc(1, sizeof(double)), 1, false, NULL, {0}};
+  ZpSlot slot = {.value = calloc(1, sizeof(double)), .count = 1};
   ZpError reason;
   if (!slot.value) return zp_fail_memory(err);
   if (zp_spread_read(key, spread, &slot.spread, &reason) != ZP_OK) {
@@ -373,11 +427,13 @@ static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpE
     return take_range_word(reader, key, item, err);
   if (item->kind == ZP_YAML_VALUE && takes_spread(key) && zp_spread_is(item->word))
     return take_spread_word(reader, key, item, err);
-  ZpSlot slot = {calloc(item->count, sizeof(double)), item->count, item->kind == ZP_YAML_LIST, NULL, {0}};
+  ZpSlot slot = {
+      .value = calloc(item->count, sizeof(double)), .count = item->count, .is_list = item->kind == ZP_YAML_LIST};
   if (!slot.value) return zp_fail_memory(err);
   const char *word = item->word;
   for (size_t i = 0; i < item->count && status == ZP_OK; i++, word += strlen(word) + 1) {
     ZpError reason;
+    slot.is_bare |= zp_value_is_bare(key, word);
     if (zp_value_read(key, word, &slot.value[i], &reason) == ZP_OK) continue;
     status = fail_value(reader, key, item->line, word, &reason, !slot.is_list, err);
   }
@@ -469,11 +525,13 @@ static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) 
   int key = zp_key_find(name);
   if (key >= 0) return key;
   int first = first_of_group(name);
+  char reason[ZP_VALUE_SIZE];
+  zp_unknown_key(name, reason, sizeof reason);
   if (first >= 0)
     zp_source_fail(source, 0, err, "a group of keys, takes no value; give one of its keys, such as %s",
                    zp_key(first)->name);
   else
-    zp_source_fail(source, 0, err, "unknown key; did you mean %s?", zp_key_nearest(name));
+    zp_source_fail(source, 0, err, "%s", reason);
   return -1;
 }
 
@@ -522,6 +580,12 @@ const ZpDesign *zp_scenario_design(const ZpScenario *s) {
 const ZpDistribution *zp_scenario_spread(const ZpScenario *s, int key) {
   const ZpDistribution *spread = &s->held[key]->spread;
   return spread->kind != ZP_DISTRIBUTION_NONE ? spread : NULL;
+}
+
+bool zp_scenario_bare_number(const ZpScenario *s, int key, double *value) {
+  if (!s->held[key]->is_bare) return false;
+  *value = s->held[key]->value[0];
+  return true;
 }
 
 /* Of the scenario, not of its Defs. */
@@ -592,7 +656,7 @@ static bool same_value(double a, double b) {
   return a == b || (isnan(a) && isnan(b));
 }
 
-/* differs[key] set for every key that has not the same value in all Defs. */
+/* differs[key] set for every key that has not the same value, or whose auto has not the same meaning, in all Defs. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   for (size_t row = 1; row < s->plan.count; row++) {
     ZpActuatorDef def = {.layout = zp_def_layout()};
@@ -600,6 +664,7 @@ static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bo
     if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
     for (int i = 0; i < zp_key_count(); i++)
       differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(&def, i));
+    differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(&def);
   }
   return ZP_OK;
 }
@@ -613,10 +678,16 @@ static void write_slot(FILE *file, int key, const ZpSlot *slot) {
   fprintf(file, "]\n");
 }
 
+/* What liquid.model stands for. */
+static const char *liquid_word(const ZpActuatorDef *def) {
+  return zp_key(zp_key_find("liquid.model"))->choices[zp_def_liquid(def)].word;
+}
+
 /* One line per key. What a preset gives differently to different rows stays with the preset: reading back
  * finds it there again. */
 static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bool *differs, FILE *file) {
   const char *before = NULL;
+  const int liquid = zp_key_find("liquid.model");
   char text[ZP_VALUE_SIZE];
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpSlot *slot = s->held[i];
@@ -642,6 +713,7 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
       double value = is_study((size_t)i) ? (double)zp_scenario_study(s) : zp_def_get(first, i);
       zp_value_print(i, value, text, sizeof text);
       fputs(text, file);
+      if (i == liquid && value == ZP_LIQUID_AUTO) fprintf(file, " # %s", liquid_word(first));
     }
     fputc('\n', file);
   }

@@ -155,6 +155,24 @@ static json_t *optimum_of(const ZpReport *report) {
   return NULL;
 }
 
+/* Numbers of a sweep as a whole. */
+static bool set_largest(json_t *object, const ZpReport *report) {
+  static const struct {
+    ZpStudy study;
+    const char *name, *scalar, *where, *unit;
+  } largest[] = {
+#define ZP_LARGEST(enumerator, name, scalar, where, words, unit) {enumerator, name, scalar, where, unit},
+#include <zipact/studies.def>
+  };
+  bool done = true;
+  for (size_t i = 0; i < sizeof largest / sizeof largest[0] && report->count > 0; i++)
+    if (zp_report_result(report, 0)->study == largest[i].study) {
+      double value = zp_report_largest(report, largest[i].scalar, largest[i].where);
+      done = zp_json_set(object, largest[i].name, zp_json_number(value, largest[i].unit)) && done;
+    }
+  return done;
+}
+
 static json_t *summary_of(const ZpReport *report) {
   const ZpResult *single = zp_report_single(report);
   json_t *object = json_object(), *notes = json_array();
@@ -162,6 +180,7 @@ static json_t *summary_of(const ZpReport *report) {
   done = zp_json_set(object, "study", json_string(zp_report_study(report))) && done;
   done = set_outcome(object, report) && done;
   if (single) done = set_scalars(object, single) && done;
+  if (zp_report_is_sweep(report)) done = set_largest(object, report) && done;
   for (size_t i = 0; i < report->count; i++)
     done = add_notes(notes, zp_report_result(report, i)) && done;
   done = zp_json_set(object, "notes", notes) && done;

@@ -26,6 +26,7 @@ static const struct {
     {"A", "a current"},
     {"F", "a capacitance"},
     {"ohm", "a resistance"},
+    {"rad", "an angle"},
 };
 
 ZpStatus zp_unit_fail_dimension(const char *to, ZpError *err) {

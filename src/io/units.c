@@ -11,6 +11,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <float.h>
 #include <locale.h>
 #include <math.h>
 #include <pthread.h>
@@ -52,6 +53,13 @@ static bool is_plain_unit(const char *text) {
   return true;
 }
 
+/* What people also write, which the database does not have. */
+static void add_names(void) {
+  ut_unit *degree = ut_parse(database, "degree", UT_UTF8);
+  if (degree) ut_map_name_to_unit("deg", UT_UTF8, degree);
+  ut_free(degree);
+}
+
 /* Read the database unless it is there. In the C locale, since it contains decimal points. */
 static ZpStatus need_database(ZpError *err) {
   if (database) return ZP_OK;
@@ -63,6 +71,7 @@ static ZpStatus need_database(ZpError *err) {
   int reason = errno;
   uselocale(users);
   freelocale(plain);
+  if (database) add_names();
   if (database) return ZP_OK;
   ut_status ignored;
   return zp_fail(err, ZP_MACHINE, "cannot read the UDUNITS-2 database %.200s: %s", ut_get_path_xml(NULL, &ignored),
@@ -70,14 +79,16 @@ static ZpStatus need_database(ZpError *err) {
 }
 
 /* A factor that UDUNITS found by multiplying carries rounding errors (g/cm3: 999.99999999999989); those
- * of people's units are short decimals. */
+ * of people's units are short decimals, but for that of an angle. */
 static ZpUnitScale scale_of_factor(double factor) {
+  static const double errors = 8 * DBL_EPSILON;
   char text[40], one[40];
   snprintf(text, sizeof text, "%.13e", factor);
   const char *exponent = strchr(text, 'e');
   size_t digits = (size_t)(exponent - text);
   snprintf(one, sizeof one, "%.13e", 1.0);
   ZpUnitScale scale = {.factor = strtod(text, NULL)};
+  if (fabs(scale.factor - factor) > errors * factor) scale.factor = factor;
   scale.decimal = strncmp(text, one, digits) == 0;
   if (scale.decimal) scale.exponent = (int)strtol(exponent + 1, NULL, 10);
   return scale;

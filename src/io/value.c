@@ -98,13 +98,30 @@ static ZpStatus fail_number(int index, const char *reason, ZpError *err) {
   return zp_fail(err, ZP_BAD_INPUT, "%s; give a value in %s from %s", reason, key->shown, range);
 }
 
+/* Keys in the unit of control.signal: pure numbers in SI, with any of these units, or none. */
+static const struct {
+  const char *key, *unit[3];
+} of_signal[] = {{"control.proportional", {"V", "V/m", "V/F"}},
+                 {"control.integral", {"V/s", "V/m/s", "V/F/s"}},
+                 {"control.noise", {"m", "F"}},
+                 {"setpoint.value", {"m", "F"}},
+                 {"setpoint.offset", {"m", "F"}}};
+
+static bool read_unit_of_signal(const ZpKey *key, const char *unit, ZpUnitScale *scale) {
+  for (size_t i = 0; i < sizeof of_signal / sizeof of_signal[0]; i++)
+    for (int k = 0; k < 3 && of_signal[i].unit[k] && strcmp(key->name, of_signal[i].key) == 0; k++)
+      if (zp_unit_scale(unit, of_signal[i].unit[k], scale, NULL) == ZP_OK) return true;
+  return false;
+}
+
 /* Scale of the unit that follows a number. Of a pure number only per cent: radians and the like are
  * "convertible" to UDUNITS, too. */
 static ZpStatus read_unit(int index, const char *unit, ZpUnitScale *scale, ZpError *err) {
   const ZpKey *key = zp_key(index);
   *scale = (ZpUnitScale){.decimal = true, .factor = 1};
   if (*unit == 0) return ZP_OK;
-  if (key->type == ZP_KEY_REAL && is_pure(key) && (strcmp(unit, "%") == 0 || strcmp(unit, "percent") == 0)) {
+  if (is_pure(key) && read_unit_of_signal(key, unit, scale)) return ZP_OK;
+  if (key->type != ZP_KEY_INT && is_pure(key) && (strcmp(unit, "%") == 0 || strcmp(unit, "percent") == 0)) {
     scale->exponent = -2;
     return ZP_OK;
   }
@@ -150,6 +167,15 @@ ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *
   return ZP_OK;
 }
 
+bool zp_value_is_bare(int index, const char *text) {
+  const ZpKeyType type = zp_key(index)->type;
+  Decimal decimal;
+  text += strspn(text, " \t");
+  if ((type != ZP_KEY_REAL && type != ZP_KEY_REAL_AUTO) || is_pure(zp_key(index))) return false;
+  if (!scan_decimal(text, &decimal) || !has_digits(text, &decimal)) return false;
+  return *(decimal.end + strspn(decimal.end, " \t")) == 0;
+}
+
 static ZpStatus read_number(int index, const char *text, double *value, ZpError *err) {
   double number = NAN;
   ZpStatus status = zp_value_quantity(index, text, &number, err);
@@ -168,30 +194,10 @@ static ZpStatus read_bool(const char *text, double *value, ZpError *err) {
   return zp_fail(err, ZP_BAD_INPUT, "%s; give true or false", *text ? "not a yes or no" : "empty");
 }
 
-/* Edit distance (insert, delete, replace) of `a` and a word of the program, at most 63 characters. */
-static int word_distance(const char *a, const char *word) {
-  enum { LONGEST = 64 };
-  int row[LONGEST];
-  int length = (int)strnlen(word, LONGEST - 1);
-  for (int j = 0; j <= length; j++)
-    row[j] = j;
-  for (int i = 1; a[i - 1]; i++) {
-    int diagonal = row[0];
-    row[0] = i;
-    for (int j = 1; j <= length; j++) {
-      int replaced = diagonal + (tolower((unsigned char)a[i - 1]) != word[j - 1]);
-      int shifted = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-      diagonal = row[j];
-      row[j] = replaced < shifted ? replaced : shifted;
-    }
-  }
-  return row[length];
-}
-
 /* How far a word is from what was meant; a beginning of it is near, however long the rest. */
 static int distance_to_choice(const char *text, const char *word) {
   size_t length = strlen(text);
-  return length && strncasecmp(text, word, length) == 0 ? 1 : word_distance(text, word);
+  return length && strncasecmp(text, word, length) == 0 ? 1 : zp_word_distance(text, word);
 }
 
 static ZpStatus fail_word(const ZpKey *key, const char *text, ZpError *err) {
@@ -269,6 +275,22 @@ ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err
   return status;
 }
 
+double zp_rounded(double value) {
+  char text[32];
+  snprintf(text, sizeof text, "%.11e", value);
+  return strtod(text, NULL);
+}
+
+/* "90 degree" for what is no power of ten, if this reads back to the same bits. */
+static bool print_factor(const ZpKey *key, double factor, double value, char *text, size_t size) {
+  char number[ZP_NUMBER_SIZE];
+  double shown = zp_rounded(value / factor);
+  if (shown * factor != value) return false;
+  zp_number_print(shown, number, sizeof number);
+  snprintf(text, size, "%s %s", number, key->shown);
+  return true;
+}
+
 /* "100 mm" for 0.1 m, if this reads back to the same bits. */
 static bool print_shown(int index, double value, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
@@ -276,13 +298,22 @@ static bool print_shown(int index, double value, char *text, size_t size) {
   Decimal decimal;
   ZpUnitScale scale;
   if (*key->shown == 0 || !isfinite(value)) return false;
-  if (zp_unit_scale(key->shown, key->unit, &scale, NULL) != ZP_OK || !scale.decimal) return false;
+  if (zp_unit_scale(key->shown, key->unit, &scale, NULL) != ZP_OK) return false;
+  if (!scale.decimal) return print_factor(key, scale.factor, value, text, size);
   zp_number_print(value, number, sizeof number);
   if (!scan_decimal(number, &decimal)) return false;
   zp_number_print(decimal_value(number, &decimal, -scale.exponent), number, sizeof number);
   if (!scan_decimal(number, &decimal) || decimal_value(number, &decimal, scale.exponent) != value) return false;
   snprintf(text, size, "%s %s", number, key->shown);
   return true;
+}
+
+/* "0.1 m", what has no short form in the unit that people use. */
+static void print_si(const ZpKey *key, double value, char *text, size_t size) {
+  char number[ZP_NUMBER_SIZE];
+  const bool bare = is_pure(key) || !isfinite(value) || value == 0;
+  zp_number_print(value, number, sizeof number);
+  snprintf(text, size, "%s%s%s", number, bare ? "" : " ", bare ? "" : key->unit);
 }
 
 void zp_value_print(int index, double value, char *text, size_t size) {
@@ -296,5 +327,5 @@ void zp_value_print(int index, double value, char *text, size_t size) {
   else if (key->type == ZP_KEY_REAL_AUTO && isnan(value))
     snprintf(text, size, "%s", key->text);
   else if (!print_shown(index, value, text, size))
-    zp_number_print(value, text, size);
+    print_si(key, value, text, size);
 }

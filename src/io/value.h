@@ -2,6 +2,7 @@
 #ifndef ZP_IO_VALUE_H
 #define ZP_IO_VALUE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include <zipact/def.h>
@@ -19,7 +20,13 @@ ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err)
  * is no value of the key itself, such as a standard deviation. ZP_BAD_INPUT: as zp_value_read. */
 ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err);
 
+/* Whether `text` is a number without a unit, other than 0, for a key that has a unit. */
+bool zp_value_is_bare(int index, const char *text);
+
 /* (key) => "1 um to 5000 um", with " or auto" where that is allowed; the range of a number key. */
 void zp_value_range(int index, char *text, size_t size);
+
+/* To 12 digits: more than any key needs, and fewer than the rounding of what is computed reaches. */
+double zp_rounded(double value);
 
 #endif

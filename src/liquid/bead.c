@@ -61,20 +61,24 @@ double zp_bead_volume(const ZpFilmParams *p, const double *gap, int half, double
   return p->w * (area + below * thickness(p, gap, half, zp_bead_elements(p)));
 }
 
+/* Share of the flat part that is wet as far as `beyond` its near end; it may have no length. */
+static double flat_part(const ZpFilmParams *p, double beyond) {
+  if (beyond >= p->flat_length) return 1;
+  return beyond > 0 ? beyond / p->flat_length : 0;
+}
+
 void zp_bead_cover(const ZpFilmParams *p, const double reach[ZP_BEADS], ZpCover *cover) {
   for (int half = 0; half < zp_beads(p); half++) {
-    double beyond = reach[half] - flexible(p);
     for (size_t k = 0; k < zp_bead_elements(p); k++)
       cover->part[element(p, half, k)] = fmin(fmax(reach[half] / p->l - (double)k, 0), 1);
-    cover->flat[half] = reach[half] >= zp_bead_longest(p) ? 1 : fmax(beyond, 0) / p->flat_length;
+    cover->flat[half] = reach[half] >= zp_bead_longest(p) ? 1 : flat_part(p, reach[half] - flexible(p));
   }
 }
 
 ZpBeadPlace zp_bead_place(const ZpFilmParams *p, int half, double reach) {
-  double along = fmax(reach, 0) / p->l, beyond = reach - flexible(p);
+  double along = fmax(reach, 0) / p->l;
   size_t k = zp_bead_elements(p), platform = zp_bead_station(p, half, k);
-  if (!(along < (double)k))
-    return (ZpBeadPlace){k, platform, platform, beyond < p->flat_length ? fmax(beyond, 0) / p->flat_length : 1};
+  if (!(along < (double)k)) return (ZpBeadPlace){k, platform, platform, flat_part(p, reach - flexible(p))};
   k = (size_t)along;
   return (ZpBeadPlace){k, zp_bead_station(p, half, k), zp_bead_station(p, half, k + 1), along - (double)k};
 }

@@ -156,8 +156,7 @@ static const ZpFilmPiece *left_of(const ZpFilmEval *e, size_t i) {
   return i > 0 ? &e->piece[i - 1] : &none;
 }
 
-/* Length of the film in the cell of station i, m. */
-static double wet(const ZpFilmEval *e, size_t i) {
+double zp_film_wet(const ZpFilmEval *e, size_t i) {
   return length_between(left_of(e, i), &e->piece[i], e->flat[i]);
 }
 
@@ -187,7 +186,7 @@ static double pressed(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFil
 }
 
 /* Does mode k have an equation at station i? */
-static bool is_free(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
+bool zp_film_is_free(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
   return p->share[k] > 0 && isnan(e->given[i]);
 }
 
@@ -219,10 +218,6 @@ static double element_mean(const ZpFilmEval *e, size_t i) {
   return e->piece[i].mean[0] * mean(e->H0, e->H1, i) + e->piece[i].mean[1] * mean(e->H0, e->H1, i + 1);
 }
 
-static size_t at_mode(size_t i, int k) {
-  return ZP_FILM_MODES * i + (size_t)k;
-}
-
 /* Where the state has u_k, and b_k, of station i, and the cavity. */
 static size_t along_at(size_t i, int k) {
   return ZP_FILM_STATE * i + (size_t)k;
@@ -251,7 +246,7 @@ static Tip tip_of(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEva
 
 static void flow_along(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, int k, double h, const double *start,
                        const double *heads, const ZpFilmEval *e) {
-  size_t at = at_mode(i, k), u = along_at(i, k);
+  size_t at = zp_film_mode_at(i, k), u = along_at(i, k);
   double H = element_mean(e, i), length = e->piece[i].length;
   Momentum m = momentum_of(p, element_middle(e, i), H, h, ends->cover && start[u] == 0);
   Tip tip = tip_of(p, ends, e, i, start[u]);
@@ -265,12 +260,12 @@ static void flow_along(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, 
 
 /* Where no liquid is nothing flows. */
 static void no_flow_along(size_t i, int k, const ZpFilmEval *e) {
-  e->flow[at_mode(i, k)] = e->conductance[at_mode(i, k)] = e->end[along_at(i, k)] = 0;
+  e->flow[zp_film_mode_at(i, k)] = e->conductance[zp_film_mode_at(i, k)] = e->end[along_at(i, k)] = 0;
 }
 
 /* The share of the long edges there where liquid can pass. */
 static double open_share(const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) {
-  if (!(wet(e, i) > 0)) return 0;
+  if (!(zp_film_wet(e, i) > 0)) return 0;
   return ends->open ? ends->open[i] : 1;
 }
 
@@ -279,7 +274,7 @@ static void flow_in(const ZpFilmParams *p, size_t i, double share, const double 
   double H = e->middle[i], mobility = share > 0 ? share * H * H * H / (12 * p->mu) : 0;
   e->jet[i] = e->coupling[i] = 0;
   for (int k = 0; k < ZP_FILM_MODES; k++) {
-    size_t at = at_mode(i, k);
+    size_t at = zp_film_mode_at(i, k);
     e->leak_conductance[at] = mobility * p->kappa2[k];
     e->leak[at] = e->leak_conductance[at] * heads[at];
     e->end[across_at(i, k)] = 0;
@@ -293,7 +288,7 @@ static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i,
   double E = mean(e->depth0, e->depth1, i), per_speed = 0.5 * p->w / mean(e->H0, e->H1, i), A = 0, C = 0;
   Momentum m = momentum_of(p, e->middle[i], E, h, ends->cover && start[across_at(i, 0)] == 0);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
-    size_t at = at_mode(i, k);
+    size_t at = zp_film_mode_at(i, k);
     e->leak_conductance[at] = E * m.theta * h * p->kappa2[k] / m.inertia;
     e->leak[at] =
         p->kappa2[k] > 0 ? E * p->rho * start[across_at(i, k)] / m.inertia + e->leak_conductance[at] * heads[at] : 0;
@@ -305,8 +300,8 @@ static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i,
   e->coupling[i] = per_speed * p->rho * out / (1 + p->rho * C * out);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     size_t b = across_at(i, k);
-    e->leak[at_mode(i, k)] -= e->leak_conductance[at_mode(i, k)] * 0.5 * p->rho * out * out;
-    e->end[b] = start[b] + (e->leak[at_mode(i, k)] / E - start[b]) / m.theta;
+    e->leak[zp_film_mode_at(i, k)] -= e->leak_conductance[zp_film_mode_at(i, k)] * 0.5 * p->rho * out * out;
+    e->end[b] = start[b] + (e->leak[zp_film_mode_at(i, k)] / E - start[b]) / m.theta;
   }
 }
 
@@ -326,12 +321,30 @@ static void geometry(const ZpFilmParams *p, const ZpFilmEnds *ends, const double
   }
 }
 
+static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
+  return p->share[0] * heads[zp_film_mode_at(i, 0)] + p->share[1] * heads[zp_film_mode_at(i, 1)];
+}
+
 /* Below minus the zp_film_tension a cavity grows, so that its head hardly falls any more. */
+static double cavity_of(double head) {
+  return give * fmax(0, -zp_film_tension - head);
+}
+
 static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
-    e->head[i] = p->share[0] * heads[at_mode(i, 0)] + p->share[1] * heads[at_mode(i, 1)];
-    e->end[cavity_at(i)] = give * fmax(0, -zp_film_tension - e->head[i]);
+    e->head[i] = mean_head(p, heads, i);
+    e->end[cavity_at(i)] = cavity_of(e->head[i]);
   }
+}
+
+double zp_film_unforeseen(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  double work = 0;
+  for (size_t i = 0; i < p->nodes; i++) {
+    double head = mean_head(p, heads, i), foreseen = e->end[cavity_at(i)];
+    if (foreseen > 0) foreseen -= give * (head - e->head[i]);
+    work += p->w * zp_film_wet(e, i) * fabs((cavity_of(head) - foreseen) * head);
+  }
+  return work;
 }
 
 /* (E1 - E0) / (H1 - H0). */
@@ -354,20 +367,20 @@ static double suction(const ZpFilmParams *p, const double *start, const ZpFilmEv
     const ZpFilmPiece *left = left_of(e, i), *right = &e->piece[i];
     if (i > 0) along += left->length * left->mean[1] * squares(start, e->end, along_at(i - 1, k));
     if (i + 1 < p->nodes) along += right->length * right->mean[0] * squares(start, e->end, along_at(i, k));
-    sum += p->share[k] * (along + wet(e, i) * slope * across) / 4;
+    sum += p->share[k] * (along + zp_film_wet(e, i) * slope * across) / 4;
   }
   return p->rho * sum;
 }
 
 /* The growth of what the cell of station i holds, m^2. */
 static double grown(const ZpFilmParams *p, const double *rise, const double *start, const ZpFilmEval *e, size_t i) {
-  return over_cell(p, e, rise, i) - wet(e, i) * (e->end[cavity_at(i)] - start[cavity_at(i)]);
+  return over_cell(p, e, rise, i) - zp_film_wet(e, i) * (e->end[cavity_at(i)] - start[cavity_at(i)]);
 }
 
 /* What flows out of it in mode k, m^2/s. */
 static double outflow(const ZpFilmEval *e, size_t i, int k) {
-  double sum = wet(e, i) * e->leak[at_mode(i, k)] + e->flow[at_mode(i, k)];
-  return i > 0 ? sum - e->flow[at_mode(i - 1, k)] : sum;
+  double sum = zp_film_wet(e, i) * e->leak[zp_film_mode_at(i, k)] + e->flow[zp_film_mode_at(i, k)];
+  return i > 0 ? sum - e->flow[zp_film_mode_at(i - 1, k)] : sum;
 }
 
 static void flows(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start, const double *heads,
@@ -390,7 +403,7 @@ static void flows(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const
 /* Volume that has left through the meniscus in the element from station i on, over w, m^2. */
 static double past_tip(const ZpFilmParams *p, const double *rise, double h, const ZpFilmEval *e, size_t i) {
   const ZpFilmPiece *piece = &e->piece[i];
-  double flow = p->share[0] * e->flow[at_mode(i, 0)] + p->share[1] * e->flow[at_mode(i, 1)];
+  double flow = p->share[0] * e->flow[zp_film_mode_at(i, 0)] + p->share[1] * e->flow[zp_film_mode_at(i, 1)];
   return h * (from_right(p, i) ? -flow : flow) - (piece->tip[0] * rise[i] + piece->tip[1] * rise[i + 1]);
 }
 
@@ -400,7 +413,7 @@ static void passed(const ZpFilmParams *p, const double *rise, double h, const do
   for (size_t i = 0; i < p->nodes; i++) {
     double length = e->piece[i].length;
     if (length > 0 && length < p->l) e->out[from_right(p, i)] += p->w * past_tip(p, rise, h, e, i);
-    if (isnan(e->given[i]) || !(wet(e, i) > 0)) continue;
+    if (isnan(e->given[i]) || !(zp_film_wet(e, i) > 0)) continue;
     for (int k = 0; k < ZP_FILM_MODES; k++)
       e->out[half_of(p, i)] -= p->w * p->share[k] * (grown(p, rise, start, e, i) + h * outflow(e, i, k));
   }
@@ -410,10 +423,10 @@ static void volumes(const ZpFilmParams *p, const double *rise, double h, const d
                     const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++)
     for (int k = 0; k < ZP_FILM_MODES; k++) {
-      size_t at = at_mode(i, k);
+      size_t at = zp_film_mode_at(i, k);
       double given = isnan(e->given[i]) ? 0 : e->given[i];
       double volume = grown(p, rise, start, e, i) + h * outflow(e, i, k);
-      e->r[at] = is_free(p, e, i, k) ? p->share[k] * p->w * volume : given - heads[at];
+      e->r[at] = zp_film_is_free(p, e, i, k) ? p->share[k] * p->w * volume : given - heads[at];
     }
 }
 
@@ -477,10 +490,10 @@ static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double 
                           const ZpFilmEval *e, size_t i, int k) {
   double E = mean(e->depth0, e->depth1, i), b = start[across_at(i, k)];
   if (!(p->kappa2[k] > 0)) return 0;
-  double share = open_share(ends, e, i), H = e->middle[i], leak = e->leak[at_mode(i, k)];
+  double share = open_share(ends, e, i), H = e->middle[i], leak = e->leak[zp_film_mode_at(i, k)];
   double stops = 0.5 * p->rho * E * b * b / p->kappa2[k];
   if (share < 1) return stops + (share > 0 ? 12 * p->mu * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
-  return lost(p, e->middle[i], E, e->leak[at_mode(i, k)], change(start, e, across_at(i, k)), h,
+  return lost(p, e->middle[i], E, e->leak[zp_film_mode_at(i, k)], change(start, e, across_at(i, k)), h,
               ends->cover && start[across_at(i, 0)] == 0) /
          p->kappa2[k];
 }
@@ -488,15 +501,15 @@ static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double 
 static double lost_along(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start,
                          const ZpFilmEval *e, size_t i, int k) {
   if (!(e->piece[i].length > 0)) return 0;
-  return lost(p, element_middle(e, i), element_mean(e, i), e->flow[at_mode(i, k)], change(start, e, along_at(i, k)), h,
-              ends->cover && start[along_at(i, k)] == 0);
+  return lost(p, element_middle(e, i), element_mean(e, i), e->flow[zp_film_mode_at(i, k)],
+              change(start, e, along_at(i, k)), h, ends->cover && start[along_at(i, k)] == 0);
 }
 
 /* By what passes the film's end in element i, over w and the share of the mode, J/m. */
 static double carried(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start, const ZpFilmEval *e,
                       size_t i, int k) {
   if (!(e->piece[i].length > 0)) return 0;
-  double flow = e->flow[at_mode(i, k)];
+  double flow = e->flow[zp_film_mode_at(i, k)];
   return h * flow * flow * tip_of(p, ends, e, i, start[along_at(i, k)]).per_speed / element_mean(e, i);
 }
 
@@ -504,7 +517,7 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *p, const ZpFilmEnds *ends, double h,
                         const ZpFilmEval *e) {
   ZpFilmLoss sum = {0};
   for (size_t i = 0; i < p->nodes; i++) {
-    double length = p->w * wet(e, i), H = mean(e->H0, e->H1, i), out = fmax(e->jet[i], 0);
+    double length = p->w * zp_film_wet(e, i), H = mean(e->H0, e->H1, i), out = fmax(e->jet[i], 0);
     for (int k = 0; k < ZP_FILM_MODES; k++) {
       sum.across += length * p->share[k] * lost_across(p, ends, h, start, e, i, k);
       if (i + 1 == p->nodes) continue;
@@ -519,30 +532,35 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *p, const ZpFilmEnds *ends, double h,
 }
 
 double zp_film_edge_flow(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
-  return p->w * wet(e, i) * (p->share[0] * e->leak[at_mode(i, 0)] + p->share[1] * e->leak[at_mode(i, 1)]);
+  return p->w * zp_film_wet(e, i) *
+         (p->share[0] * e->leak[zp_film_mode_at(i, 0)] + p->share[1] * e->leak[zp_film_mode_at(i, 1)]);
+}
+
+bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return zp_film_wet(e, i) >= zp_film_length(p, i) && !(e->end[cavity_at(i)] > 0);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
 double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
-  if (!is_free(p, e, i, k) || !is_free(p, e, i, m)) return k == m ? 1 : 0;
-  double length = wet(e, i), leak = p->share[k] * e->leak_conductance[at_mode(i, k)], sum = 0;
+  if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i, m)) return k == m ? 1 : 0;
+  double length = zp_film_wet(e, i), leak = p->share[k] * e->leak_conductance[zp_film_mode_at(i, k)], sum = 0;
   if (k == m) {
-    sum = length * leak + p->share[k] * e->conductance[at_mode(i, k)];
-    if (i > 0) sum += p->share[k] * e->conductance[at_mode(i - 1, k)];
+    sum = length * leak + p->share[k] * e->conductance[zp_film_mode_at(i, k)];
+    if (i > 0) sum += p->share[k] * e->conductance[zp_film_mode_at(i - 1, k)];
   }
-  sum -= length * e->coupling[i] * leak * p->share[m] * e->leak_conductance[at_mode(i, m)];
+  sum -= length * e->coupling[i] * leak * p->share[m] * e->leak_conductance[zp_film_mode_at(i, m)];
   double grows = e->end[cavity_at(i)] > 0 ? length * give * p->share[k] * p->share[m] : 0;
   return -p->w * (h * sum + grows);
 }
 
 double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
-  if (!is_free(p, e, i, k) || !is_free(p, e, i + 1, k)) return 0;
-  return p->share[k] * h * p->w * e->conductance[at_mode(i, k)];
+  if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i + 1, k)) return 0;
+  return p->share[k] * h * p->w * e->conductance[zp_film_mode_at(i, k)];
 }
 
 double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
-  return is_free(p, e, i, k) ? p->share[k] * p->w * cell_share(e, i, j) * e->secant[j] : 0;
+  return zp_film_is_free(p, e, i, k) ? p->share[k] * p->w * cell_share(e, i, j) * e->secant[j] : 0;
 }
 
 double zp_film_inertia(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i) {
@@ -550,5 +568,7 @@ double zp_film_inertia(const ZpFilmParams *p, double h, const ZpFilmEval *e, siz
   Momentum m = momentum_of(p, e->middle[i], E, h, false);
   for (int k = 0; k < ZP_FILM_MODES; k++)
     flow += p->kappa2[k] > 0 ? p->share[k] / p->kappa2[k] : 0;
-  return p->w * wet(e, i) * flow * m.inertia / (2 * m.theta * E);
+  double head = flow * m.inertia / (2 * m.theta * E); /* by the acceleration of the gap, Pa s^2/m */
+  double filled = e->end[cavity_at(i)] > 0 ? 1 / (1 + 2 * give * head / (h * h)) : 1;
+  return p->w * zp_film_wet(e, i) * head * filled;
 }

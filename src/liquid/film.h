@@ -20,6 +20,11 @@
 
 enum { ZP_FILM_MODES = 2, ZP_FILM_CAVITY = 2 * ZP_FILM_MODES, ZP_FILM_STATE };
 
+/* Where an array [2 N] has mode k of station i. */
+static inline size_t zp_film_mode_at(size_t i, int k) {
+  return ZP_FILM_MODES * i + (size_t)k;
+}
+
 static const double zp_film_tension = 1e5; /* Pa: a liquid under an atmosphere stands no more before it cavitates */
 
 typedef struct ZpFilmParams {
@@ -92,6 +97,13 @@ double zp_film_depth(const ZpFilmParams *params, double thickness);
 void zp_film_step(const ZpFilmParams *params, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
                   const double *start, const double *heads, const ZpFilmEval *eval);
 
+/* Length of the film in the cell of station i, where it is laid, m. */
+double zp_film_wet(const ZpFilmEval *eval, size_t i);
+
+/* The last correction has led from the heads of that step to these: |work|, J, of cavities that it has opened or closed
+ * beyond what its matrix foresaw. */
+double zp_film_unforeseen(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
+
 /* What the film loses over that step, J: each is 0 or more. */
 typedef struct ZpFilmLoss {
   double along, across; /* to viscosity */
@@ -101,6 +113,12 @@ typedef struct ZpFilmLoss {
 } ZpFilmLoss;
 ZpFilmLoss zp_film_loss(const ZpFilmParams *params, const ZpFilmEnds *ends, double h, const double *start,
                         const ZpFilmEval *eval);
+
+/* Is the head of mode k at station i an unknown, or is the mode none or its head given? */
+bool zp_film_is_free(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, int k);
+
+/* Does the film fill all between the faces at station i at the step's end: is it wet, without a cavity? */
+bool zp_film_fills(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
 /* Mass by which the film at station i resists to a change of its gap over a step of h, inertia and viscosity together,
  * if all flows across, kg. */

@@ -67,3 +67,34 @@ double zp_cosine_of(double p) {
 double zp_sine_of(double p) {
   return zp_cosine_of(p - 0.25);
 }
+
+/* x = 2^n m with m near 1, and ln m = 2 (z + z^3 / 3 + ...), z = (m - 1) / (m + 1), |z| < 0.18. */
+double zp_logarithm(double x) {
+  enum { TERMS = 12 };
+  static const double ln2 = 0x1.62e42feep-1, rest = 0x1.a39ef35793c76p-33, root_of_half = 0.70710678118654752;
+  int n;
+  double m = frexp(x, &n);
+  if (m < root_of_half) m *= 2, n--;
+  double z = (m - 1) / (m + 1), sum = 0;
+  for (int k = TERMS; k > 0; k--)
+    sum = z * z * (1.0 / (2 * k + 1) + sum);
+  return n * ln2 + (n * rest + 2 * z * (1 + sum));
+}
+
+/* Of a vector within 45 degrees of an axis: a quarter of the angle by its series, its tangent being below 0.2. */
+static double small_angle(double t) {
+  enum { TERMS = 12 };
+  for (int k = 0; k < 2; k++)
+    t /= 1 + sqrt(1 + t * t);
+  double sum = 0;
+  for (int k = TERMS; k > 0; k--)
+    sum = -t * t * (1.0 / (2 * k + 1) + sum);
+  return 4 * t * (1 + sum);
+}
+
+double zp_angle(double y, double x) {
+  double up = fabs(y), along = fabs(x);
+  if (up == 0 && along == 0) return 0;
+  double angle = up <= along ? small_angle(up / along) : 0.5 * zp_pi - small_angle(along / up);
+  return copysign(x < 0 ? zp_pi - angle : angle, y);
+}

@@ -13,6 +13,9 @@ double zp_decay(double x);     /* exp(-x) - 1, x >= 0 */
  * exact. */
 double zp_decay_weight(double x);
 
+double zp_logarithm(double x);       /* natural, x > 0 */
+double zp_angle(double y, double x); /* of the vector (x, y), -pi .. pi, rad; 0 of a vector without length */
+
 double zp_sine_squared(double p); /* sin(pi p)^2, p >= 0 */
 double zp_cosine_of(double p);    /* cos(2 pi p), p > -1 */
 double zp_sine_of(double p);      /* sin(2 pi p), p > -3/4 */

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/mix.h"
 #include "optimize/search.h"
-#include "sample/sobol.h"
 
 /* Indices of crossover and mutation, the share of coordinates that are crossed. */
 static const double crossing = 15, mutating = 20, crossed = 0.5;

@@ -149,7 +149,7 @@ static void describe(ZpOptimization *o) {
 
 /* "KEY=[value, ...]" of all rows, to be freed. */
 static char *list_of(const ZpOptimization *o, size_t variable) {
-  const ZpVariable *v = &o->search.problem.variable[variable];
+  const ZpInterval *v = &o->search.problem.variable[variable];
   char *text = NULL, value[ZP_NUMBER_SIZE];
   size_t size;
   FILE *stream = open_memstream(&text, &size);

@@ -17,30 +17,10 @@ static const double slack = 1e-6;
 /* What an output that does not exist counts as missed: more than any that does. */
 static const double missing = 1e3;
 
-/* The text without blanks at its ends, in place. */
-static char *trim(char *text) {
-  text += strspn(text, " \t");
-  for (size_t length = strlen(text); length > 0 && strchr(" \t", text[length - 1]);)
-    text[--length] = 0;
-  return text;
-}
-
 /* -- reading ---------------------------------------------------------------------------------------- */
 
-static ZpStatus read_end(int key, const char *text, double *value, ZpError *err) {
-  ZpError reason = {ZP_BAD_INPUT, "give a number"};
-  ZpStatus status = zp_value_read(key, text, value, &reason);
-  if (status == ZP_OK && isfinite(*value)) return ZP_OK;
-  return zp_fail(err, reason.status, "optimize.variables: %s = \"%.60s\": %.200s", zp_key(key)->name, text,
-                 reason.message);
-}
-
-static ZpStatus check_variable(const ZpProblem *problem, const ZpVariable *v, ZpError *err) {
+static ZpStatus check_variable(const ZpProblem *problem, const ZpInterval *v, ZpError *err) {
   const char *name = zp_key(v->key)->name;
-  if (!(v->from < v->to))
-    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s: the upper end must be larger than the lower", name);
-  if (v->by_factors && !(v->from > 0))
-    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s: with log, both ends must be above 0", name);
   for (size_t i = 0; i < problem->variables; i++)
     if (problem->variable[i].key == v->key)
       return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s is named twice", name);
@@ -51,23 +31,8 @@ static ZpStatus check_variable(const ZpProblem *problem, const ZpVariable *v, Zp
 
 /* "ribbon.thickness = 20 um .. 200 um log" */
 static ZpStatus read_variable(char *text, ZpProblem *problem, ZpError *err) {
-  char *equals = strchr(text, '='), *dots = equals ? strstr(equals, "..") : NULL;
-  ZpVariable v = {0};
-  if (!dots)
-    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: \"%.80s\": write \"ribbon.thickness = 20 um .. 200 um\"",
-                   text);
-  *equals = *dots = 0;
-  char *name = trim(text), *to = trim(dots + 2), *blank = strrchr(to, ' ');
-  v.by_factors = blank && strcmp(blank + 1, "log") == 0;
-  if (v.by_factors) *blank = 0;
-  v.key = zp_key_find(name);
-  if (v.key < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %.80s: unknown key; did you mean %s?", name,
-                   zp_key_nearest(name));
-  if (zp_key(v.key)->type != ZP_KEY_REAL && zp_key(v.key)->type != ZP_KEY_REAL_AUTO)
-    return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s is not a real number", name);
-  ZpStatus status = read_end(v.key, trim(equals + 1), &v.from, err);
-  if (status == ZP_OK) status = read_end(v.key, trim(to), &v.to, err);
+  ZpInterval v;
+  ZpStatus status = zp_interval_read("optimize.variables", text, &v, err);
   if (status == ZP_OK) status = check_variable(problem, &v, err);
   if (status == ZP_OK) problem->variable[problem->variables++] = v;
   return status;
@@ -88,12 +53,12 @@ static ZpStatus add_goal(ZpProblem *problem, const char *key, const char *output
 
 /* "min mass_kg" */
 static ZpStatus read_objective(char *text, ZpProblem *problem, ZpError *err) {
-  char *word = trim(text), *blank = strpbrk(word, " \t");
+  char *word = zp_trim(text), *blank = strpbrk(word, " \t");
   const bool least = strncmp(word, "min ", 4) == 0;
-  if (!blank || (!least && strncmp(word, "max ", 4) != 0) || strpbrk(trim(blank), " \t"))
+  if (!blank || (!least && strncmp(word, "max ", 4) != 0) || strpbrk(zp_trim(blank), " \t"))
     return zp_fail(err, ZP_BAD_INPUT, "optimize.objective: \"%.80s\": write \"min mass_kg\" or \"max max_load_kg\"",
                    word);
-  ZpStatus status = add_goal(problem, "optimize.objective", trim(blank), "", least ? 1 : -1, ZP_GOALS_MOST, err);
+  ZpStatus status = add_goal(problem, "optimize.objective", zp_trim(blank), "", least ? 1 : -1, ZP_GOALS_MOST, err);
   problem->objectives = problem->goals;
   return status;
 }
@@ -102,10 +67,10 @@ static ZpStatus read_objective(char *text, ZpProblem *problem, ZpError *err) {
 static ZpStatus read_constraint(char *text, ZpProblem *problem, ZpError *err) {
   char *sign = strpbrk(text, "<>");
   if (!sign || sign[1] != '=')
-    return zp_fail(err, ZP_BAD_INPUT, "optimize.constraints: \"%.80s\": write \"travel_m >= 15 mm\"", trim(text));
+    return zp_fail(err, ZP_BAD_INPUT, "optimize.constraints: \"%.80s\": write \"travel_m >= 15 mm\"", zp_trim(text));
   const double direction = *sign == '<' ? 1 : -1;
   *sign = 0;
-  return add_goal(problem, "optimize.constraints", trim(text), trim(sign + 2), direction,
+  return add_goal(problem, "optimize.constraints", zp_trim(text), zp_trim(sign + 2), direction,
                   problem->objectives + ZP_BOUNDS_MOST, err);
 }
 
@@ -116,7 +81,7 @@ static ZpStatus read_all(const char *text, ZpStatus (*read)(char *text, ZpProble
   ZpStatus status = ZP_OK;
   snprintf(copy, sizeof copy, "%s", text);
   for (char *part = strsep(&rest, ";"); part && status == ZP_OK; part = strsep(&rest, ";"))
-    if (*trim(part)) status = read(part, problem, err);
+    if (*zp_trim(part)) status = read(part, problem, err);
   return status;
 }
 
@@ -185,13 +150,13 @@ ZpStatus zp_problem_resolve(ZpProblem *problem, const ZpResult *result, ZpError 
 
 /* -- points ----------------------------------------------------------------------------------------- */
 
-double zp_variable_value(const ZpVariable *v, double z) {
+double zp_variable_value(const ZpInterval *v, double z) {
   if (z <= 0) return v->from;
   if (z >= 1) return v->to;
   return zp_rounded(v->by_factors ? v->from * pow(v->to / v->from, z) : v->from + (v->to - v->from) * z);
 }
 
-double zp_variable_slope(const ZpVariable *v, double z) {
+double zp_variable_slope(const ZpInterval *v, double z) {
   return v->by_factors ? v->from * pow(v->to / v->from, z) * log(v->to / v->from) : v->to - v->from;
 }
 

@@ -7,14 +7,9 @@
 
 #include <zipact/io.h>
 
-enum { ZP_VARIABLES_MOST = 8, ZP_GOALS_MOST = 4, ZP_BOUNDS_MOST = 12 };
+#include "io/range.h"
 
-/* A key and its range. Searches see a place z in 0 .. 1. */
-typedef struct ZpVariable {
-  int key;
-  double from, to; /* SI */
-  bool by_factors; /* places are of the logarithm */
-} ZpVariable;
+enum { ZP_VARIABLES_MOST = 8, ZP_GOALS_MOST = 4, ZP_BOUNDS_MOST = 12 };
 
 /* An output that counts. */
 typedef struct ZpGoal {
@@ -25,7 +20,7 @@ typedef struct ZpGoal {
 } ZpGoal;
 
 typedef struct ZpProblem {
-  ZpVariable variable[ZP_VARIABLES_MOST];
+  ZpInterval variable[ZP_VARIABLES_MOST];
   size_t variables;
   ZpGoal goal[ZP_GOALS_MOST + ZP_BOUNDS_MOST]; /* objectives, then constraints */
   size_t objectives, goals;
@@ -41,8 +36,8 @@ ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *
 ZpStatus zp_problem_resolve(ZpProblem *problem, const ZpResult *result, ZpError *err);
 
 /* The value of a variable at place z, SI, and how it changes there. */
-double zp_variable_value(const ZpVariable *variable, double z);
-double zp_variable_slope(const ZpVariable *variable, double z);
+double zp_variable_value(const ZpInterval *variable, double z);
+double zp_variable_slope(const ZpInterval *variable, double z);
 
 /* What counts at a point, made so that smaller is better: objectives; constraints as the part of their bound by which
  * they are missed, at most 0 where they hold. NAN where the output does not exist. */

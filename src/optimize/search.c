@@ -36,7 +36,7 @@ static ZpStatus define(const ZpSearch *s, const double *z, ZpActuatorDef *def, Z
   size_t used = 0;
   *def = s->def;
   for (size_t i = 0; i < s->problem.variables && status == ZP_OK; i++) {
-    const ZpVariable *v = &s->problem.variable[i];
+    const ZpInterval *v = &s->problem.variable[i];
     status = zp_def_set(def, v->key, zp_variable_value(v, z[i]), err);
     if (s->derivatives && used < sizeof def->sensitivity.by)
       used += (size_t)snprintf(def->sensitivity.by + used, sizeof def->sensitivity.by - used, "%s%s", i ? "," : "",
@@ -59,7 +59,7 @@ static void look(const ZpSearch *s, const ZpResult *result, ZpPoint *point) {
   for (size_t g = 0; g < p->goals; g++) {
     point->value[g] = good ? zp_goal_value(p, g, zp_result_get(result, p->goal[g].output)) : (double)NAN;
     for (size_t i = 0; i < p->variables; i++) {
-      const ZpVariable *v = &p->variable[i];
+      const ZpInterval *v = &p->variable[i];
       point->slope[g][i] =
           zp_goal_slope(p, g) * slope_of(result, p->goal[g].output, v->key) * zp_variable_slope(v, point->z[i]);
     }

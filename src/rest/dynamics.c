@@ -192,7 +192,7 @@ static void attempt(void *self, double *q1) {
   if (d->model->field) keep_apart(d, q1);
 }
 
-/* What the last correction has changed of the push of faces beyond what the tangent foresaw. */
+/* What the last correction has changed of the push of faces, and of cavities, beyond what the tangent foresaw. */
 static double unforeseen(void *self, const double *q1) {
   ZpDynamics *d = self;
   const ZpModel *model = d->model;
@@ -201,6 +201,8 @@ static double unforeseen(void *self, const double *q1) {
   const double *gap = d->eval.plates.gap;
   zp_assembly_scatter(&d->assembly, q1, d->end);
   if (!model->field) return 0;
+  gather_own(d, q1);
+  if (model->has_film) work += zp_film_unforeseen(&model->film, d->own, &d->eval.film);
   zp_plates_gaps(&model->plates, d->end, d->end + model->stride, &d->eval.plates);
   for (size_t i = 0; i < model->nodes; i++)
     foreseen[i] = faces->push[i] - faces->own[i] * (gap[i] - before[i]);
@@ -234,6 +236,13 @@ static void damp(ZpDynamics *d, size_t i) {
   if (pair.upper >= 0) d->v[pair.upper] -= lost * (1 - pair.upper_share);
 }
 
+/* Do faces overlap at the step's end, without a film that has taken their speed? In a bath there is one everywhere. */
+static bool meets(const ZpDynamics *d, size_t i) {
+  const ZpModel *model = d->model;
+  bool filled = model->has_film && (!model->has_bead || zp_film_fills(&model->film, &d->eval.film, i));
+  return d->eval.faces.stiffness[i] > 0 && !filled;
+}
+
 /* The damper between faces that overlap at the step's end, and what is too fast for the step, which impacts make => the
  * loss, with what the faces' push took on its way, J. */
 static double impact(ZpDynamics *d) {
@@ -243,13 +252,13 @@ static double impact(ZpDynamics *d) {
   bool any = false;
   for (size_t i = 1; i < model->nodes; i++) {
     loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
-    any |= d->eval.faces.stiffness[i] > 0;
+    any |= meets(d, i);
   }
-  if (!any || model->has_film) return loss; /* a film has taken their speed */
+  if (!any) return loss;
   loss += kinetic_energy(d);
-  zp_implicit_smooth(&d->stepper, d->h, d->v);
+  if (!model->has_film) zp_implicit_smooth(&d->stepper, d->h, d->v);
   for (size_t i = 1; i < model->nodes; i++)
-    if (d->eval.faces.stiffness[i] > 0) damp(d, i);
+    if (meets(d, i)) damp(d, i);
   return loss - kinetic_energy(d);
 }
 
@@ -329,7 +338,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (model->has_film) add_liquid(d);
   if (source) add_voltage(d);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.balance = 1e-5 * def->solver.tolerance;
+  d->stepper.balance = 2e-6 * def->solver.tolerance;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }

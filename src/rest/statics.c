@@ -22,14 +22,9 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   return carver.used;
 }
 
-/* On the way to an equilibrium faces may overlap by more than all their insulators: attraction must not outgrow the
- * push, which is what keeps them apart. In an equilibrium they overlap by a hundredth of that or less, as a rule. */
 static void fill_model(const ZpModel *model, ZpStatics *s) {
   ZpModel *own = (ZpModel *)s->model;
   *own = *model;
-  own->plates.h_least = fmax(model->plates.h_least, 0.5 * model->plates.d);
-  own->air.h_least = fmax(model->air.h_least, 0.5 * model->air.d);
-  if (own->plates.air) own->plates.air = &own->air;
   own->rod.k0 = s->k0_now;
   s->k0 = model->rod.k0;
 }
@@ -322,8 +317,11 @@ const char *zp_statics_fault(const ZpStatics *s) {
 ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *room) {
   ZpShape shape = {
       .time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + s->model->stride};
+  ZpShapeRoom here = *room;
+  for (int half = 0; s->model->has_bead && half < zp_beads(&s->model->film); half++)
+    here.reach[half] = s->eval.reach[half];
   if (s->model->field) shape.gap = s->eval.plates.gap;
-  zp_shape_fill(s->model, room, &shape);
+  zp_shape_fill(s->model, &here, &shape);
   return shape;
 }
 
@@ -374,7 +372,7 @@ static ZpSpan span_of(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
   ZpSpan span = zp_span_at(s->q);
   span.U0 = span.U1 = s->U;
-  span.load = zp_load_share(s->model) * (s->load - def->load.mass) * def->gravity;
+  span.hung = zp_load_share(s->model) * (s->load - def->load.mass) * def->gravity;
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
   span.beyond = zp_eval_beyond(&s->eval);
@@ -661,7 +659,7 @@ static void by_load(void *self, double *r_m) {
   const ZpModel *model = s->model;
   double per_mass = zp_load_share(model) * model->def.gravity;
   memset(s->force, 0, 2 * model->stride * sizeof *s->force);
-  zp_weight_by_load(model, s->force);
+  zp_weight_by_hung(model, s->force);
   for (size_t k = 0; k < 2 * model->stride; k++)
     s->force[k] *= per_mass;
   sum_by(s, s->force, r_m);

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "base/kernel.h"
+#include "ribbon/rod_curl.h"
 
 static size_t edge_count(const ZpRodParams *p) {
   return p->ribbons * (p->nodes - 1);
@@ -90,5 +91,5 @@ double zp_rod_bending_energy(const ZpRodParams *p, const ZpRodEval *e) {
     sum += p->B[j] * (e->k[j] - p->k0[j]) * (e->k[j] - p->k0[j]);
   for (const ZpRodEnd *end = p->end; end < p->end + p->ends; end++)
     sum += 2 * end->B * (e->k[end->held] - p->k0[end->held]) * (e->k[end->next] - p->k0[end->next]);
-  return sum / 2;
+  return sum / 2 - zp_rod_curl_energy(p, e);
 }

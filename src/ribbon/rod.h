@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "ribbon/curl.h"
 
 /* Two joints that bend together, eq. (8.9): the one at a held slope, and the one beside it. */
 typedef struct ZpRodEnd {
@@ -30,6 +31,7 @@ typedef struct ZpRodParams {
   size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
   size_t ends;
   ZpRodEnd end[ZP_ROD_MOST_ENDS];
+  ZpCurl curl[2]; /* of each ribbon, which then is of one section and not bent by nature */
 } ZpRodParams;
 
 /* Written by zp_rod_eval. Arrays over edges and joints, with one edge more before the first and after the

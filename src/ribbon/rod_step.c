@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "ribbon/rod_curl.h"
 
 static size_t edge_count(const ZpRodParams *p) {
   return p->ribbons * (p->nodes - 1);
@@ -189,6 +190,7 @@ void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
     joints_over_step(p, joints, e0, e1, damping, s);
   }
   bend_ends(p, e0, e1, damping, s);
+  zp_rod_curl_step(p, e0, e1, s);
   edge_forces(p, edges, s);
 }
 
@@ -257,4 +259,15 @@ void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval
   }
   for (size_t i = 0; i < p->ends; i++)
     end_stiffness(s, &p->end[i], s->across[i], D);
+}
+
+void zp_rod_damping(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, ZpRodStep *s, double (*spare)[4],
+                    double (*D)[4]) {
+  zp_rod_step(p, e0, e1, 0, s);
+  zp_rod_stiffness(p, e0, e1, 0, s, e1->T, spare);
+  zp_rod_step(p, e0, e1, 1, s);
+  zp_rod_stiffness(p, e0, e1, 1, s, e1->T, D);
+  for (size_t k = 0; k < 3 * edge_count(p); k++)
+    for (size_t c = 0; c < 4; c++)
+      D[k][c] -= spare[k][c];
 }

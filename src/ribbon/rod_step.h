@@ -44,4 +44,9 @@ double zp_rod_step_loss(const ZpRodParams *params, const ZpRodEval *start, const
 void zp_rod_stiffness(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
                       const ZpRodStep *step, const double *tension, double (*D)[4]);
 
+/* At one point, of which both evals are: what internal damping of 1 s adds to that derivative over a step of 1 s => D;
+ * `spare` is as long as D. */
+void zp_rod_damping(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, ZpRodStep *step,
+                    double (*spare)[4], double (*D)[4]);
+
 #endif

@@ -1,5 +1,6 @@
 #include "sample/design.h"
 
+#include "base/mix.h"
 #include "sample/sobol.h"
 
 size_t zp_design_blocks(const ZpDesign *design) {

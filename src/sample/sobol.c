@@ -58,10 +58,3 @@ uint32_t zp_scramble(uint32_t x, uint32_t seed) {
   x ^= x * 0x8d22f6e6U;
   return reverse(x);
 }
-
-uint64_t zp_mix(uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebU;
-  return x ^ x >> 31;
-}

@@ -14,7 +14,4 @@ uint32_t zp_sobol(uint32_t index, int dimension);
  * `seed`. Any 2^k points that have one in each interval of length 2^-k still have. */
 uint32_t zp_scramble(uint32_t x, uint32_t seed);
 
-/* A number that looks random, of 64 bits: the mixer of Steele, Lea and Flood (2014), "splitmix64". */
-uint64_t zp_mix(uint64_t x);
-
 #endif

@@ -40,13 +40,31 @@ double zp_checkpoint_time(const ZpCheckpoint *checkpoint) {
 /* -- what it fits ---------------------------------------------------------------------------------- */
 
 bool zp_checkpoint_holds(int index) {
-  static const char *const may_change[] = {
-      "preset",           "drive.",   "solver.end_time", "solver.tolerance",    "solver.time_step",
-      "solver.max_steps", "initial.", "data.",           "calibrate.",          "modes.",
-      "isometric.",       "profile.", "output.",         "ribbon.yield_stress", "sampling.",
-      "optimize."};
+  static const char *const may_change[] = {"preset",
+                                           "drive.",
+                                           "solver.end_time",
+                                           "solver.tolerance",
+                                           "solver.time_step",
+                                           "setpoint.",
+                                           "control.proportional",
+                                           "control.integral",
+                                           "control.noise",
+                                           "control.seed",
+                                           "control.boost_voltage",
+                                           "control.boost_band",
+                                           "solver.max_steps",
+                                           "initial.",
+                                           "data.",
+                                           "calibrate.",
+                                           "modes.",
+                                           "isometric.",
+                                           "profile.",
+                                           "output.",
+                                           "ribbon.yield_stress",
+                                           "sampling.",
+                                           "optimize."};
   const char *name = zp_key(index)->name;
-  if (zp_key(index)->offset == ZP_NO_FIELD) return false;
+  if (zp_key(index)->offset == ZP_NO_FIELD || zp_key_is_material(index)) return false;
   for (size_t k = 0; k < sizeof may_change / sizeof may_change[0]; k++) {
     size_t length = strlen(may_change[k]);
     bool group = may_change[k][length - 1] == '.';

@@ -1,5 +1,6 @@
-/* A controller of the program's own, asked at equal intervals. Its samples are corners: a step ends there, as it does
- * where a waveform turns, so the run needs no other steps for it. */
+/* Controllers: the one of the model (control.kind), or one of the program's own, asked at equal intervals. Samples and
+ * outputs are corners: a step ends there, as it does where a waveform turns, so the run needs no other steps for them.
+ */
 #include <math.h>
 
 #include "base/fail.h"
@@ -7,37 +8,103 @@
 
 static const double rounding = 1e-9; /* of a period: a time that is meant to be that of a sample */
 
-double zp_control_due(const ZpSim *sim) {
-  const ZpControl *control = &sim->control;
-  return control->controller.voltage ? control->since + control->taken * control->controller.period : INFINITY;
+static bool is_controlled(const ZpSim *sim) {
+  return sim->model->control.kind != ZP_CONTROL_NONE;
+}
+
+/* -- of the model ---------------------------------------------------------------------------------- */
+
+double zp_sim_setpoint(const ZpSim *sim) {
+  const ZpState *state = sim->state;
+  if (!is_controlled(sim)) return 0;
+  return state->setpoint_by_hand ? zp_ramp_value(&state->setpoint_input, state->t)
+                                 : zp_waveform_voltage(&sim->model->setpoint, state->t);
+}
+
+double zp_sim_controlled(ZpSim *sim) {
+  return zp_sim_get(sim, zp_key(sim->signal)->choices[sim->model->def.control.signal].word);
+}
+
+void zp_sim_start_control(ZpSim *sim) {
+  sim->state->control = zp_control_start();
+  zp_sim_hold_voltage(sim, (ZpRamp){0, 0, sim->state->t, INFINITY});
+}
+
+const ZpColumn *zp_sample_columns(size_t *count) {
+  static const ZpColumn column[ZP_SAMPLE_COLUMNS] = {{"time_s", "s", "time of the sample"},
+                                                     {"setpoint", "1", "what the controller is to hold"},
+                                                     {"signal", "1", "what it measures, without noise"}};
+  *count = ZP_SAMPLE_COLUMNS;
+  return column;
+}
+
+void zp_sim_keep_samples(ZpSim *sim, ZpTable *samples) {
+  sim->samples = samples;
+}
+
+static void take_sample(ZpSim *sim) {
+  double setpoint = zp_sim_setpoint(sim), signal = zp_sim_controlled(sim);
+  zp_control_sample(&sim->model->control, setpoint, signal, &sim->state->control);
+  if (sim->samples) zp_table_offer(sim->samples, (double[ZP_SAMPLE_COLUMNS]){sim->state->t, setpoint, signal});
+}
+
+static void control(ZpSim *sim) {
+  const ZpControl *c = &sim->model->control;
+  ZpState *state = sim->state;
+  if (state->t >= zp_control_sample_time(c, &state->control)) take_sample(sim);
+  while (state->t >= zp_control_output_time(c, &state->control))
+    zp_sim_hold_voltage(sim, (ZpRamp){zp_control_output(&state->control), 0, state->t, INFINITY});
+}
+
+/* -- of the program -------------------------------------------------------------------------------- */
+
+static double own_sample_time(const ZpOwnControl *own) {
+  return own->controller.voltage ? own->since + own->taken * own->controller.period : INFINITY;
 }
 
 /* A simulation that is set to the voltage that it has anyway keeps its steps. */
-bool zp_control_sample(ZpSim *sim) {
-  ZpControl *control = &sim->control;
-  const ZpController *controller = &control->controller;
+static bool ask(ZpSim *sim) {
+  ZpOwnControl *own = &sim->control;
+  const ZpController *controller = &own->controller;
   double t = sim->state->t;
-  if (t < zp_control_due(sim)) return true;
-  control->taken++;
-  return zp_sim_set_voltage(sim, controller->voltage(controller->user, sim, t), &control->fault) == ZP_OK;
+  if (t < own_sample_time(own)) return true;
+  own->taken++;
+  return zp_sim_set_voltage(sim, controller->voltage(controller->user, sim, t), &own->fault) == ZP_OK;
 }
 
-void zp_control_resume(ZpSim *sim) {
-  ZpControl *control = &sim->control;
-  if (!control->controller.voltage) return;
-  control->taken = fmax(0, ceil((sim->state->t - control->since) / control->controller.period - rounding));
+void zp_sim_resume_control(ZpSim *sim) {
+  ZpOwnControl *own = &sim->control;
+  if (!own->controller.voltage) return;
+  own->taken = fmax(0, ceil((sim->state->t - own->since) / own->controller.period - rounding));
 }
 
 ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpError *err) {
   static const double shortest = 1e-9, longest = 1e4; /* s */
   if (!controller) {
-    sim->control = (ZpControl){.since = 0};
+    sim->control = (ZpOwnControl){.since = 0};
     return ZP_OK;
   }
+  if (is_controlled(sim))
+    return zp_fail(err, ZP_BAD_INPUT, "controller: the model has one already, control.kind; use control.kind none");
   if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: it has no function voltage");
   if (!(controller->period >= shortest && controller->period <= longest))
     return zp_fail(err, ZP_BAD_INPUT, "controller: a period of %g s is out of range; %g s to %g s", controller->period,
                    shortest, longest);
-  sim->control = (ZpControl){.controller = *controller, .since = sim->state->t};
+  sim->control = (ZpOwnControl){.controller = *controller, .since = sim->state->t};
   return ZP_OK;
+}
+
+/* -- both ------------------------------------------------------------------------------------------ */
+
+double zp_sim_control_due(const ZpSim *sim) {
+  const ZpControl *c = &sim->model->control;
+  const ZpControlState *state = &sim->state->control;
+  if (!is_controlled(sim)) return own_sample_time(&sim->control);
+  return fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state));
+}
+
+bool zp_sim_control(ZpSim *sim) {
+  if (!is_controlled(sim)) return ask(sim);
+  control(sim);
+  return true;
 }

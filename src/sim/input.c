@@ -9,10 +9,12 @@ typedef struct Input {
   const char *name, *unit;
 } Input;
 
-static const Input inputs[ZP_INPUT_COUNT] = {[ZP_INPUT_VOLTAGE] = {"voltage", "V"}, [ZP_INPUT_LOAD] = {"load", "N"}};
+static const Input inputs[ZP_INPUT_COUNT] = {
+    [ZP_INPUT_VOLTAGE] = {"voltage", "V"}, [ZP_INPUT_LOAD] = {"load", "N"}, [ZP_INPUT_SETPOINT] = {"setpoint", "1"}};
 
-static const double most_load = 1e4;  /* N: the weight of the largest load.mass */
-static const double most_rate = 1e12; /* per second: far beyond what a step of time can tell from a jump */
+static const double most_load = 1e4;     /* N: the weight of the largest load.mass */
+static const double most_setpoint = 1e3; /* in its unit: as setpoint.value */
+static const double most_rate = 1e12;    /* per second: far beyond what a step of time can tell from a jump */
 
 const char *zp_input_name(ZpInput input) {
   return (size_t)input < ZP_INPUT_COUNT ? inputs[input].name : "unknown";
@@ -33,15 +35,37 @@ static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   return zp_def_set(&scratch, sim->drive, voltage, err);
 }
 
+void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
+  sim->state->by_hand = true;
+  sim->state->voltage_input = voltage;
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage.value);
+}
+
+/* Whoever holds the voltage. */
+static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
+  bool controlled = sim->model->control.kind != ZP_CONTROL_NONE;
+  if (input == ZP_INPUT_VOLTAGE && controlled)
+    return zp_fail(err, ZP_BAD_INPUT, "voltage: the controller sets it (control.kind); set the setpoint");
+  if (input == ZP_INPUT_SETPOINT && !controlled)
+    return zp_fail(err, ZP_BAD_INPUT, "setpoint: there is no controller; control.kind gives one");
+  return ZP_OK;
+}
+
 static ZpStatus set_voltage(ZpSim *sim, double voltage, double rate, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
-  ZpState *state = sim->state;
   ZpStatus status = check_voltage(sim, voltage, err);
   if (status == ZP_OK && rate > 0) status = check_voltage(sim, key->max, err);
   if (status != ZP_OK) return status;
-  state->by_hand = true;
-  state->voltage_input = ramp_within(voltage, rate, state->t, key->min, key->max);
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
+  zp_sim_hold_voltage(sim, ramp_within(voltage, rate, sim->state->t, key->min, key->max));
+  return ZP_OK;
+}
+
+static ZpStatus set_setpoint(ZpSim *sim, double setpoint, double rate, ZpError *err) {
+  if (!(fabs(setpoint) <= most_setpoint))
+    return zp_fail(err, ZP_BAD_INPUT, "setpoint = %g is out of range; %g to %g", setpoint, -most_setpoint,
+                   most_setpoint);
+  sim->state->setpoint_by_hand = true;
+  sim->state->setpoint_input = ramp_within(setpoint, rate, sim->state->t, -most_setpoint, most_setpoint);
   return ZP_OK;
 }
 
@@ -57,7 +81,10 @@ ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, 
   if (!(fabs(rate) <= most_rate))
     return zp_fail(err, ZP_BAD_INPUT, "%s: a rate of %g %s/s is out of range; %g to %g %s/s", inputs[input].name, rate,
                    inputs[input].unit, -most_rate, most_rate, inputs[input].unit);
-  ZpStatus status = input == ZP_INPUT_VOLTAGE ? set_voltage(sim, value, rate, err) : set_load(sim, value, rate, err);
+  static ZpStatus (*const set[ZP_INPUT_COUNT])(ZpSim *, double, double, ZpError *) = {
+      [ZP_INPUT_VOLTAGE] = set_voltage, [ZP_INPUT_LOAD] = set_load, [ZP_INPUT_SETPOINT] = set_setpoint};
+  ZpStatus status = check_free(sim, input, err);
+  if (status == ZP_OK) status = set[input](sim, value, rate, err);
   if (status == ZP_OK) sim->cut = false;
   return status;
 }

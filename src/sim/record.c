@@ -18,6 +18,16 @@ enum {
 static const ZpColumn columns[] = {
 #include <zipact/signals.def>
 };
+
+/* The same where the controller holds a length, and where it holds a capacitance. */
+#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
+static const ZpColumn columns_of_length[] = {
+#include <zipact/signals.def>
+};
+#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
+static const ZpColumn columns_of_capacitance[] = {
+#include <zipact/signals.def>
+};
 #undef ZP_SIGNAL
 
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
@@ -29,6 +39,20 @@ static const char *const names[] = {
 const ZpColumn *zp_signal_columns(size_t *count) {
   *count = SIGNAL_COUNT;
   return columns;
+}
+
+const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
+  static const ZpColumn *const of[ZpControlSignal_COUNT] = {[ZP_CONTROL_OPENING] = columns_of_length,
+                                                            [ZP_CONTROL_STROKE] = columns_of_length,
+                                                            [ZP_CONTROL_CONTRACTION] = columns,
+                                                            [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance};
+  *count = SIGNAL_COUNT;
+  return def->control.kind == ZP_CONTROL_NONE ? columns : of[def->control.signal];
+}
+
+const char *zp_control_unit(const ZpActuatorDef *def) {
+  size_t count;
+  return zp_signal_columns_of(def, &count)[SIGNAL_setpoint].unit;
 }
 
 const ZpColumn *zp_trace_columns(size_t *count) {
@@ -102,6 +126,8 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_source_loss] = state->source_loss;
   row[SIGNAL_bleeder_loss] = state->bleeder_loss;
   row[SIGNAL_cable_energy] = zp_sim_is_fed(sim) ? zp_feed_cable_energy(sim, state->U) : 0;
+  row[SIGNAL_setpoint] = zp_sim_setpoint(sim);
+  row[SIGNAL_measured] = sim->model->control.kind == ZP_CONTROL_NONE ? 0 : state->control.measured;
   row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
@@ -255,7 +281,8 @@ ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *
   double above[SIGNAL_COUNT], below[SIGNAL_COUNT];
   if ((size_t)input >= ZP_INPUT_COUNT) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is none", (int)input);
   memset(slope, 0, SIGNAL_COUNT * sizeof *slope);
-  if (input != ZP_INPUT_VOLTAGE) return ZP_OK; /* a load acts on what moves only */
+  if (input == ZP_INPUT_SETPOINT) slope[SIGNAL_setpoint] = 1; /* the controller measures at its next sample */
+  if (input != ZP_INPUT_VOLTAGE) return ZP_OK;                /* a load acts on what moves only */
   double voltage = zp_sim_is_fed(sim) ? zp_sim_command(sim) : sim->state->U;
   double half = fmax(least, part * fabs(voltage)), up = voltage + half, down = voltage - half;
   read_at(sim, up, above);
@@ -289,8 +316,24 @@ ZpShape zp_sim_shape(ZpSim *sim) {
     shape.gap = sim->eval.plates.gap;
   }
   if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
+  for (int half = 0; model->has_bead && half < ZP_BEADS; half++)
+    sim->shape_room.reach[half] = state->bead[half].reach;
   zp_shape_fill(model, &sim->shape_room, &shape);
   return shape;
+}
+
+ZpLiquid zp_sim_liquid(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  const ZpShapeRoom *room = &sim->shape_room;
+  const double *head = zp_state_own(model, sim->state), *share = model->film.share;
+  if (!model->has_film) return (ZpLiquid){NULL, NULL};
+  ZpShape shape = zp_sim_shape(sim);
+  for (size_t i = 0; i < model->nodes; i++, head += model->own) {
+    bool wet = zp_shape_is_wet(model, room, i);
+    room->film[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;
+    room->pressure[i] = wet ? share[0] * head[0] + share[1] * head[1] : 0;
+  }
+  return (ZpLiquid){room->film, room->pressure};
 }
 
 const ZpMargins *zp_sim_margins(const ZpSim *sim) {

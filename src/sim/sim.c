@@ -13,14 +13,14 @@
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",      "zipped",    "interrupted", "not_settled", "diverged",
                                       "step_limit",    "converged", "followed",    "branch_lost", "bad_argument",
-                                      "short_circuit", "pulled_in", "event"};
+                                      "short_circuit", "pulled_in", "event",       "at_bound"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
   return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
-         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT;
+         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT || outcome == ZP_AT_BOUND;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -91,8 +91,12 @@ static void keep(ZpSim *sim) {
 
 /* A model may be built of a Def that can only be at rest. */
 static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
-  if (model->def.drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.waveform = table: the model has none; zp_model_create_driven takes it");
+  const ZpActuatorDef *def = &model->def;
+  bool drive = def->drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0;
+  bool setpoint = def->setpoint.waveform == ZP_WAVEFORM_TABLE && model->setpoint.table.rows == 0;
+  if (drive || setpoint)
+    return zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: the model has none; zp_model_create_driven takes it",
+                   drive ? "drive" : "setpoint");
   ZpStatus status = zp_def_check_motion(&model->def, err);
   if (status != ZP_OK) return status;
   return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
@@ -106,6 +110,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   if (!sim) return zp_fail_memory(err);
   sim->model = model;
   sim->drive = zp_key_find("drive.voltage");
+  sim->signal = zp_key_find("control.signal");
   if (!allocate(sim)) {
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
@@ -119,7 +124,10 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   }
   zp_sim_lay_beads(sim);
   zp_sim_start_account(sim);
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
+  if (model->control.kind != ZP_CONTROL_NONE)
+    zp_sim_start_control(sim);
+  else if (!zp_sim_is_fed(sim))
+    zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
   zp_sim_start_row(sim);
   *out = sim;
   return ZP_OK;
@@ -150,7 +158,7 @@ static double next_corner(const ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  return fmin(fmin(voltage, zp_control_due(sim)), zp_ramp_corner(&state->load_input, state->t));
+  return fmin(fmin(voltage, zp_sim_control_due(sim)), zp_ramp_corner(&state->load_input, state->t));
 }
 
 /* Longest step for an input by hand whose size matters from `least` on, s; never so short that time stands still. */
@@ -344,7 +352,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
-    if (!zp_control_sample(sim)) return ZP_BAD_ARGUMENT;
+    if (!zp_sim_control(sim)) return ZP_BAD_ARGUMENT;
     keep_before_cut(sim, end_time);
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
@@ -407,7 +415,8 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_FOLLOWED:
   case ZP_BRANCH_LOST:
   case ZP_PULLED_IN:
-    break; /* of studies of rest */
+  case ZP_AT_BOUND:
+    break; /* of studies of rest, of fits */
   case ZP_EVENT:
     snprintf(text, size, "an event at %g s", t);
     break;
@@ -491,7 +500,7 @@ void zp_sim_resume(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
   zp_sim_start_row(sim);
-  zp_control_resume(sim);
+  zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
   sim->cut = false;

@@ -11,21 +11,38 @@
 #include "system/held.h"
 
 /* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
-typedef struct ZpControl {
+typedef struct ZpOwnControl {
   ZpController controller; /* without a function: there is none */
   double since;            /* s */
   double taken;            /* samples so far, a whole number */
   ZpError fault;           /* why its voltage was refused */
-} ZpControl;
+} ZpOwnControl;
 
-/* When the next sample is due, s; INFINITY without a controller. */
-double zp_control_due(const ZpSim *sim);
+/* When a controller is due next, with a sample or an output, s; INFINITY without one. */
+double zp_sim_control_due(const ZpSim *sim);
 
-/* Take the sample that is due, if one is. False if the voltage is refused. */
-bool zp_control_sample(ZpSim *sim);
+/* Take the sample and give the output that are due, if any. False if the voltage is refused. */
+bool zp_sim_control(ZpSim *sim);
 
-/* The next sample is the first from the present time on. */
-void zp_control_resume(ZpSim *sim);
+/* Where the state is another one: the next sample of a controller of the program's own is the first from the present
+ * time on. */
+void zp_sim_resume_control(ZpSim *sim);
+
+/* The model's controller begins: no voltage until its first output. */
+void zp_sim_start_control(ZpSim *sim);
+
+/* What the setpoint is now, in the unit of control.signal; 0 without a controller. */
+double zp_sim_setpoint(const ZpSim *sim);
+
+/* The signal that the controller measures, without noise. */
+double zp_sim_controlled(ZpSim *sim);
+
+/* What a controller has seen, in columns of a table. */
+enum { ZP_SAMPLE_TIME, ZP_SAMPLE_SETPOINT, ZP_SAMPLE_SIGNAL, ZP_SAMPLE_COLUMNS };
+const ZpColumn *zp_sample_columns(size_t *count);
+
+/* From now on each sample is a row of this table, the signal without noise; NULL: of none. */
+void zp_sim_keep_samples(ZpSim *sim, ZpTable *samples);
 
 /* How a run moves on (stepping.c). */
 typedef struct ZpStepping {
@@ -55,14 +72,16 @@ struct ZpSim {
   ZpState *kept;   /* a copy of a state of sound numbers that a longer run passes through, too, where */
   ZpState *before; /* behind a supply: a copy of where the step began */
   ZpFeed feed;     /* the supply at the electrodes */
-  ZpControl control;
-  bool cut;  /* the end of the run has cut a step since */
-  int drive; /* the key drive.voltage: its range is that of voltages set by hand */
+  ZpOwnControl control;
+  bool cut;   /* the end of the run has cut a step since */
+  int drive;  /* the key drive.voltage: its range is that of voltages set by hand */
+  int signal; /* the key control.signal */
   ZpEval eval;
   double *relax_work;          /* [12 stride] work space of settling */
   ZpTable *series;             /* the caller's; NULL: no record */
   ZpShapes *shapes;            /* the caller's; NULL: no record */
   ZpTable *trace;              /* likewise */
+  ZpTable *samples;            /* likewise, of a controller */
   double *row;                 /* one value per signal */
   ZpShapeRoom shape_room;      /* of the shape handed out, */
   void *shape_memory;          /* and where it is */
@@ -111,6 +130,9 @@ void zp_sim_start_account(ZpSim *sim);
 /* Book what the source has given until now, with a jump that is still open; a held field that is out of date is found
  * again on the way. */
 void zp_sim_close_account(ZpSim *sim);
+
+/* From now on this voltage by hand, V, within its range: behind a supply its command, else a jump. */
+void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage);
 
 /* The voltage jumps: an ideal source charges at once. */
 void zp_sim_jump(ZpSim *sim, double voltage);

@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 5
+ *   8 .. 11         version of the format, 6
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -29,7 +29,7 @@
 
 #include "base/fail.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 5, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 6, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -104,7 +104,25 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, load_input.rate),
                                 NUMBER(REAL, load_input.since),
                                 NUMBER(REAL, load_input.until),
-                                NUMBER(REAL, load_work)};
+                                NUMBER(REAL, load_work),
+                                NUMBER(REAL, control.taken),
+                                NUMBER(REAL, control.given),
+                                NUMBER(REAL, control.integral),
+                                NUMBER(REAL, control.measured),
+                                NUMBER(REAL, control.pending[0]),
+                                NUMBER(REAL, control.pending[1]),
+                                NUMBER(REAL, control.pending[2]),
+                                NUMBER(REAL, control.pending[3]),
+                                NUMBER(REAL, control.pending[4]),
+                                NUMBER(REAL, control.pending[5]),
+                                NUMBER(REAL, control.pending[6]),
+                                NUMBER(REAL, control.pending[7]),
+                                NUMBER(REAL, control.pending[8]),
+                                NUMBER(FLAG, setpoint_by_hand),
+                                NUMBER(REAL, setpoint_input.value),
+                                NUMBER(REAL, setpoint_input.rate),
+                                NUMBER(REAL, setpoint_input.since),
+                                NUMBER(REAL, setpoint_input.until)};
 #undef NUMBER
 
 static const char *const array[] = {"position",      "velocity",    "held force", "held at",

@@ -28,8 +28,10 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   double voltage = zp_sim_is_fed(from) ? zp_sim_command(from) : state->U;
   if (!state->by_hand) state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
   state->by_hand = true;
+  if (!zp_sim_is_fed(from)) state->supply = (ZpSupplyState){voltage, voltage};
   state->refreshed = NAN;
   if (zp_held_due(model, state)) zp_held_refresh(model, state, &sim->eval);
+  zp_control_restart(&model->control, state->t, &state->control);
   zp_sim_start_account(sim);
   zp_sim_resume(sim);
   return ZP_OK;

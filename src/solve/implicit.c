@@ -11,7 +11,8 @@ static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
 static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
-static const double fast_share = 2.5e-3; /* of the work that a linear rate foresees: convergence is mostly quadratic */
+static const double fast_share = 0.1; /* of the work that a linear rate foresees: convergence is mostly quadratic, but
+                                       * not of a film, whose tangent leaves out convection */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
 
@@ -164,17 +165,23 @@ static void add_inertia(ZpImplicit *s, double a, const double *x, double *f) {
 }
 
 /* From the change of acceleration since the last step => s->r; what is too fast for the step is filtered out of it by
- * the iteration's matrix. */
+ * the iteration's matrix. Inertia beyond the masses may be an upper bound, as that of a thin film, whose errors are to
+ * count for more than their length, and far above what the matrix has: then the filter adds, but not without end. */
 static void filtered_error(ZpImplicit *s, double h, const double *q, const double *v,
                            const ZpImplicitHistory *history) {
+  static const double most_added = 10; /* times what is not filtered */
   size_t n = s->system->n;
-  double *jump = s->x;
+  double *jump = s->x, per = h / (3 * (h + history->last));
   for (size_t i = 0; i < n; i++) {
-    jump[i] = 2 * (s->q[i] - q[i] - h * v[i]) / (h * h) - history->a[i];
-    s->r[i] = s->system->mass[i] * jump[i] * h / (3 * (h + history->last));
+    jump[i] = per * (2 * (s->q[i] - q[i] - h * v[i]) / (h * h) - history->a[i]);
+    s->r[i] = s->system->mass[i] * jump[i];
   }
-  add_inertia(s, h / (3 * (h + history->last)), jump, s->r);
+  if (s->system->inertia) s->system->inertia(s->system->self, jump, s->r);
   zp_bordered_solve(&s->A, s->r);
+  for (size_t i = 0; s->system->inertia && i < n; i++) {
+    double most = most_added * 0.5 * h * h * fabs(jump[i]);
+    s->r[i] = fmin(fmax(s->r[i], -most), most);
+  }
 }
 
 /* Of an unknown of first order: the change of its mean rate since the last step, over the time between their middles.

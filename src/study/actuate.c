@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "sim/feed.h"
 #include "sim/margins.h"
+#include "study/loop.h"
 #include "study/notes.h"
 #include "study/sense.h"
 #include "study/sensitivity.h"
@@ -52,11 +53,11 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
-/* Work against the weight and the spring of the load and, with a minus, of the load input, from start to end, J. */
+/* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
   double compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  return zp_load_weight(model) * risen + compressed - at_end(sim, result, "load_work");
+  return zp_load_pull(model) * risen + compressed - at_end(sim, result, "load_work");
 }
 
 /* What the source gave, and what came of it. */
@@ -122,6 +123,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
     zp_add_stress(result, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
+  zp_note_liquid(result, model);
   double starved = zp_result_get(result, "starved_time_s");
   if (isfinite(starved))
     zp_result_note(result,
@@ -184,7 +186,8 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
 static bool ends_when_zipped(const ZpModel *model) {
   const ZpActuatorDef *def = zp_model_def(model);
   if (def->solver.stop_when_zipped != ZP_WHEN_AUTO) return def->solver.stop_when_zipped == ZP_WHEN_TRUE;
-  return zp_waveform_is_constant(&model->waveform) && def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
+  bool constant = zp_waveform_is_constant(&model->waveform) && def->control.kind == ZP_CONTROL_NONE;
+  return constant && def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
 }
 
 /* A run that continues after it has zipped does not end for that. */
@@ -195,9 +198,15 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   if (status != ZP_OK) return status;
   const ZpActuatorDef *def = zp_model_def(model);
   bool until_zipped = ends_when_zipped(model) && isnan(zp_sim_zip_time(sim));
+  bool controlled = def->control.kind != ZP_CONTROL_NONE;
+  ZpTable *samples = controlled ? zp_loop_watch(sim) : NULL;
+  if (controlled && !samples) return zp_fail_memory(err);
   ZpRunInfo info;
   zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
   summarize(sim, model, &info, result);
+  if (controlled) zp_loop_summarize(sim, samples, result);
+  zp_sim_keep_samples(sim, NULL);
+  zp_table_destroy(samples);
   note(sim, model, result);
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
@@ -218,7 +227,7 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
   const ZpActuatorDef *def = zp_model_def(model);
   ZpModelInfo size = zp_model_info(model);
   size_t columns;
-  const ZpColumn *column = zp_signal_columns(&columns);
+  const ZpColumn *column = zp_signal_columns_of(def, &columns);
   result->series = zp_table_create(column, columns, (size_t)def->output.samples);
   result->shapes = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);

@@ -15,11 +15,13 @@
 #include "study/studies.h"
 
 enum { PHASES = 100, HISTORY = 5 }; /* rows of a cycle; starts of cycles that are remembered */
+enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the edges, and charge that stays */
 
 /* What is compared between two starts of cycles. */
 typedef struct Mark {
-  double *q;   /* [2 stride] m */
-  double rate; /* of the opening, m/s */
+  double *q;         /* [2 stride] m */
+  double rate;       /* of the opening, m/s */
+  double slow[SLOW]; /* volume outside the faces over that of the bead; interface voltage over the drive's */
 } Mark;
 
 typedef struct Cycles {
@@ -29,6 +31,7 @@ typedef struct Cycles {
   ZpTable *rows;              /* of the last cycle */
   ZpMargins margins;          /* what materials saw in it */
   double period;              /* s */
+  double highest;             /* size of the command, V, */
   double far, fast;           /* what distances and rates are compared with, m, m/s */
   Mark mark[HISTORY];         /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before */
@@ -76,6 +79,9 @@ static void take_mark(Cycles *c) {
   Mark oldest = c->mark[HISTORY - 1];
   memmove(c->mark + 1, c->mark, (HISTORY - 1) * sizeof *c->mark);
   memcpy(oldest.q, zp_state_q(model, c->sim->state), 2 * model->stride * sizeof *oldest.q);
+  for (int k = 0; k < ZP_BEADS; k++)
+    oldest.slow[k] = model->has_bead ? c->sim->state->bead[k].outside / model->bead.volume : 0;
+  oldest.slow[ZP_BEADS] = model->leaks ? zp_sim_get(c->sim, "interface_voltage") / c->highest : 0;
   oldest.rate = zp_state_motion(model, c->sim->state).vy[zp_load_node(&model->topology)];
   c->mark[0] = oldest;
 }
@@ -86,7 +92,10 @@ static double distance(const Cycles *c, int back) {
   double most = 0;
   for (size_t k = 0; k < 2 * c->model->stride; k++)
     most = fmax(most, fabs(a[k] - b[k]));
-  return fmax(most / c->far, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
+  most /= c->far;
+  for (int k = 0; k < SLOW; k++)
+    most = fmax(most, fabs(c->mark[0].slow[k] - c->mark[back].slow[k]));
+  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
 }
 
 /* What is still to go, eq. (24.1): the sum of all further moves, if each is as many times smaller as the last one. */
@@ -158,10 +167,11 @@ static int shoot(Cycles *c) {
   return 0;
 }
 
-/* In how many cycles the motion repeats itself, waiting or shooting. */
+/* In how many cycles the motion repeats itself, waiting or shooting: that starts from positions and velocities alone,
+ * which is all only without liquid and charge that stays. */
 static int look(Cycles *c) {
   read_state(c, c->end);
-  bool open = stays_open(c);
+  bool open = stays_open(c) && !c->model->has_film && !c->model->leaks;
   if (!open) zp_fixed_point_forget(&c->shooting);
   int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
   read_state(c, c->start);
@@ -276,13 +286,13 @@ static void energies_of(const Cycles *c, double *given, double *taken) {
   }
 }
 
-/* Work against weight and spring of the load on the way up, J: on the way down it comes back. */
+/* Work against pull and springs of the load on the way up, J: on the way down it comes back. */
 static double work_of(const Cycles *c) {
   double work = 0;
   for (int k = 0; k < PHASES; k++) {
     double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m");
     double compressed = at(c, k + 1, "spring_energy_J") - at(c, k, "spring_energy_J");
-    work += fmax(zp_load_weight(c->model) * risen + compressed, 0);
+    work += fmax(zp_load_pull(c->model) * risen + compressed, 0);
   }
   return work;
 }
@@ -357,6 +367,7 @@ static void summarize(const Cycles *c, ZpResult *result) {
   zp_add_margins(result, c->model, &c->margins);
   zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
   zp_note_start(result, c->model, c->sim->state->opening0);
+  zp_note_liquid(result, c->model);
 }
 
 /* -- the study -------------------------------------------------------------------------------------- */
@@ -379,6 +390,7 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   const ZpColumn *column = zp_signal_columns(&columns);
   c->model = model;
   c->period = zp_waveform_period(&model->waveform);
+  c->highest = fmax(zp_waveform_largest(&model->waveform), 1);
   c->far = fmax(c->sim->state->opening0, model->faces.depth);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
@@ -464,6 +476,11 @@ static ZpActuatorDef periodic(ZpActuatorDef def) {
 
 ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
   ZpWaveformKind kind = def->drive.waveform;
+  if (def->control.kind != ZP_CONTROL_NONE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "control.kind = %s: study cycle has no controller, it looks for the periodic answer to a periodic "
+                   "voltage; use none, or study actuate with a periodic setpoint",
+                   zp_key(zp_key_find("control.kind"))->choices[def->control.kind].word);
   if (kind == ZP_WAVEFORM_RAMP || kind == ZP_WAVEFORM_TABLE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",

@@ -220,6 +220,7 @@ static void note(Follower *f) {
   zp_add_margins(r, f->model, &f->margins);
   zp_note_mesh(r, f->model, f->model->def.drive.voltage);
   zp_note_rest(r, f->model);
+  zp_note_no_controller(r, f->model);
   if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
   if (!isnan(f->left))
     zp_result_note(

@@ -250,6 +250,7 @@ static void note(Holder *h) {
   zp_add_margins(r, h->model, &h->margins);
   zp_note_mesh(r, h->model, h->model->def.drive.voltage);
   zp_note_rest(r, h->model);
+  zp_note_no_controller(r, h->model);
   if (h->jumps > 0)
     zp_result_note(r,
                    "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
@@ -378,8 +379,8 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
 /* What hangs there does not count: the load is taken off before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = *task->def;
-  bare.load.mass = bare.load.stiffness = 0;
-  bare.load.rest_opening = NAN;
+  bare.load.mass = bare.load.force = bare.load.stiffness = 0;
+  bare.load.rest_opening = bare.load.stop_opening = NAN;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;

@@ -222,10 +222,10 @@ static bool find(Finder *f) {
   if (up == ZP_SLOW_STOPPED || up == ZP_SLOW_LOST) return true;
   lower_voltage(f);
   f->rest.statics.load = f->model->def.load.mass;
-  if (f->model->def.gravity > 0)
+  if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
     lower_load(f, up == ZP_SLOW_CHANGED);
   else
-    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "without gravity a mass is no load");
+    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "where gravity does not pull it down a mass is no load");
   return true;
 }
 
@@ -403,6 +403,7 @@ static void run(Finder *f, ZpResult *r) {
   zp_add_margins(r, f->model, &f->margins);
   zp_note_mesh(r, f->model, f->model->def.drive.voltage);
   zp_note_rest(r, f->model);
+  zp_note_no_controller(r, f->model);
   if (hangs) zp_note_start(r, f->model, f->limits->hanging);
 }
 

@@ -6,13 +6,14 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "math/eigen.h"
 #include "rest/rest.h"
+#include "rest/vibration.h"
+#include "study/hold.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
-enum { MODES = 8, SUBSPACE = 16, MOST_ROUNDS = 200 };
+enum { MODES = 8, SUBSPACE = 16 };
 
 static const ZpColumn columns[] = {
     {"mode", "1", "number of the mode"},
@@ -21,119 +22,29 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-/* Relative change of omega^2 in a round: far above what rounding leaves at N = 2001, far below what a mesh gives. */
-static const double settled_to = 1e-7;
-
 static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
                                          "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
 
 typedef struct Problem {
   ZpRest rest;
-  size_t n, m;      /* equations, vectors iterated */
-  double *mass;     /* [n] */
-  double *u, *next; /* [m][n] the subspace, and K^-1 m of it */
-  double *residual; /* [m] */
-  double *q;        /* [2 stride] of the equilibrium */
-  double reduced[SUBSPACE * SUBSPACE], turn[SUBSPACE * SUBSPACE];
-  double omega2[SUBSPACE];
+  ZpVibration vibration;
+  double *residual;  /* [m] */
+  double *q;         /* [2 stride] of the equilibrium */
   ZpMargins margins; /* of the equilibrium */
 } Problem;
 
 static void carve(void *user, ZpCarver *carver) {
   Problem *p = user;
-  p->n = p->rest.statics.assembly.n;
-  p->m = p->n < SUBSPACE ? p->n : SUBSPACE;
-  p->mass = zp_carve(carver, p->n);
-  p->u = zp_carve(carver, p->m * p->n);
-  p->next = zp_carve(carver, p->m * p->n);
-  p->residual = zp_carve(carver, p->m);
+  zp_vibration_carve(&p->vibration, p->rest.statics.assembly.n, SUBSPACE, carver);
+  p->residual = zp_carve(carver, p->vibration.m);
   p->q = zp_carve(carver, 2 * p->rest.statics.model->stride);
-}
-
-/* Multiples of the golden ratio, which scatter over -1 .. 1. */
-static double scattered(size_t k) {
-  double x = 0.6180339887498949 * (double)k;
-  return 2 * (x - floor(x)) - 1;
-}
-
-/* Masses by equation, and a start that has a part of every mode. */
-static void prepare(Problem *p) {
-  zp_assembly_masses(&p->rest.statics.assembly, p->rest.statics.model->mass, p->mass);
-  for (size_t j = 0; j < p->m; j++)
-    for (size_t i = 0; i < p->n; i++)
-      p->u[j * p->n + i] = scattered((i + 1) * (j + 1)) + (i % p->m == j);
-}
-
-static double inner(const Problem *p, const double *a, const double *b) {
-  double sum = 0;
-  for (size_t i = 0; i < p->n; i++)
-    sum += a[i] * p->mass[i] * b[i];
-  return sum;
-}
-
-/* Make the rows of `rows` orthogonal and of length 1 in the mass's measure. */
-static void orthonormalize(const Problem *p, double *rows) {
-  for (size_t j = 0; j < p->m; j++) {
-    double *row = rows + j * p->n;
-    for (int twice = 0; twice < 2; twice++)
-      for (size_t k = 0; k < j; k++) {
-        double part = inner(p, rows + k * p->n, row);
-        for (size_t i = 0; i < p->n; i++)
-          row[i] -= part * rows[k * p->n + i];
-      }
-    double scale = 1 / sqrt(inner(p, row, row));
-    for (size_t i = 0; i < p->n; i++)
-      row[i] *= scale;
-  }
-}
-
-/* One round: u => K^-1 m u, then turned to the best approximations of the modes inside that subspace. */
-static void iterate(Problem *p) {
-  size_t n = p->n, m = p->m;
-  for (size_t j = 0; j < m; j++) {
-    for (size_t i = 0; i < n; i++)
-      p->next[j * n + i] = p->mass[i] * p->u[j * n + i];
-    zp_band_solve(&p->rest.branch.newton.K, p->next + j * n);
-  }
-  /* of u, orthonormal in m: u' m K^-1 m u has the eigenvalues 1 / omega^2 */
-  for (size_t j = 0; j < m; j++)
-    for (size_t k = 0; k < m; k++)
-      p->reduced[j * m + k] =
-          -0.5 * (inner(p, p->u + j * n, p->next + k * n) + inner(p, p->u + k * n, p->next + j * n));
-  zp_eigen_symmetric(m, p->reduced, p->turn);
-  for (size_t j = 0; j < m; j++) {
-    p->omega2[j] = -1 / p->reduced[j * m + j];
-    double *to = p->u + j * n;
-    memset(to, 0, n * sizeof *to);
-    for (size_t k = 0; k < m; k++)
-      for (size_t i = 0; i < n; i++)
-        to[i] += p->turn[k * m + j] * p->next[k * n + i];
-  }
-  orthonormalize(p, p->u);
-}
-
-static bool settled(const Problem *p, const double *before, size_t modes) {
-  for (size_t j = 0; j < modes; j++)
-    if (!(fabs(p->omega2[j] - before[j]) < settled_to * fabs(p->omega2[j]))) return false;
-  return true;
-}
-
-static bool solve(Problem *p, size_t modes) {
-  double before[SUBSPACE] = {0};
-  orthonormalize(p, p->u);
-  for (int round = 0; round < MOST_ROUNDS; round++) {
-    memcpy(before, p->omega2, sizeof before);
-    iterate(p);
-    if (round > 0 && settled(p, before, modes)) return true;
-  }
-  return false;
 }
 
 /* Of a vector the error is the root of that of its frequency: what follows from it to first order takes more rounds. */
 static void refine(Problem *p) {
   enum { ROUNDS = 30 };
   for (int round = 0; round < ROUNDS; round++)
-    iterate(p);
+    zp_vibration_iterate(&p->vibration);
 }
 
 /* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
@@ -141,7 +52,7 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
   const ZpModel *model = p->rest.statics.model;
   double *q = p->rest.statics.q;
   memset(q, 0, 2 * model->stride * sizeof *q);
-  zp_assembly_scatter(&p->rest.statics.assembly, p->u + j * p->n, q);
+  zp_assembly_scatter(&p->rest.statics.assembly, p->vibration.u + j * p->vibration.n, q);
   for (size_t k = 0; k < 2 * model->stride; k++)
     q[k] = p->q[k] + amplitude * q[k];
   if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->rest.statics.eval.plates);
@@ -153,8 +64,8 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
 /* What moves the node that moves most by a tenth of the length. */
 static double amplitude_of(const Problem *p, size_t j) {
   double largest = 0;
-  for (size_t i = 0; i < p->n; i++)
-    largest = fmax(largest, fabs(p->u[j * p->n + i]));
+  for (size_t i = 0; i < p->vibration.n; i++)
+    largest = fmax(largest, fabs(p->vibration.u[j * p->vibration.n + i]));
   return 0.1 * p->rest.statics.model->L / largest;
 }
 
@@ -163,7 +74,7 @@ static void report(Problem *p, size_t modes, ZpResult *result) {
   memcpy(p->q, p->rest.statics.q, 2 * p->rest.statics.model->stride * sizeof *p->q);
   record_shape(p, 0, 0, 0, result->shapes);
   for (size_t j = 0; j < modes; j++) {
-    double frequency = sqrt(p->omega2[j]) / two_pi;
+    double frequency = sqrt(p->vibration.omega2[j]) / two_pi;
     zp_result_add(result, names[j], "Hz", frequency);
     zp_table_offer(result->series, (double[COLUMNS]){(double)(j + 1), frequency, p->residual[j]});
     record_shape(p, (double)(j + 1), j, amplitude_of(p, j), result->shapes);
@@ -197,19 +108,20 @@ static double stiffness_of_mode(ZpStatics *s, void *user) {
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   const double two_pi = 6.283185307179586;
   Problem *p = user;
-  size_t modes = p->m < MODES ? p->m : MODES;
+  size_t modes = p->vibration.m < MODES ? p->vibration.m : MODES;
   ZpStatics *s = &p->rest.statics;
   memcpy(s->q, p->q, 2 * s->model->stride * sizeof *s->q);
   bool found = zp_slope_solve(slope, pose);
   for (size_t j = 0; j < modes; j++) {
-    Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->u + j * p->n, p->omega2[j]};
+    Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->vibration.u + j * p->vibration.n,
+                 p->vibration.omega2[j]};
     double by_key = found ? zp_slope_of(slope, pose, stiffness_of_mode, &mode) : NAN;
-    zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->omega2[j])));
+    zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->vibration.omega2[j])));
   }
 }
 
 static void run(Problem *p, ZpResult *result) {
-  size_t modes = p->m < MODES ? p->m : MODES;
+  size_t modes = p->vibration.m < MODES ? p->vibration.m : MODES;
   ZpNewtonInfo info = zp_statics_hang(&p->rest.statics, &p->rest.branch.newton);
   result->outcome = ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "no hanging equilibrium found");
@@ -235,16 +147,18 @@ static void run(Problem *p, ZpResult *result) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
     return;
   }
-  prepare(p);
-  bool found = solve(p, modes);
+  ZpVibration *v = &p->vibration;
+  v->K = &p->rest.branch.newton.K;
+  zp_assembly_masses(&p->rest.statics.assembly, p->rest.statics.model->mass, v->mass);
+  zp_vibration_start(v);
+  bool found = zp_vibration_solve(v, modes);
   if (found && *p->rest.statics.model->def.sensitivity.by) refine(p);
   result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
   if (!found)
-    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged in %d rounds",
-             MOST_ROUNDS);
+    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged");
   else
     snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz",
-             sqrt(p->omega2[0]) / 6.283185307179586);
+             sqrt(p->vibration.omega2[0]) / 6.283185307179586);
   if (found) report(p, modes, result);
 }
 
@@ -252,21 +166,29 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   if (def->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
-  if (def->liquid.model != ZP_LIQUID_NONE && def->liquid.model != ZP_LIQUID_AUTO)
+  if (def->liquid.model == ZP_LIQUID_SUBMERGED)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "liquid.model = %s: the study modes finds frequencies without the mass of a liquid; use none",
-                   zp_word_of("liquid.model", (int)def->liquid.model));
+                   "liquid.model = submerged: the study modes finds frequencies without the mass of a liquid, which is "
+                   "far above that of the ribbons; use none");
   if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
         "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
         def->modes.voltage);
   ZpStatus status = zp_check_mass(def, err);
+  if (status == ZP_OK) status = zp_check_hold(def, err);
   if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
-/* Frequencies are those without the mass of a liquid. */
+/* What frequencies leave out of a bead. */
+static void note_bead(ZpResult *result, const ZpActuatorDef *def) {
+  if (zp_def_liquid(def) != ZP_LIQUID_BEAD) return;
+  zp_result_note(result, "the bead is left out: frequencies are those of the ribbons without its mass and drag%s",
+                 def->modes.voltage > 0 ? ", in a liquid that attracts everywhere" : "");
+}
+
+/* Frequencies are those without the mass of a liquid: of a bead, which lies near the clip, where little moves. */
 static ZpActuatorDef without_liquid(const ZpActuatorDef *def) {
   ZpActuatorDef dry = *def;
   dry.liquid.model = ZP_LIQUID_NONE;
@@ -288,7 +210,9 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
     zp_add_margins(result, model, &p->margins);
     zp_note_mesh(result, model, task->def->modes.voltage);
     zp_note_rest(result, model);
+    note_bead(result, task->def);
     if (result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&p->rest, derive, p, result, err);
+    if (status == ZP_OK) status = zp_add_hold(task->def, result, err);
   } else {
     status = zp_fail_memory(err);
   }

@@ -88,9 +88,26 @@ void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest
   zp_note_mesh(result, model, highest);
 }
 
+/* -- the liquid ------------------------------------------------------------------------------------ */
+
+void zp_note_liquid(ZpResult *result, const ZpModel *model) {
+  ZpError why;
+  if (model->def.liquid.model != ZP_LIQUID_AUTO || model->has_bead) return;
+  if (zp_is_pair(&model->topology) && zp_check_bead(&model->def, &why) != ZP_OK)
+    zp_result_note(result, "liquid.model auto stands for none here, the liquid everywhere and without drag (%s)",
+                   why.message);
+}
+
 /* -- what rest leaves out -------------------------------------------------------------------------- */
 
+void zp_note_no_controller(ZpResult *result, const ZpModel *model) {
+  if (model->control.kind == ZP_CONTROL_NONE) return;
+  zp_result_note(result, "control.kind is left out: these are states at given voltages; study actuate has the "
+                         "controller, and modes says whether it holds a state");
+}
+
 void zp_note_rest(ZpResult *result, const ZpModel *model) {
+  zp_note_liquid(result, model);
   if (model->supply.acts)
     zp_result_note(result, "source.model = amplifier is left out: at rest the electrodes have drive.voltage, whatever "
                            "its current is; study actuate has the supply");

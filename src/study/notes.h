@@ -24,8 +24,13 @@ void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *see
 /* The mesh for `voltage`, the highest (V), 0 for none => result->resolution, with a note where it is too coarse. */
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);
 
-/* Note what studies of rest leave out: the supply's own limits, and charge that gathers. */
+/* Note where liquid.model auto stands for none although there are two ribbons, and why. */
+void zp_note_liquid(ZpResult *result, const ZpModel *model);
+
+/* Note what studies of rest leave out: a bead that is not modelled, the supply's own limits, and charge that gathers;
+ * and a controller. */
 void zp_note_rest(ZpResult *result, const ZpModel *model);
+void zp_note_no_controller(ZpResult *result, const ZpModel *model);
 
 /* Note a start that is nearly closed: opening of the platforms (m; NAN: there are none). */
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening);

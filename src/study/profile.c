@@ -441,7 +441,7 @@ ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
  * the field is solved here. */
 ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = *task->def;
-  bare.load.mass = 0;
+  bare.load.mass = bare.load.force = 0;
   bare.electro.model = ZP_ELECTRO_PLATES;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);

@@ -194,6 +194,8 @@ static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **p
   def.drive.voltage = zp_waveform_largest(&model->waveform);
   def.source = fresh.source;
   def.sense = fresh.sense;
+  def.control = fresh.control;
+  def.setpoint = fresh.setpoint;
   def.sensitivity = fresh.sensitivity;
   def.initial = fresh.initial;
   def.insulator.resistivity = def.medium.resistivity = NAN;

@@ -27,6 +27,7 @@ typedef struct End {
   double by_area;         /* of the part, 1/m^2, */
   double by_near, by_far; /* 1/m */
   double length;          /* of what the part is of, m */
+  ZpRoom room;
 } End;
 
 static double rise(const ZpModel *model, const ZpEval *e, size_t i) {
@@ -48,6 +49,7 @@ static End end_of(const ZpModel *model, const double *x, const ZpEval *e, int ha
   end.H = zp_bead_thickness(film, &end.at, e->plates.gap);
   end.level = zp_term_level(model, &end.at, x);
   if (!end.ends) return end;
+  end.room = zp_term_meniscus_room(model, e->reach[half]);
   end.by_area = -1 / (end.H * end.length);
   end.by_near = -(part - far) / end.H * rise(model, e, end.at.near);
   end.by_far = -far / end.H * rise(model, e, end.at.far);
@@ -56,13 +58,18 @@ static End end_of(const ZpModel *model, const double *x, const ZpEval *e, int ha
 
 /* -- the head at the meniscus ---------------------------------------------------------------------- */
 
-static double head_of(const ZpModel *model, double U, const End *end) {
-  return end->ends ? zp_term_meniscus_head(model, U, end->g, end->H, end->level) : 0;
+/* With room for the meniscus. */
+static double free_head(const ZpModel *model, double U, const End *end) {
+  return zp_term_meniscus_head(model, U, end->g, end->H, end->level);
 }
 
-/* A liquid that cavitates has one head, whatever draws it on. */
-static bool cavitates(double head) {
-  return head <= -zp_film_tension;
+static double head_of(const ZpModel *model, double U, const End *end) {
+  return end->ends ? end->room.share * free_head(model, U, end) : 0;
+}
+
+/* => the share of the head that follows what draws the liquid on: none of one that cavitates. */
+static double share_that_follows(const ZpModel *model, double U, const End *end) {
+  return end->ends && free_head(model, U, end) > -zp_film_tension ? end->room.share : 0;
 }
 
 /* => how it goes with the part, and with the gaps of both stations. */
@@ -70,15 +77,17 @@ typedef struct HeadSlope {
   double by_part, by_near, by_far;
 } HeadSlope;
 
-static HeadSlope head_slope(const ZpModel *model, const ZpEval *e, double U, const End *end, double head) {
+static HeadSlope head_slope(const ZpModel *model, const ZpEval *e, double U, const End *end) {
   double W = zp_plates_law(&model->air, U, end->g).W - zp_plates_law(&model->plates, U, end->g).W;
-  double by_g = -model->bead.suction * W * end->level / (model->film.w * end->H), by_H = -head / end->H;
+  double follows = share_that_follows(model, U, end), head = free_head(model, U, end);
+  double by_g = -follows * model->bead.suction * W * end->level / (model->film.w * end->H);
+  double by_H = -follows * head / end->H, by_part = head * end->room.by_reach * end->length;
   const double *gap = e->plates.gap;
-  if (is_below(end)) return (HeadSlope){0, by_g + by_H * rise(model, e, end->at.near), 0};
+  if (is_below(end)) return (HeadSlope){by_part, by_g + by_H * rise(model, e, end->at.near), 0};
   double dg = gap[end->at.far] - gap[end->at.near];
   double dH = zp_film_thickness(&model->film, gap[end->at.far]) - zp_film_thickness(&model->film, gap[end->at.near]);
   double l = 1 - end->at.part, r = end->at.part;
-  return (HeadSlope){by_g * dg + by_H * dH, l * (by_g + by_H * rise(model, e, end->at.near)),
+  return (HeadSlope){by_part + by_g * dg + by_H * dH, l * (by_g + by_H * rise(model, e, end->at.near)),
                      r * (by_g + by_H * rise(model, e, end->at.far))};
 }
 
@@ -169,17 +178,17 @@ static void follow_part(const ZpModel *model, const ZpAssembly *a, const End *en
 
 /* The head at each wet station is that at the next one, at the last that of the meniscus; elsewhere it is 0. */
 static void heads(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end, ZpBand *K) {
-  double head = head_of(model, U, end);
   for (size_t k = 0; k <= zp_bead_elements(&model->film); k++) {
     size_t own = own_of(zp_bead_station(&model->film, end->half, k), HEAD);
     zp_assemble_own(a, own, own, 1, K);
     if (k < end->at.k) zp_assemble_own(a, own, own_of(zp_bead_station(&model->film, end->half, k + 1), HEAD), -1, K);
   }
-  if (!end->ends || cavitates(head)) return;
+  if (!end->ends) return;
   size_t own = own_of(end->at.near, HEAD);
-  HeadSlope slope = head_slope(model, e, U, end, head);
+  HeadSlope slope = head_slope(model, e, U, end);
+  double follows = share_that_follows(model, U, end) / head_scale;
   follow_part(model, a, end, own, slope.by_part / head_scale, K);
-  by_level(model, a, end, own, -zp_term_electric_head(model, U, end->g, end->H) / head_scale, K);
+  by_level(model, a, end, own, -follows * zp_term_electric_head(model, U, end->g, end->H), K);
   at_gap(model, a, own, end->at.near, false, -slope.by_near / head_scale, K);
   if (!is_below(end)) at_gap(model, a, own, end->at.far, false, -slope.by_far / head_scale, K);
 }
@@ -259,9 +268,8 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   for (int half = 0; half < zp_beads(&model->film); half++) {
     End end = end_of(model, span->end, e, half);
     double charge = zp_plates_law(&model->plates, span->U1, end.g).q - zp_plates_law(&model->air, span->U1, end.g).q;
-    bool moves = end.ends && !cavitates(head_of(model, span->U1, &end));
-    double by_U = moves ? -model->bead.suction * charge * end.level / (model->film.w * end.H) : 0;
-    add_head(model, e, &end, by_U, sum->force);
+    double follows = share_that_follows(model, span->U1, &end);
+    add_head(model, e, &end, -follows * model->bead.suction * charge * end.level / (model->film.w * end.H), sum->force);
   }
 }
 

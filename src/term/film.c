@@ -43,8 +43,10 @@ static double meniscus_head(const ZpModel *model, const ZpSpan *span, const ZpEv
   double moved = fmax(0.5 * span->h * zp_bead_at(&at, e->film.rate), -0.5 * H);
   double level = zp_term_level(model, &at, span->start);
   if (span->w && at.near != at.far) level += 0.5 * span->h * zp_term_level(model, &at, span->w);
-  return 0.5 * (zp_term_meniscus_head(model, span->U0, gap + moved, H + moved, level) +
-                zp_term_meniscus_head(model, span->U1, gap + moved, H + moved, level));
+  double room = zp_term_meniscus_room(model, e->reach[half]).share;
+  return 0.5 * room *
+         (zp_term_meniscus_head(model, span->U0, gap + moved, H + moved, level) +
+          zp_term_meniscus_head(model, span->U1, gap + moved, H + moved, level));
 }
 
 static void find_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
@@ -76,9 +78,9 @@ static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly 
                      size_t i, ZpBand *K) {
   const ZpFilmParams *film = &model->film;
   for (int k = 0; k < ZP_FILM_MODES; k++) {
-    size_t p = ZP_FILM_MODES * i + (size_t)k;
+    size_t p = zp_film_mode_at(i, k);
     for (int m = k; m < ZP_FILM_MODES; m++)
-      zp_assemble_own(assembly, p, ZP_FILM_MODES * i + (size_t)m, zp_film_own(film, span->h, e, i, k, m), K);
+      zp_assemble_own(assembly, p, zp_film_mode_at(i, m), zp_film_own(film, span->h, e, i, k, m), K);
     if (i + 1 < model->nodes) zp_assemble_own(assembly, p, p + ZP_FILM_MODES, zp_film_next(film, span->h, e, i, k), K);
   }
 }
@@ -89,7 +91,7 @@ static void by_gaps(const ZpModel *model, const ZpAssembly *assembly, const ZpFi
   for (int k = 0; k < ZP_FILM_MODES; k++)
     for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++) {
       double by_gap = zp_film_by_gap(&model->film, e, i, j, k);
-      size_t p = ZP_FILM_MODES * i + (size_t)k;
+      size_t p = zp_film_mode_at(i, k);
       zp_assemble_own_by(assembly, p, 2 * zp_upper(&model->topology, j) + 1, -by_gap, K);
       zp_assemble_own_by(assembly, p, 2 * zp_lower(&model->topology, j) + 1, by_gap, K);
     }

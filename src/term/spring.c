@@ -1,59 +1,74 @@
-/* The spring of the load: beside what hangs there it pushes the platforms apart while they are nearer than
- * load.rest_opening, and never pulls. Eq. (27.3). */
+/* Springs between the platforms that act on one side of an opening: that of the load pushes them apart while they are
+ * nearer than load.rest_opening, eq. (27.3); a stop pulls them together while they are further apart than
+ * load.stop_opening, eq. (27.5). */
 #include <math.h>
 
 #include "term/term.h"
 
+enum { SPRINGS = 2 };
+
+typedef struct Spring {
+  double k;    /* of one end that the load hangs on, N/m; 0: there is none */
+  double rest; /* opening at which it begins to act, m */
+  double side; /* 1: acts below that and pushes apart; -1: acts above and pulls together */
+} Spring;
+
+static Spring spring_of(const ZpModel *model, int which) {
+  const ZpActuatorDef *def = &model->def;
+  bool stops = !isnan(def->load.stop_opening);
+  if (which == 0) return (Spring){def->load.share * def->load.stiffness, def->load.rest_opening, 1};
+  return (Spring){stops ? def->load.share * def->load.stop_stiffness : 0, def->load.stop_opening, -1};
+}
+
 static bool acts(const ZpModel *model) {
-  return zp_is_pair(&model->topology) && model->def.load.stiffness > 0;
+  bool any = false;
+  for (int k = 0; k < SPRINGS; k++)
+    any |= spring_of(model, k).k > 0;
+  return zp_is_pair(&model->topology) && any;
 }
 
-/* The spring of one end that the load hangs on, N/m. */
-static double stiffness_of(const ZpModel *model) {
-  return model->def.load.share * model->def.load.stiffness;
+/* How far it is deformed at these coordinates, m. */
+static double deformed(const ZpModel *model, const Spring *spring, const double *q) {
+  return fmax(spring->side * (spring->rest - zp_opening(&model->topology, q + model->stride)), 0);
 }
 
-/* How far it is compressed at these coordinates, m. */
-static double compressed(const ZpModel *model, const double *q) {
-  return fmax(model->def.load.rest_opening - zp_opening(&model->topology, q + model->stride), 0);
-}
-
-/* Over a span: opening at start and end, and how far it is compressed there, m. */
+/* Over a span: how far it is deformed at start and end, and by how much the platforms part, m. */
 typedef struct Way {
   double s0, s1, opened;
 } Way;
 
-/* It does not end on the way. */
+/* It neither ends nor begins on the way. */
 static bool is_even(Way way) {
   return (way.s0 > 0) == (way.s1 > 0);
 }
 
-static Way way_of(const ZpModel *model, const ZpSpan *span) {
+static Way way_of(const ZpModel *model, const Spring *spring, const ZpSpan *span) {
   const ZpTopology *t = &model->topology;
   double from = zp_opening(t, span->start + model->stride), to = zp_opening(t, span->end + model->stride);
-  return (Way){compressed(model, span->start), compressed(model, span->end), to - from};
+  return (Way){deformed(model, spring, span->start), deformed(model, spring, span->end), to - from};
 }
 
 /* The mean push over the way, N: it does the work by which the energy falls. */
-static double push_of(const ZpModel *model, Way way) {
-  double k = stiffness_of(model);
-  if (is_even(way)) return 0.5 * k * (way.s0 + way.s1);
-  return 0.5 * k * (way.s0 * way.s0 - way.s1 * way.s1) / way.opened;
+static double push_of(const Spring *spring, Way way) {
+  if (is_even(way)) return 0.5 * spring->side * spring->k * (way.s0 + way.s1);
+  return 0.5 * spring->k * (way.s0 * way.s0 - way.s1 * way.s1) / way.opened;
 }
 
 /* Minus its derivative by the opening at the end, N/m; at rest both ends move. */
-static double slope_of(const ZpModel *model, const ZpSpan *span) {
-  double k = stiffness_of(model);
-  Way way = way_of(model, span);
-  if (zp_span_is_still(span)) return way.s1 > 0 ? k : 0;
-  if (is_even(way)) return way.s1 > 0 ? 0.5 * k : 0;
-  return (push_of(model, way) - k * way.s1) / way.opened;
+static double slope_of(const Spring *spring, Way way, bool still) {
+  if (still) return way.s1 > 0 ? spring->k : 0;
+  if (is_even(way)) return way.s1 > 0 ? 0.5 * spring->k : 0;
+  return (push_of(spring, way) - spring->side * spring->k * way.s1) / way.opened;
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
   const ZpTopology *t = &model->topology;
-  double push = span->share * push_of(model, way_of(model, span));
+  double push = 0;
+  for (int k = 0; k < SPRINGS; k++) {
+    Spring spring = spring_of(model, k);
+    if (spring.k > 0) push += span->share * push_of(&spring, way_of(model, &spring, span));
+  }
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     F[model->stride + zp_upper(t, i)] += push;
     F[model->stride + zp_lower(t, i)] -= push;
@@ -63,15 +78,22 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   (void)e;
   const ZpTopology *t = &model->topology;
-  double k = span->share * slope_of(model, span);
+  double slope = 0;
+  for (int k = 0; k < SPRINGS; k++) {
+    Spring spring = spring_of(model, k);
+    if (spring.k > 0) slope += span->share * slope_of(&spring, way_of(model, &spring, span), zp_span_is_still(span));
+  }
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    zp_assemble_heights(assembly, i, k, k, -k, K);
+    zp_assemble_heights(assembly, i, slope, slope, -slope, K);
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
   (void)e;
-  double s = compressed(model, now->end);
-  sum->spring += 0.5 * (double)zp_load_ends(&model->topology) * stiffness_of(model) * s * s;
+  for (int k = 0; k < SPRINGS; k++) {
+    Spring spring = spring_of(model, k);
+    double s = spring.k > 0 ? deformed(model, &spring, now->end) : 0;
+    sum->spring += 0.5 * (double)zp_load_ends(&model->topology) * spring.k * s * s;
+  }
 }
 
 const ZpTerm zp_term_spring = {

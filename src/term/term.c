@@ -37,6 +37,12 @@ double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H,
   return fmax(head, -zp_film_tension);
 }
 
+ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach) {
+  static const double last = 100e-6; /* m: short beside a ribbon, and long enough to be found */
+  double share = (zp_bead_longest(&model->film) - reach) / last;
+  return share < 1 ? (ZpRoom){share, -1 / last} : (ZpRoom){1, 0};
+}
+
 ZP_KERNEL static void add(size_t stride, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
   ZP_SIMD
   for (size_t j = 0; j < stride; j++) {

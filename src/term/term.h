@@ -13,6 +13,7 @@ typedef struct ZpSpan {
   double h;                  /* its length, s; 0: rest, or an instant */
   double U0, U1;             /* voltages at its start and its end, V */
   double load;               /* N, mean of the load input, down on the lower platform (one ribbon: the right end) */
+  double hung;               /* N, weight that hangs there, along gravity, beyond that of load.mass */
   double share;              /* of all weight that acts: 1, less on the way to an equilibrium */
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
   const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
@@ -79,8 +80,8 @@ typedef struct ZpTerm {
   bool (*solve)(const ZpModel *model, const double *q, double U, ZpEval *eval);
 } ZpTerm;
 
-/* F [2 stride] += how the forces go with the load input, N/N. */
-void zp_weight_by_load(const ZpModel *model, double *F);
+/* F [2 stride] += how the forces go with the weight that hangs there, N/N. */
+void zp_weight_by_hung(const ZpModel *model, double *F);
 
 #define ZP_TERM(name) extern const ZpTerm zp_term_##name;
 #include "term/terms.def"
@@ -99,6 +100,15 @@ double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double 
  */
 double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level);
 double zp_term_electric_head(const ZpModel *model, double U, double g, double H);
+
+/* Share of that head which acts, and its derivative by the wet length, 1/m, eq. (22.17). */
+typedef struct ZpRoom {
+  double share, by_reach;
+} ZpRoom;
+
+/* A meniscus that comes to the middle of the actuator meets that of the other bead, and both vanish: over the last 0.1
+ * mm before all is wet its head goes to 0. */
+ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach);
 
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);

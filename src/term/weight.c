@@ -1,33 +1,47 @@
-/* Weight, of all that hangs, and the load input. */
+/* Weight of all that has a mass, along gravity; load.force and the load input, downwards. Eq. (27.4). */
 #include "base/kernel.h"
 #include "term/term.h"
 
-ZP_KERNEL static void subtract(size_t stride, double share, const double *weight, double *restrict Fy) {
+ZP_KERNEL static void add(size_t stride, double share, const double *weight, double *restrict F) {
   ZP_SIMD
   for (size_t j = 0; j < stride; j++)
-    Fy[j] -= share * weight[j];
+    F[j] += share * weight[j];
 }
 
-static void add_load(const ZpModel *model, double load, double *F) {
+/* Weight that hangs on the load's nodes, and a force down, N, both of the modelled part. */
+static void add_load(const ZpModel *model, double hung, double down, double *F) {
   const ZpTopology *t = &model->topology;
-  for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    F[model->stride + zp_lower(t, i)] -= load / (double)zp_load_ends(t);
+  double ends = (double)zp_load_ends(t);
+  for (size_t i = t->platform.first; i <= t->platform.last; i++) {
+    F[zp_lower(t, i)] += hung * model->fall[0] / ends;
+    F[model->stride + zp_lower(t, i)] += (hung * model->fall[1] - down) / ends;
+  }
+}
+
+/* load.force of the modelled part, N. */
+static double constant_of(const ZpModel *model) {
+  return zp_load_share(model) * model->def.load.force;
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
-  subtract(model->stride, span->share, model->weight, F + model->stride);
-  add_load(model, span->load, F);
+  if (model->fall[0] != 0) add(model->stride, span->share * model->fall[0], model->weight, F);
+  add(model->stride, span->share * model->fall[1], model->weight, F + model->stride);
+  add_load(model, span->hung, span->load + span->share * constant_of(model), F);
 }
 
-void zp_weight_by_load(const ZpModel *model, double *F) {
-  add_load(model, 1, F);
+void zp_weight_by_hung(const ZpModel *model, double *F) {
+  add_load(model, 1, 0, F);
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
   (void)e;
-  for (size_t j = 0; j < model->count; j++)
-    sum->gravity += model->weight[j] * now->end[model->stride + j];
+  const double *x = now->end, *y = now->end + model->stride;
+  for (size_t j = 0; j < model->count; j++) {
+    double along = x[j] - zp_straight_x(model, j / model->s);
+    sum->gravity -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
+  }
+  sum->gravity += constant_of(model) * y[zp_load_node(&model->topology)];
 }
 
 const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};

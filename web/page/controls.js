@@ -27,15 +27,16 @@ export class Sliders {
     label.textContent = spec.label;
     row.title = `${spec.key}: ${key.help}`;
     output.htmlFor = id;
-    Object.assign(input, {type: 'range', step: spec.step});
-    const text = () => (key.shown ? `${Number(input.value)} ${key.shown}` : `${Number(input.value)}`);
+    Object.assign(input, {type: 'range', step: spec.log ? 'any' : spec.step});
+    const number = () => (spec.log ? Number((10 ** input.value).toPrecision(3)) : Number(input.value));
+    const text = () => (key.shown ? `${number()} ${key.shown}` : `${number()}`);
     input.addEventListener('input', () => this.#changed(spec.key, text()));
     input.addEventListener('change', done);
     row.append(label, output, input);
     const auto = Number.isNaN(key.default) ? this.#auto(spec, done) : null;
     if (auto) output.before(auto);
     place.append(row);
-    return {spec, key, input, output, auto};
+    return {spec, key, row, input, output, auto};
   }
 
   /** The way back for a key that may be auto. */
@@ -52,19 +53,53 @@ export class Sliders {
   /** Show the scenario as the core has it: auto where the value is that it stands for. A value beyond the usual range
    * widens it. */
   show() {
-    for (const {spec, key, input, output, auto} of this.#rows.values()) {
+    for (const {spec, key, row, input, output, auto} of this.#rows.values()) {
+      row.hidden = spec.acts ? !spec.acts(this.#core) : false;
       const value = this.#core.effective(spec.key), number = inShown(this.#core, spec.key, value);
       const given = !Number.isNaN(this.#core.value(spec.key));
-      input.min = Math.max(Math.min(spec.min, number), inShown(this.#core, spec.key, key.min));
-      input.max = Math.min(Math.max(spec.max, number), inShown(this.#core, spec.key, key.max));
-      input.step = Number.isInteger(Math.round((1e6 * (number - input.min)) / spec.step) / 1e6) ? spec.step : 'any';
-      input.value = number;
+      const least = Math.max(Math.min(spec.min, number), inShown(this.#core, spec.key, key.min));
+      const most = Math.min(Math.max(spec.max, number), inShown(this.#core, spec.key, key.max));
+      const at = (v) => (spec.log ? Math.log10(v) : v);
+      input.min = at(least);
+      input.max = at(most);
+      input.step = Number.isInteger(Math.round((1e6 * (number - least)) / spec.step) / 1e6) ? spec.step : 'any';
+      input.value = at(number);
       if (auto) auto.hidden = !given;
       const words = pretty(this.#core.print(spec.key, value)), text = given ? words : `auto (${words})`;
       if (output.textContent === text) continue;
       output.textContent = text;
       input.setAttribute('aria-valuetext', text);
     }
+  }
+}
+
+/** A list of the words of a key, with a line below on the one that is chosen. */
+export class Choice {
+  #core;
+  #key;
+  #select = document.createElement('select');
+  #line = document.createElement('p');
+
+  /** spec: {key, label, words}; `choose` gets a word. */
+  constructor(place, core, {key, label, words = {}}, choose) {
+    this.#core = core;
+    this.#key = core.keys.get(key);
+    const row = document.createElement('div'), name = document.createElement('label');
+    row.className = 'choice';
+    row.title = `${key}: ${this.#key.help}`;
+    name.textContent = label;
+    name.htmlFor = this.#select.id = key.replace('.', '-');
+    for (const {word} of this.#key.choices) this.#select.append(new Option((words[word] ?? word).replaceAll('_', ' '), word));
+    this.#select.addEventListener('change', () => choose(this.#select.value));
+    row.append(name, this.#select, this.#line);
+    place.append(row);
+  }
+
+  /** `more`: what there is to say beside the word's own help; null: nothing. */
+  show(more = null) {
+    const chosen = this.#key.choices[this.#core.value(this.#key.name)];
+    this.#select.value = chosen.word;
+    this.#line.textContent = more ?? chosen.help;
   }
 }
 

@@ -22,6 +22,7 @@ export class Core {
   #web;
   #text;
   #textSize;
+  #columns; // of a row of signals: name => place
 
   /** @param {WebAssembly.Module} module */
   constructor(module) {
@@ -44,8 +45,13 @@ export class Core {
         min: c.zp_web_key_min(index),
         max: c.zp_web_key_max(index),
         default: c.zp_web_key_default(index),
+        choices: Array.from({length: c.zp_web_key_choices(index)}, (__, k) => ({
+          word: this.#string(c.zp_web_choice_word(index, k)),
+          help: this.#string(c.zp_web_choice_help(index, k)),
+        })),
       }];
     }));
+    this.#columns = new Map(Array.from({length: c.zp_web_signals()}, (_, k) => [this.#string(c.zp_web_signal_column(k)), k]));
   }
 
   #bytes(pointer, length) {
@@ -136,19 +142,29 @@ export class Core {
     return this.#c.zp_web_signal(this.#web);
   }
 
+  /** Present values of the signals in these columns, of one row: its mean current counts from the row before. */
+  read(columns) {
+    const row = this.#doubles(this.#c.zp_web_read(this.#web), this.#columns.size);
+    return columns.map((name) => row[this.#columns.get(name)]);
+  }
+
   zipTime() {
     return this.#c.zp_web_zip_time(this.#web);
   }
 
-  /** Insulator faces: x, y [2 nodes], upper and lower by turns; gap, lineForce [nodes]. Valid until the next call. */
+  /** Insulator faces: x, y [2 nodes], upper and lower by turns; gap, lineForce [nodes]; film and pressure of the liquid
+   * [nodes], empty where there is none. Valid until the next call. */
   shape() {
     const c = this.#c, web = this.#web, n = this.nodes;
     const x = c.zp_web_x(web), y = c.zp_web_y(web), gap = c.zp_web_gap(web), force = c.zp_web_line_force(web);
+    const film = c.zp_web_film(web), pressure = c.zp_web_pressure(web), wet = film ? n : 0;
     return {
       x: this.#doubles(x, 2 * n),
       y: this.#doubles(y, 2 * n),
       gap: this.#doubles(gap, n),
       lineForce: this.#doubles(force, n),
+      film: this.#doubles(film, wet),
+      pressure: this.#doubles(pressure, wet),
     };
   }
 

@@ -1,26 +1,37 @@
 // What an engine tells of one instant, as numbers in one array, which goes there and back without a copy:
 // single numbers by name, the shape, and what the stroke was since the frame before.
 
-const own = ['time', 'since', 'marks', 'advanced', 'nodes', 'offset', 'samples'];
-const signals = ['voltage', 'stroke', 'opening', 'contraction', 'zipped_length', 'force', 'capacitance', 'insulator_field', 'max_stress'];
+const own = ['time', 'since', 'marks', 'advanced', 'nodes', 'offset', 'liquid', 'samples'];
+const signals = {
+  voltage: 'voltage_V', stroke: 'stroke_m', opening: 'opening_m', contraction: 'contraction', zipped_length: 'zipped_length_m',
+  force: 'force_N', capacitance: 'capacitance_F', insulator_field: 'insulator_field_V_per_m', max_stress: 'max_stress_Pa',
+  film_thickness: 'film_thickness_m', wet_length: 'wet_length_m',
+};
 // of the scenario that this instant belongs to, which is not always the newest
 const keys = ['ribbon.length', 'platform.length', 'platform.electrode', 'ribbon.thickness', 'insulator.thickness', 'load.mass',
-              'medium.breakdown_field', 'electro.breakdown_cap', 'electro.voltage_share'];
-const place = new Map([...own, ...signals, ...keys].map((name, k) => [name, k]));
+              'medium.breakdown_field', 'medium.permittivity', 'air.breakdown_field', 'electro.breakdown_cap', 'electro.voltage_share'];
+const place = new Map([...own, ...Object.keys(signals), ...keys].map((name, k) => [name, k]));
 
-/** Most pairs of time and stroke in a frame. */
+/** Columns of a sample; the time counts from the last mark, the current is the mean since the sample before, NaN where
+ * an ideal source has charged the electrodes at once. */
+export const sampled = ['time_s', 'stroke_m', 'voltage_V', 'command_V', 'current_A'];
+
+/** Most samples in a frame. */
 export const mostSamples = 64;
+const head = place.size + sampled.length * mostSamples, ofNodes = 8;
 
 /** Fill `data`, or a new array where it is too short, from a Motion. `advanced`: s run since the frame before. */
 export function write(data, motion, advanced) {
-  const {core, samples} = motion, shape = core.shape(), head = place.size + 2 * mostSamples, length = head + 6 * core.nodes;
+  const {core, samples} = motion, length = head + ofNodes * core.nodes;
   const frame = data?.length >= length ? data : new Float64Array(length);
   const numbers = [motion.time, motion.time - motion.zero, motion.marks, advanced, core.nodes, core.insulatorOffset,
-                   samples.length / 2, ...signals.map((name) => core.signal(name)), ...keys.map((name) => core.value(name))];
+                   core.effective('liquid.model'), samples.length / sampled.length, ...core.read(Object.values(signals)),
+                   ...keys.map((name) => core.value(name))];
+  const shape = core.shape();
   frame.set(numbers);
   frame.set(samples, place.size);
   let at = head;
-  for (const part of [shape.x, shape.y, shape.gap, shape.lineForce]) {
+  for (const part of [shape.x, shape.y, shape.gap, shape.lineForce, shape.film, shape.pressure]) {
     frame.set(part, at);
     at += part.length;
   }
@@ -34,20 +45,22 @@ export class Frame {
   }
 
   /** A number by its name: time (of the simulation), since (the last mark), marks (their count), advanced (s since the
-   * frame before), nodes, offset (liquid that stands for both insulators, m), a signal or a key of the lists above. */
+   * frame before), nodes, offset (liquid that stands for both insulators, m), liquid (as liquid.model, auto resolved), a
+   * signal or a key of the lists above. */
   get(name) {
     return this.data[place.get(name)];
   }
 
-  /** Insulator faces: x, y [2 nodes], upper and lower by turns; gap, lineForce [nodes]. */
+  /** Insulator faces: x, y [2 nodes], upper and lower by turns; gap, lineForce [nodes]; film, pressure [nodes], which
+   * say nothing where there is no liquid. */
   get shape() {
     const nodes = this.get('nodes'), part = (from, to) => this.data.subarray(head + from * nodes, head + to * nodes);
-    const head = place.size + 2 * mostSamples;
-    return {x: part(0, 2), y: part(2, 4), gap: part(4, 5), lineForce: part(5, 6)};
+    return {x: part(0, 2), y: part(2, 4), gap: part(4, 5), lineForce: part(5, 6), film: part(6, 7), pressure: part(7, 8)};
   }
 
-  /** `note` gets times since the mark and strokes. */
+  /** `note` gets the numbers of a sample. */
   eachSample(note) {
-    for (let k = 0; k < this.get('samples'); k++) note(this.data[place.size + 2 * k], this.data[place.size + 2 * k + 1]);
+    const size = sampled.length;
+    for (let k = 0; k < this.get('samples'); k++) note(...this.data.subarray(place.size + size * k, place.size + size * (k + 1)));
   }
 }

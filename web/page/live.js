@@ -4,10 +4,13 @@ import {Remote} from './remote.js';
 
 const mostOwed = 0.25; // s of simulated time; what a slow engine cannot run is left out
 
+/** What was seen of the motion: s, m, V, V, A. */
+const noTrace = () => ({time: [], stroke: [], voltage: [], command: [], current: []});
+
 export class Live {
   frame = null; // the newest
   end = null; // {failure}, {stopped}, {broken} or {refused}: why it does not continue, until something changes
-  trace = {time: [], stroke: []}; // since a button changed the voltage
+  trace = noTrace(); // since a button changed the voltage
   pace = 1; // share of the time asked for that was run, lately
   #remote;
   #values; // of the scenario
@@ -73,20 +76,19 @@ export class Live {
   }
 
   #show(frame) {
-    if (frame.get('marks') !== this.#marks) this.trace = {time: [], stroke: []};
+    if (frame.get('marks') !== this.#marks) this.trace = noTrace();
     this.#marks = frame.get('marks');
     this.#spare = this.frame?.data ?? new Float64Array(0);
     this.frame = frame;
-    frame.eachSample((time, stroke) => this.#note(time, stroke));
+    frame.eachSample((...sample) => this.#note(sample));
     if (this.#asked > 0) this.pace += 0.1 * (frame.get('advanced') / this.#asked - this.pace);
   }
 
-  #note(at, value) {
-    const {time, stroke} = this.trace, most = 4000;
-    time.push(at);
-    stroke.push(value);
-    if (time.length < most) return;
-    const every = (_, k) => k % 2 === 0;
-    this.trace = {time: time.filter(every), stroke: stroke.filter(every)};
+  /** `sample`: in the order of the trace's lists. */
+  #note(sample) {
+    const most = 4000, lists = Object.entries(this.trace);
+    lists.forEach(([, list], k) => list.push(sample[k]));
+    if (this.trace.time.length < most) return;
+    this.trace = Object.fromEntries(lists.map(([name, list]) => [name, list.filter((_, k) => k % 2 === 0)]));
   }
 }

@@ -1,6 +1,6 @@
 // The page: one scenario, one simulation that runs along, two studies that follow, and what a person does with them.
 import wasm from '../build/zipact.wasm';
-import {makePresets, Sliders, SlowMotion} from './controls.js';
+import {Choice, makePresets, Sliders, SlowMotion} from './controls.js';
 import {Core, Refused} from './core.js';
 import {Live} from './live.js';
 import {fixed, pretty} from './numbers.js';
@@ -114,9 +114,10 @@ const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'releas
 
 const kept = [['output.samples', '1000'], ['output.shapes', '2']]; // what is kept for files, no plot needs
 
+/** The run is to the zip time, also behind a supply. */
 function askStudies(values) {
-  runStudy.ask(new Map([...values, ...kept]));
-  restStudy.ask(new Map([...values, ...kept, ['drive.voltage', `${highest} V`]]));
+  runStudy.ask(new Map([['solver.stop_when_zipped', 'true'], ...values, ...kept]));
+  restStudy.ask(new Map([...scenario.atRest(values), ...kept, ['drive.voltage', `${highest} V`]]));
 }
 
 // -- the scenario
@@ -149,7 +150,9 @@ function set(key, text, kind = null) {
 }
 
 function show() {
-  sliders.show();
+  for (const list of sliders) list.show();
+  liquidChoice.show();
+  supplyChoice.show(scenario.supplyWords(core));
   view.showLegend();
   showButtons();
   $('undo').disabled = !history.canUndo;
@@ -215,7 +218,10 @@ function frame(now) {
 // -- what a person does
 
 const slow = new SlowMotion($('slow'), $('slow-value'), given.slow, remember);
-const sliders = new Sliders($('sliders'), core, scenario.sliders, (key, text) => set(key, text, key), () => history.close());
+const liquidChoice = new Choice($('liquid'), core, scenario.liquidChoice, (word) => set('liquid.model', word) || show());
+const supplyChoice = new Choice($('supply'), core, scenario.supplyChoice, (word) => change(scenario.withSupply(core, history.present, word)) || show());
+const sliders = [['sliders', scenario.sliders], ['liquid', scenario.liquidSliders], ['supply', scenario.supplySliders]]
+  .map(([place, list]) => new Sliders($(place), core, list, (key, text) => set(key, text, key), () => history.close()));
 makePresets($('presets'), scenario.presets, (values) => {
   if (change(new Map([...scenario.beginning, ...values]))) press('step');
 });

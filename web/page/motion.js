@@ -1,5 +1,5 @@
 // The actuator in motion, as the core computes it, piece by piece.
-import {mostSamples} from './frame.js';
+import {mostSamples, sampled} from './frame.js';
 
 const longest = 1e-3; // s of simulated time between two samples of the stroke
 const patience = {time: 2e3, share: 1e-3}; // ms of computing that must give this share of the time asked for
@@ -8,10 +8,11 @@ export class Motion {
   time = 0; // s, as the simulation counts
   zero = 0; // s, when the voltage last changed by a button
   marks = 0; // how often that was
-  samples = []; // time since `zero` and stroke by turns, since they were last taken
+  samples = []; // rows of `sampled`, one after the other, since they were last taken
   failure = 'nothing to run'; // how the solver failed, until something changes
   stopped = null; // {seconds, moved} that was computed in vain, until something changes
   #effort = {spent: 0, asked: 0, moved: 0}; // ms, s, s
+  #jumped = false; // an ideal source has charged the electrodes at once: the next mean current has that charge
 
   constructor(core) {
     this.core = core;
@@ -24,7 +25,7 @@ export class Motion {
   /** From the hanging equilibrium, found within `limit` ms, the voltage on from now. */
   restart(voltage, limit) {
     this.#begin(false, limit);
-    this.core.setVoltage(voltage);
+    this.#switch(voltage);
     this.time = 0;
     this.#mark();
   }
@@ -34,13 +35,13 @@ export class Motion {
     const {core} = this;
     if (this.ended || core.nodes !== core.value('mesh.nodes')) return this.restart(voltage, limit);
     this.#begin(true, limit);
-    if (core.signal('voltage') !== voltage) core.setVoltage(voltage);
+    if (core.signal('command') !== voltage) this.#switch(voltage);
   }
 
   /** A button: another voltage from now on. */
   switchTo(voltage, limit) {
     if (this.ended) return this.restart(voltage, limit);
-    this.core.setVoltage(voltage);
+    this.#switch(voltage);
     this.#mark();
   }
 
@@ -53,15 +54,30 @@ export class Motion {
     this.#effort = {spent: 0, asked: 0, moved: 0};
   }
 
+  #switch(voltage) {
+    this.core.setVoltage(voltage);
+    this.#jumped = this.core.value('source.model') === 0;
+  }
+
   #mark() {
     this.zero = this.time;
     this.marks++;
     this.samples.length = 0;
-    this.#note();
+    this.samples.push(...this.core.read(sampled));
+    this.#since();
   }
 
   #note() {
-    this.samples.push(this.time - this.zero, this.core.signal('stroke'));
+    this.samples.push(...this.core.read(sampled));
+    if (this.#jumped) this.samples[this.samples.length - 1] = NaN;
+    this.#jumped = false;
+    this.#since();
+  }
+
+  /** Times of the last sample count from the mark. */
+  #since() {
+    const at = this.samples.length - sampled.length;
+    this.samples[at] = this.time - this.zero;
   }
 
   /** Run `span` seconds, or as far as `budget` ms go. => seconds run */

@@ -27,7 +27,7 @@ function roundUp(value) {
 export function axisEnds(...lists) {
   let least = 0, most = 0;
   for (const list of lists)
-    for (const value of list) {
+    for (const value of list) { // NaN is neither
       if (value < least) least = value;
       if (value > most) most = value;
     }
@@ -35,9 +35,9 @@ export function axisEnds(...lists) {
   return top > bottom ? [bottom, top] : [0, 1];
 }
 
-/** "8 g" as the command writes it => as people do: "8 g", "50 µm". */
+/** "8 g" as the command writes it => as people do: "8 g", "50 µm", "50 mm²/s", "5 MΩ". */
 export function pretty(text) {
-  return text.replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');
+  return text.replace(/ohm\b/, 'Ω').replace(/\bmm2\b/, 'mm²').replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');
 }
 
 /** Tiles of a description list: name => {label, unit, title, study: it is the whole scenario's}. */

@@ -17,13 +17,20 @@ class Half {
     this.scale = to.scale;
   }
 
-  /** Path along ribbon r at a distance from its face, m; the other way round: backwards. */
-  along(context, r, outward, backwards = false) {
-    const x = this.x[r], y = this.y[r], shift = (r === 0 ? -outward : outward) * this.scale, n = x.length;
-    for (let k = 0; k < n; k++) {
-      const i = backwards ? n - 1 - k : k;
-      context.lineTo(x[i], y[i] + shift);
-    }
+  /** Path along ribbon r at a distance from its face, m, up to place `end`, a number of points with its fraction; the
+   * other way round: backwards. */
+  along(context, r, outward, backwards = false, end = this.x[r].length - 1) {
+    const shift = (r === 0 ? -outward : outward) * this.scale, whole = Math.floor(end);
+    const places = Array.from({length: whole + 1}, (_, i) => i);
+    if (whole < end) places.push(end);
+    if (backwards) places.reverse();
+    for (const at of places) context.lineTo(this.#at(this.x[r], at), this.#at(this.y[r], at) + shift);
+  }
+
+  /** Between two points of a list. */
+  #at(list, place) {
+    const k = Math.floor(place), part = place - k;
+    return part ? list[k] + part * (list[k + 1] - list[k]) : list[k];
   }
 
   /** A layer of ribbon r between two distances from its face. */
@@ -34,17 +41,25 @@ class Half {
     context.fill();
   }
 
-  /** What is between the ribbons, as far as `outward` of their faces, coloured by the field. */
-  liquid(context, {field, largest, electrode}, outward) {
+  /** What is between the ribbons, as far as `outward` of their faces, coloured by the field; of a bead as far as it
+   * reaches, with its meniscus. */
+  liquid(context, {field, largest, electrode, wetEnd}, outward) {
     const x = this.x[0], span = x.at(-2) - x[1];
     const gradient = context.createLinearGradient(x[1], 0, x.at(-2), 0);
     field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max((x[i + 1] - x[1]) / span, 0), 1), shade(E / largest)));
     if (!electrode) gradient.addColorStop(1, shade(0));
     context.fillStyle = gradient;
+    const end = Math.min(wetEnd, x.length - 1);
     context.beginPath();
-    this.along(context, 0, outward);
-    this.along(context, 1, outward, true);
+    this.along(context, 0, outward, false, end);
+    this.along(context, 1, outward, true, end);
     context.fill();
+    if (end === x.length - 1) return;
+    context.strokeStyle = theme.colour.accent;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    for (const r of [0, 1]) context.lineTo(this.#at(this.x[r], end), this.#at(this.y[r], end));
+    context.stroke();
   }
 }
 
@@ -67,7 +82,8 @@ export class Picture {
     this.#context = canvas.getContext('2d');
   }
 
-  /** scene: shape, nodes, centre (x of the middle, m), field [nodes] and largest (V/m), platform (m),
+  /** scene: shape, nodes, centre (x of the middle, m), field [nodes] and largest (V/m), bath (is there liquid around?),
+   * wetEnd (where a bead ends: a number of points of a Half; Infinity: nowhere), platform (m),
    * metal, insulator (m, thickness), mass (kg), hanging (opening without voltage, m; NaN: unknown), texts. */
   draw(scene, still) {
     const context = this.#context, ratio = Math.min(devicePixelRatio, 2);
@@ -76,6 +92,10 @@ export class Picture {
     if (this.#canvas.height !== Math.round(height * ratio)) this.#canvas.height = Math.round(height * ratio);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
+    if (scene.bath) {
+      context.fillStyle = theme.colour.bath;
+      context.fillRect(0, 0, width, height);
+    }
     const to = this.#fit(scene, width, height, still);
     this.#support(to);
     this.#hanging(scene, to);
@@ -84,6 +104,18 @@ export class Picture {
     this.#opening(scene, to);
     this.#scaleBar(to, width, height);
     this.#lens(scene, to, width, height);
+    this.#where(scene, width);
+  }
+
+  /** What the ribbons are in. */
+  #where({texts}, width) {
+    if (!texts.liquid) return;
+    const context = this.#context;
+    context.fillStyle = theme.colour.soft;
+    context.font = '12px system-ui, sans-serif';
+    context.textAlign = 'right';
+    context.textBaseline = 'top';
+    context.fillText(texts.liquid, width - 12, 10);
   }
 
   /** The whole actuator, its load and some air, in one scale for both directions. */
@@ -242,7 +274,7 @@ export class Picture {
     context.save();
     context.beginPath();
     context.arc(at.x, at.y, radius, 0, 2 * Math.PI);
-    context.fillStyle = theme.colour.panel;
+    context.fillStyle = scene.bath ? theme.colour.bath : theme.colour.panel;
     context.fill();
     context.clip();
     const half = new Half(scene, 1, inside);

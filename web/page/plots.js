@@ -1,9 +1,9 @@
-// The three plots. uPlot makes axes and scales; curves are drawn here, because branches turn back in voltage.
+// The plots. uPlot makes axes and scales; curves are drawn here, because branches turn back in voltage.
 import uPlot from 'uplot';
 import {axisEnds} from './numbers.js';
 import {theme} from './theme.js';
 
-/** Draw xs, ys over scale `y` of `plot`. */
+/** Draw xs, ys over scale `y` of `plot`, with a gap where y is no number. */
 function curve(plot, xs, ys, {colour, width = 2, dash = [], y = 'y'}) {
   const context = plot.ctx, ratio = devicePixelRatio;
   context.save();
@@ -12,7 +12,12 @@ function curve(plot, xs, ys, {colour, width = 2, dash = [], y = 'y'}) {
   context.lineJoin = 'round';
   context.setLineDash(dash.map((length) => length * ratio));
   context.beginPath();
-  for (let k = 0; k < xs.length; k++) context.lineTo(plot.valToPos(xs[k], 'x', true), plot.valToPos(ys[k], y, true));
+  for (let k = 0, on = false; k < xs.length; on = !Number.isNaN(ys[k++])) {
+    if (Number.isNaN(ys[k])) continue;
+    const to = [plot.valToPos(xs[k], 'x', true), plot.valToPos(ys[k], y, true)];
+    if (on) context.lineTo(...to);
+    else context.moveTo(...to);
+  }
   context.stroke();
   context.restore();
 }
@@ -31,7 +36,7 @@ function dot(plot, x, y, colour) {
 }
 
 /** Numbers beside an axis: such that there is room for them. */
-const ticks = (values) => values.map((v) => (Math.abs(v) < 1e5 ? String(Number(v.toPrecision(6))) : v.toExponential()));
+const ticks = (values) => values.map((v) => (v === null ? '' : Math.abs(v) < 1e6 ? String(Number(v.toPrecision(6))) : v.toExponential()));
 
 const axis = (label, more = {}) => ({
   label,
@@ -45,12 +50,12 @@ const axis = (label, more = {}) => ({
   ...more,
 });
 
-/** A plot in `place`: `ends` gives both ends of each scale, `paint` draws its curves. */
+/** A plot in `place`: `ends` gives both ends of each scale, of which some are `logarithmic`; `paint` draws its curves. */
 class Plot {
   #plot;
   #data;
 
-  constructor(place, axes, ends, paint) {
+  constructor(place, axes, ends, paint, logarithmic = []) {
     const scales = Object.keys(axes);
     this.place = place;
     this.#data = scales.map(() => [0, 1]);
@@ -59,7 +64,7 @@ class Plot {
       legend: {show: false},
       cursor: {show: false},
       padding: [8, 18, 0, 0],
-      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => ends()[name]}])),
+      scales: Object.fromEntries(scales.map((name) => [name, {time: false, range: () => ends()[name], ...(logarithmic.includes(name) ? {distr: 3} : {})}])),
       series: scales.map((name) => (name === 'x' ? {} : {scale: name, paths: () => null, points: {show: false}})),
       axes: scales.map((name) => ({...axes[name], scale: name})),
       hooks: {draw: [paint]},
@@ -68,10 +73,11 @@ class Plot {
   }
 
   #size() {
-    return {width: Math.max(this.place.clientWidth, 200), height: this.place.clientHeight};
+    return {width: Math.max(this.place.clientWidth, 200), height: Math.max(this.place.clientHeight, 60)};
   }
 
   update() {
+    if (!this.place.clientHeight) return; // not shown
     this.#plot.setData(this.#data);
   }
 }
@@ -117,6 +123,54 @@ export function voltagePlot(place, data) {
     }
     dot(plot, data.now.voltage / 1e3, 1e3 * data.now.stroke, 'accent');
   });
+}
+
+/** Powers of ten around all values above 0. */
+function decades(values) {
+  const there = values.filter((v) => v > 0), log = (v) => Math.log10(v);
+  if (!there.length) return [1, 10];
+  const low = Math.floor(log(Math.min(...there)) + 1e-9), high = Math.ceil(log(Math.max(...there)) - 1e-9);
+  return [10 ** low, 10 ** Math.max(high, low + 1)];
+}
+
+/** Current out of the source, and the voltage of the electrodes beside what the source is told. */
+export function currentPlot(place, data) {
+  const ends = () => ({
+    x: axisEnds([1e3 * (data.trace.time.at(-1) ?? 0), 10]),
+    current: axisEnds(scaled(data.trace.current, 1e6), [1]),
+    voltage: axisEnds(scaled(data.trace.voltage, 1e-3), scaled(data.trace.command, 1e-3), [1]),
+  });
+  const axes = {
+    x: axis('time / ms', {size: 34}),
+    current: axis('current / µA', {size: 50, stroke: () => theme.colour.accent}),
+    voltage: axis('voltage / kV', {side: 1, grid: {show: false}, size: 40, stroke: () => theme.colour.warm}),
+  };
+  return new Plot(place, axes, ends, (plot) => {
+    const x = scaled(data.trace.time, 1e3);
+    curve(plot, x, scaled(data.trace.command, 1e-3), {colour: 'soft', width: 1.5, dash: [5, 4], y: 'voltage'});
+    curve(plot, x, scaled(data.trace.voltage, 1e-3), {colour: 'warm', width: 2, y: 'voltage'});
+    curve(plot, x, scaled(data.trace.current, 1e6), {colour: 'accent', width: 2, y: 'current'});
+  });
+}
+
+/** Pressure and thickness of the film of liquid, from the clip to where it ends. */
+export function liquidPlot(place, data) {
+  const ends = () => ({
+    x: axisEnds([1e3 * data.length]),
+    pressure: axisEnds(scaled(data.pressure, 1e-3), [0.1]),
+    film: decades(scaled(data.film, 1e6)),
+  });
+  const axes = {
+    x: axis('from the clip / mm', {size: 34}),
+    pressure: axis('pressure / kPa', {size: 50, stroke: () => theme.colour.accent}),
+    film: axis('film / µm', {side: 1, grid: {show: false}, size: 46, stroke: () => theme.colour.warm}),
+  };
+  return new Plot(place, axes, ends, (plot) => {
+    const n = data.film.length, x = Array.from({length: n}, (_, i) => (1e3 * data.length * i) / (n - 1));
+    const there = (values) => Array.from(values, (value, i) => (data.film[i] > 0 ? value : NaN));
+    curve(plot, x, there(scaled(data.film, 1e6)), {colour: 'warm', width: 2, y: 'film'});
+    curve(plot, x, there(scaled(data.pressure, 1e-3)), {colour: 'accent', width: 2.5, y: 'pressure'});
+  }, ['film']);
 }
 
 /** Attraction per length and field in the liquid, from the clip to the platform. */

@@ -1,5 +1,7 @@
 // The scenario of the page: which keys have sliders, presets, text for the command, the address after #, undo.
 
+import {pretty} from './numbers.js';
+
 /** Where the page starts: at the command's defaults. */
 export const beginning = new Map();
 
@@ -17,13 +19,62 @@ export const sliders = [
   {key: 'damping.internal', label: 'Damping', min: 0, max: 1000, step: 10},
 ];
 
+/** What the liquid is, as liquid.model says it, auto resolved. */
+const liquid = (core) => {
+  const {choices} = core.keys.get('liquid.model');
+  return choices[core.effective('liquid.model')].word;
+};
+const isWet = (core) => liquid(core) !== 'none', isBead = (core) => liquid(core) === 'bead';
+const isFed = (core) => core.value('source.model') !== 0;
+
+/** Sliders of the liquid and of the supply, shown where their keys do something (`acts`); `log`: by powers. */
+export const liquidSliders = [
+  {key: 'medium.kinematic_viscosity', label: 'Viscosity', min: 0.5, max: 5000, log: true, acts: isWet},
+  {key: 'bead.volume', label: 'Bead volume', min: 5, max: 500, log: true, acts: isBead},
+  {key: 'bead.suction', label: 'Bead suction', min: 0, max: 1, step: 0.05, acts: isBead},
+];
+export const supplySliders = [{key: 'source.resistance', label: 'Series resistance', min: 0, max: 2000, step: 10, acts: isFed}];
+
+/** Choices: keys of which a word is taken. `words`: what stands on the list for a word of the key's table. */
+export const liquidChoice = {key: 'liquid.model', label: 'Liquid'};
+export const supplyChoice = {key: 'source.supply', label: 'Supply', words: {none: 'ideal'}};
+
+/** Another supply: none of the old one's values stays, and the drive is no higher than it can be. */
+export function withSupply(core, values, word) {
+  const others = new Map([...values].filter(([key]) => !key.startsWith('source.')));
+  if (word === 'none') return others;
+  core.resolve(new Map([['source.supply', word], ['drive.voltage', '0 V']]));
+  const most = core.value('source.voltage_limit');
+  core.resolve(values);
+  if (core.value('drive.voltage') > most) others.set('drive.voltage', core.print('drive.voltage', most));
+  return others.set('source.supply', word);
+}
+
+/** What the supply of the scenario can do, in a line; what of it is unusual in the words of its keys. */
+export function supplyWords(core) {
+  if (!isFed(core)) return 'has the voltage of the buttons at once, whatever current flows';
+  const shown = (key) => pretty(core.print(key, core.value(key)));
+  const sink = core.value('source.sink_limit') === 0 ? 'none, it cannot discharge' : shown('source.sink_limit').replace('auto', 'as current');
+  const three = [`slew rate ${shown('source.slew_rate').replace('none', 'unlimited')}`,
+                 `current ${shown('source.current_limit').replace('none', 'unlimited')}`, `sink ${sink}`];
+  const told = ['source.model', 'source.supply', 'source.slew_rate', 'source.current_limit', 'source.sink_limit', 'source.resistance'];
+  const others = changed(core).filter(([key]) => key.startsWith('source.') && !told.includes(key));
+  return [...three, ...others.map(([key, text]) => `${key.slice('source.'.length).replace('_', ' ')} ${pretty(text)}`)].join(', ');
+}
+
+/** The same actuator at rest: studies of rest take the drive's voltage at the electrodes, whatever the supply. */
+export const atRest = (values) => new Map([...values].filter(([key]) => !key.startsWith('source.')));
+
 /** Values in the sliders' own order of keys. A preset replaces the whole scenario. */
 export const presets = [
   {name: 'The paper’s', help: '50 µm steel lifts 8 g', values: {}},
   {name: 'Thin and far', help: '20 µm steel: the largest stroke', values: {'ribbon.thickness': '20 um', 'load.mass': '1 g', 'drive.voltage': '8 kV'}},
   {name: 'Thick and strong', help: '200 µm steel lifts 100 g, by 2 mm', values: {'ribbon.thickness': '200 um', 'load.mass': '100 g'}},
   {name: 'Too heavy', help: '30 g: it does not close', values: {'load.mass': '30 g'}},
-  {name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
+  {name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'liquid.model': 'none', 'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
+  {name: 'In a bath', help: 'ribbons submerged: a film between them and oil to move outside', values: {'liquid.model': 'submerged'}},
+  {name: 'With beads', help: 'a bead of oil at each zip front, air beyond', values: {'liquid.model': 'bead', 'bead.volume': '100 uL'}},
+  {name: 'Pocket supply', help: 'a supply to 6 kV that is slower than the zip', values: {'drive.voltage': '6 kV', 'source.supply': 'pocket_6kv'}},
 ];
 
 const usualFactor = 10; // of slow motion

@@ -1,6 +1,6 @@
 // Colours of style.css for what is drawn on a canvas, and the scale of colours for the field.
 
-const names = ['paper', 'panel', 'ink', 'soft', 'line', 'accent', 'warm', 'metal', 'insulator', 'load'];
+const names = ['paper', 'panel', 'ink', 'soft', 'line', 'accent', 'warm', 'metal', 'insulator', 'load', 'bath'];
 const shades = 256;
 
 function parse(colour) {

@@ -1,7 +1,7 @@
 // What is seen of the actuator: picture, numbers, plots; now, and what the two studies say of the whole scenario.
 import {digits, fixed, pretty, Tiles} from './numbers.js';
 import {Picture} from './picture.js';
-import {profilePlot, timePlot, voltagePlot} from './plots.js';
+import {currentPlot, liquidPlot, profilePlot, timePlot, voltagePlot} from './plots.js';
 
 const tiles = {
   voltage: {label: 'Voltage', unit: 'kV', title: 'between the electrodes, now'},
@@ -34,6 +34,8 @@ function list(place, sentences) {
     return item;
   }));
 }
+/** Of liquid.model, beside the picture. */
+const wetWords = {bead: 'a bead of oil at each clip, air beyond', submerged: 'in a bath of oil'};
 const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
@@ -42,6 +44,8 @@ export class View {
   #time; // what the plots show
   #rest;
   #profile = {length: 1, force: new Float64Array(2), field: new Float64Array(2), largest: 1};
+  #current; // trace
+  #liquid = {length: 1, film: new Float64Array(2), pressure: new Float64Array(2)};
   #notes = [];
   #notice = null;
   #plots;
@@ -55,10 +59,13 @@ export class View {
     this.tiles = new Tiles($('numbers'), tiles);
     this.#time = {run: null, trace: live.trace};
     this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
+    this.#current = {trace: live.trace};
     this.#plots = [
       timePlot($('plot-time'), this.#time),
       voltagePlot($('plot-voltage'), this.#rest),
       profilePlot($('plot-profile'), this.#profile),
+      currentPlot($('plot-current'), this.#current),
+      liquidPlot($('plot-liquid'), this.#liquid),
     ];
   }
 
@@ -113,27 +120,51 @@ export class View {
   draw(still) {
     const {frame} = this.live, scene = this.#scene(frame);
     this.picture.draw(scene, still);
-    this.#time.trace = this.#rest.trace = this.live.trace;
+    this.#time.trace = this.#rest.trace = this.#current.trace = this.live.trace;
     this.#rest.now = {voltage: frame.get('voltage'), stroke: frame.get('stroke')};
     this.#plots[this.#next++ % this.#plots.length].update(); // one plot a frame: each 20 times a second
     this.#numbers(frame, scene);
   }
 
-  /** Field in the liquid at each station by the plates law, V/m. */
-  #field(frame, gap) {
+  /** Field between the faces at each station by the plates law, V/m: in the liquid, beyond a bead in air. */
+  #field(frame, gap, wet) {
     const voltage = frame.get('electro.voltage_share') * frame.get('voltage'), offset = frame.get('offset');
-    const most = frame.get('electro.breakdown_cap') ? frame.get('medium.breakdown_field') : Infinity;
-    return Float64Array.from(gap, (g) => Math.min(voltage / (Math.max(g, 0) + offset), most));
+    const cap = (name) => (frame.get('electro.breakdown_cap') ? frame.get(name) : Infinity);
+    const liquid = {offset, most: cap('medium.breakdown_field')};
+    const air = {offset: offset / frame.get('medium.permittivity'), most: cap('air.breakdown_field')};
+    return Float64Array.from(gap, (g, i) => {
+      const {offset: other, most} = wet(i) ? liquid : air;
+      return Math.min(Math.abs(voltage) / (Math.max(g, 0) + other), most);
+    });
+  }
+
+  /** Where there is liquid: the model's word, and where a bead ends, as a number of stations. */
+  #wet(frame) {
+    const {word} = this.core.keys.get('liquid.model').choices[frame.get('liquid')];
+    const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / (frame.get('nodes') - 1);
+    return {word, end: word === 'bead' ? frame.get('wet_length') / l : Infinity};
+  }
+
+  /** Of a bead below the platform, too: as a number of points of the picture, which has one more before the clip. */
+  #wetEnd(frame, end) {
+    const beyond = end - (frame.get('nodes') - 1);
+    if (beyond <= 0) return 1 + end;
+    const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / (frame.get('nodes') - 1);
+    return frame.get('nodes') + (beyond * l) / (frame.get('platform.length') / 2 || 1);
   }
 
   #scene(frame) {
     const platform = frame.get('platform.length'), length = (frame.get('ribbon.length') - platform) / 2;
     const opening = frame.get('opening'), mass = frame.get('load.mass'), strongest = frame.get('medium.breakdown_field');
-    const texts = {mass: pretty(this.core.print('load.mass', mass)), opening: `${fixed(1e3 * opening, 1)} mm`};
-    const {shape} = frame, field = this.#field(frame, shape.gap);
+    const {shape} = frame, wet = this.#wet(frame), field = this.#field(frame, shape.gap, (i) => i <= wet.end);
+    const texts = {mass: pretty(this.core.print('load.mass', mass)), opening: `${fixed(1e3 * opening, 1)} mm`, liquid: wetWords[wet.word]};
+    Object.assign(this.#liquid, {length, film: shape.film, pressure: shape.pressure});
+    $('of-liquid').hidden = wet.word === 'none';
     Object.assign(this.#profile, {length, field, force: Float64Array.from(shape.lineForce), largest: strongest});
     return {
       shape, field, platform, opening, mass, texts,
+      bath: wet.word === 'submerged',
+      wetEnd: this.#wetEnd(frame, wet.end),
       nodes: frame.get('nodes'),
       centre: length + platform / 2,
       largest: strongest,
@@ -164,6 +195,10 @@ export class View {
     const {frame} = this.live;
     $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * frame.get('opening'), 1)} millimetres open, ` +
       `${fixed(1e3 * frame.get('zipped_length'), 1)} millimetres of each half zipped, at ${fixed(frame.get('voltage') / 1e3, 2)} kilovolts`);
+    const film = frame.get('film_thickness'), now = this.live.trace.current.at(-1) ?? NaN;
+    $('plot-current').setAttribute('aria-label', `Current of the source over time, now ${fixed(1e6 * now, 1)} microamperes; voltage of the electrodes and command`);
+    $('plot-liquid').setAttribute('aria-label', 'Pressure and thickness of the liquid between the faces along the ribbon; ' +
+      (film > 0 ? `a film of ${digits(1e6 * film)} micrometres at a quarter of the length` : 'none at a quarter of the length'));
     $('plot-time').setAttribute('aria-label', `Stroke over time. ${$('time-note').textContent}`);
     $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all states of rest. ${$('voltage-note').textContent}`);
   }

@@ -38,9 +38,16 @@ function difference(a, b) {
 const derived = {energy_imbalance_J: 'electric_work_J', contact_loss_J: 'electric_work_J', axial_energy_J: 'electric_work_J'};
 
 const fixedSteps = {
-  'the default actuator zips': {},
-  'thick steel, heavy load': {'ribbon.thickness': '100 um', 'load.mass': '25 g', 'damping.internal': '1000 us'},
-  'half a zip in thin steel': {'ribbon.thickness': '30 um', 'drive.voltage': '7 kV', 'solver.end_time': '30 ms'},
+  'the default actuator zips': {'liquid.model': 'none'},
+  'beads of oil': {'liquid.model': 'bead', 'bead.suction': '0.5', 'solver.end_time': '40 ms'},
+  'a supply that cannot sink, in a bath': {
+    'liquid.model': 'submerged', 'source.supply': 'converter_10kv', 'source.capacitance': '100 pF', 'solver.end_time': '50 ms',
+  },
+  'thick steel, heavy load': {
+    'liquid.model': 'none',
+    'ribbon.thickness': '100 um', 'load.mass': '25 g', 'damping.internal': '1000 us',
+  },
+  'half a zip in thin steel': {'liquid.model': 'none', 'ribbon.thickness': '30 um', 'drive.voltage': '7 kV', 'solver.end_time': '30 ms'},
 };
 
 for (const [name, changes] of Object.entries(fixedSteps)) {
@@ -66,16 +73,22 @@ for (const [name, changes] of Object.entries(fixedSteps)) {
 }
 
 test('the simulation that runs along ends where the study does, with fixed steps', () => {
-  const values = new Map([['solver.time_step', '200 us'], ['solver.end_time', '40 ms']]);
+  const values = new Map([['liquid.model', 'bead'], ['solver.time_step', '200 us'], ['solver.end_time', '40 ms']]);
   native('actuate', values);
   const rows = table(), core = new Core(module);
   core.resolve(values);
   core.start();
+  const columns = Object.keys(rows);
   for (let k = 1; k <= 200; k++) assert.equal(core.run(k * 2e-4), null);
   for (const signal of ['stroke', 'opening', 'contraction', 'force', 'charge', 'capacitance', 'zipped_length', 'insulator_field', 'max_stress']) {
     const column = Object.keys(rows).find((head) => head === signal || head.startsWith(`${signal}_`));
     const wanted = rows[column].at(-1);
     assert.ok(Math.abs(core.signal(signal) - wanted) <= 1e-9 * Math.abs(wanted), `${signal}: ${core.signal(signal)}, ${wanted}`);
+  }
+  const row = core.read(columns), last = columns.map((name) => rows[name].at(-1));
+  for (const name of ['time_s', 'stroke_m', 'film_thickness_m', 'wet_length_m', 'voltage_V', 'command_V']) {
+    const k = columns.indexOf(name);
+    assert.ok(Math.abs(row[k] - last[k]) <= 1e-9 * Math.abs(last[k]), `${name}: ${row[k]}, ${last[k]}`);
   }
 });
 
@@ -134,6 +147,24 @@ test('the page has the keys of the command, with their ranges', () => {
     assert.equal(core.keys.get(key).min, min, `${key} in ${unit}`);
     assert.equal(core.keys.get(key).max, max, `${key} in ${unit}`);
   }
+});
+
+test('units of the page are those of the command: defaults and ranges as a starter scenario has them', () => {
+  const core = new Core(module), lines = execFileSync(command, ['keys', '--yaml'], {encoding: 'utf8'}).split('\n');
+  const path = [];
+  let seen = 0;
+  for (const line of lines) {
+    const [, indent, name, text] = /^( *)([a-z_0-9.]+):(?: +([^#]*?))?(?: +#.*)?$/.exec(line) ?? [];
+    if (!name) continue;
+    path.splice(indent.length / 2, Infinity, name);
+    const key = core.keys.get(path.join('.'));
+    if (!key?.shown || !text) continue;
+    seen++;
+    assert.equal(core.print(key.name, key.default), text, key.name);
+    const [least, most] = [key.min, key.max].map((value) => core.print(key.name, value));
+    assert.ok(line.includes(`(${least} to ${most}`), `${least} to ${most}: ${line}`);
+  }
+  assert.ok(seen > 60, `${seen} keys seen`);
 });
 
 test('the page begins with the command’s default of every key (its internal damping was 1000 us, the command’s 10 us)', () => {

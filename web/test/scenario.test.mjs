@@ -27,13 +27,76 @@ test('an address that is no scenario comes to the core as it is', () => {
 });
 
 test('every slider stays within what the core allows, at both ends alone and together', () => {
-  const core = new Core(module);
-  for (const {key, min, max} of scenario.sliders) {
+  const core = new Core(module), all = [...scenario.sliders, ...scenario.liquidSliders, ...scenario.supplySliders];
+  const acting = new Map([['liquid.model', 'bead'], ['source.model', 'amplifier']]);
+  for (const {key, min, max} of all) {
     const unit = core.keys.get(key).shown;
-    for (const end of [min, max]) core.resolve(new Map([[key, `${end} ${unit}`.trim()]]));
+    for (const end of [min, max]) core.resolve(new Map([...acting, [key, `${end} ${unit}`.trim()]]));
   }
   for (const end of ['min', 'max'])
-    core.resolve(new Map(scenario.sliders.map((s) => [s.key, `${s[end]} ${core.keys.get(s.key).shown}`.trim()])));
+    core.resolve(new Map([...acting, ...all.map((s) => [s.key, `${s[end]} ${core.keys.get(s.key).shown}`.trim()])]));
+});
+
+test('sliders are there where their keys do something', () => {
+  const core = new Core(module), shown = (...pairs) => {
+    core.resolve(new Map(pairs));
+    return [...scenario.liquidSliders, ...scenario.supplySliders].filter(({acts}) => acts(core)).map(({key}) => key);
+  };
+  assert.deepEqual(shown(['liquid.model', 'none']), []);
+  assert.deepEqual(shown(['liquid.model', 'submerged']), ['medium.kinematic_viscosity']);
+  assert.deepEqual(shown(['liquid.model', 'bead'], ['source.supply', 'open_5kv'], ['drive.voltage', '5 kV']),
+    ['medium.kinematic_viscosity', 'bead.volume', 'bead.suction', 'source.resistance']);
+});
+
+test('every supply can be chosen, from any other: the drive is no higher than it can be, and what it can do is said', () => {
+  const core = new Core(module), words = core.keys.get('source.supply').choices.map(({word}) => word);
+  let values = new Map([['drive.voltage', '12 kV'], ['source.model', 'amplifier'], ['source.resistance', '5 Mohm']]), lines = new Map();
+  for (const word of [...words, ...words]) {
+    core.resolve(values);
+    values = scenario.withSupply(core, values, word);
+    core.resolve(values);
+    assert.ok(!(core.value('drive.voltage') > core.value('source.voltage_limit')), word);
+    lines.set(word, scenario.supplyWords(core));
+    core.resolve(new Map([...scenario.atRest(values), ['drive.voltage', '12 kV']]));
+  }
+  assert.equal(lines.get('none'), 'has the voltage of the buttons at once, whatever current flows');
+  assert.match(lines.get('converter_10kv'), /^slew rate unlimited, current 0\.3.mA, sink none, it cannot discharge, bleeder 500.MΩ, voltage limit 10.kV$/);
+  assert.match(lines.get('pocket_6kv'), /^slew rate 0.1.V\/µs, current unlimited, sink as current, bandwidth 35.Hz/);
+});
+
+test('one drives an actuator through a supply, with and without liquid, from one scenario to the next', () => {
+  const engine = new Engine(module, {study: Infinity, start: Infinity, frame: Infinity}), frames = [];
+  const go = (values, more) => {
+    const {frame, ...rest} = engine.answer({values: new Map(values), voltage: 5e3, span: 2e-3, ...more});
+    assert.deepEqual(rest, {failure: null, stopped: null});
+    frames.push(new Frame(frame));
+    return frames.at(-1);
+  };
+  const supply = ['source.supply', 'open_5kv'], low = ['drive.voltage', '5 kV'];
+  go([low, ['liquid.model', 'none']], {restart: true});
+  const dry = go([low, ['liquid.model', 'none']]), fed = go([low, supply, ['liquid.model', 'none']]), bead = go([low, supply, ['liquid.model', 'bead']]);
+  const bath = go([low, ['liquid.model', 'submerged']]);
+  assert.deepEqual(frames.map((frame) => frame.get('liquid')), [0, 0, 0, 2, 1]);
+  for (const frame of [dry, fed, bead, bath]) assert.ok(Math.abs(frame.get('voltage') / 5e3 - 1) < 0.02, `${frame.get('voltage')} V`);
+  assert.equal(dry.get('wet_length'), 0);
+  const reach = bead.get('wet_length'), l = 45e-3 / 60, {film, pressure} = bead.shape;
+  assert.ok(reach > 5e-3 && reach < 40e-3, String(reach));
+  film.forEach((thickness, i) => assert.equal(thickness > 0, i * l <= reach, `station ${i}`));
+  assert.ok(pressure.some((p) => p !== 0) && pressure.every((p, i) => film[i] > 0 || p === 0));
+  assert.ok(bath.shape.film.every((thickness) => thickness > 0));
+});
+
+test('a jump of an ideal source has no current to show, a supply’s has', () => {
+  const engine = new Engine(module, {study: Infinity, start: Infinity, frame: Infinity});
+  const currents = (values) => {
+    engine.answer({values: new Map(values), voltage: 5e3, restart: true, span: 0});
+    const seen = [];
+    new Frame(engine.answer({span: 3e-3}).frame).eachSample((time, stroke, voltage, command, current) => seen.push(current));
+    return seen;
+  };
+  const ideal = currents([['liquid.model', 'none']]), fed = currents([['liquid.model', 'none'], ['source.supply', 'open_5kv'], ['drive.voltage', '5 kV']]);
+  assert.deepEqual(ideal.map(Number.isNaN), [true, false, false]);
+  assert.ok(fed[0] > 10 * Math.abs(ideal[1]) && fed.every(Number.isFinite), fed.join());
 });
 
 test('every preset runs', () => {
@@ -99,7 +162,7 @@ test('a frame has what the core has, in an array that goes to and fro', () => {
   assert.deepEqual([x.length, y.length, gap.length, lineForce.length], [62, 62, 31, 31]);
   for (let i = 0; i < 62; i++) assert.ok(Math.abs(y[i] - shape.y[i]) < 1e-9 && Math.abs(x[i] - shape.x[i]) < 1e-9);
   const samples = [];
-  seen.eachSample((time, stroke) => samples.push([time, stroke]));
+  seen.eachSample((...sample) => samples.push(sample));
   assert.equal(samples.length, 5);
-  assert.deepEqual(samples.at(-1), [seen.get('since'), seen.get('stroke')]);
+  assert.deepEqual(samples.at(-1).slice(0, 4), [seen.get('since'), seen.get('stroke'), seen.get('voltage'), 10e3]);
 });

@@ -260,11 +260,17 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
   return of_none(instance, ZP_FMU_ANY, "fmi3GetVariableDependencies", 1);
 }
 
+/* Every variable is a scalar. */
+static fmi3Status wrong_length(const ZpSlave *slave) {
+  return (fmi3Status)zp_slave_say(slave, ZP_SLAVE_ERROR,
+                                  "seeds and sensitivities must be one number for each variable");
+}
+
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknown[], size_t unknowns,
                                         const fmi3ValueReference known[], size_t knowns, const fmi3Float64 seed[],
                                         size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities) {
   if (!zp_slave_allows(instance, READABLE, "fmi3GetDirectionalDerivative")) return fmi3Error;
-  if (seeds != knowns || sensitivities != unknowns) return of_none(instance, READABLE, "", 1);
+  if (seeds != knowns || sensitivities != unknowns) return wrong_length(instance);
   return (fmi3Status)zp_slave_derivative(instance, unknown, unknowns, known, knowns, seed, sensitivity);
 }
 
@@ -272,7 +278,7 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
                                     const fmi3ValueReference known[], size_t knowns, const fmi3Float64 seed[],
                                     size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities) {
   if (!zp_slave_allows(instance, READABLE, "fmi3GetAdjointDerivative")) return fmi3Error;
-  if (seeds != unknowns || sensitivities != knowns) return of_none(instance, READABLE, "", 1);
+  if (seeds != unknowns || sensitivities != knowns) return wrong_length(instance);
   return (fmi3Status)zp_slave_adjoint(instance, unknown, unknowns, known, knowns, seed, sensitivity);
 }
 

@@ -1,0 +1,176 @@
+/* What a run prints on the terminal: the numbers that its user wants. All numbers are in summary.json. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "summary.h"
+
+enum { MOST_NUMBERS = 10, MOST_ROWS = 100 };
+
+/* A number of the summary as it is shown. */
+typedef struct Shown {
+  ZpStudy study;
+  const char *scalar, *label;
+  double factor; /* from SI to `unit` */
+  const char *unit;
+  bool headline; /* in a row of a sweep, too; of one run even where there is no such number */
+} Shown;
+
+static const Shown shown[] = {
+#define ZP_HEADLINE(enumerator, scalar, label, factor, unit) {enumerator, scalar, label, factor, unit, true},
+#define ZP_ANSWER(enumerator, scalar, label, factor, unit)   {enumerator, scalar, label, factor, unit, false},
+#include <zipact/studies.def>
+};
+enum { SHOWN = sizeof shown / sizeof shown[0] };
+
+static const ZpScalar *find_scalar(const ZpResult *result, const char *name) {
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strcmp(result->scalar[i].name, name) == 0) return &result->scalar[i];
+  return NULL;
+}
+
+/* -- one run ---------------------------------------------------------------------------------------- */
+
+/* The estimated error of a number, NAN if there is none. */
+static double error_of(const ZpResult *result, const char *scalar) {
+  static const struct {
+    ZpStudy study;
+    const char *scalar, *error;
+  } estimated[] = {
+#define ZP_ESTIMATE(enumerator, scalar, error, unit) {enumerator, scalar, error},
+#include <zipact/studies.def>
+  };
+  for (size_t i = 0; i < sizeof estimated / sizeof estimated[0]; i++)
+    if (estimated[i].study == result->study && strcmp(estimated[i].scalar, scalar) == 0)
+      return zp_result_get(result, estimated[i].error);
+  return NAN;
+}
+
+static void print_number(const ZpResult *result, const Shown *s, double value) {
+  const double error = fabs(error_of(result, s->scalar));
+  printf("  %-26s ", s->label);
+  if (isnan(value))
+    printf("%12s", "-");
+  else
+    printf("%12.6g%s%s", value * s->factor, *s->unit ? " " : "", s->unit);
+  if (!isnan(value) && error > 0) printf("  +- %.2g", error * s->factor);
+  printf("\n");
+}
+
+/* Six digits, in the unit in which people write the key: "184.357 GPa". */
+static void print_of_key(int key, double value, int digits) {
+  char rounded[32], text[64];
+  snprintf(rounded, sizeof rounded, "%.*e", digits - 1, value);
+  zp_value_print(key, strtod(rounded, NULL), text, sizeof text);
+  fputs(text, stdout);
+}
+
+/* A key that was fitted, with its standard error. => whether `scalar` is one. */
+static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
+  const int key = zp_key_find(scalar->name);
+  char name[128];
+  if (key < 0) return false;
+  snprintf(name, sizeof name, "%s_standard_error", scalar->name);
+  const double error = zp_result_get(result, name);
+  printf("  %-26s  ", scalar->name);
+  print_of_key(key, scalar->value, 6);
+  if (!isnan(error)) {
+    printf("  +- ");
+    print_of_key(key, error, 2);
+  }
+  printf("\n");
+  return true;
+}
+
+static void print_numbers(const ZpResult *result) {
+  int printed = 0;
+  for (size_t i = 0; i < result->scalars; i++)
+    printed += print_fitted(result, &result->scalar[i]);
+  for (size_t i = 0; i < SHOWN && printed < MOST_NUMBERS; i++) {
+    const ZpScalar *scalar = shown[i].study == result->study ? find_scalar(result, shown[i].scalar) : NULL;
+    if (!scalar || (isnan(scalar->value) && !shown[i].headline)) continue;
+    print_number(result, &shown[i], scalar->value);
+    printed++;
+  }
+}
+
+static void print_result(const ZpResult *result) {
+  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
+  print_numbers(result);
+  for (size_t i = 0; i < result->notes; i++)
+    printf("  note: %s\n", result->note[i]);
+}
+
+/* -- many runs -------------------------------------------------------------------------------------- */
+
+static void print_headlines(const ZpResult *result) {
+  for (size_t i = 0; i < SHOWN; i++) {
+    const double value = zp_result_get(result, shown[i].scalar);
+    if (shown[i].study == result->study && shown[i].headline && !isnan(value))
+      printf("  %s %8.3f %s", shown[i].label, value * shown[i].factor, shown[i].unit);
+  }
+}
+
+/* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
+static void print_row(const ZpReport *report, size_t index) {
+  size_t lists;
+  const int *list = zp_scenario_lists(report->scenario, &lists);
+  const ZpResult *result = report->rows->get(report->rows->user, index);
+  ZpActuatorDef def;
+  if (zp_scenario_def(report->scenario, index, &def, NULL) != ZP_OK) return;
+  for (size_t k = 0; k < lists; k++) {
+    char text[64];
+    zp_value_print(list[k], zp_def_get(&def, list[k]), text, sizeof text);
+    printf("  %s = %-10s", zp_key(list[k])->name, text);
+  }
+  printf("  %-12s", zp_outcome_name(result->outcome));
+  print_headlines(result);
+  printf("\n");
+}
+
+/* The best cases of an optimisation. */
+static void print_optimum(const ZpReport *report) {
+  printf("%s\n", report->optimum->message);
+  for (size_t i = 0; i < report->optimum->count; i++) {
+    print_row(report, report->optimum->row[i]);
+    for (size_t k = 0; k < report->optimum->objectives; k++)
+      printf(
+          "    %s = %.6g\n", report->optimum->objective[k],
+          zp_result_get(report->rows->get(report->rows->user, report->optimum->row[i]), report->optimum->objective[k]));
+  }
+}
+
+/* What a sweep says as a whole. */
+static void print_largest(const ZpReport *report) {
+  static const struct {
+    ZpStudy study;
+    const char *scalar, *where, *words, *unit;
+  } largest[] = {
+#define ZP_LARGEST(enumerator, name, scalar, where, words, unit) {enumerator, scalar, where, words, unit},
+#include <zipact/studies.def>
+  };
+  for (size_t i = 0; i < sizeof largest / sizeof largest[0] && report->count > 0; i++) {
+    double value = zp_report_largest(report, largest[i].scalar, largest[i].where);
+    if (report->rows->get(report->rows->user, 0)->study == largest[i].study && !isnan(value))
+      printf("%s %.4g %s, of these\n", largest[i].words, value, largest[i].unit);
+  }
+}
+
+static void print_rows(const ZpReport *report) {
+  for (size_t i = 0; i < report->count && i < MOST_ROWS; i++)
+    print_row(report, i);
+  if (report->count > MOST_ROWS) printf("  ... and %zu more rows in table.csv\n", report->count - MOST_ROWS);
+  print_largest(report);
+}
+
+void summary_print(const ZpReport *report, bool plots) {
+  if (report->optimum)
+    print_optimum(report);
+  else if (report->rows)
+    print_rows(report);
+  else if (report->count > 0)
+    print_result(report->result[0]);
+  printf("results: %s/ (all numbers: summary.json; table.csv, results.h5%s)\n", report->directory,
+         plots ? ", plots/" : "");
+}

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""docs/materials.md from the table of materials; with --check, says whether the page is up to date.
+
+    make-materials-page.py [--check]
+"""
+
+import pathlib
+import re
+import sys
+
+REPO = pathlib.Path(__file__).resolve().parent.parent
+TABLES = REPO / "include/zipact"
+STRING = r'"([^"]*)"'
+GROUPS = (
+    ("ZP_STRIP", "ribbon", "Strips: `ribbon.material`, `lower.ribbon.material`"),
+    ("ZP_INSULATOR", "insulator", "Insulators: `insulator.material`, `lower.insulator.material`"),
+    ("ZP_MEDIUM", "medium", "Liquids: `medium.material`"),
+)
+HEAD = """# Materials
+
+Made by `make docs` from `include/zipact/materials.def`.
+
+`ribbon.material`, `insulator.material` and `medium.material` name a row of these tables. The material fills the keys of its group that are not given, wherever they are written; a key
+that is given, by the file or by `--set`, stays as it is. So `--set ribbon.material=brass` does not change a `ribbon.density` of the file. A material comes after the preset.
+
+    ribbon.material: steel_1.4310
+    insulator: {material: kapton, thickness: 50 um}
+    medium.material: silicone_oil_50cst
+
+The values are what handbooks and data sheets print for such a material, at 20 to 25 °C; the column "from" says which. Where it ends in "checked", the value was compared with
+that publication in November 2026; the others were written down from memory, so look them up before you rely on one. The spread is an estimate: one standard deviation, from one delivery to another.
+A resistivity is listed but fills no key: to give one adds [leakage](theory.md#25-leakage-and-interface-charge-insulatorresistivity-mediumresistivity), which not every model has.
+
+## Spreads as tolerances
+
+With `sampling.tolerances: materials` every key that a material fills is drawn from a lognormal distribution: its median is the value of the table, the standard deviation of its logarithm the spread.
+Keys that are given keep their value, or their own [distribution](campaigns.md#tolerances). [examples/materials.yaml](../examples/materials.yaml):
+
+    zipact run examples/materials.yaml -o out/materials --quiet
+
+![Distribution of the largest load that the spreads of the materials lead to](images/materials.svg)
+"""
+
+
+def words():
+    """Word and help line of each enumerator."""
+    text = (TABLES / "choices.def").read_text(encoding="utf-8")
+    return {name: (word, told) for name, word, told in re.findall(r"^ZP_CHOICE\((\w+), %s, %s\)" % (STRING, STRING), text, re.M)}
+
+
+def units():
+    """(unit, unit that people write, how many of these in one) of each key."""
+    text = (TABLES / "keys.def").read_text(encoding="utf-8")
+    rows = re.findall(r"^ZP_REAL\w*\((\w+\.), (\w+), %s, %s" % (STRING, STRING), text, re.M)
+    return {group + name: "" if unit == "1" else " " + unit for group, name, unit, _ in rows}
+
+
+def values(macro):
+    """(enumerator, key without group, value, spread, source) of each row."""
+    text = (TABLES / "materials.def").read_text(encoding="utf-8")
+    return re.findall(r"^%s\((\w+), %s, ([^,]+), ([^,]+), %s\)$" % (macro, STRING, STRING), text, re.M)
+
+
+def page():
+    """The whole page."""
+    word, unit = words(), units()
+    lines = [HEAD]
+    for macro, group, title in GROUPS:
+        lines += ["## " + title, "", "| material | key | value | spread | from |", "|---|---|---|---|---|"]
+        before = None
+        for name, key, value, spread, source in values(macro):
+            shown = "`%s`: %s" % word[name] if name != before else ""
+            before = name
+            lines.append("| %s | `%s` | %g%s | %g %% | %s |" % (shown, key, float(value), unit[group + "." + key], 100 * float(spread), source))
+        lines.append("")
+    return "\n".join(lines)
+
+
+def main():
+    place = REPO / "docs/materials.md"
+    if sys.argv[1:] != ["--check"]:
+        place.write_text(page(), encoding="utf-8")
+    elif place.read_text(encoding="utf-8") == page():
+        print("1 passed, 0 failed")
+    else:
+        sys.exit("docs/materials.md is out of date: make docs")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,74 @@
+/* Letters of docs/theory.md, section 28:
+ *   e  error      I  integral, V      u  output, V      T  period
+ */
+#include "drive/control.h"
+
+#include <math.h>
+
+#include "drive/noise.h"
+
+enum { PENDING = ZP_CONTROL_DELAY + 1 };
+
+static const double rounding = 1e-9; /* of a period: a time that is meant to be that of a sample */
+
+ZpControl zp_control_of(const ZpActuatorDef *def) {
+  bool falls = def->control.signal == ZP_CONTROL_OPENING || def->control.signal == ZP_CONTROL_STROKE;
+  return (ZpControl){.kind = def->control.kind,
+                     .sense = falls ? 1 : -1,
+                     .proportional = def->control.proportional,
+                     .integral = def->control.integral,
+                     .period = def->control.period,
+                     .delay = def->control.delay,
+                     .boost = def->control.kind == ZP_CONTROL_BOOST_PI ? def->control.boost_voltage : 0,
+                     .band = def->control.boost_band,
+                     .highest = def->drive.voltage,
+                     .noise = def->control.noise,
+                     .seed = def->control.seed};
+}
+
+ZpControlState zp_control_start(void) {
+  return (ZpControlState){.measured = NAN};
+}
+
+void zp_control_restart(const ZpControl *c, double t, ZpControlState *state) {
+  state->taken = state->given = fmax(0, ceil(t / c->period - rounding));
+}
+
+double zp_control_sample_time(const ZpControl *c, const ZpControlState *state) {
+  return state->taken * c->period;
+}
+
+/* A delay of whole periods ends exactly at a sample. */
+double zp_control_output_time(const ZpControl *c, const ZpControlState *state) {
+  double whole = floor(c->delay / c->period + rounding), rest = c->delay - whole * c->period;
+  if (state->given >= state->taken) return INFINITY;
+  return (state->given + whole) * c->period + (rest > rounding * c->period ? rest : 0);
+}
+
+/* What is added while the actuator should close further, eq. (28.3). */
+static double boost(const ZpControl *c, double error, double setpoint) {
+  if (c->boost == 0 || error <= 0) return 0;
+  double band = c->band * fabs(setpoint);
+  return c->boost * (error < band ? error / band : 1);
+}
+
+/* The integral after a sample, eq. (28.2): clamped so that it takes the output to a limit, but not beyond. */
+static double integral_after(const ZpControl *c, double before, double error, double rest) {
+  double after = before + c->integral * c->period * error;
+  if (error > 0 && rest + after > c->highest) return fmax(before, c->highest - rest);
+  if (error < 0 && rest + after < 0) return fmin(before, -rest);
+  return after;
+}
+
+void zp_control_sample(const ZpControl *c, double setpoint, double signal, ZpControlState *state) {
+  double noise = c->noise > 0 ? c->noise * zp_noise_at((uint64_t)c->seed, (uint64_t)state->taken) : 0;
+  state->measured = signal + noise;
+  double e = c->sense * (state->measured - setpoint), rest = c->proportional * e + boost(c, e, setpoint);
+  state->integral = integral_after(c, state->integral, e, rest);
+  state->pending[(size_t)fmod(state->taken, PENDING)] = fmin(fmax(rest + state->integral, 0), c->highest);
+  state->taken++;
+}
+
+double zp_control_output(ZpControlState *state) {
+  return state->pending[(size_t)fmod(state->given++, PENDING)];
+}

@@ -1,0 +1,230 @@
+/* A JSON schema of scenarios: what editors complete and check them with.
+ *
+ * Each key has a definition, to which its dotted name and its place in its group refer. The schema is as wide as the
+ * reader of scenarios and wider in one respect: of units it knows those of a single dimension (length, mass, ...); what
+ * is composed, such as kg/m3, is any text, since the schema cannot multiply units. */
+#include "io/schema.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <zipact/def.h>
+#include <zipact/io.h>
+
+#include "io/spread.h"
+#include "io/value.h"
+
+/* What people write for a unit of a single dimension, as a regular expression. */
+static const struct {
+  const char *unit, *names;
+} unit_names[] = {
+    {"m", "[npuµmcdk]?m|(?:nano|micro|milli|centi|kilo)?met(?:er|re)s?|in|inch(?:es)?|ft|feet|mil"},
+    {"m3", "[uµmcd]?m[\\\\^]?3|[nuµmcd]?[lL]|(?:micro|milli)?lit(?:er|re)s?"},
+    {"kg", "[nuµmk]?g|(?:micro|milli|kilo)?grams?|t|lb|oz|pounds?|ounces?"},
+    {"s", "[npuµm]?s|(?:nano|micro|milli)?seconds?|min|minutes?|h|hours?|d|days?"},
+    {"Hz", "[mkM]?Hz|(?:milli|kilo)?hertz|1/s"},
+    {"V", "[nuµmkM]?V|(?:milli|kilo)?volts?"},
+    {"A", "[pnuµmk]?A|(?:micro|milli)?amperes?"},
+    {"F", "[pnuµm]?F|(?:pico|nano|micro)?farads?"},
+    {"ohm", "[mkMGT]?(?:ohms?|Ω)"},
+    {"N", "[nuµmk]?N|(?:micro|milli|kilo)?newtons?|lbf|kgf|gf"},
+    {"Pa", "[mkhMG]?Pa|[mkMG]?N/[mc]?m[\\\\^]?2|m?bar|psi|atm|(?:kilo|mega|giga)?pascals?"},
+    {"rad", "[uµm]?rad(?:ians?)?|deg(?:rees?)?|°|grade"},
+};
+
+#define BLANK   "[ \u00A0\u2007\u2009\u202F]*"
+#define DECIMAL "[-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?"
+
+static bool is_number(const ZpKey *key) {
+  return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
+}
+
+/* What may stand behind the number of a value. */
+static const char *units_of(const ZpKey *key) {
+  if (key->type == ZP_KEY_INT) return NULL;
+  for (size_t i = 0; i < sizeof unit_names / sizeof unit_names[0]; i++)
+    if (strcmp(key->unit, unit_names[i].unit) == 0) return unit_names[i].names;
+  return "[^0-9 ].*|1/.*"; /* a composed unit; per cent or the unit of a signal behind a pure number */
+}
+
+/* A pattern of "8 g", a range "1 g .. 9 g : 5", a distribution "normal(8 g, 1 g)", the word of the key. */
+static void write_pattern(const ZpKey *key, char *text, size_t size) {
+  const char *units = units_of(key);
+  snprintf(text, size, "^" BLANK "(?:" DECIMAL BLANK "(?:%s)?|.*[.][.].*:.*%s%s%s)" BLANK "$", units ? units : "",
+           key->type == ZP_KEY_INT ? "" : "|[a-z]+[(].*,.*[)]", key->type == ZP_KEY_REAL_AUTO ? "|" : "",
+           key->type == ZP_KEY_REAL_AUTO ? key->text : "");
+}
+
+/* What an editor says of a text that is no value. */
+static void write_advice(int index, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  char range[ZP_RANGE_SIZE];
+  zp_value_range(index, range, sizeof range);
+  snprintf(text, size, "give a %s%s from %s", key->type == ZP_KEY_INT ? "whole number" : "number",
+           *key->shown ? " with a unit" : "", range);
+}
+
+/* One value of a number key: as a number in SI, or as a text. Limits hold for numbers, the pattern for texts. */
+static json_t *value_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  char pattern[640], advice[ZP_RANGE_SIZE + 64];
+  write_pattern(key, pattern, sizeof pattern);
+  write_advice(index, advice, sizeof advice);
+  return json_pack("{s:[s, s], s:f, s:f, s:s, s:s}", "type", key->type == ZP_KEY_INT ? "integer" : "number", "string",
+                   "minimum", key->min, "maximum", key->max, "pattern", pattern, "patternErrorMessage", advice);
+}
+
+/* Append, and drop both if that fails. => the list or NULL */
+static json_t *with(json_t *list, json_t *item) {
+  if (list && item && json_array_append(list, item) == 0) {
+    json_decref(item);
+    return list;
+  }
+  json_decref(item);
+  json_decref(list);
+  return NULL;
+}
+
+static json_t *reference(const char *definition) {
+  char path[160];
+  snprintf(path, sizeof path, "#/definitions/%s", definition);
+  return json_pack("{s:s}", "$ref", path);
+}
+
+/* A value, a list of values, a range or a distribution. */
+static json_t *number_schema(int index) {
+  json_t *schema = value_schema(index);
+  json_t *any = with(json_pack("[{s:[s, s, s]}]", "type", "number", "string", "array"), reference("range"));
+  if (zp_key(index)->type != ZP_KEY_INT) any = with(any, reference("distribution"));
+  json_t *more = json_pack("{s:o, s:i, s:o}", "items", value_schema(index), "minItems", 1, "anyOf", any);
+  json_t *type = schema ? json_object_get(schema, "type") : NULL;
+  const bool failed = !more || !type || json_array_append_new(type, json_string("array")) ||
+                      json_array_append_new(type, json_string("object")) || json_object_update(schema, more);
+  json_decref(more);
+  if (!failed) return schema;
+  json_decref(schema);
+  return NULL;
+}
+
+/* YAML takes true and false for no words. */
+static json_t *words_schema(const ZpKey *key) {
+  json_t *words = json_array();
+  for (int i = 0; i <= (int)key->max; i++) {
+    const char *word = key->choices[i].word;
+    words = with(words, json_string(word));
+    if (strcmp(word, "true") == 0 || strcmp(word, "false") == 0) words = with(words, json_boolean(*word == 't'));
+  }
+  return json_pack("{s:o}", "enum", words);
+}
+
+static json_t *type_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  if (is_number(key)) return number_schema(index);
+  if (key->type == ZP_KEY_ENUM) return words_schema(key);
+  if (key->type == ZP_KEY_BOOL)
+    return json_pack("{s:[{s:s}, {s:s, s:s}]}", "anyOf", "type", "boolean", "type", "string", "pattern",
+                     "^(?:[yY][eE][sS]|[nN][oO]|[oO][nN]|[oO][fF][fF])$");
+  return json_pack("{s:[s, s]}", "type", "string", "number");
+}
+
+/* "mass hung on the actuator. From 0 g to 1000000 g, default 8 g." with the words of a choice. */
+static json_t *description(int index) {
+  const ZpKey *key = zp_key(index);
+  char text[4096], value[ZP_VALUE_SIZE], range[ZP_RANGE_SIZE] = "";
+  zp_value_print(index, key->def, value, sizeof value);
+  if (is_number(key)) zp_value_range(index, range, sizeof range);
+  int used = snprintf(text, sizeof text, "%s. %s%s%sDefault: %s.", key->help, *range ? "Range: " : "", range,
+                      *range ? ". " : "", value);
+  for (int i = 0; key->choices && i <= (int)key->max && used < (int)sizeof text; i++)
+    used += snprintf(text + used, sizeof text - (size_t)used, "\n%s: %s", key->choices[i].word, key->choices[i].help);
+  return json_string(text);
+}
+
+/* What an editor inserts. */
+static json_t *default_of(int index) {
+  const ZpKey *key = zp_key(index);
+  char value[ZP_VALUE_SIZE];
+  if (key->type == ZP_KEY_BOOL) return json_boolean(key->def != 0);
+  if (key->type == ZP_KEY_TEXT) return json_string(key->text);
+  if (key->type == ZP_KEY_INT) return json_integer((json_int_t)key->def);
+  zp_value_print(index, key->def, value, sizeof value);
+  return json_string(value);
+}
+
+static json_t *key_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  json_t *schema = json_pack("{s:o, s:o}", "description", description(index), "default", default_of(index));
+  json_t *type = type_schema(index);
+  bool failed = !schema || !type || json_object_update(schema, type);
+  json_decref(type);
+  if (!failed && is_number(key)) failed = json_object_set_new(schema, "x-unit", json_string(key->unit)) != 0;
+  if (!failed) return schema;
+  json_decref(schema);
+  return NULL;
+}
+
+/* The parts of a range or a distribution. */
+static json_t *range_schema(void) {
+  return json_pack("{s:s, s:s, s:b, s:[s, s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}, s:{s:s, s:i, s:i}, s:{s:[s, s]}}}",
+                   "description", "values in equal steps, or by equal factors, both ends among them", "type", "object",
+                   "additionalProperties", 0, "required", "from", "to", "count", "properties", "from", "type", "number",
+                   "string", "to", "type", "number", "string", "count", "type", "integer", "minimum", 2, "maximum",
+                   20000, "spacing", "enum", "linear", "log");
+}
+
+static json_t *one_distribution(ZpDistributionKind kind) {
+  const char *first = zp_spread_word[kind], *second = zp_spread_second(kind);
+  return json_pack("{s:s, s:b, s:[s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}}}", "type", "object", "additionalProperties", 0,
+                   "required", first, second, "properties", first, "type", "number", "string", second, "type", "number",
+                   "string");
+}
+
+static json_t *distribution_schema(void) {
+  json_t *kinds = json_array();
+  for (int k = 1; k < ZpDistributionKind_COUNT; k++)
+    kinds = with(kinds, one_distribution((ZpDistributionKind)k));
+  return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
+}
+
+/* The group `path` of `size` bytes ("" for the root): each key under it, by what follows of its name, and each group
+ * in it. */
+static json_t *group_schema(const char *path, size_t size) {
+  json_t *properties = json_object();
+  bool failed = !properties;
+  for (int i = 0; i < zp_key_count() && !failed; i++) {
+    const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
+    if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
+    failed = json_object_set_new(properties, rest, reference(name)) != 0;
+    for (const char *dot = strchr(rest, '.'); dot && !failed; dot = strchr(dot + 1, '.')) {
+      char group[ZP_VALUE_SIZE];
+      snprintf(group, sizeof group, "%.*s", (int)(dot - rest), rest);
+      if (json_object_get(properties, group)) continue;
+      failed = json_object_set_new(properties, group, group_schema(name, (size_t)(dot - name))) != 0;
+    }
+  }
+  if (!failed)
+    return json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties",
+                     properties);
+  json_decref(properties);
+  return NULL;
+}
+
+json_t *zp_schema_make(void) {
+  json_t *definitions = json_pack("{s:o, s:o}", "range", range_schema(), "distribution", distribution_schema());
+  for (int i = 0; i < zp_key_count() && definitions; i++)
+    if (json_object_set_new(definitions, zp_key(i)->name, key_schema(i))) {
+      json_decref(definitions);
+      definitions = NULL;
+    }
+  json_t *schema = json_pack("{s:s, s:s, s:s, s:o}", "$schema", "http://json-schema.org/draft-07/schema#", "title",
+                             "zipact scenario", "description",
+                             "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
+                             "definitions", definitions);
+  json_t *root = group_schema("", 0);
+  const bool failed = !schema || !root || json_object_update(schema, root);
+  json_decref(root);
+  if (!failed) return schema;
+  json_decref(schema);
+  return NULL;
+}

@@ -1,0 +1,39 @@
+/* The lowest vibrations about a state of rest, K u = omega^2 m u with a banded stiffness and lumped masses, by subspace
+ * iteration. Of a state that is not stable the squares below 0 come last. docs/theory.md, section 11. */
+#ifndef ZP_REST_VIBRATION_H
+#define ZP_REST_VIBRATION_H
+
+#include <stdbool.h>
+
+#include "math/band.h"
+
+enum { ZP_VIBRATIONS = 24 }; /* most */
+
+typedef struct ZpVibration {
+  size_t n, m;      /* equations, vectors iterated */
+  const ZpBand *K;  /* factored; the caller's */
+  double *mass;     /* [n] by equation, for the caller to fill */
+  double *u, *next; /* [m][n] the subspace, of length 1 in the mass's measure; K^-1 m of it */
+  double reduced[ZP_VIBRATIONS * ZP_VIBRATIONS], turn[ZP_VIBRATIONS * ZP_VIBRATIONS];
+  double omega2[ZP_VIBRATIONS];
+} ZpVibration;
+
+/* Cut the arrays for n equations and at most `most` vectors from `carver`. */
+void zp_vibration_carve(ZpVibration *v, size_t n, size_t most, ZpCarver *carver);
+
+/* a' m b, the measure of the mass. */
+double zp_vibration_inner(const ZpVibration *v, const double *a, const double *b);
+
+/* Take out of `row` what it has of `count` rows that are orthogonal and of length 1 in that measure. */
+void zp_vibration_take_out(const ZpVibration *v, const double *rows, size_t count, double *row);
+
+/* A start that has a part of every mode. */
+void zp_vibration_start(ZpVibration *v);
+
+/* One round: u => K^-1 m u, then turned to the best approximations of the modes inside that subspace. */
+void zp_vibration_iterate(ZpVibration *v);
+
+/* From a start until the first `modes` no longer change; false if they do after 200 rounds. */
+bool zp_vibration_solve(ZpVibration *v, size_t modes);
+
+#endif

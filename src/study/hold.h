@@ -1,0 +1,14 @@
+/* Can a controller hold its setpoint? Small motions about the state of rest that the setpoint asks for, with the
+ * controller and without it. docs/theory.md, section 28. */
+#ifndef ZP_STUDY_HOLD_H
+#define ZP_STUDY_HOLD_H
+
+#include "study/studies.h"
+
+/* What it cannot look at; ZP_OK without a controller. */
+ZpStatus zp_check_hold(const ZpActuatorDef *def, ZpError *err);
+
+/* Add its numbers and what they say to a result; nothing without a controller. */
+ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err);
+
+#endif

@@ -1,0 +1,165 @@
+/* Gravity at an angle and a constant force: closed forms at rest, mirror images, buckling under a strip's own weight,
+ * energy in motion; section 27 of docs/theory.md. */
+#include "check_util.h"
+
+static const double half_turn = 3.14159265358979323846;
+
+/* Of the last frame: the y of node `station` of the lower ribbon, and its x; of a half or whole actuator or a ribbon.
+ */
+static double place_of(const ZpActuatorDef *def, const char *column, bool last) {
+  ZpResult *result = study_of(ZP_STUDY_STATIONARY, def);
+  double value = zp_table_get(result->series, last ? result->series->rows - 1 : 0, column);
+  zp_result_destroy(result);
+  return value;
+}
+
+/* A ribbon upside down is its mirror image. */
+START_TEST(upside_down_is_a_mirror_image) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", _i}, {"load.mass", 2e-3},
+                          {"ribbon.length", 0.05}, {"mesh.nodes", 21});
+  double up, down = place_of(&def, "y_m", true);
+  ZpStudy modes = ZP_STUDY_MODES;
+  double frequency = answered_value(modes, &def, "frequency_1_Hz");
+  def.mount.tilt = half_turn;
+  up = place_of(&def, "y_m", true);
+  ck_below(fabs(up + down), 1e-9 * 0.05);
+  ck_near(answered_value(modes, &def, "frequency_1_Hz"), frequency, 1e-7); /* what solver.tolerance leaves */
+}
+END_TEST
+
+/* Gravity along a hanging strip: its end moves by weight and load over what its cross-section resists. */
+START_TEST(gravity_along_a_strip_stretches_it) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 1},
+                          {"ribbon.plane", ZP_PLANE_STRESS}, {"mount.tilt", 0.5 * half_turn}, {"mesh.nodes", 21});
+  ZpActuatorDef straight = def;
+  straight.gravity = 0;
+  double L = def.ribbon.length, area = def.ribbon.width * def.ribbon.thickness, EA = def.ribbon.young_modulus * area;
+  double weight = def.ribbon.density * area * L * def.gravity, load = def.load.mass * def.gravity;
+  double moved = place_of(&def, "x_m", true) - place_of(&straight, "x_m", true);
+  ck_near(moved, (load + 0.5 * weight) * L / EA, 1e-6);
+  def.mount.tilt = -0.5 * half_turn, def.load.mass = 0;
+  def.ribbon.length = 0.02;
+  ck_below(fabs(place_of(&def, "y_m", true)), 1e-12);
+}
+END_TEST
+
+/* Greenhill: a strip that stands on its clamp buckles under its own weight where m g L^3 = 7.8373 E I. There its
+ * frequency is 0: its square falls nearly linearly before. */
+START_TEST(standing_strip_buckles) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0},
+                          {"mount.tilt", -0.5 * half_turn}, {"mesh.nodes", 61}, {"output.errors", false});
+  double b = def.ribbon.thickness, nu = def.ribbon.poisson_ratio, L = def.ribbon.length;
+  double EI = def.ribbon.young_modulus * def.ribbon.width * b * b * b / 12 / (1 - nu * nu);
+  double critical = 7.8373 * EI / (def.ribbon.density * def.ribbon.width * b * L * L * L), f2[2];
+  static const double part[] = {0.98, 0.99};
+  for (int k = 0; k < 2; k++) {
+    def.gravity = part[k] * critical;
+    double f = answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz");
+    f2[k] = f * f;
+  }
+  ck_near(part[1] + (part[1] - part[0]) * f2[1] / (f2[0] - f2[1]), 1, 1e-3);
+  def.gravity = 1.01 * critical;
+  ZpResult *result = study_of(ZP_STUDY_MODES, &def);
+  double f = zp_result_get(result, "frequency_1_Hz");
+  ck_assert_msg(!(f * f > 0 && f * f < f2[0]) || !zp_outcome_good(result->outcome), "%g Hz beyond buckling", f);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Weightless ribbons upside down under a force of twice the load's weight open as they do under the load. */
+START_TEST(force_outweighs_the_load) {
+  ZpActuatorDef def = DEF({"ribbon.density", 0}, {"drive.voltage", 0}, {"mesh.nodes", 31},
+                          {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
+  double opening = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
+  def.mount.tilt = half_turn;
+  def.load.force = 2 * def.load.mass * def.gravity;
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-9);
+  def.mount.tilt = 0;
+  def.load.mass = 0, def.load.force *= 0.5;
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-9);
+}
+END_TEST
+
+/* Of the weight of the load only its vertical part opens weightless ribbons, and is what they can lift. */
+START_TEST(guide_takes_what_is_not_vertical) {
+  ZpActuatorDef def = DEF({"ribbon.density", 0}, {"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE},
+                          {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
+  double most = answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg");
+  double opening = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
+  def.mount.tilt = half_turn / 3;
+  def.load.mass *= 2;
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg"), 2 * most, 1e-4);
+  def.mount.tilt = 0.5 * half_turn;
+  ck_assert(isnan(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg")));
+}
+END_TEST
+
+/* A whole actuator that leans left is the mirror image of one that leans right; upside down it is as its half. */
+START_TEST(leaning_left_mirrors_leaning_right) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 20e-6},
+                          {"mount.tilt", half_turn / 4}, {"drive.voltage", 0}, {"output.errors", false});
+  ZpActuatorDef other = def;
+  other.mount.tilt = -def.mount.tilt;
+  ZpResult *right = study_of(ZP_STUDY_STATIONARY, &def), *left = study_of(ZP_STUDY_STATIONARY, &other);
+  size_t rows = right->series->rows;
+  double leans = 0;
+  ck_assert_uint_eq(rows, left->series->rows);
+  for (size_t i = 0; i < rows; i++) {
+    double here = zp_table_get(right->series, i, "y_m"), image = zp_table_get(left->series, rows - 1 - i, "y_m");
+    ck_below(fabs(here - image), 1e-9);
+    leans = fmax(leans, fabs(here - zp_table_get(right->series, rows - 1 - i, "y_m")));
+  }
+  ck_assert_double_gt(leans, 1e-5);
+  zp_result_destroy(right), zp_result_destroy(left);
+  def.mount.tilt = half_turn, def.load.force = 0.2;
+  other = def;
+  other.actuator.symmetry = ZP_SYMMETRY_HALF;
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
+          answered_value(ZP_STUDY_STATIONARY, &other, "opening_m"), 1e-9);
+}
+END_TEST
+
+/* Energy balances while a tilted actuator zips, opens and swings under weight and force, as dry as in a bath; what its
+ * platform has of potential energy is that of what hangs there. */
+START_TEST(energy_at_an_angle) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", half_turn / 4},
+                          {"load.force", 0.02}, {"liquid.model", _i ? ZP_LIQUID_SUBMERGED : ZP_LIQUID_NONE},
+                          {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", _i ? 2 : 4},
+                          {"solver.end_time", _i ? 0.4 : 0.2}, {"output.errors", false});
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
+  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  double pull = def.load.force + def.load.mass * def.gravity * sqrt(0.5);
+  double risen = zp_table_get(result->series, 0, "opening_m") - zp_result_get(result, "opening_m");
+  ck_near(zp_result_get(result, "mechanical_work_J"), pull * risen, 1e-9);
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(half_is_vertical) {
+  ZpActuatorDef def = DEF({"mount.tilt", 0.1});
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, "requires actuator.symmetry none"), "%s", err.message);
+  def.mount.tilt = -half_turn;
+  ck_assert_int_eq(zp_def_check(&def, &err), ZP_OK);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("tilt");
+  TCase *rest = tcase_create("rest");
+  tcase_add_loop_test(rest, upside_down_is_a_mirror_image, 0, 3);
+  tcase_add_test(rest, gravity_along_a_strip_stretches_it);
+  tcase_add_test(rest, standing_strip_buckles);
+  tcase_add_loop_test(rest, force_outweighs_the_load, 0, 2);
+  tcase_add_test(rest, guide_takes_what_is_not_vertical);
+  tcase_add_test(rest, leaning_left_mirrors_leaning_right);
+  tcase_add_test(rest, half_is_vertical);
+  suite_add_tcase(suite, rest);
+  TCase *motion = tcase_create("motion");
+  tcase_add_loop_test(motion, energy_at_an_angle, 0, 2);
+  suite_add_tcase(suite, motion);
+  return run_suite(suite);
+}
