@@ -18,7 +18,7 @@ passed = failed = 0
 
 CASES = {
     "rest": ["stationary", "--set", "load.mass=1 g .. 100 g : 30", "--set", "ribbon.thickness=20 um .. 200 um : 10", "--set", "mesh.nodes=21"],
-    "limits": ["limits", "--set", "liquid.model=none", "--set", "load.mass=2 g .. 20 g : 24", "--set", "ribbon.thickness=40 um .. 80 um : 5", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
+    "limits": ["limits", "--set", "liquid.model=none", "--set", "load.mass=2 g .. 8 g : 24", "--set", "ribbon.thickness=40 um .. 80 um : 5", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3"]
