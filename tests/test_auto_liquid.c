@@ -13,7 +13,6 @@ START_TEST(test_auto_is_a_bead_where_one_is_modelled) {
             {"ribbon.model", ZP_RIBBON_ROD, ZP_RIBBON_MASS_SPRING},
             {"solver.integrator", ZP_INTEGRATOR_IMPLICIT, ZP_INTEGRATOR_EXPLICIT},
             {"contact.model", ZP_CONTACT_UNILATERAL, ZP_CONTACT_SEQUENTIAL},
-            {"electro.model", ZP_ELECTRO_PLATES, ZP_ELECTRO_FIELD},
             {"electro.surface", ZP_SURFACE_POLYLINE, ZP_SURFACE_BEZIER},
             {"electro.edges", false, true},
             {"insulator.resistivity", NAN, 1e12},

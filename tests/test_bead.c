@@ -469,7 +469,7 @@ START_TEST(test_whole_is_two_halves) {
 }
 END_TEST
 
-/* A run that is saved and restored on the way takes the very steps of one that is not. */
+/* A run that is saved and restored on the way takes the same steps as one that is not. */
 START_TEST(test_bead_is_kept_in_a_snapshot) {
   ZpModel *model;
   ZpSim *sim = ZIP_HOLD_RELEASE(&model, {"bead.suction", 0.5}), *other = sim_of(model);
@@ -495,7 +495,7 @@ START_TEST(test_what_is_refused) {
     const char *key;
     double value;
   } other[] = {{"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
-               {"electro.model", ZP_ELECTRO_FIELD},     {"electro.edges", 1},
+               {"electro.surface", ZP_SURFACE_BEZIER},  {"electro.edges", 1},
                {"actuator.kind", ZP_KIND_FLANGE},       {"bead.volume", 0}};
   Setting list[] = {BEAD, {other[_i].key, other[_i].value}};
   ZpActuatorDef def;

@@ -206,7 +206,7 @@ START_TEST(test_whole_is_two_halves) {
 }
 END_TEST
 
-/* A run that is saved and restored on the way takes the very steps of one that is not: what the liquid has is a state.
+/* A run that is saved and restored on the way takes the same steps as one that is not: what the liquid has is a state.
  */
 START_TEST(test_state_of_the_liquid_is_kept) {
   ZpModel *model;

@@ -251,7 +251,7 @@ START_TEST(test_cycles_keep_energy) {
 }
 END_TEST
 
-/* An amplifier without any limit takes the very steps of the ideal source; a limit that is never reached changes no
+/* An amplifier without any limit takes the same steps as the ideal source; a limit that is never reached changes no
  * more than rounding. */
 START_TEST(test_without_limits_it_is_ideal) {
   ZpActuatorDef ideal = DEF({"mesh.nodes", 21}), free = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}),

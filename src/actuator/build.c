@@ -231,6 +231,7 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
                          .t = def->insulator.thickness,
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity,
+                         .eps_out = model->has_bead ? 1 : def->medium.permittivity,
                          .clip = clip,
                          .platform = def->platform.length / 2,
                          .electrode = def->platform.electrode,
@@ -586,11 +587,11 @@ static void derive(ZpModel *model) {
   model->shear.K_D = 0;
   model->plates = plates_of(model);
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;
-  model->cross_section = cross_section_of(model);
   model->faces = faces_of(model, &lower);
   model->film = film_of(model);
   model->has_film = model->field && zp_def_liquid(def) != ZP_LIQUID_NONE;
   model->has_bead = model->has_film && zp_def_liquid(def) == ZP_LIQUID_BEAD;
+  model->cross_section = cross_section_of(model);
   model->bead = bead_of(def);
   model->air = air_of(model);
   if (model->has_bead) model->plates.air = &model->air;

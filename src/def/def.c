@@ -752,14 +752,10 @@ static const Need film_needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
                                   {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
 enum { FILM_NEEDS = sizeof film_needs / sizeof film_needs[0] };
 
-/* Beyond a bead the local law of plates goes on with air. */
+/* Beyond a bead there is air. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_needs(def, "liquid.model = bead", film_needs, FILM_NEEDS, "liquid.model none", err);
   if (status != ZP_OK) return status;
-  if (def->electro.model == ZP_ELECTRO_FIELD)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "liquid.model = bead: requires electro.model plates, but it is field: a solved field has one liquid "
-                   "everywhere; use liquid.model submerged");
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
                    "liquid.model = bead: requires electro.edges false, but it is true: what lateral edges add is known "

@@ -38,6 +38,7 @@ bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t
                           .b = p->b,
                           .t = p->t,
                           .eps_m = p->eps_m,
+                          .eps_out = p->eps_m,
                           .eps_i = p->eps_i,
                           .clip = graded * 0.5 * p->w,
                           .electrode = true,

@@ -1,8 +1,8 @@
 /* The grid of a cross-section and what is read off it. From below to above each column of nodes crosses eight
  * surfaces with seven layers between them:
  *
- *   0 far below | liquid | 1 strip's outer face | metal | 2 inner face | insulator | 3 insulator's face | liquid gap |
- *   4 insulator's face | insulator | 5 inner face | metal | 6 outer face | liquid | 7 far above
+ *   0 far below | outside | 1 strip's outer face | metal | 2 inner face | insulator | 3 insulator's face | gap |
+ *   4 insulator's face | insulator | 5 inner face | metal | 6 outer face | outside | 7 far above
  *
  * All follow the faces: insulator and metal are as thick along y as they are, and a column stands upright but for
  * what the faces of a station differ in x.
@@ -135,8 +135,8 @@ static double permittivity(const ZpField *f, size_t c, size_t r) {
   size_t layer = f->row[2 * r + 1].layer;
   bool metal = layer == LOWER_METAL || layer == UPPER_METAL;
   bool insulator = layer == LOWER_INSULATOR || layer == UPPER_INSULATOR;
-  if (!between_electrodes(f, c)) return f->params.eps_m;
-  return metal ? 0 : insulator ? f->params.eps_i : f->params.eps_m;
+  if (!between_electrodes(f, c)) return f->params.eps_out;
+  return metal ? 0 : insulator ? f->params.eps_i : layer == GAP ? f->params.eps_m : f->params.eps_out;
 }
 
 static void fill_materials(ZpField *f) {
@@ -144,6 +144,29 @@ static void fill_materials(ZpField *f) {
   for (size_t c = 0; c < g->columns; c++)
     for (size_t r = 0; r < g->rows; r++)
       g->eps[c * g->rows + r] = permittivity(f, c, r);
+}
+
+/* Is the gap of element column c wet? Liquid covers more than half of its stations' way then. */
+static bool is_wet(const ZpField *f, const ZpCover *cover, size_t c) {
+  const ZpFieldColumn *from = &f->column[2 * c], *to = &f->column[2 * c + 2];
+  if (2 * c < f->first) return true;
+  if (2 * c >= f->last) return cover->flat[0] > 0.5;
+  double start = (double)from->station + from->share, end = (double)to->station + to->share, wet = 0;
+  for (size_t k = from->station; (double)k < end; k++) {
+    double reach = (double)k + zp_cover_part(cover, k);
+    wet += fmax(fmin(reach, end) - fmax((double)k, start), 0);
+  }
+  return wet > 0.5 * (end - start);
+}
+
+void zp_field_cover(ZpField *f, const ZpCover *cover) {
+  ZpGrid *g = &f->grid;
+  for (size_t c = 0; c < g->columns; c++) {
+    if (!between_electrodes(f, c)) continue;
+    double eps = is_wet(f, cover, c) ? f->params.eps_m : f->params.eps_out;
+    for (size_t r = 0; r < g->rows; r++)
+      if (f->row[2 * r + 1].layer == GAP) g->eps[c * g->rows + r] = eps;
+  }
 }
 
 /* Half a volt on each metal, surfaces included; the rest is overwritten by the solution. */
@@ -319,18 +342,20 @@ ZpFieldEnd zp_field_solve(ZpField *f, const ZpFaces *faces) {
 
 /* -- traction ------------------------------------------------------------------------------------- */
 
-/* One surface of a ribbon: the row of elements from which its field is read, their side (eta), permittivity there
- * and in the liquid, and where the ribbon's outward normal points. */
+/* One surface of a ribbon: the row of elements from which its field is read, their side (eta), the row of elements of
+ * liquid or air beside it, and where the ribbon's outward normal points. */
 typedef struct Side {
   size_t row;
-  double eta, eps, out;
+  double eta;
+  size_t beside;
+  double out;
 } Side;
 
-/* Vertical traction per x-length in the liquid at a side of element column c at xi, and the field there.
+/* Vertical traction per x-length beside a side of element column c at xi, and the field there.
  * The normal part of the field is read on the inner side of an insulator, where it hardly varies. */
 static void traction(const ZpField *f, const Side *side, size_t c, double xi, double *W, double *E_out, double *E_in) {
   const ZpGrid *g = &f->grid;
-  double E[2], eps_m = f->params.eps_m;
+  double E[2], inside = g->eps[c * g->rows + side->row], eps_m = g->eps[c * g->rows + side->beside];
   zp_grid_gradient(g, c, side->row, xi, side->eta, E);
   size_t j = 2 * side->row + (side->eta > 0 ? 2 : 0), at = 2 * c * g->ny + j;
   double h[3] = {xi - 0.5, -2 * xi, xi + 0.5}, tx = 0, ty = 0;
@@ -339,8 +364,8 @@ static void traction(const ZpField *f, const Side *side, size_t c, double xi, do
     ty += h[p] * g->y[at + p * g->ny];
   }
   double s = sqrt(tx * tx + ty * ty), nx = -ty / s, ny = tx / s;
-  double En = (E[0] * nx + E[1] * ny), Et = (E[0] * ny - E[1] * nx), outside = En * side->eps / eps_m;
-  /* T n = eps (En E - E^2 n / 2), of the liquid; over x: times ds/dx = 1 / ny */
+  double En = (E[0] * nx + E[1] * ny), Et = (E[0] * ny - E[1] * nx), outside = En * inside / eps_m;
+  /* T n = eps (En E - E^2 n / 2), of the liquid or air; over x: times ds/dx = 1 / ny */
   double Ey = outside * ny - Et * nx;
   *W = side->out * ZP_EPS0 * eps_m * (outside * Ey - 0.5 * (outside * outside + Et * Et) * ny) / ny;
   *E_out = sqrt(outside * outside + Et * Et);
@@ -367,10 +392,10 @@ void zp_field_profile(ZpField *f) {
   const ZpFieldParams *p = &f->params;
   const ZpFieldMesh *m = &p->mesh;
   size_t strip = m->outside + m->strip, insulator = p->t > 0 ? m->insulator : 0, gap = strip + insulator;
-  double eps = insulator ? p->eps_i : p->eps_m;
-  Side lower = {insulator ? gap - 1 : gap, insulator ? 1 : -1, eps, 1};
-  Side upper = {insulator ? gap + m->gap : gap + m->gap - 1, insulator ? -1 : 1, eps, -1};
-  Side lower_back = {m->outside - 1, 1, p->eps_m, -1}, upper_back = {f->grid.rows - m->outside, -1, p->eps_m, 1};
+  size_t below = m->outside - 1, above = f->grid.rows - m->outside, top = gap + m->gap;
+  Side lower = {insulator ? gap - 1 : gap, insulator ? 1 : -1, gap, 1};
+  Side upper = {insulator ? top : top - 1, insulator ? -1 : 1, top - 1, -1};
+  Side lower_back = {below, 1, below, -1}, upper_back = {above, -1, above, 1};
   for (size_t k = 0; k < f->profiles; k++) {
     size_t i = f->first + k, low = i * f->grid.ny + 2 * gap, high = low + 2 * m->gap;
     double Wl, Wu, back_l, back_u, El, Eu, Il, Iu, unused;

@@ -1,7 +1,7 @@
 /* The electric field of two insulated electrodes that face each other, solved in the plane of the ribbons: metal
  * strips of finite thickness with a layer of insulator on their facing sides, at any shape from contact over thin
- * wedges to millimetres, liquid all around, closed clip at the left, half a platform and the mirror plane of the
- * actuator at the right, docs/theory.md section 14.
+ * wedges to millimetres, liquid all around, or in a part of the gap only, closed clip at the left, half a platform and
+ * the mirror plane of the actuator at the right, docs/theory.md section 14.
  *
  * Everything goes with the voltage or its square, so it is solved for 1 V. Forces and energies are of one modelled
  * half. Stations are pairs of points that face each other on the two insulator faces. Between two stations the
@@ -11,6 +11,7 @@
 #define ZP_ELECTRO_FIELD_H
 
 #include "electro/grid.h"
+#include "math/cover.h"
 
 /* Closed faces stay this far apart, m: far below what changes a force, far above rounding. */
 #define ZP_FIELD_LEAST_GAP 1e-9
@@ -31,7 +32,8 @@ typedef struct ZpFieldParams {
   size_t columns;      /* columns of nodes per piece between two stations: even, or 1 with an odd number of stations */
   double w;            /* width, m */
   double b, t;         /* thickness of strip and of insulator, m */
-  double eps_m, eps_i; /* relative permittivity of liquid and insulator */
+  double eps_m, eps_i; /* relative permittivity of liquid and insulator, */
+  double eps_out;      /* and of what surrounds the strips and fills the gap where there is no liquid */
   double clip;         /* length that is closed left of the first station, m */
   double platform;     /* straight length right of the last station up to the mirror plane, m; 0 without */
   bool electrode;      /* whether the platform's faces are electrodes, too */
@@ -85,6 +87,9 @@ typedef struct ZpField {
 /* Allocate and number. False if there is no memory. */
 bool zp_field_create(const ZpFieldParams *params, ZpField *field);
 void zp_field_destroy(ZpField *field);
+
+/* Liquid fills the gap as far as `cover` says, by whole columns of elements; before the first call, all of it. */
+void zp_field_cover(ZpField *field, const ZpCover *cover);
 
 /* Is this a geometry that can be solved as it stands? zp_field_solve itself lays faces that overlap on each other. */
 ZpFieldEnd zp_field_check(const ZpFieldParams *params, const ZpFaces *faces);

@@ -10,6 +10,7 @@ static size_t carve(ZpSurplus *s, void *block) {
   s->q = zp_carve(&carver, 2 * s->plates.stride);
   s->floored = zp_carve(&carver, 2 * s->plates.stride);
   s->F = zp_carve(&carver, 2 * s->plates.stride);
+  s->cover.part = zp_carve(&carver, s->plates.nodes);
   return carver.used;
 }
 
@@ -19,7 +20,14 @@ bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates,
   s->plates.h_per_volt = 0;
   s->h_per_volt = plates->h_per_volt;
   s->plates.level.count =
-      0;                  /* the field's faces go straight between all stations, and so do those of what it replaces */
+      0; /* the field's faces go straight between all stations, and so do those of what it replaces */
+  if (plates->air) {
+    s->air = *plates->air;
+    s->air.h_per_volt = 0;
+    s->air_h_per_volt = plates->air->h_per_volt;
+    s->plates.air = &s->air;
+    s->eval.cover = &s->cover;
+  }
   s->plates.edges = NULL; /* the field solved is that of the strips' middle: edges stay in the plates law beside it */
   s->scale = scale;
   s->memory = zp_calloc(1, carve(s, NULL));
@@ -42,33 +50,63 @@ void zp_surplus_destroy(ZpSurplus *s) {
  */
 static const double narrowest = 1e-7;
 
-/* The gap below which the cap holds the force, m; negative where closed faces are not capped. */
+/* A bead ends between elements: the one that it ends in counts as wet where it covers more than half. => whether that
+ * moved. */
+static bool round_cover(ZpSurplus *s, const ZpCover *cover) {
+  bool moved = false;
+  for (size_t i = 0; i + 1 < s->plates.nodes; i++) {
+    double part = zp_cover_part(cover, i) > 0.5;
+    moved |= part != s->cover.part[i];
+    s->cover.part[i] = part;
+  }
+  for (size_t k = 0; k < 2; k++) {
+    double part = !cover || cover->flat[k] > 0.5;
+    moved |= part != s->cover.flat[k];
+    s->cover.flat[k] = part;
+  }
+  return moved;
+}
+
+static bool is_wet(const ZpSurplus *s, size_t i) {
+  return s->cover.part[i - 1] > 0 || (i + 1 < s->plates.nodes && s->cover.part[i] > 0);
+}
+
+/* The gap below which the cap holds the force in the liquid, m; negative where closed faces are not capped. */
 static double capped_gap(const ZpSurplus *s) {
   return s->U * s->h_per_volt - s->plates.d;
 }
 
 /* Capped pairs, and those that are closed, are parted about their middle, so that both laws are taken at the same gap.
- * The clip is none: it stays closed. */
+ * The clip is none: it stays closed. Air breaks down in gaps of millimetres, next to closed ones that are wet: there
+ * parted pairs would be no ribbons, and all stay where they are. */
 static void part_capped(ZpSurplus *s) {
   size_t stride = s->plates.stride;
-  double *y = s->floored + stride, least = fmax(capped_gap(s), narrowest);
+  double *y = s->floored + stride, capped = fmax(capped_gap(s), narrowest);
   memcpy(s->floored, s->q, 2 * stride * sizeof *s->q);
   for (size_t i = 1; i < s->plates.nodes; i++) {
+    double least = is_wet(s, i) ? capped : narrowest;
     double apart = 0.5 * fmax(least - (y[2 * i] - y[2 * i + 1]), 0);
     y[2 * i] += apart;
     y[2 * i + 1] -= apart;
   }
 }
 
+/* What would part a pair further than the mean of both forces on it does no work. => what of it there was, N/V^2. */
+static double hold_apart(double *Fy, size_t i) {
+  double mean = 0.5 * (Fy[2 * i] + Fy[2 * i + 1]), opening = Fy[2 * i] - mean;
+  Fy[2 * i] = Fy[2 * i + 1] = mean;
+  return opening;
+}
+
 /* ... so what would part capped pairs further does no work at them, but changes the charge with the voltage's cap.
  * Those that are only closed keep the force that they have there: contact has no jump. */
 static void hold_capped(ZpSurplus *s) {
-  double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, least = capped_gap(s), opening = 0;
+  double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, opening = 0;
+  double capped = capped_gap(s), capped_in_air = s->U * s->air_h_per_volt - s->air.d;
   for (size_t i = 1; i < s->plates.nodes; i++) {
-    if (y[2 * i] - y[2 * i + 1] >= least) continue;
-    double mean = 0.5 * (Fy[2 * i] + Fy[2 * i + 1]);
-    opening += Fy[2 * i] - mean;
-    Fy[2 * i] = Fy[2 * i + 1] = mean;
+    double gap = y[2 * i] - y[2 * i + 1];
+    if (is_wet(s, i) && gap < capped) opening += hold_apart(Fy, i);
+    if (!is_wet(s, i) && gap < capped_in_air) hold_apart(Fy, i);
   }
   s->charge = 2 * s->energy + s->U * s->h_per_volt * opening;
 }
@@ -85,13 +123,14 @@ static void subtract_plates(ZpSurplus *s) {
   s->capacitance = 2 * s->field.energy - ZP_EPS0 * s->field.params.eps_m * s->field.params.w * plates.inverse_gap;
 }
 
-ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage) {
+ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage, const ZpCover *cover) {
   size_t stride = s->plates.stride, bytes = 2 * stride * sizeof *q;
   double U = voltage != 0 ? fabs(voltage) : 1;
-  bool same_cap = U == s->U || s->h_per_volt == 0;
-  if (same_cap && memcmp(s->q, q, bytes) == 0) return ZP_FIELD_SOLVED;
+  bool same_cap = U == s->U || (s->h_per_volt == 0 && s->air_h_per_volt == 0), same_cover = !round_cover(s, cover);
+  if (same_cap && same_cover && memcmp(s->q, q, bytes) == 0) return ZP_FIELD_SOLVED;
   memcpy(s->q, q, bytes);
   s->U = U;
+  if (s->plates.air) zp_field_cover(&s->field, &s->cover);
   part_capped(s);
   const double *x = s->floored, *y = x + stride;
   ZpFieldEnd end = s->end = zp_field_solve(&s->field, &(ZpFaces){x, y, x + 1, y + 1, 2});

@@ -576,8 +576,18 @@ static void move(void *self, const double *step, double fraction) {
     lay_one(s);
 }
 
+/* Where the liquid is at these positions, for the field that is solved there. */
+static void lay_bead(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  if (!model->has_bead) return;
+  zp_plates_gaps(&model->plates, s->q, s->q + model->stride, &s->eval.plates);
+  zp_eval_reach(model, s->eval.plates.gap, NULL, s->eval.reach);
+  zp_eval_cover(model, s->eval.reach, &s->eval);
+}
+
 static ZpEnd refresh(void *self) {
   ZpStatics *s = self;
+  if (s->U != 0) lay_bead(s);
   bool solved = s->U == 0 || zp_system_solve(s->model, s->q, s->U, &s->eval);
   return solved ? ZP_END_FOUND : ZP_END_SHORTER;
 }

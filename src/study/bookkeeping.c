@@ -54,7 +54,7 @@ static double law(const ZpField *f, double d) {
 bool zp_paper_factor(const ZpFieldParams *params, const ZpFaces *faces, ZpPaperFactor *factor) {
   ZpField field;
   ZpFieldParams theirs = *params;
-  theirs.eps_m = fe_liquid;
+  theirs.eps_m = theirs.eps_out = fe_liquid;
   theirs.eps_i = fe_tape;
   *factor = (ZpPaperFactor){NAN, NAN, NAN, NAN};
   if (!zp_field_create(&theirs, &field)) return false;

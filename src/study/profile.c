@@ -94,6 +94,7 @@ static bool allocate(Profiler *p) {
   p->params = p->model->cross_section;
   p->params.stations = STATIONS;
   p->params.columns = 1;
+  p->params.eps_out = p->params.eps_m; /* both laws in the liquid */
   if (!zp_field_create(&p->params, &p->field)) return false;
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return false;

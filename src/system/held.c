@@ -36,6 +36,7 @@ bool zp_held_due(const ZpModel *model, const ZpState *state) {
 
 static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
   size_t bytes = 2 * model->stride * sizeof(double);
+  zp_eval_cover(model, (const double[ZP_BEADS]){state->bead[0].reach, state->bead[1].reach}, e);
   if (!zp_system_solve(model, q, state->U, e)) return ZP_END_STOP;
   state->refreshed = state->t;
   memcpy(zp_state_held(model, state), e->surplus.F, bytes);

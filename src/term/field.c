@@ -1,4 +1,4 @@
-/* What a solved field has beyond the plates law, held since it was solved last. Eq. (14.9). */
+/* What a solved field has beyond the plates law, held since it was solved last. Eqs. (14.7) and (14.8). */
 #include "term/term.h"
 
 static bool acts(const ZpModel *model) {
@@ -53,7 +53,7 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
 
 static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
   (void)model;
-  ZpFieldEnd end = zp_surplus_solve(&e->surplus, q, U);
+  ZpFieldEnd end = zp_surplus_solve(&e->surplus, q, U, model->has_bead ? &e->cover : NULL);
   e->fault = end == ZP_FIELD_SOLVED ? NULL : zp_field_words(end);
   return !e->fault;
 }
