@@ -276,19 +276,21 @@ ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpErro
   return ZP_OK;
 }
 
-static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
+static ZpStatus refuse_range(const ZpKey *key, double value, ZpError *err) {
   const char *unit = strcmp(key->unit, "1") == 0 ? "" : key->unit;
   const char *space = *unit ? " " : "";
+  return zp_fail(err, ZP_BAD_INPUT, "%s = %g%s%s: out of range; %g to %g%s%s", key->name, value, space, unit, key->min,
+                 key->max, space, unit);
+}
+
+static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
   if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a text, not a number", key->name);
   if (key->type == ZP_KEY_REAL_AUTO && isnan(value)) return ZP_OK;
   if (!isfinite(value)) return zp_fail(err, ZP_BAD_INPUT, "%s: not a finite number", key->name);
   bool whole = key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO;
   if (whole && value != floor(value))
     return zp_fail(err, ZP_BAD_INPUT, "%s = %g: not a whole number", key->name, value);
-  if (value < key->min || value > key->max)
-    return zp_fail(err, ZP_BAD_INPUT, "%s = %g%s%s: out of range; %g to %g%s%s", key->name, value, space, unit,
-                   key->min, key->max, space, unit);
-  return ZP_OK;
+  return value < key->min || value > key->max ? refuse_range(key, value, err) : ZP_OK;
 }
 
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
@@ -362,11 +364,16 @@ bool zp_key_is_material(int index) {
   return last && strcmp(last, ".material") == 0;
 }
 
+static int material_of(const ZpActuatorDef *def, const MaterialGroup *group) {
+  int material;
+  memcpy(&material, (const char *)def + group->offset, sizeof material);
+  return material;
+}
+
 const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
   const MaterialGroup *group = is_ours(def) ? material_group_of(keys[index].name) : NULL;
-  int material;
   if (!group) return NULL;
-  memcpy(&material, (const char *)def + group->offset, sizeof material);
+  int material = material_of(def, group);
   const char *name = keys[index].name + strlen(group->prefix);
   for (size_t i = 0; i < group->values; i++)
     if (group->value[i].material == material && strcmp(group->value[i].name, name) == 0)
@@ -375,7 +382,10 @@ const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
 }
 
 static void apply_materials(ZpActuatorDef *def, const ZpActuatorDef *given) {
-  for (int i = 0; i < KEY_COUNT; i++) {
+  bool any = false;
+  for (size_t g = 0; g < sizeof material_groups / sizeof material_groups[0]; g++)
+    any |= material_of(given, &material_groups[g]) != 0;
+  for (int i = 0; any && i < KEY_COUNT; i++) {
     const ZpMaterialValue *filled = zp_material_value(given, i);
     if (filled) store(def, &keys[i], filled->value);
   }
@@ -399,18 +409,19 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
 }
 
 ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
-  ZpActuatorDef given = defaults();
+  const ZpActuatorDef plain = defaults();
+  ZpActuatorDef given = plain;
   ZpStatus status = check_layout(def, err);
   if (status == ZP_OK) status = apply_assignments(&given, list, count, err);
   if (status == ZP_OK) status = check_preset_complete(given.preset, given.mesh.nodes, list, count, err);
   if (status != ZP_OK) return status;
 
-  ZpActuatorDef with_preset = defaults();
+  ZpActuatorDef with_preset = plain;
   apply_preset(&with_preset, given.preset, given.mesh.nodes);
   ZpActuatorKind kind =
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
-  *def = defaults();
+  *def = plain;
   apply_values(def, kind_values, KIND_VALUES, (int)kind);
   apply_preset(def, given.preset, given.mesh.nodes);
   apply_values(def, supply_values, SUPPLY_VALUES, (int)given.source.supply);
@@ -457,11 +468,18 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_check_insulator_of_field(def, err) : status;
 }
 
+/* Asked of all keys for every case: most differ in the first letter. */
+static bool is_in(int key, const char *group) {
+  const char *name = keys[key].name;
+  size_t length = strlen(group);
+  return name[0] == group[0] && strncmp(name, group, length) == 0 && name[length] == '.';
+}
+
 /* The keys of a waveform have a group: drive or setpoint. */
 static int key_in(const char *group, const char *name) {
-  char whole[64];
-  snprintf(whole, sizeof whole, "%s.%s", group, name);
-  return zp_key_find(whole);
+  for (int i = 0; i < KEY_COUNT; i++)
+    if (is_in(i, group) && strcmp(keys[i].name + strlen(group) + 1, name) == 0) return i;
+  return -1;
 }
 
 static double value_in(const ZpActuatorDef *def, const char *group, const char *name) {
@@ -516,8 +534,7 @@ bool zp_def_takes_table(const ZpActuatorDef *def) {
 /* Without a controller its keys would do nothing. */
 static ZpStatus check_no_control(const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < KEY_COUNT; i++) {
-    bool of_it = strncmp(keys[i].name, "control.", 8) == 0 || strncmp(keys[i].name, "setpoint.", 9) == 0;
-    if (of_it && is_set(def, i))
+    if ((is_in(i, "control") || is_in(i, "setpoint")) && is_set(def, i))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires control.kind pi or boost_pi, but it is none", keys[i].name);
   }
   return ZP_OK;
@@ -581,11 +598,9 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
                                              "capacitance", "bleeder",       "bandwidth",  "voltage_limit"};
   for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++) {
-    char name[32];
-    snprintf(name, sizeof name, "source.%s", of_amplifier[i]);
-    int key = zp_key_find(name);
+    int key = key_in("source", of_amplifier[i]);
     if (is_set(def, key))
-      return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", name);
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", keys[key].name);
   }
   return ZP_OK;
 }
