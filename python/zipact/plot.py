@@ -118,13 +118,12 @@ def profile(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 
 def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     x, measured, fitted, _ = table
-    factor = MILLI if table.units[measured] == "m" else 1
-    unit = "mm" if factor == MILLI else table.units[measured]
+    (by_x, unit_x), (by_y, unit_y) = (shown_unit(table.units[name], table[name]) for name in (x, measured))
     what = result.actuator["calibrate.y"].rpartition("_")[0] or "measured"
-    ax = new_axes(ax, f"{x.rpartition('_')[0]} / {table.units[x]}", f"{what} / {unit}")
+    ax = new_axes(ax, axis_label(x.removesuffix("_" + table.units[x]), unit_x), axis_label(what, unit_y))
     order = np.argsort(table[x])
-    ax.plot(table[x][order], factor * table[fitted][order], color=BLUE, label="model")
-    ax.plot(table[x], factor * table[measured], "o", color=RED, fillstyle="none", label="measured")
+    ax.plot(by_x * table[x][order], by_y * table[fitted][order], color=BLUE, label="model")
+    ax.plot(by_x * table[x], by_y * table[measured], "o", color=RED, fillstyle="none", label="measured")
     ax.legend()
     return ax
 
@@ -156,8 +155,9 @@ def result(result: "Result", ax: Axes | None = None) -> Axes:
 
 def shown_unit(unit: str, values: np.ndarray) -> tuple[float, str]:
     """A factor from SI, and the unit that it gives: the one in which the values are read most easily."""
-    if unit == "kg":
-        return MILLI, "g"
+    usual = {"kg": (MILLI, "g"), "m2/s": (1e6, "mm2/s"), "m3": (1e9, "uL")}
+    if unit in usual:
+        return usual[unit]
     largest = np.nanmax(np.abs(values), initial=0.0)
     if unit not in ("m", "s", "V", "A", "N", "F", "J", "Pa", "W", "Hz", "V/m") or largest == 0:
         return 1, "" if unit in ("1", "count") else unit
