@@ -79,7 +79,45 @@ def test_scenario_reads_back(tmp_path):
     actuator = zipact.Actuator(preset="paper-fe", load__mass="20 g", calibrate__fit='a "b" \\c')
     path = tmp_path / "scenario.yaml"
     path.write_text(actuator.scenario())
-    assert zipact.read_scenario(path) == [actuator]
+    assert zipact.read_scenario(path) == actuator
+
+
+def test_prints_what_differs_from_the_defaults(tmp_path):
+    assert repr(zipact.Actuator(mesh__nodes=61, load__mass="20 g")) == "Actuator(load__mass='20 g')"
+    assert repr(zipact.Actuator()) == repr(zipact.Actuator(load__mass=0.008)) == "Actuator()"
+    many = [
+        zipact.Actuator(load__mass=np.float64(0.02), mesh__nodes=np.int64(21), platform__electrode=False),
+        zipact.Actuator(preset="paper-code", mesh__nodes=21),
+        zipact.Actuator(actuator__kind="ribbon", load__share=0.5),
+        zipact.Actuator(ribbon__material="copper", insulator__material="pet", ribbon__young_modulus=1.1e11),
+        zipact.Actuator(drive__waveform="table", drive__table="0 s = 0 V, 1 ms = 5 kV"),
+    ]
+    for actuator in many:
+        assert eval(repr(actuator), {"Actuator": zipact.Actuator}) == actuator
+        path = tmp_path / "scenario.yaml"
+        path.write_text(actuator.scenario())
+        assert eval(repr(zipact.read_scenario(path)), {"Actuator": zipact.Actuator}) == actuator
+    assert len(repr(many[3])) < 120
+
+
+def test_dicts():
+    groups = {"load": {"mass": "20 g"}, "drive.voltage": "8 kV", "lower": {"ribbon": {"thickness": 75e-6}}}
+    keywords = zipact.Actuator(load__mass=0.02, drive__voltage=8e3, lower__ribbon__thickness="75 um")
+    assert zipact.Actuator(groups) == keywords == zipact.Actuator(keywords)
+    assert zipact.Actuator(groups, load__mass="30 g") == keywords.replace({"load": {"mass": 0.03}})
+    assert zipact.Actuator(load={"mass": "20 g"}, drive={"voltage": 8e3}, lower={"ribbon.thickness": 75e-6}) == keywords
+    assert zipact.Actuator().sweep({"load": {"mass": [0.02]}, "drive.voltage": [6e3, 8e3]}) == zipact.Actuator(
+        load__mass=0.02
+    ).sweep(drive__voltage=[6e3, 8e3])
+    with pytest.raises(zipact.InputError, match="^load.mas: unknown key; did you mean load.mass"):
+        zipact.Actuator({"load": {"mas": 1}})
+
+
+def test_arrays_are_replaced():
+    driven = zipact.Actuator(drive=([0, 1], [0, 5e3]))
+    assert driven.replace(load__mass="20 g") == zipact.Actuator(load__mass="20 g", drive=([0, 1], [0, 5e3]))
+    assert driven.replace(drive=None) == zipact.Actuator()
+    assert driven.replace(drive=([0, 1], [0, 4e3])) != driven != driven.replace(drive={"voltage": 3e3})
 
 
 def test_lists_of_a_scenario(tmp_path):

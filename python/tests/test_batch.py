@@ -1,6 +1,8 @@
 """Runs on all cores."""
 
+import os
 import pickle
+import subprocess
 import threading
 
 import numpy as np
@@ -42,6 +44,41 @@ def test_dataframe_has_the_keys_that_differ():
     frame = zipact.run_batch(sweep(), "isometric").to_dataframe()
     np.testing.assert_array_equal(frame["drive.voltage"], VOLTAGES)
     assert list(frame.columns[:3]) == ["drive.voltage", "outcome", "force_N"]
+
+
+def test_saves_the_table_of_the_command(tmp_path):
+    keys = dict(mesh__nodes=21, output__errors=False, study="stationary")
+    batch = zipact.run_batch(zipact.Actuator(**keys).sweep(load__mass=["8 g", "12 g"], drive__voltage=[1e3, 2e3]))
+    batch.save(tmp_path / "mine")
+    lists = ["load.mass=[8 g, 12 g]", "drive.voltage=[1 kV, 2 kV]", "mesh.nodes=21", "output.errors=false"]
+    settings = [word for text in lists for word in ("--set", text)]
+    subprocess.run([os.environ["ZIPACT_COMMAND"], "stationary", *settings, "--quiet", "-o", tmp_path / "command"], check=True)
+    assert (tmp_path / "mine" / "table.csv").read_text() == (tmp_path / "command" / "table.csv").read_text()
+    assert (tmp_path / "mine" / "run-3" / "scenario.yaml").exists()
+    assert zipact.read_scenario(tmp_path / "mine" / "run-1" / "scenario.yaml") == batch.actuators[1]
+
+
+def test_saves_errors(tmp_path):
+    batch = zipact.run_batch(with_one_lost(tmp_path), return_exceptions=True)
+    batch.save(tmp_path / "batch")
+    rows = (tmp_path / "batch" / "table.csv").read_text().splitlines()
+    assert rows[2].split(",")[-3:] == ["nan"] * 3 and ",error," in rows[2]
+    assert not (tmp_path / "batch" / "run-1").exists()
+
+
+def test_draws():
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    actuators = zipact.Actuator(mesh__nodes=21).sweep(load__mass=["8 g", "20 g"], drive__voltage=VOLTAGES)
+    batch = zipact.run_batch(actuators, "isometric")
+    axes = batch.plot()
+    assert axes.get_xlabel() == "drive.voltage / kV" and axes.get_ylabel() == "force / mN"
+    assert [line.get_label() for line in axes.lines] == ["8 g", "20 g"]
+    np.testing.assert_allclose(axes.lines[1].get_xdata(), 1e-3 * VOLTAGES)
+    np.testing.assert_allclose(axes.lines[1].get_ydata(), 1e3 * batch["force_N"][len(VOLTAGES) :])
+    assert len(batch.plot("opening_m", x="load.mass").lines) == len(VOLTAGES)
+    with pytest.raises(zipact.InputError, match="the actuators differ in load.mass, drive.voltage"):
+        batch.plot(x="mesh.nodes")
+    pyplot.close("all")
 
 
 def test_workers_overlap():

@@ -5,6 +5,8 @@ import re
 import subprocess
 import sys
 
+import pytest
+
 PYTHON = os.path.join(os.path.dirname(__file__), "..")
 DATA = os.path.join(PYTHON, "..", "examples", "data")
 
@@ -25,6 +27,15 @@ def test_hold(tmp_path):
     worst, highest, pull_in = (float(text) for text in re.findall(r"([\d.]+) (?:um|V)", said))
     assert worst < 30 and highest < pull_in
     assert os.path.getsize(tmp_path / "hold.svg") > 5000
+
+
+def test_notebooks():
+    """They print what is committed."""
+    pytest.importorskip("nbclient")
+    script = os.path.join(PYTHON, "..", "scripts", "run-notebooks.py")
+    found = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True)
+    assert found.returncode == 0, found.stdout + found.stderr
+    assert found.stdout.count("s of CPU") == 6
 
 
 def test_readme():

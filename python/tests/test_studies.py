@@ -103,7 +103,7 @@ def test_arrays_drive_a_run(tmp_path):
     np.testing.assert_array_equal(result.series.values_2d, same.series.values_2d)
     assert result.series["voltage_V"].max() > 3e3
     result.save(tmp_path)
-    again = zipact.read_scenario(tmp_path / "scenario.yaml")[0].run()
+    again = zipact.read_scenario(tmp_path / "scenario.yaml").run()
     np.testing.assert_array_equal(result.series.values_2d, again.series.values_2d)
 
 

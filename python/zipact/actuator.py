@@ -45,6 +45,18 @@ def key_name(keyword: str) -> str:
     return keyword.replace("__", ".")
 
 
+def given_keys(groups: Mapping[str, Any] | None, keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """{"load": {"mass": "20 g"}}, {"load.mass": "20 g"} and load__mass="20 g" => {"load.mass": "20 g"}; keywords come last."""
+    given: dict[str, Any] = {}
+    for name, value in [*(groups or {}).items(), *keywords.items()]:
+        key = key_name(name)
+        if isinstance(value, Mapping) and value and key not in KEYS:
+            given.update((f"{key}.{inner}", of) for inner, of in given_keys(value, {}).items())
+        else:
+            given[key] = value
+    return given
+
+
 def plain_value(name: str, value: Any) -> Any:
     """What the extension takes: paths as text."""
     if isinstance(value, os.PathLike):
@@ -77,19 +89,24 @@ class Actuator(Mapping[str, Any]):
     """An actuator and what is done with it: a value for every key, checked, never changed.
 
     Actuator(load__mass="20 g", drive__voltage=8e3): keywords are keys with the dot written as two underscores. One would
-    not do, since keys contain single ones (mass_spring.axial). `**` takes the keys themselves, too:
-    Actuator(**{"load.mass": "20 g"}). Numbers are SI, texts are read as in a scenario. What is not given has the default
-    of `preset` and kind, as in the command.
+    not do, since keys contain single ones (mass_spring.axial). A dict takes the keys themselves, in groups or not:
+    Actuator({"load.mass": "20 g", "drive": {"voltage": "8 kV"}}), as a YAML or JSON file has them. Numbers are SI, texts
+    are read as in a scenario. What is not given has the default of `preset`, kind and materials, as in the command.
 
     drive=(times, voltages), arrays in s and V, drives study actuate and Simulation instead of drive.waveform.
 
-    As a mapping it has every key: actuator["load.mass"] is a float in SI, an int, a bool, or a str.
+    As a mapping it has every key: actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printed, it shows
+    what differs from the defaults.
     """
 
     __slots__ = ("_definition", "_drive", "_given")
 
-    def __init__(self, *, drive: tuple[Any, Any] | None = None, **keys: Unpack[Keywords]) -> None:
-        given = {key_name(name): plain_value(key_name(name), value) for name, value in keys.items()}
+    def __init__(
+        self, groups: Mapping[str, Any] | None = None, *, drive: Any = None, **keys: Unpack[Keywords]
+    ) -> None:
+        if isinstance(drive, Mapping):  # a group of keys, not arrays
+            groups, drive = {**(groups or {}), "drive": drive}, None
+        given = {name: plain_value(name, value) for name, value in given_keys(groups, keys).items()}
         self._given = given
         self._drive = None if drive is None else drive_arrays(drive)
         if self._drive is None:
@@ -97,18 +114,20 @@ class Actuator(Mapping[str, Any]):
         else:
             self._definition = _zipact.Definition({"drive.waveform": "table", **given}, self._drive)
 
-    def replace(self, **keys: Unpack[Keywords]) -> "Actuator":
-        """The same actuator with other values of some keys."""
-        given = {key_name(name): value for name, value in keys.items()}
-        return Actuator(**{"drive": self._drive, **self._given, **given})
+    def replace(self, groups: Mapping[str, Any] | None = None, **keys: Any) -> "Actuator":
+        """The same actuator with other values of some keys; with drive=None it is no longer driven by arrays."""
+        arrays = self._drive
+        if not isinstance(keys.get("drive"), Mapping):
+            arrays = keys.pop("drive", arrays)
+        return Actuator({**self._given, **given_keys(groups, keys)}, drive=arrays)
 
-    def sweep(self, **lists: Iterable[Any]) -> list["Actuator"]:
-        """One actuator for each combination of values; the last keyword varies fastest."""
-        for name, values in lists.items():
+    def sweep(self, groups: Mapping[str, Any] | None = None, **lists: Iterable[Any]) -> list["Actuator"]:
+        """One actuator for each combination of values; the last key varies fastest."""
+        given = given_keys(groups, lists)
+        for name, values in given.items():
             if isinstance(values, str) or not isinstance(values, Iterable):
-                raise _zipact.InputError(f"{key_name(name)}: sweep takes a list of values")
-        rows = itertools.product(*lists.values())
-        return [self.replace(**dict(zip(lists, row, strict=True))) for row in rows]
+                raise _zipact.InputError(f"{name}: sweep takes a list of values")
+        return [self.replace(dict(zip(given, row, strict=True))) for row in itertools.product(*given.values())]
 
     def run(self, study: str | None = None, *, progress: Progress | None = None) -> Result:
         """Run a study, by default that of key `study`. Other threads run meanwhile; Ctrl-C stops it."""
@@ -122,7 +141,7 @@ class Actuator(Mapping[str, Any]):
             return self
         rows = np.column_stack(self._drive)
         np.savetxt(path, rows, fmt="%.17g", delimiter=",", header="time_s,voltage_V", comments="")
-        return Actuator(**{**self._given, "drive.waveform": "table", "drive.file": path})
+        return Actuator({**self._given, "drive.waveform": "table", "drive.file": path})
 
     def scenario(self) -> str:
         """All keys as a scenario in YAML, which the command runs to the same result. Arrays that drive it are not in it."""
@@ -157,15 +176,50 @@ class Actuator(Mapping[str, Any]):
         return _rebuild, (self._given, self._drive)
 
     def __repr__(self) -> str:
-        given = [f"{name.replace('.', '__')}={value!r}" for name, value in self._given.items()]
+        shown = {name: self._given.get(name, value) for name, value in differences(self._definition).items()}
+        given = [f"{name.replace('.', '__')}={plain_number(value)!r}" for name, value in shown.items()]
         return f"Actuator({', '.join(given + ['drive=...'] * (self._drive is not None))})"
 
 
+def plain_number(value: Any) -> Any:
+    """numpy's scalars as Python's own."""
+    return value.item() if isinstance(value, (np.generic, np.ndarray)) else value
+
+
+def values_of(definition: _zipact.Definition) -> dict[str, Any]:
+    return {name: definition.get(name) for name in KEYS}
+
+
+def differences(definition: _zipact.Definition) -> dict[str, Any]:
+    """The keys whose values differ from the defaults. Words come first and bring their own defaults: a preset, the kind,
+    a material."""
+    values, defaults = values_of(definition), values_of(DEFAULT)
+    words = {name: values[name] for name, key in KEYS.items() if key.kind == "word" and values[name] != defaults[name]}
+    try:
+        defaults = values_of(_zipact.Definition(words))
+    except _zipact.InputError:  # a word that needs another key: without its defaults
+        words = {}
+    return words | {name: value for name, value in values.items() if value != defaults[name]}
+
+
+DEFAULT = _zipact.Definition({})
+
+
 def _rebuild(given: dict[str, Any], drive: tuple[np.ndarray, np.ndarray] | None) -> Actuator:
-    return Actuator(drive=drive, **given)
+    return Actuator(given, drive=drive)
 
 
-def read_scenario(path: str | os.PathLike[str]) -> list[Actuator]:
-    """The actuators of a scenario file: one, or one for each combination of its lists. Every key is then given."""
-    definitions = _zipact.read_scenario(os.fspath(path))
-    return [Actuator(**{name: definition.get(name) for name in KEYS}) for definition in definitions]
+def _actuator_of(definition: _zipact.Definition) -> Actuator:
+    """Given are the keys that differ from the defaults; all, should these not give the same."""
+    values = values_of(definition)
+    try:
+        actuator = Actuator(differences(definition))
+    except _zipact.InputError:
+        return Actuator(values)
+    return actuator if dict(actuator) == values else Actuator(values)
+
+
+def read_scenario(path: str | os.PathLike[str]) -> Actuator | list[Actuator]:
+    """The actuator of a scenario file; if its lists stand for several cases, the list of them, in the command's order."""
+    actuators = [_actuator_of(definition) for definition in _zipact.read_scenario(os.fspath(path))]
+    return actuators[0] if len(actuators) == 1 else actuators

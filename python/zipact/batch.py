@@ -1,5 +1,6 @@
 """Many runs at once, on all cores."""
 
+import csv
 import os
 import threading
 from collections.abc import Callable, Iterable, Sequence
@@ -10,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._zipact import Error, InputError
-from .actuator import Actuator
+from .actuator import KEYS, Actuator
 from .result import Result
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
 
 class Batch(Sequence[Result]):
@@ -44,22 +46,76 @@ class Batch(Sequence[Result]):
     def __len__(self) -> int:
         return len(self.results)
 
+    @property
+    def varied(self) -> list[str]:
+        """the keys in which the actuators differ"""
+        return [key for key in KEYS if len({actuator[key] for actuator in self.actuators}) > 1]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """SI unit of each varied key and of each number; "1" for pure ones"""
+        units = {key: KEYS[key].unit for key in self.varied}
+        for found in self.results:
+            units |= found.units if isinstance(found, Result) else {}
+        return units
+
     def to_dataframe(self) -> "pandas.DataFrame":
         """A row for each run: the keys in which the actuators differ, the outcome, the numbers. A run without a result has
-        the outcome error, and its message in column error."""
+        the outcome error, and its message in column error. Units are in .attrs["units"]."""
         import pandas
 
-        varied = [key for key in (self.actuators or [()])[0] if len({a[key] for a in self.actuators}) > 1]
         rows: list[dict[str, Any]] = []
         for actuator, found in zip(self.actuators, self.results, strict=True):
-            row = {key: actuator[key] for key in varied}
+            row = {key: actuator[key] for key in self.varied}
             answer = {"outcome": found.outcome} | dict(found) if isinstance(found, Result) else {"outcome": "error"}
             rows.append(row | answer | ({"error": str(found)} if isinstance(found, Exception) else {}))
-        return pandas.DataFrame(rows)
+        frame = pandas.DataFrame(rows)
+        frame.attrs["units"] = self.units
+        return frame
+
+    def plot(self, y: str | None = None, x: str | None = None, ax: "Axes | None" = None) -> "Axes":
+        """Draw a number of all runs with matplotlib: `y`, by default the study's first, against the varied key `x`, by
+        default the numeric one of most values; a line for each combination of the other varied keys."""
+        from . import plot
+
+        return plot.batch(self, y, x, ax)
+
+    def save(self, directory: str | os.PathLike[str]) -> None:
+        """Write table.csv, a row for each run as the command writes it for lists in a scenario, and the files of each run
+        in run-0, run-1, ...; a run without a result has the outcome error and no folder."""
+        folder = os.fspath(directory)
+        os.makedirs(folder, exist_ok=True)
+        for place, found in enumerate(self.results):
+            if isinstance(found, Result):
+                found.save(os.path.join(folder, f"run-{place}"))
+        with open(os.path.join(folder, "table.csv"), "w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(self._table())
+
+    def _table(self) -> list[list[Any]]:
+        """The rows of table.csv, after their heading."""
+        varied, found = self.varied, [result for result in self.results if isinstance(result, Result)]
+        numbers = list(dict.fromkeys(name for result in found for name in result if name not in result.timings))
+        rows: list[list[Any]] = [[column_name(key) for key in varied] + ["outcome", *numbers]]
+        for actuator, result in zip(self.actuators, self.results, strict=True):
+            answers = [result.get(name, np.nan) for name in numbers] if isinstance(result, Result) else [np.nan] * len(numbers)
+            outcome = result.outcome if isinstance(result, Result) else "error"
+            rows.append([cell(actuator[key]) for key in varied] + [outcome] + [cell(answer) for answer in answers])
+        return rows
 
     def __repr__(self) -> str:
         errors = len(self.errors)
         return f"<Batch of {len(self)} results{f', {errors} of them errors' if errors else ''}>"
+
+
+def column_name(key: str) -> str:
+    """load.mass => load.mass_kg"""
+    unit = KEYS[key].unit
+    return key if unit == "1" else f"{key}_{unit}"
+
+
+def cell(value: Any) -> Any:
+    """Whole numbers without a decimal point."""
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
 
 
 class BatchError(Error):

@@ -1,6 +1,6 @@
 """Pictures by matplotlib: each function draws one thing into an Axes, a new one if none is given, and returns it."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -8,8 +8,10 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 
 from ._zipact import InputError
+from .actuator import KEYS
 
 if TYPE_CHECKING:
+    from .batch import Batch
     from .result import FieldMap, Result, Shapes, Table
 
 BLUE, RED, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#999999"  # told apart by all eyes
@@ -116,13 +118,12 @@ def profile(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 
 def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     x, measured, fitted, _ = table
-    factor = MILLI if table.units[measured] == "m" else 1
-    unit = "mm" if factor == MILLI else table.units[measured]
+    (by_x, unit_x), (by_y, unit_y) = (shown_unit(table.units[name], table[name]) for name in (x, measured))
     what = result.actuator["calibrate.y"].rpartition("_")[0] or "measured"
-    ax = new_axes(ax, f"{x.rpartition('_')[0]} / {table.units[x]}", f"{what} / {unit}")
+    ax = new_axes(ax, axis_label(x.removesuffix("_" + table.units[x]), unit_x), axis_label(what, unit_y))
     order = np.argsort(table[x])
-    ax.plot(table[x][order], factor * table[fitted][order], color=BLUE, label="model")
-    ax.plot(table[x], factor * table[measured], "o", color=RED, fillstyle="none", label="measured")
+    ax.plot(by_x * table[x][order], by_y * table[fitted][order], color=BLUE, label="model")
+    ax.plot(by_x * table[x], by_y * table[measured], "o", color=RED, fillstyle="none", label="measured")
     ax.legend()
     return ax
 
@@ -147,6 +148,62 @@ def result(result: "Result", ax: Axes | None = None) -> Axes:
     ax = STUDIES[result.study](result, result.series, ax)
     ax.set_title(f"{result.study}: {result.message}", fontsize="medium")
     return ax
+
+
+# -- batches --------------------------------------------------------------------------------------------
+
+
+def shown_unit(unit: str, values: np.ndarray) -> tuple[float, str]:
+    """A factor from SI, and the unit that it gives: the one in which the values are read most easily."""
+    usual = {"kg": (MILLI, "g"), "m2/s": (1e6, "mm2/s"), "m3": (1e9, "uL")}
+    if unit in usual:
+        return usual[unit]
+    largest = np.nanmax(np.abs(values), initial=0.0)
+    if unit not in ("m", "s", "V", "A", "N", "F", "J", "Pa", "W", "Hz", "V/m") or largest == 0:
+        return 1, "" if unit in ("1", "count") else unit
+    for factor, prefix in ((1e-9, "G"), (1e-6, "M"), (1e-3, "k"), (1, ""), (1e3, "m"), (1e6, "u"), (1e9, "n")):
+        if largest * factor >= 1:
+            return factor, prefix + unit
+    return 1e12, "p" + unit
+
+
+def axis_label(name: str, unit: str) -> str:
+    """zip_time_s in ms => zip time / ms"""
+    return f"{name} / {unit}" if unit else name
+
+
+def batch(batch: "Batch", y: str | None, x: str | None, ax: Axes | None) -> Axes:
+    """A number of all runs against a key in which they differ."""
+    varied = batch.varied
+    numeric = [key for key in varied if KEYS[key].kind not in ("word", "text", "bool")]
+    if not numeric or (x is not None and x not in varied):
+        raise InputError(f"x = {x!r}: the actuators differ in {', '.join(varied) or 'nothing'}; plot takes a key of these")
+    x = x or max(numeric, key=lambda key: len({actuator[key] for actuator in batch.actuators}))
+    y = y or next((name for found in batch if not isinstance(found, Exception) for name in found), "")
+    unit_x, unit_y = KEYS[x].unit, batch.units.get(y, "1")
+    across, up = np.array([actuator[x] for actuator in batch.actuators], dtype=float), batch[y]
+    (by_x, shown_x), (by_y, shown_y) = shown_unit(unit_x, across), shown_unit(unit_y, up)
+    name = y.removesuffix("_" + unit_y.replace("/", "_per_")).replace("_", " ")
+    ax = new_axes(ax, axis_label(x, shown_x), axis_label(name, shown_y))
+    others = [key for key in varied if key != x]
+    groups: dict[tuple[str, ...], list[int]] = {}
+    for place, actuator in enumerate(batch.actuators):
+        groups.setdefault(tuple(value_text(key, actuator[key]) for key in others), []).append(place)
+    for line, (words, places) in enumerate(groups.items()):
+        order = sorted(places, key=lambda place: across[place])
+        colour = colormaps["viridis"](0.9 * line / max(1, len(groups) - 1))
+        ax.plot(by_x * across[order], by_y * up[order], "o-", color=colour, markersize=4, label=", ".join(words))
+    if others:
+        ax.legend(title=", ".join(others), fontsize="small")
+    return ax
+
+
+def value_text(key: str, value: Any) -> str:
+    """0.008 of load.mass => 8 g"""
+    if not isinstance(value, float):
+        return str(value)
+    factor, unit = shown_unit(KEYS[key].unit, np.array([value]))
+    return f"{factor * value:.6g} {unit}".rstrip()
 
 
 # -- shapes and fields ----------------------------------------------------------------------------------
