@@ -293,7 +293,8 @@ static ZpMarchEnd march(ZpMarch *m, double target) {
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);
-      return try_step(m, target - m->m, target - m->m) && polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+      if (try_step(m, target - m->m, target - m->m)) return polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+      step = STEP_TOO_LONG; /* the branch bends before it comes there */
     }
     if (step == STEP_FOLD) return ZP_MARCH_FOLD;
     if (step == STEP_EVENT) return ZP_MARCH_EVENT;
