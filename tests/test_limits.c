@@ -445,6 +445,23 @@ START_TEST(largest_load_does_not_depend_on_the_load) {
 }
 END_TEST
 
+/* Loads slightly above the largest one: the way up to drive.voltage is nearly vertical, and the largest load is that of
+ * an actuator with half of it. The march once gave up where a step went past drive.voltage. */
+START_TEST(load_slightly_above_the_largest) {
+  const ZpActuatorDef designs[] = {
+      DEF({"ribbon.thickness", 40e-6}, {"mesh.nodes", 21}, {"load.mass", 9.04347826087e-3}),
+      DEF({"ribbon.thickness", 50e-6}, {"mesh.nodes", 21}, {"load.mass", 12.1739130435e-3})};
+  ZpActuatorDef heavy = designs[_i], light = heavy;
+  light.load.mass *= 0.5;
+  ZpResult *of_heavy = limits_of(&heavy), *of_light = limits_of(&light);
+  ck_assert_double_nan(zp_result_get(of_heavy, "closing_voltage_V"));
+  ck_assert_double_lt(zp_result_get(of_heavy, "max_load_kg"), heavy.load.mass);
+  same(of_heavy, of_light, "max_load_kg", 1e-6);
+  zp_result_destroy(of_heavy);
+  zp_result_destroy(of_light);
+}
+END_TEST
+
 /* -- what it is for ---------------------------------------------------------------------------------- */
 
 /* Strips and insulators from clip to clip, for a half and for a whole alike. */
@@ -572,6 +589,7 @@ int main(void) {
   tcase_add_test(study, test_scaling);
   tcase_add_test(study, test_largest_load);
   tcase_add_test(study, largest_load_does_not_depend_on_the_load);
+  tcase_add_loop_test(study, load_slightly_above_the_largest, 0, 2);
   tcase_add_loop_test(study, mass_in_closed_form, 0, 2);
   tcase_add_test(study, travel_and_its_derivatives);
   tcase_add_loop_test(study, test_limits_from_a_neighbour, 0, 4);

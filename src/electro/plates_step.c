@@ -328,26 +328,58 @@ static double capacitance_at(const ZpPlatesParams *p, double U, double g) {
   return h > h_c ? 2 * p->k / h : 0;
 }
 
-/* Parts of each element, of `share` of the charges between two ends => A, B, P. */
+/* Parts of element i, of `share` of the charges between two ends => A, B, P. */
+static void parts_of_charges_at(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
+                                double share, size_t i, ZpPlatesStep *s) {
+  double dx = 0.5 * (e0->dx[i] + e1->dx[i]), A = 0, B = 0, P = 0;
+  ZpPlatesPiece piece[2];
+  int pieces = zp_plates_pieces(p, zp_cover_part(e1->cover, i), i, piece);
+  for (int k = 0; k < pieces * GAUSS; k++) {
+    const ZpPlatesPiece *of = &piece[k / GAUSS];
+    double r = zp_plates_share(p, of, i, k % GAUSS), l = 1 - r, w = gauss_weight[k % GAUSS] * (of->to - of->from);
+    double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
+    Charges at = charges_between(of->law, U, g0, g1);
+    A += w * l * at.W * dx;
+    B += w * r * at.W * dx;
+    P += w * at.P;
+  }
+  s->A[i] = share * A;
+  s->B[i] = share * B;
+  s->P[i] = share * P;
+}
+
+/* The same of all elements at rest, under the law of plates alone. */
+ZP_KERNEL static void parts_of_charges_at_rest(size_t count, double d, double h_c, double per_volt,
+                                               const ZpPlatesEval *e, const ZpPlatesStep *s) {
+  const double *restrict gap = e->gap, *restrict dx = e->dx;
+  double *restrict to_A = s->A, *restrict to_B = s->B, *restrict to_P = s->P;
+  ZP_SIMD
+  for (size_t i = 0; i < count; i++) {
+    double A = 0, B = 0, P = 0;
+    for (int q = 0; q < GAUSS; q++) {
+      double r = gauss_at[q], l = 1 - r, w = gauss_weight[q], h = (l * gap[i] + r * gap[i + 1]) + d;
+      double b = 1 / (h > h_c ? h : h_c), W = h > h_c ? per_volt * (b * b) : 0;
+      A += w * l * W * dx[i];
+      B += w * r * W * dx[i];
+      P -= w * (per_volt * b);
+    }
+    to_A[i] = A;
+    to_B[i] = B;
+    to_P[i] = P;
+  }
+}
+
 static void parts_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
                              double share, ZpPlatesStep *s) {
-  for (size_t i = 0; i + 1 < p->nodes; i++) {
-    double dx = 0.5 * (e0->dx[i] + e1->dx[i]), A = 0, B = 0, P = 0;
-    ZpPlatesPiece piece[2];
-    int pieces = zp_plates_pieces(p, zp_cover_part(e1->cover, i), i, piece);
-    for (int k = 0; k < pieces * GAUSS; k++) {
-      const ZpPlatesPiece *of = &piece[k / GAUSS];
-      double r = zp_plates_share(p, of, i, k % GAUSS), l = 1 - r, w = gauss_weight[k % GAUSS] * (of->to - of->from);
-      double g0 = l * e0->gap[i] + r * e0->gap[i + 1], g1 = l * e1->gap[i] + r * e1->gap[i + 1];
-      Charges at = charges_between(of->law, U, g0, g1);
-      A += w * l * at.W * dx;
-      B += w * r * at.W * dx;
-      P += w * at.P;
-    }
-    s->A[i] = share * A;
-    s->B[i] = share * B;
-    s->P[i] = share * P;
+  size_t elements = p->nodes - 1;
+  if (p->edges || e1->cover || e0 != e1) {
+    for (size_t i = 0; i < elements; i++)
+      parts_of_charges_at(p, e0, e1, U, share, i, s);
+    return;
   }
+  parts_of_charges_at_rest(elements, p->d, zp_plates_least_h(p, U), share * (2 * p->k * U), e1, s);
+  for (size_t k = 0; k < p->level.count; k++)
+    parts_of_charges_at(p, e0, e1, U, share, p->level.of[k].element, s);
 }
 
 /* Forces of `share` of the charges between two ends => Fx, Fy. */

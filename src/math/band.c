@@ -111,34 +111,62 @@ ZP_INLINE bool eliminate(double *restrict row_k, size_t width, size_t below) {
   return true;
 }
 
-/* The same of rows k and k + 1 at once, so that each row below is loaded and stored once for both. */
-ZP_INLINE bool eliminate_two(double *restrict row_k, size_t width) {
-  double r[2 * (ZP_BAND_MOST + 1)] = {0}, s[2 * (ZP_BAND_MOST + 1)] = {0}, *restrict next = row_k + width;
-  if (!is_pivot(row_k[0])) return false;
-  double over_r = 1 / row_k[0], first = row_k[1] * over_r;
-  memcpy(r, row_k, width * sizeof *r);
-  ZP_SIMD
-  for (size_t j = 0; j < width; j++)
-    next[j] -= first * r[1 + j];
-  row_k[1] = first;
-  if (!is_pivot(next[0])) return false;
-  double over_s = 1 / next[0];
-  memcpy(s, next, width * sizeof *s);
-  for (size_t i = 1; i < width; i++) {
-    double f = r[i + 1] * over_r, g = s[i] * over_s, *restrict row_i = next + i * width;
+/* A row, and zeros behind it. */
+typedef double Padded[2 * (ZP_BAND_MOST + 1)];
+
+/* What four rows, r before they were scaled to their pivots, take off group `group` of the rows below: those which have
+ * so many columns in common with them that they take the same number of vectors of four. */
+ZP_INLINE void take_from_group(const Padded r[4], double *restrict row_k, size_t width, size_t group) {
+  size_t vectors = (width + 3) / 4;
+  if (group >= vectors) return;
+  size_t reach = 4 * (vectors - group), end = width + 7 - reach, begin = group == 0 ? 4 : end - 4;
+  if (reach > width) reach = width;
+  for (size_t i = begin; i < end; i++) {
+    double *restrict row_i = row_k + i * width, f[4];
+    for (size_t p = 0; p < 4; p++)
+      f[p] = i - p < width ? row_k[p * width + i - p] : 0;
     ZP_SIMD
-    for (size_t j = 0; j < width; j++)
-      row_i[j] = (row_i[j] - f * r[i + 1 + j]) - g * s[i + j];
-    if (i + 1 < width) row_k[i + 1] = f;
-    next[i] = g;
+    for (size_t j = 0; j < reach; j++)
+      row_i[j] = (((row_i[j] - f[0] * r[0][i + j]) - f[1] * r[1][i - 1 + j]) - f[2] * r[2][i - 2 + j]) -
+                 f[3] * r[3][i - 3 + j];
   }
+}
+
+/* The same of rows k .. k + 3 at once, so that each row below is loaded and stored once for all four. */
+ZP_INLINE bool eliminate_four(double *restrict row_k, size_t width) {
+  Padded r[4];
+  for (size_t p = 0; p < 4; p++) {
+    double *restrict row_p = row_k + p * width;
+    if (!is_pivot(row_p[0])) return false;
+    double inverse = 1 / row_p[0];
+    ZP_SIMD
+    for (size_t j = 0; j < width; j++) {
+      r[p][j] = row_p[j];
+      r[p][width + j] = 0;
+    }
+    ZP_SIMD
+    for (size_t j = 1; j < width; j++)
+      row_p[j] *= inverse;
+    for (size_t i = 1; i < 4 - p; i++) {
+      double factor = row_p[i], *restrict row_i = row_p + i * width;
+      ZP_SIMD
+      for (size_t j = 0; j < width; j++)
+        row_i[j] -= factor * r[p][i + j];
+    }
+  }
+  take_from_group(r, row_k, width, 0);
+  take_from_group(r, row_k, width, 1);
+  take_from_group(r, row_k, width, 2);
+  take_from_group(r, row_k, width, 3);
+  take_from_group(r, row_k, width, 4);
+  take_from_group(r, row_k, width, 5);
   return true;
 }
 
 ZP_INLINE bool factor_rows(ZpBand *band, size_t width) {
   size_t n = band->n, k = 0;
-  for (; width > 1 && k + width < n; k += 2)
-    if (!eliminate_two(band->a + k * width, width)) return false;
+  for (; width > 3 && k + width + 3 <= n; k += 4)
+    if (!eliminate_four(band->a + k * width, width)) return false;
   for (; k < n; k++)
     if (!eliminate(band->a + k * width, width, least(width - 1, n - 1 - k))) return false;
   return true;

@@ -256,9 +256,19 @@ ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closin
   return end;
 }
 
+/* Is what has been found a closed state that lasts? */
+static bool has_closed(ZpSlow *f, ZpNewtonInfo info) {
+  return zp_newton_good(info.end) && zp_slow_is_closed(f) && !zp_statics_fault(f->statics) &&
+         zp_statics_stable(f->statics, f->newton);
+}
+
 bool zp_slow_close(ZpSlow *f, double top) {
-  ZpNewtonInfo info = zp_statics_close(f->statics, top, f->newton);
-  return zp_newton_good(info.end) && zp_slow_is_closed(f) && !zp_statics_fault(f->statics);
+  enum { MOST = 30 };
+  ZpStaticSystem system = zp_statics_system(f->statics);
+  f->statics->U = top;
+  bool near = zp_slow_is_closed(f);
+  if (near && has_closed(f, zp_newton(&system, zp_statics_tolerance(f->statics), MOST, f->newton))) return true;
+  return has_closed(f, zp_statics_close(f->statics, top, f->newton));
 }
 
 ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {

@@ -78,7 +78,8 @@ ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double target, ZpLimit *at);
  * first limit point that is no ripple of the mesh, and closing. */
 ZpSlowEnd zp_slow_raise(ZpSlow *slow, double top, ZpLimit *pull_in, ZpLimit *closing);
 
-/* The closed state at voltage `top`. False if it is not closed there. */
+/* The closed state at voltage `top`, from the present point where that is closed, else from the straight shape. False
+ * if it is not closed there. */
 bool zp_slow_close(ZpSlow *slow, double top);
 
 /* From that state, lower the voltage to 0 or until the actuator opens => release, which is not above closing. */

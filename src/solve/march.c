@@ -146,21 +146,21 @@ static double turn_of(ZpMarch *m) {
   return 1 / zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
 }
 
-/* Where the branch is as it was at the last good point: stable, m going the same way. */
-static bool is_before_fold(ZpMarch *m) {
-  return is_stable(m) && turn_of(m) * m->slope > 0;
+/* Where the branch is as it was at the last good point, and further: stable, m going the same way. */
+static bool is_before_fold(ZpMarch *m, double sign) {
+  return sign * (parameter(m) - m->m) > 0 && is_stable(m) && turn_of(m) * m->slope > 0;
 }
 
 /* Halve the way to a limit point that lies between the last good point and `value`: a corner, where the stiffness
  * jumps. The last good point is then as near to it as counts. */
-static bool halve(ZpMarch *m, double value) {
+static bool halve(ZpMarch *m, double sign, double value) {
   enum { MOST = 60 };
   static const double enough = 1e-10;
   double step = value - m->value, before = INFINITY;
   for (int k = 0; k < MOST; k++) {
     step *= 0.5;
     go_back(m);
-    if (!solve_at(m, m->value + step, ZP_FOLD_EXACT) || !is_before_fold(m)) continue;
+    if (!solve_at(m, m->value + step, ZP_FOLD_EXACT) || !is_before_fold(m, sign)) continue;
     before = m->m;
     keep(m, false);
     if (fabs(m->m - before) <= enough * fabs(m->m)) break;
@@ -187,7 +187,7 @@ static bool solve_between(ZpMarch *m, double sign, double value) {
 static bool find_fold(ZpMarch *m, double sign, double value, double far) {
   static const double close = 1e-3; /* of m: nearer, halving is surer */
   if (solve_between(m, sign, value)) return true;
-  if (fabs(far) > close * fabs(m->m) || !halve(m, value)) return false;
+  if (fabs(far) > close * fabs(m->m) || !halve(m, sign, value)) return false;
   is_stable(m);
   zp_fold_guess(&m->fold);
   return true;
@@ -293,7 +293,8 @@ static ZpMarchEnd march(ZpMarch *m, double target) {
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);
-      return try_step(m, target - m->m, target - m->m) && polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+      if (try_step(m, target - m->m, target - m->m)) return polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+      step = STEP_TOO_LONG; /* the branch bends before it comes there */
     }
     if (step == STEP_FOLD) return ZP_MARCH_FOLD;
     if (step == STEP_EVENT) return ZP_MARCH_EVENT;

@@ -139,18 +139,13 @@ static ZpSlowEnd raise_voltage(Finder *f) {
   return end;
 }
 
-/* The closed state at drive.voltage, from the neighbour's or from the straight shape. False if there is none. */
+/* The closed state at drive.voltage, from the neighbour's, from that which the voltage has led to, or from the straight
+ * shape. False if there is none. */
 static bool find_closed(Finder *f) {
-  ZpStatics *s = &f->rest.statics;
-  double top = f->model->def.drive.voltage;
   ZpLimits *limits = f->limits;
-  if (f->near && f->near->closes) {
-    take(f, f->near->closed);
-    limits->closes = zp_newton_good(zp_rest_settle(&f->rest, top).end) && zp_slow_is_closed(&f->slow) &&
-                     !zp_statics_fault(s) && zp_statics_stable(s, &f->rest.branch.newton);
-  }
-  if (!limits->closes) limits->closes = zp_slow_close(&f->slow, top);
-  if (limits->closes) f->slow.square.save(s, limits->closed);
+  if (f->near && f->near->closes) take(f, f->near->closed);
+  limits->closes = zp_slow_close(&f->slow, f->model->def.drive.voltage);
+  if (limits->closes) f->slow.square.save(&f->rest.statics, limits->closed);
   return limits->closes;
 }
 
