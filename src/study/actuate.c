@@ -244,6 +244,7 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
   result->shapes =
       zp_shapes_create((size_t)size.ribbons, zp_members(model) * (size_t)size.nodes, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
+  result->shapes->members = zp_members(model);
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;

@@ -162,6 +162,7 @@ static bool add_shape(const Members *members, ZpResult *result) {
   }
   result->shapes = room ? zp_shapes_create(ribbons, all, 2) : NULL;
   ZpShape shape = {.x = x, .y = y, .stress = stress, .gap = gap, .line_force = line_force, .insulator_field = field};
+  if (result->shapes) result->shapes->members = members->count;
   if (whole && result->shapes) zp_shapes_offer(result->shapes, &shape);
   zp_free(room);
   return result->shapes != NULL;
