@@ -48,6 +48,7 @@ static bool has_insulators(const ZpActuatorDef *def) {
  * estimated error where a coarser mesh has no such number, or where there is none. */
 static bool scalar_may_be_missing(const char *name, const ZpActuatorDef *def) {
   if (strstr(name, "_error_") || strncmp(name, "sense_", 6) == 0) return true; /* of windows that a run has none of */
+  if (strncmp(name, "member_", 7) == 0 && strstr(name, "_zip_time_s")) return true;
   static const char *const of_insulators[] = {"insulator_field_V_per_m", "insulator_field_place_m",
                                               "allowed_voltage_V"};
   static const char *const names[] = {"pull_in_voltage_V",
@@ -232,6 +233,9 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->ribbon.length = 2 * value;
     def->platform.length = 0;
   }
+  if (strncmp(key, "member_", 7) == 0) def->stack.series = 8;
+  if (strcmp(key, "stack.link_mass") == 0) def->stack.series = 2;
+  if (strncmp(key, "member_", 7) == 0 && strstr(key, "insulator.thickness") && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
   if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;
   if (strcmp(key, "load.rest_opening") == 0) def->load.stiffness = 1;

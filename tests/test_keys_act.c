@@ -25,6 +25,10 @@
 #define FLAT   "study=stationary gravity=0 load.mass=0 mesh.nodes=21 drive.voltage=0"
 #define SAGGED "study=stationary ribbon.density=0 gravity=0.001 load.mass=0 mesh.nodes=21 drive.voltage=0"
 
+/* Eight actuators in series. */
+#define EIGHT        SLIGHT " stack.series=8"
+#define EIGHT_CLOSED UNCAPPED " stack.series=8"
+
 /* Frequencies of a strip in no gravity. */
 #define TUNED                                                                                                          \
   "study=modes actuator.kind=ribbon actuator.right_end=guided gravity=0 load.mass=0 ribbon.length=20mm mesh.nodes=21"
@@ -396,6 +400,41 @@ static const Row rows[] = {
     {"load.force", STRIP, "0", "98.1uN", {{TIMES, "y_m", 2, 1e-3}}},
     {"load.stop_opening", "study=stationary mesh.nodes=21", "none", "5mm", {{BECOMES, "opening_m", 5e-3, 2e-3}}},
     {"load.stop_stiffness", SLIGHT " load.stop_opening=0", "1e4", "2e4", {{TIMES, "opening_m", 0.5, 2e-3}}},
+    {"stack.series", PAIR, "1", "2", {{TIMES, "opening_m", 2, 1e-9}}},
+    {"stack.parallel", SLIGHT, "1", "2", {{TIMES, "opening_m", 0.5, 1e-4}}},
+    {"stack.link_mass", SLIGHT " stack.series=2", "0", "0.1mg", {{TIMES, "opening_m", 1.5, 1e-4}}},
+    {"member_1.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_1.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_1.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_1.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_2.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_2.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_2.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_2.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_3.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_3.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_3.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_3.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_4.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_4.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_4.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_4.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_5.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_5.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_5.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_5.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_6.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_6.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_6.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_6.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_7.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_7.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_7.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_7.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_8.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
+    {"member_8.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
+    {"member_8.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    {"member_8.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"mount.tilt", STRIP, "0", "180degree", {{TIMES, "y_m", -1, 1e-9}}},

@@ -44,7 +44,7 @@ typedef struct ZpModelInfo {
   double stable_time_step;  /* largest explicit step that is surely stable, s */
 } ZpModelInfo;
 
-/* Those of `model`. */
+/* Those of `model`; of a series those of its uppermost member. */
 ZP_API ZpModelInfo zp_model_info(const ZpModel *model);
 
 #ifdef __cplusplus

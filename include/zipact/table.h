@@ -67,7 +67,7 @@ typedef struct ZpShape {
 /* A film of shapes of one actuator. */
 typedef struct ZpShapes {
   size_t ribbons;  /* 1 or 2 */
-  size_t nodes;    /* per ribbon */
+  size_t nodes;    /* per ribbon; of a series, of all its members, the uppermost first */
   size_t frames;   /* filled */
   size_t capacity; /* frames at most */
   size_t stride;   /* as in ZpTable */
@@ -76,6 +76,7 @@ typedef struct ZpShapes {
   bool facing;       /* the shapes have gap, line_force and insulator_field */
   bool stressed;     /* the shapes have stress */
   double *value;     /* [capacity][frame_size] */
+  size_t members;    /* of a series; 1 of all else */
 } ZpShapes;
 
 /* A new empty film of at most `capacity` frames (2 or more), or NULL if there is no memory. */

@@ -21,11 +21,11 @@ static PyObject *pack_table(const ZpTable *table) {
   return Py_BuildValue("(nN)", (Py_ssize_t)table->rows, pack_doubles(table->value, table->rows * table->columns));
 }
 
-/* (ribbons, nodes, frames, facing, stressed, numbers) */
+/* (ribbons, nodes, members, frames, facing, stressed, numbers) */
 static PyObject *pack_shapes(const ZpShapes *film) {
   if (!film) Py_RETURN_NONE;
-  return Py_BuildValue("(nnniiN)", (Py_ssize_t)film->ribbons, (Py_ssize_t)film->nodes, (Py_ssize_t)film->frames,
-                       (int)film->facing, (int)film->stressed,
+  return Py_BuildValue("(nnnniiN)", (Py_ssize_t)film->ribbons, (Py_ssize_t)film->nodes, (Py_ssize_t)film->members,
+                       (Py_ssize_t)film->frames, (int)film->facing, (int)film->stressed,
                        pack_doubles(film->value, film->frames * film->frame_size));
 }
 
@@ -96,16 +96,19 @@ static bool unpack_table(const State *state, PyObject *part, PyObject *words, Un
 }
 
 static bool unpack_shapes(PyObject *part, ZpResult *result) {
-  Py_ssize_t ribbons, nodes, frames;
+  Py_ssize_t ribbons, nodes, members, frames;
   int facing, stressed;
   PyObject *numbers;
   if (part == Py_None) return true;
-  if (!PyArg_ParseTuple(part, "nnnppO!", &ribbons, &nodes, &frames, &facing, &stressed, &PyBytes_Type, &numbers))
+  if (!PyArg_ParseTuple(part, "nnnnppO!", &ribbons, &nodes, &members, &frames, &facing, &stressed, &PyBytes_Type,
+                        &numbers))
     return false;
+  if (members < 1 || nodes % members != 0) return false;
   if (!in_bounds(nodes, 1) || !in_bounds(frames, 0) || ribbons < 1 || ribbons > 2) return false;
   ZpShapes *film = result->shapes = zp_shapes_create((size_t)ribbons, (size_t)nodes, (size_t)frames + 2);
   if (!film) return no_memory();
   film->frames = film->offered = (size_t)frames;
+  film->members = (size_t)members;
   film->facing = facing != 0;
   film->stressed = stressed != 0;
   return copy_doubles(numbers, film->value, film->frames * film->frame_size);

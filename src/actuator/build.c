@@ -250,7 +250,7 @@ static double node_mass(const ZpModel *model, size_t j) {
   const ZpTopology *t = &model->topology;
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
-  return ribbon_mass(model, j) + (carries ? model->def.load.share * model->def.load.mass : 0);
+  return ribbon_mass(model, j) + (carries ? zp_end_share(model) * model->def.load.mass : 0);
 }
 
 /* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
@@ -309,7 +309,7 @@ static void fill_masses(ZpModel *model, Arrays *a) {
     a->py1[j] = held_y ? 0 : 1 / pseudo;
     if (!held_y) weight += a->weight[j];
   }
-  model->total_weight = weight / (double)t->halves + model->def.load.share * fabs(model->def.load.force);
+  model->total_weight = weight / (double)t->halves + zp_end_share(model) * fabs(model->def.load.force);
   for (size_t i = 0; zp_is_pair(t) && i < model->nodes; i++) {
     size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
     a->x2[i] = joined(a->x1[upper], a->x1[lower]);
@@ -543,15 +543,15 @@ static double contact_frequency(const ZpModel *model) {
   double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, half = 0.5 * model->l;
   double mu = fmin(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double platform = stiffness * (half + p->flat_length);
-  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + def->load.share * def->load.mass)));
+  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + zp_end_share(model) * def->load.mass)));
 }
 
 /* Of the platform on spring and stop, rad/s. */
 static double spring_frequency(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + def->load.share * def->load.mass;
+  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + zp_end_share(model) * def->load.mass;
   double stop = isnan(def->load.stop_opening) ? 0 : def->load.stop_stiffness;
-  return sqrt(def->load.share * (def->load.stiffness + stop) / mass);
+  return sqrt(zp_end_share(model) * (def->load.stiffness + stop) / mass);
 }
 
 /* Direction of gravity, eq. (27.4); a part that is 0 but for the rounding of the angle is none. */
@@ -572,7 +572,7 @@ static void derive(ZpModel *model) {
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = def->actuator.kind != ZP_KIND_RIBBON;
   model->flat = def->actuator.kind == ZP_KIND_FLANGE;
-  model->parts = two ? 2 / (double)t->halves : 1;
+  model->parts = two ? 2 / (double)t->halves * def->stack.parallel : 1;
   model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);
   ZpActuatorDef lower = zp_def_lower(def);
@@ -658,19 +658,18 @@ ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) 
   return zp_model_create_driven(def, NULL, out, err);
 }
 
-ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
-  *out = NULL;
-  ZpStatus status = zp_def_check(def, err);
-  if (status == ZP_OK) status = check_table(def, table, err);
-  if (status != ZP_OK) return status;
+/* One actuator; one that `hangs` does so on the platform of another. */
+static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, bool hangs, ZpModel **out,
+                           ZpError *err) {
   size_t rows = table ? table->rows : 0;
   ZpModel *model = zp_calloc(1, sizeof *model);
   if (!model) return zp_fail_memory(err);
   model->def = *def;
   derive(model);
+  if (hangs) zp_topology_hang(&model->topology);
   Arrays arrays;
   model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
-  status = model->memory ? ZP_OK : zp_fail_memory(err);
+  ZpStatus status = model->memory ? ZP_OK : zp_fail_memory(err);
 #ifndef ZP_WITHOUT_FIELD
   if (status == ZP_OK) status = make_edges(model, err);
 #endif
@@ -690,8 +689,51 @@ ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *ta
   return ZP_OK;
 }
 
+/* Of all that hangs on the platform above this model, kg. */
+static double mass_from_here(const ZpModel *model) {
+  double sum = 0;
+  for (size_t j = 0; j < model->count; j++)
+    sum += model->mass[j];
+  return model->parts * sum + model->carried;
+}
+
+/* The members of a series, from the lowest up. */
+static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
+  ZpModel *below = NULL;
+  for (int member = def->stack.series; member >= 1; member--) {
+    ZpActuatorDef one = zp_def_member(def, member);
+    ZpModel *model;
+    ZpStatus status = create_one(&one, table, member > 1, &model, err);
+    if (status != ZP_OK) {
+      zp_model_destroy(below);
+      return status;
+    }
+    model->below = below;
+    if (below) model->carried = mass_from_here(below);
+    below = model;
+  }
+  *out = below;
+  return ZP_OK;
+}
+
+ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
+  *out = NULL;
+  ZpStatus status = zp_def_check(def, err);
+  if (status == ZP_OK) status = check_table(def, table, err);
+  if (status != ZP_OK) return status;
+  return def->stack.series > 1 ? create_series(def, table, out, err) : create_one(def, table, false, out, err);
+}
+
+ZpActuatorDef zp_member_at_rest(const ZpModel *member) {
+  ZpActuatorDef def = member->def;
+  def.load.mass += member->carried;
+  def.load.force = zp_lowest(member)->def.load.force;
+  return def;
+}
+
 void zp_model_destroy(ZpModel *model) {
   if (!model) return;
+  zp_model_destroy(model->below);
   zp_free(model->memory);
   zp_free(model);
 }

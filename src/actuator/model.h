@@ -57,7 +57,7 @@ struct ZpModel {
   bool field;             /* there are electrodes that attract each other */
   bool field_solved;      /* in two dimensions, beyond the plates law */
   bool flat;              /* one ribbon below a flat electrode */
-  double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1 */
+  double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1; of each in parallel */
   double L, l;            /* flexible length of a half or of the one ribbon, element, m */
   ZpRibbon ribbon[2];     /* upper or only one, lower one */
   double axial_stiffness; /* of the stiffest edge, N/m */
@@ -96,6 +96,8 @@ struct ZpModel {
   double total_weight;  /* of what moves, of one half, N */
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
+  ZpModel *below;       /* of a series: the member that hangs on this one's lower platform; NULL: none */
+  double carried;       /* mass of all members and loads below, kg, of the whole actuator */
 };
 
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
@@ -168,9 +170,14 @@ static inline ZpSection zp_ribbon_section(const ZpModel *model, size_t ribbon) {
   return model->ribbon[ribbon].place[ZP_REST].section;
 }
 
-/* The fraction of the load that the modelled part carries: load.share at each end that it hangs on. */
+/* The fraction of the load that each modelled end carries on which it hangs. */
+static inline double zp_end_share(const ZpModel *model) {
+  return model->def.load.share / model->def.stack.parallel;
+}
+
+/* And the modelled part: load.share at each end. */
 static inline double zp_load_share(const ZpModel *model) {
-  return (double)zp_load_ends(&model->topology) * model->def.load.share;
+  return (double)zp_load_ends(&model->topology) * zp_end_share(model);
 }
 
 /* What the load of the whole actuator pulls down with, N: load.force, and as much of its weight as acts downwards. */
@@ -178,6 +185,29 @@ static inline double zp_load_pull(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);
 }
+
+/* The lowest member of a series, on which the load hangs. */
+static inline const ZpModel *zp_lowest(const ZpModel *model) {
+  while (model->below)
+    model = model->below;
+  return model;
+}
+
+/* How many members hang one below the other from here on. */
+static inline size_t zp_members(const ZpModel *model) {
+  size_t count = 1;
+  while ((model = model->below))
+    count++;
+  return count;
+}
+
+/* Is it a member of a series? */
+static inline bool zp_in_series(const ZpModel *model) {
+  return model->below || model->topology.platform.kind == ZP_JOINT_LINK;
+}
+
+/* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (28.1). */
+ZpActuatorDef zp_member_at_rest(const ZpModel *member);
 
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */
 static inline double zp_state_load(const ZpModel *model, const ZpState *state, double t) {

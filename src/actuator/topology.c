@@ -14,6 +14,7 @@ static const Hold hold_of[ZP_JOINT_KINDS] = {
     [ZP_JOINT_GUIDE] = {.slope = true},
     [ZP_JOINT_FREE] = {0},
     [ZP_JOINT_PLATFORM] = {.x = true, .y = {true, false}, .slope = true},
+    [ZP_JOINT_LINK] = {.x = true, .slope = true},
 };
 
 static void add(ZpTopology *t, ZpJointKind kind, size_t first, size_t last) {
@@ -50,6 +51,12 @@ ZpTopology zp_topology_of(const ZpActuatorDef *def) {
     of_one(def->actuator.right_end, nodes, &t);
   t.nodes = t.ribbons * t.stations;
   return t;
+}
+
+void zp_topology_hang(ZpTopology *t) {
+  for (size_t k = 0; k < t->joints; k++)
+    if (t->joint[k].kind == ZP_JOINT_PLATFORM) t->joint[k].kind = ZP_JOINT_LINK;
+  t->platform.kind = ZP_JOINT_LINK;
 }
 
 /* The joint that holds a station; NULL if none does. */

@@ -18,6 +18,7 @@ typedef enum ZpJointKind {
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
   ZP_JOINT_FREE,     /* free to move and to turn */
   ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
+  ZP_JOINT_LINK,     /* the same, but the upper one slides, too, with the lower one of the actuator above */
   ZP_JOINT_KINDS
 } ZpJointKind;
 
@@ -41,6 +42,9 @@ typedef struct ZpTopology {
 
 /* (def) => its topology. */
 ZpTopology zp_topology_of(const ZpActuatorDef *def);
+
+/* The upper platform hangs on another actuator from now on. */
+void zp_topology_hang(ZpTopology *topology);
 
 /* Is a coordinate held, whatever acts on it? */
 bool zp_topology_is_held(const ZpTopology *topology, size_t coordinate);

@@ -90,7 +90,8 @@ ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity) {
   ZpShapes *shapes = zp_calloc(1, sizeof *shapes);
   if (!shapes) return NULL;
   size_t frame_size = FRAME_HEAD + (OF_NODES * ribbons + OF_STATIONS) * nodes;
-  *shapes = (ZpShapes){.ribbons = ribbons, .nodes = nodes, .capacity = capacity, .stride = 1, .frame_size = frame_size};
+  *shapes = (ZpShapes){
+      .ribbons = ribbons, .nodes = nodes, .capacity = capacity, .stride = 1, .frame_size = frame_size, .members = 1};
   shapes->value = zp_calloc(capacity, frame_size * sizeof(double));
   if (shapes->value) return shapes;
   zp_free(shapes);

@@ -16,6 +16,13 @@ ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 /* The keys of the lower ribbon: those of the upper one, but where lower.* says otherwise. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 
+/* Member 1 .. stack.series of a series, alone: as the others, but where member_K.* says otherwise. The last one carries
+ * load.mass and load.force, the others a link. */
+ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
+
+/* What a stack asks of other keys. */
+ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);
+
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);
 

@@ -940,6 +940,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "electro.refresh_period = %g s: requires electro.surface bezier",
                    def->electro.refresh_period);
   ZpStatus status = zp_check_ribbons(def, err);
+  if (status == ZP_OK) status = zp_check_stack(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_stop(def, err);
   if (status == ZP_OK) status = check_tilt(def, err);

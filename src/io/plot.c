@@ -110,9 +110,10 @@ void zp_plot_put_shape(FILE *file, const ZpShapes *shapes, const ZpShape *shape,
       zp_plot_put(file, shape->x[i * shapes->ribbons + r], ' ');
       zp_plot_put(file, shape->y[i * shapes->ribbons + r], ' ');
       zp_plot_put(file, more, '\n');
+      if (!zp_plot_ends_member(shapes, i)) continue;
+      fputs("NaN NaN ", file);
+      zp_plot_put(file, more, '\n');
     }
-    fputs("NaN NaN ", file);
-    zp_plot_put(file, more, '\n');
   }
 }
 

@@ -52,6 +52,7 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 /* All pictures that any report may have; the last has no name. */
 extern const ZpPicture zp_series_pictures[];
 extern const ZpPicture zp_shape_pictures[];
+extern const ZpPicture zp_member_pictures[];
 extern const ZpPicture zp_liquid_pictures[];
 extern const ZpPicture zp_sweep_pictures[];
 extern const ZpPicture zp_map_pictures[];
@@ -96,6 +97,11 @@ double zp_plot_step(double range, int tics);
 
 /* Give both axes the same scale and tics, about as many as `tics` on the longer one. */
 void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics);
+
+/* Is this the last node of a ribbon of a member of a series? */
+static inline bool zp_plot_ends_member(const ZpShapes *shapes, size_t node) {
+  return (node + 1) % (shapes->nodes / shapes->members) == 0;
+}
 
 /* Write a frame: lines of x and y, then of `more`. A row of NaN ends a ribbon, not an empty one: for that
  * gnuplot 5.4 uses a colour that it never set, and its picture is not the same each time. */

@@ -16,7 +16,7 @@ bool zp_plot_has_liquid(const ZpPlot *plot) {
 }
 
 bool zp_plot_has_bead(const ZpPlot *plot) {
-  return zp_plot_has_liquid(plot) && zp_def_liquid(&plot->def) == ZP_LIQUID_BEAD;
+  return zp_plot_has_liquid(plot) && zp_def_liquid(&plot->def) == ZP_LIQUID_BEAD && shapes(plot)->members == 1;
 }
 
 /* Nodes of one ribbon of a half. */
@@ -57,7 +57,8 @@ void zp_plot_put_liquid(const ZpPlot *plot, FILE *file, const ZpShape *shape, co
 
 static bool has_film(const ZpPlot *plot) {
   if (zp_plot_has_bead(plot) && !zp_plot_has(plot->single->series, "wet_length_m")) return false;
-  return zp_plot_has_liquid(plot) && shapes(plot)->frames >= 2 && isfinite(zp_plot_box(shapes(plot)).left);
+  return zp_plot_has_liquid(plot) && shapes(plot)->members == 1 && shapes(plot)->frames >= 2 &&
+         isfinite(zp_plot_box(shapes(plot)).left);
 }
 
 static size_t frame_of(const ZpPlot *plot, size_t k) {

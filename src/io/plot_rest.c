@@ -29,8 +29,9 @@ static void data_shape(const ZpPlot *plot, FILE *file) {
       zp_plot_put(file, shape.x[i * film(plot)->ribbons + r], ' ');
       zp_plot_put(file, shape.y[i * film(plot)->ribbons + r], ' ');
       fprintf(file, "%zu\n", r);
+      if (zp_plot_ends_member(film(plot), i)) fputc('\n', file);
     }
-    fputs("\n\n", file);
+    fputc('\n', file);
   }
 }
 

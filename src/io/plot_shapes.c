@@ -123,6 +123,17 @@ static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, c
   }
 }
 
+/* All nodes of a member from clip to clip, and a blank line. */
+static void put_member(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Stage *stage, size_t member) {
+  const ZpShapes *shapes = film(plot);
+  size_t nodes = shapes->nodes / shapes->members, first = member * nodes;
+  for (size_t i = first; i < first + nodes; i++)
+    put_node(file, shape, shapes, stage, i, 1);
+  for (size_t i = first + nodes; zp_plot_is_half(plot) && i-- > first;)
+    put_node(file, shape, shapes, stage, i, -1);
+  fputc('\n', file);
+}
+
 /* Of one frame where a bead is: a block of the left half, one of the right. */
 static void put_beads(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Stage *stage) {
   const bool half = zp_plot_is_half(plot);
@@ -142,11 +153,9 @@ static void data_animation(const ZpPlot *plot, FILE *file) {
   if (zp_plot_has_bead(plot)) fputs("# and after it one of x_m y_upper_m y_lower_m where its beads are\n", file);
   for (size_t k = 0; k < stage.frames; k++) {
     const ZpShape shape = zp_shapes_get(shapes, film_frame(shapes, &stage, k));
-    for (size_t i = 0; i < shapes->nodes; i++)
-      put_node(file, &shape, shapes, &stage, i, 1);
-    for (size_t i = shapes->nodes; zp_plot_is_half(plot) && i-- > 0;)
-      put_node(file, &shape, shapes, &stage, i, -1);
-    fputs("\n\n", file);
+    for (size_t member = 0; member < shapes->members; member++)
+      put_member(plot, file, &shape, &stage, member);
+    fputc('\n', file);
     if (zp_plot_has_bead(plot)) put_beads(plot, file, &shape, &stage);
   }
 }
@@ -294,7 +303,7 @@ static void animation_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit time, Z
 
 /* A bath is behind everything. */
 static void animation_bath(const ZpPlot *plot, FILE *file) {
-  if (!zp_plot_has_liquid(plot) || zp_plot_has_bead(plot)) return;
+  if (!zp_plot_has_liquid(plot) || zp_def_liquid(&plot->def) == ZP_LIQUID_BEAD) return;
   fputs("set object 4 rectangle from graph 0,0 to graph 1,1 behind fc rgb '#e2f1fa' fs solid noborder\n"
         "set label 6 'liquid' at graph 0.02,0.07 front\n",
         file);
@@ -319,8 +328,8 @@ static void plot_frame(const ZpPlot *plot, FILE *file, ZpPlotUnit mm) {
     fprintf(file,
             ", \\\n    '' index %s using ($3*%g):($4*%g) with lines lw 2 lc rgb '%s' notitle"
             ", \\\n    '' index %s every %zu using ($3*%g):($4*%g) with points pt 5 ps 1.5 lc rgb '#555555' notitle",
-            index, mm.factor, mm.factor, zp_plot_colour(1), index, (zp_plot_is_half(plot) ? 2 : 1) * shapes->nodes - 1,
-            mm.factor, mm.factor);
+            index, mm.factor, mm.factor, zp_plot_colour(1), index,
+            (zp_plot_is_half(plot) ? 2 : 1) * shapes->nodes / shapes->members - 1, mm.factor, mm.factor);
 }
 
 static void script_animation(const ZpPlot *plot, FILE *file) {

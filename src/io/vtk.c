@@ -24,6 +24,7 @@
 /* Arrays of a frame in the order in which their bytes follow; the offset grows from one to the next. */
 typedef struct Layout {
   size_t ribbons, nodes, points;
+  size_t lines; /* ribbons of all members of a series */
   uint64_t offset;
 } Layout;
 
@@ -43,7 +44,7 @@ static void write_head(FILE *file, const ZpShape *shape, Layout *l) {
           "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"0\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
           "NumberOfPolys=\"0\">\n"
           "      <PointData>\n",
-          l->points, l->ribbons);
+          l->points, l->lines);
   declare(file, l, "Int64", "ribbon", 1, l->points * sizeof(int64_t));
   if (shape->gap) declare(file, l, "Float64", "gap", 1, l->points * sizeof(double));
   if (shape->line_force) declare(file, l, "Float64", "line_force", 1, l->points * sizeof(double));
@@ -53,7 +54,7 @@ static void write_head(FILE *file, const ZpShape *shape, Layout *l) {
   declare(file, l, "Float64", "Points", 3, 3 * l->points * sizeof(double));
   fputs("      </Points>\n      <Lines>\n", file);
   declare(file, l, "Int64", "connectivity", 1, l->points * sizeof(int64_t));
-  declare(file, l, "Int64", "offsets", 1, l->ribbons * sizeof(int64_t));
+  declare(file, l, "Int64", "offsets", 1, l->lines * sizeof(int64_t));
   fputs("      </Lines>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);
 }
 
@@ -94,8 +95,9 @@ static void put_points(FILE *file, const Layout *l, const ZpShape *shape) {
     }
 }
 
-static void write_frame(FILE *file, const ZpShape *shape, size_t ribbons, size_t nodes) {
-  Layout l = {.ribbons = ribbons, .nodes = nodes, .points = ribbons * nodes};
+static void write_frame(FILE *file, const ZpShape *shape, const ZpShapes *film) {
+  size_t ribbons = film->ribbons, nodes = film->nodes, lines = ribbons * film->members;
+  Layout l = {.ribbons = ribbons, .nodes = nodes, .points = ribbons * nodes, .lines = lines};
   write_head(file, shape, &l);
   put_length(file, l.points * sizeof(int64_t));
   for (size_t i = 0; i < l.points; i++)
@@ -108,9 +110,9 @@ static void write_frame(FILE *file, const ZpShape *shape, size_t ribbons, size_t
   put_length(file, l.points * sizeof(int64_t));
   for (size_t i = 0; i < l.points; i++)
     put_int(file, i);
-  put_length(file, ribbons * sizeof(int64_t));
-  for (size_t r = 0; r < ribbons; r++)
-    put_int(file, (r + 1) * nodes);
+  put_length(file, lines * sizeof(int64_t));
+  for (size_t line = 0; line < lines; line++)
+    put_int(file, (line + 1) * (l.points / lines));
   fputs("\n  </AppendedData>\n</VTKFile>\n", file);
 }
 
@@ -123,7 +125,7 @@ static ZpStatus write_frames(const char *folder, const ZpShapes *shapes, ZpError
     status = zp_atomic_open(&out, folder, name, err);
     if (status != ZP_OK) break;
     const ZpShape shape = zp_shapes_get(shapes, i);
-    write_frame(out.file, &shape, shapes->ribbons, shapes->nodes);
+    write_frame(out.file, &shape, shapes);
     status = zp_atomic_commit(&out, err);
   }
   return status;

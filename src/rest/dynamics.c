@@ -3,21 +3,38 @@
 #include <math.h>
 #include <string.h>
 
+/* Arrays over the equations of all members. */
+static void carve_equations(ZpDynamics *d, ZpCarver *carver) {
+  double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale};
+  for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
+    *of_equations[k] = zp_carve(carver, d->system.n);
+  d->kind = (ZpUnknown *)(void *)zp_carve(carver, d->system.n); /* room for doubles is more than enough */
+}
+
+/* They belong to the uppermost member; this one below it has its part of them. */
+static void share_equations(const ZpDynamics *d, ZpDynamics *m) {
+  m->mass = d->mass + m->at;
+  m->q = d->q + m->at;
+  m->v = d->v + m->at;
+  m->history.w = d->history.w + m->at;
+  m->history.a = d->history.a + m->at;
+  m->scale = d->scale + m->at;
+  m->kind = d->kind + m->at;
+}
+
 static size_t carve(ZpDynamics *d, void *block) {
   const ZpModel *model = d->model;
-  size_t stride = model->stride, all = 2 * model->count + zp_own_unknowns(model) + 1; /* with the voltage */
+  size_t stride = model->stride;
   ZpCarver carver = {block, 0};
-  zp_implicit_carve(&d->stepper, &d->system, &carver);
-  double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a};
-  for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
-    *of_equations[k] = zp_carve(&carver, all);
+  if (!d->above) {
+    zp_implicit_carve(&d->stepper, &d->system, &carver);
+    carve_equations(d, &carver);
+  }
   double **of_nodes[] = {&d->start, &d->end, &d->force};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_carve(&carver, 2 * stride);
   d->by_voltage.force = zp_carve(&carver, 2 * stride);
   d->by_voltage.charge = zp_carve(&carver, 2 * stride);
-  d->scale = zp_carve(&carver, all);
-  d->kind = (ZpUnknown *)(void *)zp_carve(&carver, all); /* room for doubles is more than enough */
   d->own = zp_carve(&carver, zp_own_unknowns(model));
   d->moved = zp_carve(&carver, 2 * stride);
   d->gap = zp_carve(&carver, model->nodes);
@@ -79,9 +96,7 @@ static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
 }
 
 /* => energies of bending and field: an imbalance is small or large beside them. */
-static double begin(void *self, const double *q0, const double *v0) {
-  ZpDynamics *d = self;
-  (void)v0;
+static double begin_one(ZpDynamics *d, const double *q0) {
   const ZpModel *model = d->model;
   const ZpEval *e = &d->eval;
   zp_assembly_scatter(&d->assembly, q0, d->start);
@@ -95,14 +110,22 @@ static double begin(void *self, const double *q0, const double *v0) {
   return bending + fabs(field);
 }
 
+static double begin(void *self, const double *q0, const double *v0) {
+  ZpDynamics *d = self;
+  (void)v0;
+  double energy = begin_one(d, q0);
+  for (ZpDynamics *m = d->below; m; m = m->below)
+    energy += begin_one(m, q0 + m->at);
+  return energy;
+}
+
 /* The laws' own unknowns, of all equations. */
 static void gather_own(ZpDynamics *d, const double *q) {
   for (size_t c = 0; c < zp_own_unknowns(d->model); c++)
     d->own[c] = q[d->assembly.own_equation[c]];
 }
 
-static ZpEnd force(void *self, const double *q1, double h, double *f) {
-  ZpDynamics *d = self;
+static void force_of_one(ZpDynamics *d, const double *q1, double h, double *f) {
   const ZpModel *model = d->model;
   d->h = h;
   d->U1 = d->source ? q1[d->assembly.n] : end_voltage(d);
@@ -115,6 +138,42 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   for (size_t c = 0; c < zp_own_unknowns(model); c++)
     f[d->assembly.own_equation[c]] = d->eval.own_residual[c];
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
+}
+
+/* Platforms that a link joins: equations of the height of the lower one above it, and of the upper one below. */
+typedef struct Joined {
+  size_t above, below;
+} Joined;
+
+/* By the link that member m hangs on. */
+static Joined joined_by(const ZpDynamics *m) {
+  const ZpTopology *above = &m->above->model->topology, *below = &m->model->topology;
+  int lower = m->above->assembly.equation[2 * zp_lower(above, above->platform.first) + 1];
+  int upper = m->assembly.equation[2 * zp_upper(below, below->platform.first) + 1];
+  return (Joined){m->above->at + (size_t)lower, m->at + (size_t)upper};
+}
+
+/* Where the forces of links begin among the unknowns. */
+static size_t first_link(const ZpDynamics *d) {
+  return d->system.n - d->links;
+}
+
+/* Eq. (28.2): each pulls the platform below it up and that above it down, and both are where the other is. */
+static void add_links(const ZpDynamics *d, const double *q1, double *f) {
+  size_t link = first_link(d);
+  for (const ZpDynamics *m = d->below; m; m = m->below, link++) {
+    Joined joined = joined_by(m);
+    f[joined.below] += q1[link];
+    f[joined.above] -= q1[link];
+    f[link] = q1[joined.below] - q1[joined.above];
+  }
+}
+
+static ZpEnd force(void *self, const double *q1, double h, double *f) {
+  ZpDynamics *d = self;
+  for (ZpDynamics *m = d; m; m = m->below)
+    force_of_one(m, q1 + m->at, h, f + m->at);
+  add_links(d, q1, f);
   return ZP_END_FOUND;
 }
 
@@ -137,14 +196,49 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   *zp_bordered_at(J, u, u) = by->capacitance - slope;
 }
 
-static void tangent(void *self, ZpBordered *J) {
-  ZpDynamics *d = self;
+/* Of one member, in its part of the band. */
+static void tangent_of_one(ZpDynamics *d, ZpBordered *J) {
   ZpSpan span = span_of(d);
-  zp_system_stiffness(d->model, &span, &d->assembly, &d->eval, &J->A);
+  ZpBand part = J->A;
+  part.n = d->assembly.n;
+  part.a += d->at * part.stride;
+  zp_system_stiffness(d->model, &span, &d->assembly, &d->eval, &part);
   if (d->source) border(d, &span, J);
 }
 
+static void border_of_links(const ZpDynamics *d, ZpBordered *J) {
+  size_t inner = J->n - J->border, link = first_link(d);
+  memset(J->B, 0, J->border * inner * sizeof *J->B);
+  memset(J->C, 0, J->border * inner * sizeof *J->C);
+  memset(J->D, 0, J->border * J->border * sizeof *J->D);
+  for (const ZpDynamics *m = d->below; m; m = m->below, link++) {
+    Joined joined = joined_by(m);
+    *zp_bordered_at(J, joined.below, link) = *zp_bordered_at(J, link, joined.below) = -1;
+    *zp_bordered_at(J, joined.above, link) = *zp_bordered_at(J, link, joined.above) = 1;
+  }
+}
+
+static void tangent(void *self, ZpBordered *J) {
+  ZpDynamics *d = self;
+  for (ZpDynamics *m = d; m; m = m->below)
+    tangent_of_one(m, J);
+  if (d->links > 0) border_of_links(d, J);
+}
+
 /* -- faces that meet ------------------------------------------------------------------------------ */
+
+static bool is_platform(const ZpDynamics *d, size_t i) {
+  const ZpJoint *platform = &d->model->topology.platform;
+  return i >= platform->first && i <= platform->last;
+}
+
+/* Mass of a neighbour's platform, its upper or its lower one, which a link joins to that of a member, kg; of none 0. */
+static double mass_joined(const ZpDynamics *neighbour, bool upper) {
+  if (!neighbour) return 0;
+  const ZpTopology *t = &neighbour->model->topology;
+  size_t i = t->platform.first;
+  return neighbour->model->mass[upper ? zp_upper(t, i) : zp_lower(t, i)];
+}
 
 /* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. Both ends
  * of a platform are alike: one tells of both. */
@@ -160,11 +254,12 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
   Pair pair = {zp_is_pair(t) ? equation[2 * upper + 1] : -1, equation[2 * lower + 1], 1, 0};
   if (pair.lower < 0) return pair;
-  pair.reduced = d->model->mass[lower];
+  double below = d->model->mass[lower] + (is_platform(d, i) ? mass_joined(d->below, true) : 0);
+  pair.reduced = below;
   if (pair.upper < 0) return pair;
-  double both = d->model->mass[upper] + d->model->mass[lower];
-  pair.upper_share = d->model->mass[upper] / both;
-  pair.reduced = d->model->mass[upper] * d->model->mass[lower] / both;
+  double above = d->model->mass[upper] + (is_platform(d, i) ? mass_joined(d->above, false) : 0), both = above + below;
+  pair.upper_share = above / both;
+  pair.reduced = above * below / both;
   return pair;
 }
 
@@ -187,14 +282,14 @@ static void keep_apart(const ZpDynamics *d, double *q1) {
 }
 
 static void attempt(void *self, double *q1) {
-  ZpDynamics *d = self;
-  zp_rod_step_begin(&d->model->rod, &d->eval.rod_start, &d->eval.rod_step);
-  if (d->model->field) keep_apart(d, q1);
+  for (ZpDynamics *m = self; m; m = m->below) {
+    zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
+    if (m->model->field) keep_apart(m, q1 + m->at);
+  }
 }
 
 /* What the last correction has changed of the push of faces, and of cavities, beyond what the tangent foresaw. */
-static double unforeseen(void *self, const double *q1) {
-  ZpDynamics *d = self;
+static double unforeseen_of_one(ZpDynamics *d, const double *q1) {
   const ZpModel *model = d->model;
   const ZpFacesEval *faces = &d->eval.faces;
   double work = 0, *foreseen = d->foreseen, *before = d->gap;
@@ -214,6 +309,13 @@ static double unforeseen(void *self, const double *q1) {
   zp_faces_eval(&model->faces, &span, faces);
   for (size_t i = 1; i < model->nodes; i++)
     work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - d->eval.plates_start.gap[i]));
+  return work;
+}
+
+static double unforeseen(void *self, const double *q1) {
+  double work = 0;
+  for (ZpDynamics *m = self; m; m = m->below)
+    work += unforeseen_of_one(m, q1 + m->at);
   return work;
 }
 
@@ -243,22 +345,37 @@ static bool meets(const ZpDynamics *d, size_t i) {
   return d->eval.faces.stiffness[i] > 0 && !filled;
 }
 
+/* What the push of the faces of one member took on its way, J; do any meet? */
+static double pushed(const ZpDynamics *d, bool *any) {
+  const double *gap = d->eval.plates.gap, *before = d->eval.plates_start.gap;
+  double loss = 0;
+  for (size_t i = 1; i < d->model->nodes; i++) {
+    loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
+    *any |= meets(d, i);
+  }
+  return loss;
+}
+
+/* All faces of one member that meet; its platforms move as those that links join to them do, before and after. */
+static void damp_one(ZpDynamics *top, ZpDynamics *m) {
+  if (m->above) top->v[joined_by(m).below] = top->v[joined_by(m).above];
+  for (size_t i = 1; i < m->model->nodes; i++)
+    if (meets(m, i)) damp(m, i);
+  if (m->above) top->v[joined_by(m).above] = top->v[joined_by(m).below];
+}
+
 /* The damper between faces that overlap at the step's end, and what is too fast for the step, which impacts make => the
  * loss, with what the faces' push took on its way, J. */
 static double impact(ZpDynamics *d) {
-  const ZpModel *model = d->model;
-  const double *gap = d->eval.plates.gap, *before = d->eval.plates_start.gap;
   double loss = 0;
   bool any = false;
-  for (size_t i = 1; i < model->nodes; i++) {
-    loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
-    any |= meets(d, i);
-  }
+  for (ZpDynamics *m = d; m; m = m->below)
+    loss += pushed(m, &any);
   if (!any) return loss;
   loss += kinetic_energy(d);
-  if (!model->has_film) zp_implicit_smooth(&d->stepper, d->h, d->v);
-  for (size_t i = 1; i < model->nodes; i++)
-    if (meets(d, i)) damp(d, i);
+  if (!d->model->has_film) zp_implicit_smooth(&d->stepper, d->h, d->v);
+  for (ZpDynamics *m = d; m; m = m->below)
+    damp_one(d, m);
   return loss - kinetic_energy(d);
 }
 
@@ -276,22 +393,19 @@ static double calm(ZpDynamics *d) {
 /* Pressures are unknowns of one step, without memory. */
 static void add_own(ZpDynamics *d) {
   static const double pressure = 1e9; /* Pa: what counts as much as 1 m of a position: 1 kPa as 1 um */
-  for (size_t i = 0; i < d->assembly.n; i++)
-    d->scale[i] = 1;
   for (size_t c = 0; c < zp_own_unknowns(d->model); c++) {
     d->kind[d->assembly.own_equation[c]] = ZP_ALGEBRAIC;
     d->scale[d->assembly.own_equation[c]] = pressure;
   }
-  d->system.kind = d->kind;
-  d->system.scale = d->scale;
 }
 
 static void inertia(void *self, const double *a, double *f) {
-  ZpDynamics *d = self;
-  ZpSpan span = span_of(d);
-  zp_assembly_scatter(&d->assembly, a, d->moved);
-  zp_system_inertia(d->model, &span, &d->eval, d->moved, d->force);
-  zp_assembly_add(&d->assembly, d->force, f);
+  for (ZpDynamics *m = self; m; m = m->below) {
+    ZpSpan span = span_of(m);
+    zp_assembly_scatter(&m->assembly, a + m->at, m->moved);
+    zp_system_inertia(m->model, &span, &m->eval, m->moved, m->force);
+    zp_assembly_add(&m->assembly, m->force, f + m->at);
+  }
 }
 
 /* Each outer face moves its own mass of liquid up and down. */
@@ -302,7 +416,6 @@ static void add_liquid(ZpDynamics *d) {
     int row = d->assembly.equation[2 * j + 1];
     if (row >= 0) d->mass[row] += side * zp_film_length(&model->film, j / model->s);
   }
-  d->system.inertia = inertia;
 }
 
 /* The voltage behind a source has a rate and no inertia. */
@@ -312,31 +425,84 @@ static void add_voltage(ZpDynamics *d) {
   d->scale[u] = d->source->scale / d->model->L;
 }
 
-bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
-  memset(d, 0, sizeof *d);
+/* Forces of links are unknowns of one step, too. */
+static void add_link_forces(ZpDynamics *d) {
+  static const double force = 1e6; /* N: what counts as much as 1 m of a position: 1 N as 1 um */
+  for (size_t link = first_link(d); link < d->system.n; link++) {
+    d->kind[link] = ZP_ALGEBRAIC;
+    d->scale[link] = force;
+  }
+}
+
+/* This model and all below it, without what they have in common. */
+static bool create_members(const ZpModel *model, ZpDynamics *d) {
   d->model = model;
-  d->source = source;
   if (!zp_system_create(model, false, &d->eval)) return false;
   if (!zp_assembly_create(model, model->own, true, &d->assembly)) return false;
-  size_t border = source ? 1 : 0;
-  d->system = (ZpImplicitSystem){.n = d->assembly.n + border,
-                                 .border = border,
-                                 .bandwidth = d->assembly.bandwidth,
-                                 .parts = d->assembly.parts,
-                                 .self = d,
-                                 .begin = begin,
-                                 .residual = force,
-                                 .tangent = tangent,
-                                 .attempt = attempt,
-                                 .unforeseen = unforeseen};
-  d->memory = zp_calloc(1, carve(d, NULL));
-  if (!d->memory) return false;
+  if (!model->below) return true;
+  d->below = zp_calloc(1, sizeof *d->below);
+  if (!d->below) return false;
+  d->below->above = d;
+  d->below->at = d->at + d->assembly.n;
+  return create_members(model->below, d->below);
+}
+
+/* The system of all members. */
+static ZpImplicitSystem system_of(ZpDynamics *d) {
+  const ZpDynamics *last = d;
+  while (last->below)
+    last = last->below;
+  size_t border = d->links + (d->source ? 1 : 0);
+  return (ZpImplicitSystem){.n = last->at + last->assembly.n + border,
+                            .border = border,
+                            .bandwidth = d->assembly.bandwidth,
+                            .parts = d->assembly.parts,
+                            .self = d,
+                            .begin = begin,
+                            .residual = force,
+                            .tangent = tangent,
+                            .inertia = d->model->has_film ? inertia : NULL,
+                            .attempt = attempt,
+                            .unforeseen = unforeseen};
+}
+
+static bool allocate(ZpDynamics *d) {
+  for (ZpDynamics *m = d; m; m = m->below) {
+    m->memory = zp_calloc(1, carve(m, NULL));
+    if (!m->memory) return false;
+  }
   carve(d, d->memory);
+  for (ZpDynamics *m = d->below; m; m = m->below) {
+    carve(m, m->memory);
+    share_equations(d, m);
+  }
+  return true;
+}
+
+static void fill_equations(ZpDynamics *d) {
+  for (size_t i = 0; i < d->system.n; i++)
+    d->scale[i] = 1;
+  for (ZpDynamics *m = d; m; m = m->below) {
+    zp_assembly_masses(&m->assembly, m->model->mass, m->mass);
+    add_own(m);
+    if (m->model->has_film) add_liquid(m);
+  }
+  add_link_forces(d);
   d->system.mass = d->mass;
-  zp_assembly_masses(&d->assembly, model->mass, d->mass);
-  if (source || model->own) add_own(d);
-  if (model->has_film) add_liquid(d);
-  if (source) add_voltage(d);
+  if (d->source) add_voltage(d);
+  if (d->system.border == 0 && d->model->own == 0) return;
+  d->system.kind = d->kind;
+  d->system.scale = d->scale;
+}
+
+bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
+  memset(d, 0, sizeof *d);
+  d->source = source;
+  if (!create_members(model, d)) return false;
+  d->links = zp_members(model) - 1;
+  d->system = system_of(d);
+  if (!allocate(d)) return false;
+  fill_equations(d);
   const ZpActuatorDef *def = &model->def;
   d->stepper.balance = 2e-6 * def->solver.tolerance;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
@@ -344,6 +510,9 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
 }
 
 void zp_dynamics_destroy(ZpDynamics *d) {
+  if (d->below) zp_dynamics_destroy(d->below);
+  zp_free(d->below);
+  d->below = NULL;
   zp_assembly_destroy(&d->assembly);
   zp_system_destroy(&d->eval);
   zp_free(d->memory);
@@ -458,27 +627,53 @@ static void store(ZpDynamics *d, ZpState *state) {
   state->next_step = d->history.next;
 }
 
-double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
-  const ZpModel *model = d->model;
-  d->state = state;
-  d->latest = latest;
-  d->U0 = state->U;
-  d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
-  load(d, state);
-  double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
-  if (!(taken > 0)) return 0;
+/* What a step has moved, given and lost, of one member. */
+static void book(ZpDynamics *d, ZpState *state) {
   book_losses(d, state);
   if (d->source) d->charge1 = electric_at_end(d).charge;
-  if (model->leaks) book_conduction(d, state);
-  if (model->field) {
-    book_work(d, state);
-    state->contact_loss += impact(d);
-    if (model->has_bead) state->across_loss += calm(d);
-  }
+  if (d->model->leaks) book_conduction(d, state);
+  if (d->model->field) book_work(d, state);
+}
+
+/* Impacts and menisci change the velocities of all members; what they lose is booked with the uppermost. */
+static void book_impacts(ZpDynamics *d, ZpState *state) {
+  if (!d->model->field) return;
+  state->contact_loss += impact(d);
+  if (d->model->has_bead) state->across_loss += calm(d);
+}
+
+/* Where a step has ended, and the work of the load input. */
+static void arrive(ZpDynamics *d, ZpState *state) {
+  const ZpModel *model = d->model;
   const double *hangs = zp_state_q(model, state) + model->stride + zp_load_node(&model->topology);
   double before = *hangs, hung = mean_load(d);
   store(d, state);
   state->load_work += hung * (before - *hangs);
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, d->eval.plates.gap);
+}
+
+double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
+  size_t k = 0;
+  for (ZpDynamics *m = d; m; m = m->below, k++) {
+    m->state = state[k];
+    m->latest = latest;
+    m->U0 = state[k]->U;
+    load(m, state[k]);
+  }
+  for (size_t link = first_link(d); link < d->system.n && d->links > 0; link++)
+    d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
+  d->stepper.accuracy = d->model->def.solver.tolerance * far(d->model, state[0]);
+  double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
+  if (!(taken > 0)) return 0;
+  k = 0;
+  for (ZpDynamics *m = d; m; m = m->below, k++) {
+    m->history.last = d->history.last;
+    m->history.next = d->history.next;
+    book(m, state[k]);
+  }
+  book_impacts(d, state[0]);
+  k = 0;
+  for (ZpDynamics *m = d; m; m = m->below, k++)
+    arrive(m, state[k]);
   return taken;
 }

@@ -85,7 +85,7 @@ ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef
 
 ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err) {
   *out = NULL;
-  if (sim->settled != ZP_REACHED_END) return ZP_OK;
+  if (sim->settled != ZP_REACHED_END || sim->below) return ZP_OK;
   *out = create(zp_snapshot_size(sim->model));
   if (!*out) return zp_fail_memory(err);
   zp_snapshot_write(sim->model, zp_sim_passed(sim), (*out)->byte);

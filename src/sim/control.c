@@ -84,6 +84,7 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
     sim->control = (ZpOwnControl){.since = 0};
     return ZP_OK;
   }
+  if (sim->below) return zp_fail(err, ZP_BAD_INPUT, "controller: actuators in series (stack.series) have none");
   if (is_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "controller: the model has one already, control.kind; use control.kind none");
   if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: it has no function voltage");

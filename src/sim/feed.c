@@ -255,7 +255,7 @@ static double capacitance_now(ZpSim *sim) {
 static double try_step(ZpSim *sim, double latest) {
   ZpState *state = sim->state;
   memcpy(sim->before, state, zp_state_size(sim->model));
-  if (!(zp_dynamics_step(&sim->dynamics, state, latest) > 0)) return NAN;
+  if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return NAN;
   state->supply = followed(sim, sim->before, state->t);
   return margin(sim, state->supply.voltage - state->U, charge_given(sim) / (state->t - sim->before->t));
 }

@@ -83,6 +83,8 @@ ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, 
                    inputs[input].unit, -most_rate, most_rate, inputs[input].unit);
   static ZpStatus (*const set[ZP_INPUT_COUNT])(ZpSim *, double, double, ZpError *) = {
       [ZP_INPUT_VOLTAGE] = set_voltage, [ZP_INPUT_LOAD] = set_load, [ZP_INPUT_SETPOINT] = set_setpoint};
+  if (sim->below)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: cannot be set of actuators in series (stack.series)", inputs[input].name);
   ZpStatus status = check_free(sim, input, err);
   if (status == ZP_OK) status = set[input](sim, value, rate, err);
   if (status == ZP_OK) sim->cut = false;

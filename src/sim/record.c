@@ -14,10 +14,18 @@ enum {
 };
 #undef ZP_SIGNAL
 
+/* Behind the signals, of a series: the opening of each member. */
+#define OPENING_OF(member)                                                                                             \
+  { "member_" #member "_opening_m", "m", "distance of the platforms' faces of member " #member " of a series" }
+enum { MOST_MEMBERS = 8 };
+#define OPENINGS                                                                                                       \
+  OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
+
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
 static const ZpColumn columns[] = {
 #include <zipact/signals.def>
-};
+    OPENINGS};
+_Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + MOST_MEMBERS, "one opening for each member");
 
 /* The same where the controller holds a length, and where it holds a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
@@ -46,8 +54,12 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
                                                             [ZP_CONTROL_STROKE] = columns_of_length,
                                                             [ZP_CONTROL_CONTRACTION] = columns,
                                                             [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance};
-  *count = SIGNAL_COUNT;
+  *count = SIGNAL_COUNT + (def->stack.series > 1 ? (size_t)def->stack.series : 0);
   return def->control.kind == ZP_CONTROL_NONE ? columns : of[def->control.signal];
+}
+
+size_t zp_sim_row_size(void) {
+  return sizeof columns / sizeof columns[0];
 }
 
 const char *zp_control_unit(const ZpActuatorDef *def) {
@@ -114,7 +126,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
 
-/* What the state itself says. */
+/* What the state itself says, of one member of a series alone as all below. */
 static void fill_state(const ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
   double parts = sim->model->parts;
@@ -172,21 +184,39 @@ static double fill_electric(ZpSim *sim, double *row) {
   bool fed = zp_sim_is_fed(sim);
   double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
   double given = fed ? state->source_charge / parts : e.charge + state->leaked;
+  sim->own_charge = e.charge;
   fill_leak(sim, row);
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
   row[SIGNAL_capacitance] = parts * e.capacitance;
   row[SIGNAL_current] = passed > 0 ? parts * ((given - sim->row_charge) / passed) : 0;
   row[SIGNAL_electric_work] = parts * account.work;
-  row[SIGNAL_source_energy] = fed ? state->source_energy : row[SIGNAL_electric_work];
+  row[SIGNAL_source_energy] = sim->own_energy = fed ? state->source_energy : row[SIGNAL_electric_work];
   row[SIGNAL_power] = passed > 0 ? (row[SIGNAL_source_energy] - sim->row_energy) / passed : 0;
   row[SIGNAL_charging_loss] = parts * account.charging_loss;
   row[SIGNAL_field_energy] = parts * field;
   return account.work - (field - state->base_field) - account.charging_loss;
 }
 
+/* Of one member. */
+static ZpShape shape_of(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  const ZpState *state = sim->state;
+  ZpMotion motion = zp_state_motion(model, state);
+  ZpShape shape = {.time = state->t, .voltage = state->U, .zipped = state->zip.front, .x = motion.x, .y = motion.y};
+  if (model->field) {
+    zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);
+    shape.gap = sim->eval.plates.gap;
+  }
+  if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
+  for (int half = 0; model->has_bead && half < ZP_BEADS; half++)
+    sim->shape_room.reach[half] = state->bead[half].reach;
+  zp_shape_fill(model, &sim->shape_room, &shape);
+  return shape;
+}
+
 static void fill_margins(ZpSim *sim, double *row) {
-  ZpShape shape = zp_sim_shape(sim);
+  ZpShape shape = shape_of(sim);
   sim->now = zp_margins_of(sim->model, &shape);
   if (sim->model->leaks) sim->now.liquid = zp_sim_leak(sim).liquid;
   row[SIGNAL_insulator_field] = sim->now.insulator;
@@ -216,8 +246,8 @@ static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
                                                   [SIGNAL_liquid_energy] = MECHANICS,
                                                   [SIGNAL_max_stress] = MARGINS};
 
-/* Signals that take no more than `what` => sim->row. */
-static void fill_row(ZpSim *sim, unsigned what) {
+/* Signals that take no more than `what` => sim->row, of one member alone. */
+static void fill_own_row(ZpSim *sim, unsigned what) {
   const ZpState *state = sim->state;
   double *row = sim->row, stored = 0, kept = 0;
   fill_state(sim, row);
@@ -231,6 +261,60 @@ static void fill_row(ZpSim *sim, unsigned what) {
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 
+/* How a signal of a series follows from those of its members, the uppermost first: most are sums. */
+enum { SUM, FIRST, LAST, LARGEST, LEAST };
+static const unsigned char of_series[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
+                                                      [SIGNAL_voltage] = FIRST,
+                                                      [SIGNAL_command] = FIRST,
+                                                      [SIGNAL_source_voltage] = FIRST,
+                                                      [SIGNAL_setpoint] = FIRST,
+                                                      [SIGNAL_measured] = FIRST,
+                                                      [SIGNAL_interface_voltage] = FIRST,
+                                                      [SIGNAL_end_velocity] = LAST,
+                                                      [SIGNAL_film_thickness] = LEAST,
+                                                      [SIGNAL_wet_length] = LEAST,
+                                                      [SIGNAL_bead_outside] = LARGEST,
+                                                      [SIGNAL_bead_lost] = LARGEST,
+                                                      [SIGNAL_insulator_field] = LARGEST,
+                                                      [SIGNAL_max_stress] = LARGEST};
+
+/* The row of a member joins that of those above it. */
+static void join_row(double *row, const double *other) {
+  for (size_t k = 0; k < SIGNAL_COUNT; k++) {
+    double values[] = {[SUM] = row[k] + other[k],
+                       [FIRST] = row[k],
+                       [LAST] = other[k],
+                       [LARGEST] = fmax(row[k], other[k]),
+                       [LEAST] = fmin(row[k], other[k])};
+    row[k] = values[of_series[k]];
+  }
+}
+
+/* The same of all members of a series, and their openings. */
+static void fill_row(ZpSim *sim, unsigned what) {
+  fill_own_row(sim, what);
+  if (!sim->below) return;
+  double *row = sim->row, *opening = row + SIGNAL_COUNT, whole = sim->state->opening0;
+  *opening++ = row[SIGNAL_opening];
+  for (ZpSim *m = sim->below; m; m = m->below) {
+    fill_own_row(m, what);
+    *opening++ = m->row[SIGNAL_opening];
+    whole += m->state->opening0;
+    join_row(row, m->row);
+    if (what & MARGINS) zp_margins_join(&sim->now, m->now);
+  }
+  row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;
+}
+
+/* The mean current and power of the next row count from the present one. */
+static void count_from_here(ZpSim *sim) {
+  const ZpState *state = sim->state;
+  bool fed = zp_sim_is_fed(sim);
+  sim->row_time = state->t;
+  sim->row_charge = fed ? state->source_charge / sim->model->parts : sim->own_charge + state->leaked;
+  sim->row_energy = sim->own_energy;
+}
+
 /* A row that stays: the next one's mean current counts from here. Of rows at one time the charge of the first counts,
  * so that the current of a jump is part of the next. */
 static void make_row(ZpSim *sim) {
@@ -238,10 +322,8 @@ static void make_row(ZpSim *sim) {
   fill_row(sim, ALL);
   if (!(state->t > sim->row_time)) return;
   if (!zp_sim_is_fed(sim)) zp_feed_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
-  sim->row_time = state->t;
-  sim->row_charge = zp_sim_is_fed(sim) ? state->source_charge / sim->model->parts
-                                       : sim->row[SIGNAL_charge] / sim->model->parts + state->leaked;
-  sim->row_energy = sim->row[SIGNAL_source_energy];
+  for (ZpSim *m = sim; m; m = m->below)
+    count_from_here(m);
 }
 
 ZpRowStart zp_sim_row_start(const ZpSim *sim) {
@@ -255,12 +337,9 @@ void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start) {
 }
 
 void zp_sim_start_row(ZpSim *sim) {
-  const ZpState *state = sim->state;
-  bool fed = zp_sim_is_fed(sim);
-  double charge = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
-  sim->row_time = state->t;
-  sim->row_charge = fed ? state->source_charge / sim->model->parts : charge + state->leaked;
-  sim->row_energy = fed ? state->source_energy : zp_sim_get(sim, "source_energy");
+  fill_row(sim, ELECTRIC);
+  for (ZpSim *m = sim; m; m = m->below)
+    count_from_here(m);
 }
 
 /* All signals if the voltage had another value => row; the state is as it was. */
@@ -306,19 +385,47 @@ void zp_sim_read(ZpSim *sim, double *row) {
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 
-ZpShape zp_sim_shape(ZpSim *sim) {
-  const ZpModel *model = sim->model;
-  const ZpState *state = sim->state;
-  ZpMotion motion = zp_state_motion(model, state);
-  ZpShape shape = {.time = state->t, .voltage = state->U, .zipped = state->zip.front, .x = motion.x, .y = motion.y};
-  if (model->field) {
-    zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);
-    shape.gap = sim->eval.plates.gap;
+/* Numbers at a node and at a station in the shape of a series. */
+enum { OF_NODES = 3, OF_STATIONS = 3 };
+
+double *zp_sim_series_room(const ZpModel *model) {
+  return zp_calloc(zp_members(model) * (OF_NODES * model->count + OF_STATIONS * model->nodes), sizeof(double));
+}
+
+enum { SHAPE_ARRAYS = OF_NODES + OF_STATIONS };
+
+/* Copy the arrays of one member to their places in the room of a series. */
+static void put_member(const ZpModel *model, const ZpShape *one, size_t member, double *const room[SHAPE_ARRAYS]) {
+  const double *const from[SHAPE_ARRAYS] = {one->x,   one->y,          one->stress,
+                                            one->gap, one->line_force, one->insulator_field};
+  for (size_t k = 0; k < SHAPE_ARRAYS; k++) {
+    size_t size = k < OF_NODES ? model->count : model->nodes;
+    memcpy(room[k] + member * size, from[k], size * sizeof *room[k]);
   }
-  if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
-  for (int half = 0; model->has_bead && half < ZP_BEADS; half++)
-    sim->shape_room.reach[half] = state->bead[half].reach;
-  zp_shape_fill(model, &sim->shape_room, &shape);
+}
+
+/* Member after member, as if their stations were those of one. */
+ZpShape zp_sim_shape(ZpSim *sim) {
+  ZpShape shape = shape_of(sim);
+  if (!sim->below) return shape;
+  const ZpModel *model = sim->model;
+  size_t members = zp_members(model), member = 1;
+  double *room[SHAPE_ARRAYS], *next = sim->all;
+  for (size_t k = 0; k < SHAPE_ARRAYS; k++) {
+    room[k] = next;
+    next += members * (k < OF_NODES ? model->count : model->nodes);
+  }
+  put_member(model, &shape, 0, room);
+  for (ZpSim *m = sim->below; m; m = m->below, member++) {
+    ZpShape one = shape_of(m);
+    put_member(model, &one, member, room);
+  }
+  shape.x = room[0];
+  shape.y = room[1];
+  shape.stress = room[2];
+  shape.gap = room[3];
+  shape.line_force = room[4];
+  shape.insulator_field = room[5];
   return shape;
 }
 
@@ -327,7 +434,7 @@ ZpLiquid zp_sim_liquid(ZpSim *sim) {
   const ZpShapeRoom *room = &sim->shape_room;
   const double *head = zp_state_own(model, sim->state), *share = model->film.share;
   if (!model->has_film) return (ZpLiquid){NULL, NULL};
-  ZpShape shape = zp_sim_shape(sim);
+  ZpShape shape = shape_of(sim);
   for (size_t i = 0; i < model->nodes; i++, head += model->own) {
     bool wet = zp_shape_is_wet(model, room, i);
     room->film[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;

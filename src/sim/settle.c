@@ -63,8 +63,7 @@ static double rounding_floor(const ZpModel *model) {
 
 /* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when
  * straight). => false if there is no memory. */
-static bool solve(ZpSim *sim, double *q, bool *found) {
-  const ZpModel *model = sim->model;
+static bool solve_at(ZpSim *sim, const ZpModel *model, double *q, bool *found) {
   ZpRest rest;
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
@@ -76,6 +75,21 @@ static bool solve(ZpSim *sim, double *q, bool *found) {
   }
   zp_rest_close(&rest);
   return opened;
+}
+
+/* Of a series: the member alone, under all that hangs on it. */
+static bool solve_member(ZpSim *sim, double *q, bool *found) {
+  ZpActuatorDef def = zp_member_at_rest(sim->model);
+  ZpDriveTable table = sim->model->waveform.table;
+  ZpModel *alone;
+  if (zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &alone, NULL) != ZP_OK) return false;
+  bool solved = solve_at(sim, alone, q, found);
+  zp_model_destroy(alone);
+  return solved;
+}
+
+static bool solve(ZpSim *sim, double *q, bool *found) {
+  return zp_in_series(sim->model) ? solve_member(sim, q, found) : solve_at(sim, sim->model, q, found);
 }
 
 /* By damped stepping. */
@@ -103,7 +117,8 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
   if (!solve(sim, q, &found)) return false;
-  if (!found) relax(sim, hooks, q);
+  if (!found && zp_in_series(model)) sim->settled = ZP_NOT_SETTLED;
+  if (!found && !zp_in_series(model)) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM)

@@ -39,10 +39,10 @@ static bool make_shape_room(ZpSim *sim) {
   return sim->shape_memory != NULL;
 }
 
-static bool allocate(ZpSim *sim) {
+/* One member alone; its steps are those of the uppermost. */
+static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
-  size_t signals;
-  zp_signal_columns(&signals);
+  size_t signals = zp_sim_row_size();
   sim->state = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->before = zp_calloc(1, zp_state_size(model));
@@ -50,8 +50,8 @@ static bool allocate(ZpSim *sim) {
   sim->row = zp_calloc(signals, sizeof(double));
   sim->margins = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  return zp_system_create(model, true, &sim->eval) && sim->stepping->create(sim) && sim->state && sim->kept &&
-         sim->before && sim->relax_work && sim->row && make_shape_room(sim);
+  return zp_system_create(model, true, &sim->eval) && (!uppermost || sim->stepping->create(sim)) && sim->state &&
+         sim->kept && sim->before && sim->relax_work && sim->row && make_shape_room(sim);
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -72,7 +72,7 @@ void zp_sim_lay_beads(ZpSim *sim) {
 }
 
 /* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
-static bool diverged(const ZpModel *model, const ZpState *state) {
+static bool has_diverged(const ZpModel *model, const ZpState *state) {
   static const double speed_of_sound = 1e4; /* m/s, rounded up */
   const double *q = state->data, *v = q + 2 * model->stride;
   for (size_t j = 0; j < 2 * model->stride; j++)
@@ -80,13 +80,19 @@ static bool diverged(const ZpModel *model, const ZpState *state) {
   return false;
 }
 
+static bool diverged(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m; m = m->below)
+    if (has_diverged(m->model, m->state)) return true;
+  return false;
+}
+
 const ZpState *zp_sim_passed(const ZpSim *sim) {
-  return sim->cut || diverged(sim->model, sim->state) ? sim->kept : sim->state;
+  return sim->cut || diverged(sim) ? sim->kept : sim->state;
 }
 
 /* A longer run passes through the present state, too, unless the end of this one has cut a step. */
 static void keep(ZpSim *sim) {
-  if (!sim->cut && !diverged(sim->model, sim->state)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
+  if (!sim->cut && !diverged(sim)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
 }
 
 /* A model may be built of a Def that can only be at rest. */
@@ -102,32 +108,74 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
 }
 
-ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
-  *out = NULL;
-  ZpStatus status = check_creation(model, err);
-  if (status != ZP_OK) return status;
+/* The simulation of one member where it is at rest, the voltage switched on. NULL: there is no memory. */
+static ZpSim *create_one(const ZpModel *model, bool uppermost, const ZpHooks *hooks) {
   ZpSim *sim = zp_calloc(1, sizeof *sim);
-  if (!sim) return zp_fail_memory(err);
+  if (!sim) return NULL;
   sim->model = model;
   sim->drive = zp_key_find("drive.voltage");
   sim->signal = zp_key_find("control.signal");
-  if (!allocate(sim)) {
+  if (!allocate(sim, uppermost)) {
     zp_sim_destroy(sim);
-    return zp_fail_memory(err);
+    return NULL;
   }
   ZpState *state = sim->state;
   state->zip_time = state->refreshed = state->starved_time = NAN;
   lay_straight(model, zp_state_q(model, state));
-  if (!zp_sim_settle(sim, hooks)) {
-    zp_sim_destroy(sim);
-    return zp_fail_memory(err);
+  if (zp_sim_settle(sim, hooks)) return sim;
+  zp_sim_destroy(sim);
+  return NULL;
+}
+
+/* Lower a member until its upper platform is where the lower one of the member above is. */
+static void hang_below(const ZpSim *above, ZpSim *sim) {
+  double *y = zp_state_q(sim->model, sim->state) + sim->model->stride;
+  const ZpTopology *t = &sim->model->topology;
+  double fall = zp_state_motion(above->model, above->state).y[zp_load_node(&above->model->topology)] -
+                y[zp_upper(t, t->platform.first)];
+  for (size_t j = 0; j < sim->model->stride; j++)
+    y[j] += fall;
+}
+
+/* The members below, each at rest on the one above. False if there is no memory. */
+static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
+  size_t members = zp_members(sim->model), k = 0;
+  sim->states = zp_calloc(members, sizeof(ZpState *));
+  if (members > 1) sim->all = zp_sim_series_room(sim->model);
+  if (!sim->states || (members > 1 && !sim->all)) return false;
+  sim->states[k++] = sim->state;
+  for (ZpSim *above = sim; above->model->below; above = above->below) {
+    above->below = create_one(above->model->below, false, hooks);
+    if (!above->below) return false;
+    hang_below(above, above->below);
+    sim->states[k++] = above->below->state;
+    if (above->below->settled != ZP_REACHED_END) sim->settled = above->below->settled;
   }
+  return true;
+}
+
+/* What a simulation starts with. */
+static void start(ZpSim *sim) {
+  const ZpModel *model = sim->model;
   zp_sim_lay_beads(sim);
   zp_sim_start_account(sim);
   if (model->control.kind != ZP_CONTROL_NONE)
     zp_sim_start_control(sim);
   else if (!zp_sim_is_fed(sim))
     zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
+}
+
+ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
+  *out = NULL;
+  ZpStatus status = check_creation(model, err);
+  if (status != ZP_OK) return status;
+  ZpSim *sim = create_one(model, true, hooks);
+  if (!sim || !create_members(sim, hooks)) {
+    zp_sim_destroy(sim);
+    return zp_fail_memory(err);
+  }
+  for (ZpSim *m = sim; m; m = m->below)
+    start(m);
   zp_sim_start_row(sim);
   *out = sim;
   return ZP_OK;
@@ -135,6 +183,9 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
 
 void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
+  zp_sim_destroy(sim->below);
+  zp_free(sim->states);
+  zp_free(sim->all);
   zp_dynamics_destroy(&sim->dynamics);
   zp_paper_motion_destroy(&sim->paper);
   zp_system_destroy(&sim->eval);
@@ -201,8 +252,7 @@ static bool prepare_step(ZpSim *sim) {
   ZpState *state = sim->state;
   if (state->U != state->base_U) zp_sim_close_account(sim);
   bool due = zp_held_due(sim->model, state);
-  sim->stuck = due && zp_held_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND;
-  return !sim->stuck;
+  return !due || zp_held_refresh(sim->model, state, &sim->eval) == ZP_END_FOUND;
 }
 
 /* -- one step ------------------------------------------------------------------------------------- */
@@ -224,53 +274,60 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
 
 /* Closed for good: with a margin or in a liquid, out of which it creeps for seconds, as soon as it is zipped, else when
  * the platform has arrived or turns back. */
-static bool closed(const ZpModel *model, const ZpState *state) {
+static bool has_closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin || model->has_film) return true;
   return state->zip.platform || zp_state_motion(model, state).vy[zp_load_node(&model->topology)] <= 0;
 }
 
+static bool closed(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m; m = m->below)
+    if (!has_closed(m->model, m->state)) return false;
+  return true;
+}
+
 /* Do electrodes without an insulator touch under a voltage? */
-static bool shorted(const ZpModel *model, const ZpState *state) {
+static bool has_short(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
   return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
 }
 
-/* The platform where a step begins. */
-typedef struct Start {
-  double t, opening, rate; /* s, m, m/s */
-} Start;
+static bool shorted(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m; m = m->below)
+    if (has_short(m->model, m->state)) return true;
+  return false;
+}
 
-static Start start_of(const ZpModel *model, const ZpState *state) {
+static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
   ZpMotion motion = zp_state_motion(model, state);
-  return (Start){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
+  return (ZpStepStart){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
 }
 
 /* When within the step that has just been taken the opening fell to 1 %: on the parabola of the midpoint rule, which
  * has the start's opening and rate and the end's opening. A platform that touches at more than 1 % is closed there. */
-static double zipped_at(const ZpModel *model, const ZpState *state, Start start) {
+static double zipped_at(const ZpModel *model, const ZpState *state, ZpStepStart start) {
   double now = opening(model, state), limit = ZP_CLOSED_PART * state->opening0, left = start.opening - limit;
   if (left <= 0 || now > limit) return state->t;
   double taken = state->t - start.t, bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
 
-/* Has the step from `start` on closed the actuator? */
-static void note_closing(ZpSim *sim, Start start) {
+/* Has the last step closed the actuator? */
+static void note_closing(ZpSim *sim) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   state->was_open |= is_open(model, state);
   if (!isnan(state->zip_time) || state->U == 0 || !reached_zip(model, state)) return;
-  state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, start);
+  state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, sim->step_start);
 }
 
 /* Has a zip front outrun its bead? Its meniscus then is where the film is thinner than what stands for the insulators.
  */
-static void note_starving(ZpSim *sim) {
+static void note_starving(ZpSim *sim, const ZpDynamics *dynamics) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   if (!model->has_bead || !isnan(state->starved_time) || state->U == 0 || !isnan(state->zip_time)) return;
-  const double *gap = sim->dynamics.eval.plates.gap;
+  const double *gap = dynamics->eval.plates.gap;
   for (int half = 0; half < zp_beads(&model->film); half++) {
     ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);
     if (zp_bead_at(&end, gap) < model->plates.d) state->starved_time = state->t;
@@ -282,10 +339,28 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, 
   return limit != ZP_LIMIT_EVENT && sim->state->t >= end_time ? ZP_LIMIT_END : limit;
 }
 
+/* Of a series: before anything moves, all members. */
+static bool prepare_steps(ZpSim *sim) {
+  for (ZpSim *m = sim; m; m = m->below) {
+    if (zp_is_pair(&m->model->topology)) m->step_start = start_of(m->model, m->state);
+    sim->stuck = !prepare_step(m);
+    if (sim->stuck) return false;
+  }
+  return true;
+}
+
+/* And where a step has ended. */
+static void note_steps(ZpSim *sim) {
+  const ZpDynamics *dynamics = &sim->dynamics;
+  for (ZpSim *m = sim; m; m = m->below, dynamics = dynamics->below) {
+    follow_voltage(m);
+    if (zp_is_pair(&m->model->topology)) note_closing(m);
+    note_starving(m, dynamics);
+  }
+}
+
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
-  const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  bool two = zp_is_pair(&model->topology);
   if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
   double corner = next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
@@ -293,20 +368,17 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
     corner = fmin(corner, zp_feed_event(sim, latest));
     latest = fmin(latest, corner);
   }
-  Start start = two ? start_of(model, state) : (Start){0, 0, 0};
   const size_t mode = state->supply_mode;
-  const bool unzipped = isnan(state->zip_time);
-  if (!prepare_step(sim)) return;
+  const bool unzipped = isnan(zp_sim_zip_time(sim));
+  if (!prepare_steps(sim)) return;
   ZpStepLimit limit;
   sim->stuck = !sim->stepping->step(sim, latest, &limit);
   if (sim->stuck) return;
   info->steps++;
   limit = limit_of(sim, limit, corner, end_time);
   info->limited[limit]++;
-  follow_voltage(sim);
-  if (two) note_closing(sim, start);
-  note_starving(sim);
-  sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(state->zip_time));
+  note_steps(sim);
+  sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(zp_sim_zip_time(sim)));
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -358,22 +430,22 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     if (sim->stuck) return ZP_DIVERGED;
     bool sample = recording && state->t >= next_sample;
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
-      if (diverged(model, state)) return ZP_DIVERGED;
+      if (diverged(sim)) return ZP_DIVERGED;
       keep(sim);
     }
     bool question = sample || info->steps % between == 0;
     if (question && asked_to_stop(hooks, (state->t - start) / (end_time - start)))
-      return diverged(model, state) ? ZP_DIVERGED : ZP_INTERRUPTED;
+      return diverged(sim) ? ZP_DIVERGED : ZP_INTERRUPTED;
     if (sample) {
       zp_sim_offer_record(sim);
       note_bounds(sim, info);
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
-    if (shorted(model, state)) return ZP_SHORT_CIRCUIT;
-    if (stop_when_zipped && model->field && closed(model, state)) return ZP_ZIPPED;
-    if (sim->stops_at_events && sim->at_event) return diverged(model, state) ? ZP_DIVERGED : ZP_EVENT;
+    if (shorted(sim)) return ZP_SHORT_CIRCUIT;
+    if (stop_when_zipped && model->field && closed(sim)) return ZP_ZIPPED;
+    if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
-  return diverged(model, state) ? ZP_DIVERGED : ZP_REACHED_END;
+  return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
 }
 
 static void describe(const ZpSim *sim, ZpRunInfo *info) {
@@ -385,7 +457,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     snprintf(text, size, "ran to %g s", t);
     break;
   case ZP_ZIPPED:
-    snprintf(text, size, "closed after %.4g ms", 1e3 * sim->state->zip_time);
+    snprintf(text, size, "closed after %.4g ms", 1e3 * zp_sim_zip_time(sim));
     break;
   case ZP_INTERRUPTED:
     snprintf(text, size, "interrupted at %g s; what was done is kept", t);
@@ -493,6 +565,15 @@ double zp_sim_starved_time(const ZpSim *sim) {
 }
 
 double zp_sim_zip_time(const ZpSim *sim) {
+  double last = sim->state->zip_time;
+  for (const ZpSim *m = sim->below; m; m = m->below)
+    last = m->state->zip_time > last || isnan(m->state->zip_time) ? m->state->zip_time : last;
+  return last;
+}
+
+double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {
+  for (size_t k = 1; k < member; k++)
+    sim = sim->below;
   return sim->state->zip_time;
 }
 
@@ -516,6 +597,8 @@ void zp_sim_save(const ZpSim *sim, void *bytes) {
 
 ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err) {
   ZpError reason;
+  if (sim->below)
+    return zp_fail(err, ZP_BAD_INPUT, "state: that of actuators in series (stack.series) is not restored");
   ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->state, &reason);
   if (status != ZP_OK) return zp_fail(err, status, "state: %.500s", reason.message);
   zp_sim_resume(sim);

@@ -66,6 +66,11 @@ bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 /* An actuator is closed below this part of its hanging opening. */
 #define ZP_CLOSED_PART 0.01
 
+/* The platform where a step begins. */
+typedef struct ZpStepStart {
+  double t, opening, rate; /* s, m, m/s */
+} ZpStepStart;
+
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
@@ -77,27 +82,32 @@ struct ZpSim {
   int drive;  /* the key drive.voltage: its range is that of voltages set by hand */
   int signal; /* the key control.signal */
   ZpEval eval;
-  double *relax_work;          /* [12 stride] work space of settling */
-  ZpTable *series;             /* the caller's; NULL: no record */
-  ZpShapes *shapes;            /* the caller's; NULL: no record */
-  ZpTable *trace;              /* likewise */
-  ZpTable *samples;            /* likewise, of a controller */
-  double *row;                 /* one value per signal */
-  ZpShapeRoom shape_room;      /* of the shape handed out, */
-  void *shape_memory;          /* and where it is */
-  ZpMargins now, margins;      /* the worst that materials see in the row, and saw in all that were recorded */
-  double row_time, row_charge; /* of the last row before the present time, for the mean current: per part, behind a
-                                  supply what that has given; */
-  double row_energy;           /* and for the mean power, of the whole actuator */
-  ZpOutcome settled;           /* ZP_REACHED_END once the hanging equilibrium is known */
+  double *relax_work;            /* [12 stride] work space of settling */
+  ZpTable *series;               /* the caller's; NULL: no record */
+  ZpShapes *shapes;              /* the caller's; NULL: no record */
+  ZpTable *trace;                /* likewise */
+  ZpTable *samples;              /* likewise, of a controller */
+  double *row;                   /* one value per signal */
+  ZpShapeRoom shape_room;        /* of the shape handed out, */
+  void *shape_memory;            /* and where it is */
+  ZpMargins now, margins;        /* the worst that materials see in the row, and saw in all that were recorded */
+  double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part, behind a
+                                    supply what that has given; */
+  double row_energy;             /* and for the mean power, of the whole actuator */
+  double own_charge, own_energy; /* of the last row: charge per part and source energy, without the members below */
+  ZpOutcome settled;             /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
   const ZpStepping *stepping; /* how it moves on: */
   ZpDynamics dynamics;        /* by implicit steps, */
   ZpPaperMotion paper;        /* or by the paper's */
+  ZpStepStart step_start;     /* of the last step */
   bool stuck;                 /* no step was found */
   bool stops_at_events;       /* the run ends at the first one */
   bool at_event;              /* the last step has ended at one */
+  struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
+  ZpState **states;           /* of the uppermost: of it and of all below */
+  double *all;                /* of the uppermost of a series: room for the shape of all */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
@@ -153,6 +163,15 @@ void zp_sim_trace(ZpSim *sim, ZpTable *trace);
 
 /* What leaks now, of one part; all 0 where nothing does. */
 ZpLeakNow zp_sim_leak(ZpSim *sim);
+
+/* When member 1 .. of a series has closed, s; NAN: it has not. */
+double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
+
+/* Numbers of a row, openings of the members of a series included. */
+size_t zp_sim_row_size(void);
+
+/* Room for the shape of a series (ZpSim.all); NULL if there is no memory. */
+double *zp_sim_series_room(const ZpModel *model);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);

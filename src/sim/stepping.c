@@ -14,10 +14,11 @@ static bool step_implicit(ZpSim *sim, double latest, ZpStepLimit *limit) {
   *limit = sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
   if (zp_sim_is_fed(sim)) return zp_feed_step(sim, latest);
   if (latest - state->t < shortest) {
-    state->t = latest;
+    for (ZpSim *m = sim; m; m = m->below)
+      m->state->t = latest;
     return true;
   }
-  return zp_dynamics_step(&sim->dynamics, state, latest) > 0;
+  return zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0;
 }
 
 static double longest_implicit(const ZpSim *sim) {

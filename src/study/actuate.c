@@ -56,6 +56,7 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
 /* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
+  model = zp_lowest(model); /* which carries the load */
   double compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
   return zp_load_pull(model) * risen + compressed - at_end(sim, result, "load_work");
 }
@@ -161,6 +162,16 @@ static void summarize_bead(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
 }
 
+/* When each member of a series has closed. */
+static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
+  static const char *const names[] = {"member_1_zip_time_s", "member_2_zip_time_s", "member_3_zip_time_s",
+                                      "member_4_zip_time_s", "member_5_zip_time_s", "member_6_zip_time_s",
+                                      "member_7_zip_time_s", "member_8_zip_time_s"};
+  size_t members = zp_members(model);
+  for (size_t k = 1; members > 1 && k <= members; k++)
+    zp_result_add(result, names[k - 1], "s", zp_sim_member_zip_time(sim, k));
+}
+
 static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
@@ -168,6 +179,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
   if (model->has_bead) summarize_bead(sim, result);
+  summarize_members(sim, model, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   if (model->field) summarize_source(sim, model, info, result);
@@ -227,10 +239,12 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
   const ZpActuatorDef *def = zp_model_def(model);
   ZpModelInfo size = zp_model_info(model);
   size_t columns;
-  const ZpColumn *column = zp_signal_columns_of(def, &columns);
+  const ZpColumn *column = zp_signal_columns_of(task->def, &columns);
   result->series = zp_table_create(column, columns, (size_t)def->output.samples);
-  result->shapes = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, (size_t)def->output.shapes);
+  result->shapes =
+      zp_shapes_create((size_t)size.ribbons, zp_members(model) * (size_t)size.nodes, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
+  result->shapes->members = zp_members(model);
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;

@@ -5,9 +5,6 @@
 
 #include "study/studies.h"
 
-/* What fills a result: a zp_study_WORD of studies.h. */
-typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);
-
 /* (a task, what has filled its result, whether that is a motion in time, the result) => an estimated error behind the
  * numbers of the result that studies.def names, NAN where a coarser mesh has no such number. ZP_MACHINE: no memory. */
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err);

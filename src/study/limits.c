@@ -233,7 +233,7 @@ static double mass_of(const ZpModel *model) {
     sum += model->mass[j];
   for (size_t i = 0; zp_is_pair(&model->topology) && i < model->s; i++)
     platform += zp_ribbon_section(model, i).mu * model->def.platform.length;
-  return model->parts * sum + platform;
+  return model->parts * sum + model->def.stack.parallel * platform;
 }
 
 /* Opening of a state, m. */

@@ -12,6 +12,9 @@ typedef struct ZpTask {
   const ZpHooks *hooks; /* may be NULL */
 } ZpTask;
 
+/* What fills a result: a zp_study_WORD. */
+typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);
+
 #define ZP_STUDY(enumerator, word, shows, files, help)                                                                 \
   ZpStatus zp_check_##word(const ZpActuatorDef *def, ZpError *err);                                                    \
   ZpStatus zp_study_##word(const ZpTask *task, ZpResult *result, ZpError *err);

@@ -1,6 +1,7 @@
 /* Which study is run: the table of studies.def. It stands above the studies; none of them includes what is here. */
 #include "base/fail.h"
 #include "study/estimate.h"
+#include "study/series.h"
 
 /* What a study takes from files. */
 enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
@@ -35,6 +36,15 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
+/* What fills the result of a study of this definition; NULL: it does not know actuators in series. */
+static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
+  static const ZpStudyRun in_series[ZpStudy_COUNT] = {
+#define ZP_IN_SERIES(enumerator, run) [enumerator] = run,
+#include <zipact/studies.def>
+  };
+  return def->stack.series > 1 ? in_series[study] : table[study].run;
+}
+
 ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (!is_study(study))
     return zp_fail(err, ZP_BAD_INPUT, "study = %d: out of range; 0 to %d", (int)study, ZpStudy_COUNT - 1);
@@ -42,6 +52,9 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (status != ZP_OK) return status;
   if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
+  if (!run_of(study, def))
+    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; use stack.series 1",
+                   def->stack.series, table[study].word);
   return table[study].check(def, err);
 }
 
@@ -54,8 +67,9 @@ ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInpu
   if (!result) return zp_fail_memory(err);
   bool moves = table[study].files == FILES_course;
   const ZpTask task = {def, input ? *input : (ZpStudyInput){0}, hooks};
-  status = table[study].run(&task, result, err);
-  if (status == ZP_OK) status = zp_estimate_errors(&task, table[study].run, moves, result, err);
+  ZpStudyRun run = run_of(study, def);
+  status = run(&task, result, err);
+  if (status == ZP_OK) status = zp_estimate_errors(&task, run, moves, result, err);
   if (status == ZP_OK)
     *out = result;
   else

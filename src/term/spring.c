@@ -16,8 +16,8 @@ typedef struct Spring {
 static Spring spring_of(const ZpModel *model, int which) {
   const ZpActuatorDef *def = &model->def;
   bool stops = !isnan(def->load.stop_opening);
-  if (which == 0) return (Spring){def->load.share * def->load.stiffness, def->load.rest_opening, 1};
-  return (Spring){stops ? def->load.share * def->load.stop_stiffness : 0, def->load.stop_opening, -1};
+  if (which == 0) return (Spring){zp_end_share(model) * def->load.stiffness, def->load.rest_opening, 1};
+  return (Spring){stops ? zp_end_share(model) * def->load.stop_stiffness : 0, def->load.stop_opening, -1};
 }
 
 static bool acts(const ZpModel *model) {

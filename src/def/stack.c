@@ -1,0 +1,88 @@
+/* Several actuators as one system: what each member of a series is, and what a stack asks of other keys. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "def/check.h"
+
+/* The rest of a key's name behind "member_K." of a member; NULL of all other keys. */
+static const char *behind_prefix(const char *name, int member) {
+  char prefix[16];
+  int length = snprintf(prefix, sizeof prefix, "member_%d.", member);
+  return strncmp(name, prefix, (size_t)length) == 0 ? name + length : NULL;
+}
+
+ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
+  ZpActuatorDef one = *def;
+  bool last = member == def->stack.series;
+  for (int key = 0; key < zp_key_count(); key++) {
+    const char *name = behind_prefix(zp_key(key)->name, member);
+    double value = name ? zp_def_get(def, key) : NAN;
+    if (!isnan(value)) zp_def_set(&one, zp_key_find(name), value, NULL);
+    if (strncmp(zp_key(key)->name, "member_", 7) == 0) zp_def_set(&one, key, NAN, NULL);
+  }
+  one.stack.series = 1;
+  one.stack.link_mass = 0;
+  if (!last) one.load.mass = def->stack.link_mass;
+  if (!last) one.load.force = 0;
+  return one;
+}
+
+/* A key of a member that the stack does not have. */
+static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
+  int members = def->stack.series > 1 ? def->stack.series : 0, most = (int)zp_key(zp_key_find("stack.series"))->max;
+  for (int key = 0; key < zp_key_count(); key++)
+    for (int member = members + 1; member <= most; member++)
+      if (behind_prefix(zp_key(key)->name, member) && !isnan(zp_def_get(def, key)))
+        return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.series of at least %d, but it is %d", zp_key(key)->name,
+                       member > 1 ? member : 2, def->stack.series);
+  if (members == 0 && def->stack.link_mass > 0)
+    return zp_fail(err, ZP_BAD_INPUT, "stack.link_mass = %g kg: requires stack.series of at least 2",
+                   def->stack.link_mass);
+  return ZP_OK;
+}
+
+/* What is not known of a series. */
+static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
+  const struct {
+    bool given;
+    const char *key, *instead;
+  } unknown[] = {
+      {def->actuator.symmetry != ZP_SYMMETRY_HALF, "actuator.symmetry", "half"},
+      {def->ribbon.model != ZP_RIBBON_ROD, "ribbon.model", "rod"},
+      {def->solver.integrator != ZP_INTEGRATOR_IMPLICIT, "solver.integrator", "implicit"},
+      {def->contact.model != ZP_CONTACT_UNILATERAL, "contact.model", "unilateral"},
+      {def->electro.model != ZP_ELECTRO_PLATES, "electro.model", "plates"},
+      {def->source.model != ZP_SOURCE_IDEAL, "source.model", "ideal"},
+      {def->control.kind != ZP_CONTROL_NONE, "control.kind", "none"},
+      {def->load.share != 0.5, "load.share", "0.5"},
+      {def->load.stiffness > 0, "load.stiffness", "0"},
+      {!isnan(def->load.stop_opening), "load.stop_opening", "none"},
+      {!isnan(def->insulator.resistivity), "insulator.resistivity", "none"},
+      {!isnan(def->medium.resistivity), "medium.resistivity", "none"},
+      {!isnan(def->sense.frequency), "sense.frequency", "none"},
+      {def->initial.state == ZP_INITIAL_CHECKPOINT, "initial.state", "equilibrium or straight"},
+      {*def->sensitivity.by != 0, "sensitivity.by", "empty"},
+  };
+  for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
+    if (unknown[k].given)
+      return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: requires %s %s", def->stack.series, unknown[k].key,
+                     unknown[k].instead);
+  for (int member = 1; member <= def->stack.series; member++) {
+    ZpActuatorDef one = zp_def_member(def, member);
+    ZpStatus status = zp_def_check(&one, err);
+    if (status != ZP_OK) return status;
+  }
+  return ZP_OK;
+}
+
+ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
+  bool many = def->stack.series > 1 || def->stack.parallel > 1;
+  if (many && def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d: requires actuator.kind electro_ribbon, whose platforms it joins",
+                   def->stack.series > 1 ? "series" : "parallel",
+                   def->stack.series > 1 ? def->stack.series : def->stack.parallel);
+  ZpStatus status = check_members(def, err);
+  return status == ZP_OK && def->stack.series > 1 ? check_series(def, err) : status;
+}

@@ -1,0 +1,262 @@
+/* Studies at rest of actuators in series: under a dead load the force on each member is known, eq. (28.1), so that each
+ * is at rest as it would be alone; what is asked of the series follows from its members. */
+#include "study/series.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "actuator/model.h"
+#include "base/fail.h"
+
+enum { MOST_MEMBERS = 8 };
+
+/* The results of all members, the uppermost first. */
+typedef struct Members {
+  size_t count;
+  ZpResult *of[MOST_MEMBERS];
+  double carried[MOST_MEMBERS]; /* mass that hangs on it beyond load.mass, kg */
+  double link_mass;             /* of the link that each but the uppermost hangs on, kg */
+} Members;
+
+/* How a number of the series follows from those of its members, which are NAN where a member has none. */
+typedef enum Rule {
+  SUM,      /* NAN if any is */
+  LARGEST,  /* likewise */
+  HIGHEST,  /* of those that there are */
+  LEAST,    /* likewise */
+  LOAD,     /* the least of what they lift beyond what they carry; NAN if any is */
+  LEFT_OUT, /* there is none */
+} Rule;
+
+typedef struct Combined {
+  const char *name;
+  Rule rule;
+} Combined;
+
+static const Combined combined[] = {{"residual", LARGEST},
+                                    {"pull_in_voltage_V", LEAST},
+                                    {"closing_voltage_V", LARGEST},
+                                    {"release_voltage_V", HIGHEST},
+                                    {"max_load_kg", LOAD},
+                                    {"insulator_field_V_per_m", HIGHEST},
+                                    {"insulator_field_place_m", LEFT_OUT},
+                                    {"breakdown_margin", LEAST},
+                                    {"allowed_voltage_V", LEAST},
+                                    {"max_stress_Pa", HIGHEST},
+                                    {"max_stress_place_m", LEFT_OUT},
+                                    {"yield_margin", LEAST}};
+
+static Rule rule_of(const char *name) {
+  for (size_t k = 0; k < sizeof combined / sizeof combined[0]; k++)
+    if (strcmp(combined[k].name, name) == 0) return combined[k].rule;
+  return SUM;
+}
+
+static double join(Rule rule, double sofar, double value) {
+  switch (rule) {
+  case SUM:
+    return sofar + value;
+  case HIGHEST:
+    return fmax(sofar, value);
+  case LEAST:
+    return fmin(sofar, value);
+  case LARGEST:
+    return isnan(sofar) || isnan(value) ? NAN : fmax(sofar, value);
+  case LOAD:
+    return isnan(sofar) || isnan(value) ? NAN : fmin(sofar, value);
+  case LEFT_OUT:
+    break;
+  }
+  return NAN;
+}
+
+static double number_of(const Members *members, size_t k, const char *name) {
+  double value = zp_result_get(members->of[k], name);
+  if (k > 0 && strcmp(name, "mass_kg") == 0) return value + members->link_mass;
+  if (rule_of(name) != LOAD || isnan(value)) return value;
+  return value > members->carried[k] ? value - members->carried[k] : NAN;
+}
+
+static double number_of_all(const Members *members, const char *name) {
+  double value = number_of(members, 0, name);
+  for (size_t k = 1; k < members->count; k++)
+    value = join(rule_of(name), value, number_of(members, k, name));
+  return value;
+}
+
+static void add_numbers(const Members *members, ZpResult *result) {
+  const ZpResult *first = members->of[0];
+  for (size_t i = 0; i < first->scalars; i++) {
+    const ZpScalar *scalar = &first->scalar[i];
+    if (rule_of(scalar->name) != LEFT_OUT)
+      zp_result_add(result, scalar->name, scalar->unit, number_of_all(members, scalar->name));
+  }
+}
+
+static bool has_note(const ZpResult *result, const char *note) {
+  for (size_t i = 0; i < result->notes; i++)
+    if (strcmp(result->note[i], note) == 0) return true;
+  return false;
+}
+
+/* Each once. */
+static void add_notes(const Members *members, ZpResult *result) {
+  for (size_t k = 0; k < members->count; k++)
+    for (size_t i = 0; i < members->of[k]->notes; i++)
+      if (!has_note(result, members->of[k]->note[i])) zp_result_note(result, "%s", members->of[k]->note[i]);
+}
+
+/* The outcome is that of the first member which has not a good one. */
+static void add_outcome(const Members *members, ZpResult *result) {
+  result->outcome = members->of[0]->outcome;
+  result->resolution = members->of[0]->resolution;
+  for (size_t k = members->count; k-- > 0;) {
+    const ZpResult *one = members->of[k];
+    result->resolution = fmin(result->resolution, one->resolution);
+    if (zp_outcome_good(one->outcome)) continue;
+    result->outcome = one->outcome;
+    snprintf(result->message, sizeof result->message, "member %zu: %.200s", k + 1, one->message);
+  }
+}
+
+/* -- tables and shapes ----------------------------------------------------------------------------- */
+
+/* A row of a member: its number, the mass that it carries, then these numbers of its own result. */
+static bool add_table(const Members *members, const ZpColumn *columns, size_t count, ZpResult *result) {
+  enum { MOST_COLUMNS = 16 };
+  double row[MOST_COLUMNS];
+  result->series = zp_table_create(columns, count, members->count);
+  for (size_t k = 0; result->series && k < members->count; k++) {
+    row[0] = (double)(k + 1);
+    row[1] = members->carried[k];
+    for (size_t c = 2; c < count; c++)
+      row[c] = zp_result_get(members->of[k], columns[c].name);
+    zp_table_offer(result->series, row);
+  }
+  return result->series != NULL;
+}
+
+/* One frame: all members, each hung on the one above, as if their stations were those of one; none where a member has
+ * no shape. False if there is no memory. */
+static bool add_shape(const Members *members, ZpResult *result) {
+  size_t ribbons = members->of[0]->shapes->ribbons, nodes = members->of[0]->shapes->nodes, count = ribbons * nodes;
+  size_t all = members->count * nodes;
+  double *room = zp_calloc(3 * ribbons * all + 3 * all, sizeof *room), bottom = 0;
+  double *x = room, *y = x + ribbons * all, *stress = y + ribbons * all;
+  double *gap = stress + ribbons * all, *line_force = gap + all, *field = line_force + all;
+  bool whole = room != NULL;
+  for (size_t k = 0; whole && k < members->count; k++) {
+    whole = members->of[k]->shapes->frames > 0;
+    if (!whole) break;
+    ZpShape one = zp_shapes_get(members->of[k]->shapes, 0);
+    double fall = bottom - one.y[count - ribbons];
+    for (size_t j = 0; j < count; j++)
+      y[k * count + j] = one.y[j] + fall;
+    bottom = y[(k + 1) * count - 1];
+    memcpy(x + k * count, one.x, count * sizeof *x);
+    memcpy(stress + k * count, one.stress, count * sizeof *x);
+    memcpy(gap + k * nodes, one.gap, nodes * sizeof *x);
+    memcpy(line_force + k * nodes, one.line_force, nodes * sizeof *x);
+    memcpy(field + k * nodes, one.insulator_field, nodes * sizeof *x);
+  }
+  result->shapes = room ? zp_shapes_create(ribbons, all, 2) : NULL;
+  ZpShape shape = {.x = x, .y = y, .stress = stress, .gap = gap, .line_force = line_force, .insulator_field = field};
+  if (result->shapes) result->shapes->members = members->count;
+  if (whole && result->shapes) zp_shapes_offer(result->shapes, &shape);
+  zp_free(room);
+  return result->shapes != NULL;
+}
+
+/* -- studies --------------------------------------------------------------------------------------- */
+
+static void forget(Members *members) {
+  for (size_t k = 0; k < members->count; k++)
+    zp_result_destroy(members->of[k]);
+}
+
+/* Run the study of each member. */
+static ZpStatus run_all(const ZpTask *task, ZpStudy study, ZpStudyRun run, Members *members, ZpError *err) {
+  ZpModel *model;
+  ZpStatus status = zp_model_create(task->def, &model, err);
+  *members = (Members){.link_mass = task->def->stack.link_mass};
+  if (status != ZP_OK) return status;
+  for (const ZpModel *m = model; m && status == ZP_OK; m = m->below) {
+    ZpActuatorDef def = zp_member_at_rest(m);
+    ZpTask one = {&def, {0}, task->hooks};
+    ZpResult *result = zp_result_create(study);
+    if (!result) {
+      status = zp_fail_memory(err);
+      break;
+    }
+    members->carried[members->count] = def.load.mass - zp_lowest(m)->def.load.mass;
+    members->of[members->count++] = result;
+    status = run(&one, result, err);
+  }
+  zp_model_destroy(model);
+  return status;
+}
+
+/* What all studies say. */
+static ZpStatus finish(Members *members, const ZpColumn *columns, size_t count, ZpResult *result, ZpError *err) {
+  add_numbers(members, result);
+  add_notes(members, result);
+  add_outcome(members, result);
+  return add_table(members, columns, count, result) ? ZP_OK : zp_fail_memory(err);
+}
+
+ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
+  static const ZpColumn columns[] = {
+      {"member", "1", "of the series, 1 is the uppermost"},
+      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
+      {"stroke_m", "m", "height of its clip over its lower platform"},
+      {"opening_m", "m", "distance of its platforms' faces"},
+      {"max_stress_Pa", "Pa", "largest stress of its metal"},
+  };
+  Members members;
+  ZpStatus status = run_all(task, ZP_STUDY_STATIONARY, zp_study_stationary, &members, err);
+  if (status == ZP_OK) status = finish(&members, columns, sizeof columns / sizeof columns[0], result, err);
+  if (status == ZP_OK && !add_shape(&members, result)) status = zp_fail_memory(err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome))
+    snprintf(result->message, sizeof result->message, "%zu members at rest, each under all that hangs on it",
+             members.count);
+  forget(&members);
+  return status;
+}
+
+/* "pulls in at 1 V to 2 V" */
+static void say(const Members *members, const char *words, const char *name, char *text, size_t size) {
+  double least = NAN, most = NAN;
+  for (size_t k = 0; k < members->count; k++) {
+    least = fmin(least, zp_result_get(members->of[k], name));
+    most = fmax(most, zp_result_get(members->of[k], name));
+  }
+  size_t used = strlen(text);
+  const char *between = used > 0 ? ", " : "";
+  if (isnan(least))
+    snprintf(text + used, size - used, "%sno member %s", between, words);
+  else
+    snprintf(text + used, size - used, "%smembers %s at %.4g V to %.4g V", between, words, least, most);
+}
+
+ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
+  static const ZpColumn columns[] = {
+      {"member", "1", "of the series, 1 is the uppermost"},
+      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
+      {"pull_in_voltage_V", "V", "at which it pulls in"},
+      {"closing_voltage_V", "V", "at which it is closed"},
+      {"release_voltage_V", "V", "at which it opens, the voltage falling"},
+      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, what it carries included"},
+      {"travel_m", "m", "by which its opening shrinks"},
+  };
+  Members members;
+  ZpStatus status = run_all(task, ZP_STUDY_LIMITS, zp_study_limits, &members, err);
+  if (status == ZP_OK) status = finish(&members, columns, sizeof columns / sizeof columns[0], result, err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome)) {
+    say(&members, "pull in", "pull_in_voltage_V", result->message, sizeof result->message);
+    say(&members, "close", "closing_voltage_V", result->message, sizeof result->message);
+    say(&members, "open", "release_voltage_V", result->message, sizeof result->message);
+  }
+  forget(&members);
+  return status;
+}
