@@ -40,6 +40,7 @@ PICTURES = {
     "meter.svg": "meter/plots/sense.svg",
     "pre-opened.svg": "pre-opened/plots/shapes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
+    "yielding.svg": "yielding/plots/plastic.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 

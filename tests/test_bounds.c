@@ -219,7 +219,8 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "source.voltage_limit") == 0) def->drive.voltage = fmin(value, def->drive.voltage);
   if (strncmp(key, "sense.", 6) == 0) make_meter(def, key, value);
   if (strncmp(key, "control.", 8) == 0 || strncmp(key, "setpoint.", 9) == 0) make_controller(def, key, value);
-  if (strstr(key, ".resistivity")) implicit = true;
+  if (strstr(key, "hardening_modulus")) def->ribbon.plasticity = true;
+  if (strstr(key, ".resistivity") || def->ribbon.plasticity) implicit = true;
   if (unilateral || implicit || (strcmp(key, "damping.internal") == 0 && value > 0)) {
     def->contact.model = ZP_CONTACT_UNILATERAL;
     def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;

@@ -14,6 +14,7 @@
 #define SAGS                                                                                                           \
   "study=stationary actuator.kind=ribbon actuator.right_end=free load.mass=0 gravity=0.001 ribbon.length=50mm "        \
   "mesh.nodes=21"
+#define YIELDS "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 mesh.nodes=81"
 #define CANTILEVER                                                                                                     \
   "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 load.mass=2mg mesh.nodes=21"
 
@@ -174,6 +175,18 @@ static const Row rows[] = {
     {"ribbon.thickness", STRIP, "50um", "100um", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
     {"ribbon.young_modulus", STRIP, "100GPa", "200GPa", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"ribbon.yield_stress", STRIP, "500MPa", "1GPa", {{TIMES, "yield_margin", 2, 1e-12}, {SAME, "y_m", 0, 1e-12}}},
+    /* 1.45 times the load at which the clamp yields: a cantilever of a metal that does not harden */
+    {"ribbon.plasticity",
+     YIELDS " ribbon.yield_stress=1MPa load.mass=7.8216mg",
+     "false",
+     "true",
+     {{TIMES, "y_m", (5 - (3 + 1.45) * 0.31622777) / (1.45 * 1.45) / 1.45, 5e-3}}},
+    /* 20 times that load; sums of the curvatures of (2.11), which bear its moments */
+    {"ribbon.hardening_modulus",
+     YIELDS " ribbon.plasticity=true ribbon.yield_stress=1MPa ribbon.length=10mm load.mass=1.078831g",
+     "200GPa",
+     "600GPa",
+     {{TIMES, "y_m", 0.672389, 2e-3}}},
     {"ribbon.poisson_ratio", STRIP, "0", "0.4", {{TIMES, "y_m", 1 - 0.16, 1e-4}}},
     {"ribbon.poisson_ratio", STRIP " ribbon.plane=stress", "0", "0.4", {{SAME, "y_m", 0, 0}}},
     {"ribbon.density",
@@ -279,6 +292,13 @@ static const Row rows[] = {
      "0.4",
      {{TIMES, "opening_m", (1 + 1 - 0.16) / 2, 1e-4}}},
     {"lower.ribbon.density", SAGGED, "2000kg/m3", "4000kg/m3", {{TIMES, "opening_m", 2, 1e-4}}},
+    /* two cantilevers back to back in each strip, which sink far less than they are thick: half of the sum of both */
+    {"lower.ribbon.hardening_modulus",
+     "study=stationary ribbon.density=0 ribbon.length=12.5mm load.mass=34.5227g mesh.nodes=81 drive.voltage=0 "
+     "ribbon.plasticity=true ribbon.yield_stress=1MPa ribbon.hardening_modulus=200GPa",
+     "200GPa",
+     "600GPa",
+     {{TIMES, "opening_m", 0.836194, 2e-3}}},
     {"lower.ribbon.yield_stress",
      SLIGHT,
      "100MPa",

@@ -65,6 +65,8 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
+  ZpPlastic plastic[2];     /* of each ribbon, where ribbon.plasticity */
+  size_t plastic_at;        /* where plastic strains begin in the laws' state */
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
@@ -78,7 +80,8 @@ struct ZpModel {
   ZpBeadParams bead;
   ZpPlatesParams air;      /* the law there */
   ZpOuterParams outer;     /* of liquid outside */
-  size_t own, kept;        /* unknowns, and numbers of state, of the laws at each station, in motion */
+  size_t own;              /* unknowns of the laws at each station, in motion */
+  size_t kept;             /* numbers of state of the laws, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
@@ -118,6 +121,7 @@ typedef struct ZpState {
   double drag_loss;        /* per part, J */
   double contact_loss;     /* per part, J */
   double internal_loss;    /* per part: of internal damping, J */
+  double plastic_loss;     /* per part: heat of plastic bending, J */
   double last_step;        /* implicit: length of the last step, s; 0: there is none */
   double next_step;        /* and of the next one to try */
   double refreshed;        /* time of the last refresh of a held electric force, s; NAN: due now */
@@ -150,7 +154,7 @@ typedef struct ZpState {
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
                     mean velocity and acceleration of the last implicit step [4 stride], the laws' own unknowns [own N]
-                    and state [kept N] */
+                    and state [kept] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -239,7 +243,7 @@ static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride;
 }
 
-/* State of the laws, [kept N]: of the film, then of what leaks, each station by station. */
+/* State of the laws, [kept]: of the film, then of what leaks, each station by station, then plastic strains. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
   return state->data + 12 * model->stride + zp_own_unknowns(model);
 }
@@ -247,6 +251,11 @@ static inline const double *zp_state_memory(const ZpModel *model, const ZpState 
 /* Interface voltages [ZP_PLATES_PLACES N] in a state of the laws; NULL of none. */
 static inline const double *zp_leak_memory(const ZpModel *model, const double *memory) {
   return memory ? memory + model->leak_at : NULL;
+}
+
+/* Plastic strains of ribbons that may yield (ribbon/rod_plastic.h). */
+static inline double *zp_state_strain(const ZpModel *model, ZpState *state) {
+  return state->data + 12 * model->stride + zp_own_unknowns(model) + model->plastic_at;
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

@@ -430,6 +430,7 @@ static void book_losses(ZpDynamics *d, ZpState *state) {
   ZpLosses losses = zp_system_losses(d->model, &span, &d->eval);
   state->drag_loss += losses.drag;
   state->internal_loss += losses.internal;
+  state->plastic_loss += losses.plastic;
   state->along_loss += losses.along;
   state->across_loss += losses.across;
   state->jet_loss += losses.jets;
@@ -446,8 +447,7 @@ static void store(ZpDynamics *d, ZpState *state) {
   zp_assembly_scatter(&d->assembly, d->history.w, zp_state_mean_v(model, state));
   zp_assembly_scatter(&d->assembly, d->history.a, zp_state_mean_a(model, state));
   memcpy(zp_state_own(model, state), d->own, zp_own_unknowns(model) * sizeof *d->own);
-  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), d->eval.memory_end,
-         model->kept * model->nodes * sizeof *d->own);
+  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), d->eval.memory_end, model->kept * sizeof *d->own);
   state->t = end_time(d);
   if (model->has_bead) memcpy(state->bead, d->eval.bead_end, sizeof state->bead);
   if (d->source) {

@@ -120,7 +120,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   if (model->field)
     zp_add_margins(result, model, zp_sim_margins(sim));
   else
-    zp_add_stress(result, zp_sim_margins(sim));
+    zp_add_stress(result, model, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   zp_note_liquid(result, model);
@@ -153,6 +153,12 @@ static void summarize_leak(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "interface_voltage_V", "V", at_end(sim, result, "interface_voltage"));
 }
 
+/* What has yielded. */
+static void summarize_plastic(ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "plastic_loss_J", "J", at_end(sim, result, "plastic_loss"));
+  zp_result_add(result, "permanent_curvature_per_m", "1/m", at_end(sim, result, "permanent_curvature"));
+}
+
 static void summarize_bead(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "meniscus_loss_J", "J", at_end(sim, result, "meniscus_loss"));
   zp_result_add(result, "wet_length_m", "m", at_end(sim, result, "wet_length"));
@@ -167,6 +173,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
+  if (model->rod.plastic) summarize_plastic(sim, result);
   if (model->has_bead) summarize_bead(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));

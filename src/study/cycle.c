@@ -168,10 +168,11 @@ static int shoot(Cycles *c) {
 }
 
 /* In how many cycles the motion repeats itself, waiting or shooting: that starts from positions and velocities alone,
- * which is all only without liquid and charge that stays. */
+ * which is all only without liquid, charge that stays and ribbons that yield. */
 static int look(Cycles *c) {
   read_state(c, c->end);
-  bool open = stays_open(c) && !c->model->has_film && !c->model->leaks;
+  const ZpModel *model = c->model;
+  bool remembers = model->has_film || model->leaks || model->rod.plastic, open = stays_open(c) && !remembers;
   if (!open) zp_fixed_point_forget(&c->shooting);
   int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
   read_state(c, c->start);

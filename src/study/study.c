@@ -35,6 +35,15 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
+/* Does it unload ribbons through states of rest? */
+static bool is_elastic(ZpStudy study) {
+  static const bool elastic[ZpStudy_COUNT] = {
+#define ZP_ELASTIC(enumerator) [enumerator] = true,
+#include <zipact/studies.def>
+  };
+  return elastic[study];
+}
+
 ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (!is_study(study))
     return zp_fail(err, ZP_BAD_INPUT, "study = %d: out of range; 0 to %d", (int)study, ZpStudy_COUNT - 1);
@@ -42,6 +51,11 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (status != ZP_OK) return status;
   if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
+  if (def->ribbon.plasticity && is_elastic(study))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "ribbon.plasticity = true: study %s unloads ribbons through states of rest, which have no history; "
+                   "use study actuate, or ribbon.plasticity false",
+                   table[study].word);
   return table[study].check(def, err);
 }
 

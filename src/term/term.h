@@ -17,7 +17,7 @@ typedef struct ZpSpan {
   double share;              /* of all weight that acts: 1, less on the way to an equilibrium */
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
   const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
-  const double *memory;      /* of a step, at its start, or of an instant: [kept N] the laws' own state */
+  const double *memory;      /* of a step, at its start, or of an instant: [kept] the laws' own state */
   const ZpBead *bead;        /* of a step: [ZP_BEADS] at its start; of an instant: there; NULL: all liquid lies between
                                 the faces */
   const double *v0;          /* of a step: velocities at its start [2 stride] */
