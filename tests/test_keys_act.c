@@ -67,6 +67,9 @@
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
+/* Something falls on its platform, which hangs. */
+#define FALLS HANGING " drive.voltage=0 liquid.model=none load.change_time=1us solver.end_time=2us"
+
 /* The same in a bath, and in one so viscous that nothing else counts. */
 #define BATH "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s"
 
@@ -416,6 +419,14 @@ static const Row rows[] = {
     {"load.force", STRIP, "0", "98.1uN", {{TIMES, "y_m", 2, 1e-3}}},
     {"load.stop_opening", "study=stationary mesh.nodes=21", "none", "5mm", {{BECOMES, "opening_m", 5e-3, 2e-3}}},
     {"load.stop_stiffness", SLIGHT " load.stop_opening=0", "1e4", "2e4", {{TIMES, "opening_m", 0.5, 2e-3}}},
+    /* what is caught weighs little beside what it falls on: all of its energy is lost */
+    {"load.change_mass", FALLS " load.drop_height=10mm", "8mg", "16mg", {{TIMES, "catch_loss_J", 2, 2e-3}}},
+    {"load.drop_height", FALLS " load.change_mass=8mg", "10mm", "20mm", {{TIMES, "catch_loss_J", 2, 1e-3}}},
+    {"load.change_time",
+     FALLS " load.change_mass=8mg load.drop_height=10mm",
+     "1us",
+     "1ms",
+     {{BECOMES, "catch_loss_J", 0, 0}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"mount.tilt", STRIP, "0", "180degree", {{TIMES, "y_m", -1, 1e-9}}},

@@ -108,19 +108,23 @@ typedef struct ZpState {
   double U;     /* potential difference, V */
   bool by_hand; /* the user has set it: the waveform does not count any more */
   ZpZipState zip;
-  bool was_open;           /* has the opening been above 1 % of the hanging one? */
-  double zip_time;         /* s; NAN until zipped */
-  double opening0;         /* of the hanging equilibrium, m */
-  double base_U;           /* voltage since the account of work was last closed, V; where U is another, it has jumped
-                              there now */
-  double base_charge;      /* per part, when it was closed, C */
-  double base_energy;      /* per part: kinetic + stored without field at the start, J */
-  double base_field;       /* per part: field energy at the start, J */
-  double work;             /* per part: of the source until the account was closed, J */
-  double charging_loss;    /* per part: what the field did not keep of jumps of the voltage until then, J */
-  double drag_loss;        /* per part, J */
-  double contact_loss;     /* per part, J */
-  double internal_loss;    /* per part: of internal damping, J */
+  bool was_open;        /* has the opening been above 1 % of the hanging one? */
+  double zip_time;      /* s; NAN until zipped */
+  double opening0;      /* of the hanging equilibrium, m */
+  double base_U;        /* voltage since the account of work was last closed, V; where U is another, it has jumped
+                           there now */
+  double base_charge;   /* per part, when it was closed, C */
+  double base_energy;   /* per part: kinetic + stored without field at the start, J */
+  double base_field;    /* per part: field energy at the start, J */
+  double work;          /* per part: of the source until the account was closed, J */
+  double charging_loss; /* per part: what the field did not keep of jumps of the voltage until then, J */
+  double drag_loss;     /* per part, J */
+  double contact_loss;  /* per part, J */
+  double internal_loss; /* per part: of internal damping, J */
+  bool load_changed;    /* load.change_mass has been caught or dropped, */
+  double changed_x;     /* where its node was then, m */
+  double changed_y;
+  double catch_loss;       /* per part: of the impact of what was caught, J */
   double plastic_loss;     /* per part: heat of plastic bending, J */
   double last_step;        /* implicit: length of the last step, s; 0: there is none */
   double next_step;        /* and of the next one to try */
@@ -181,6 +185,16 @@ static inline double zp_load_share(const ZpModel *model) {
 static inline double zp_load_pull(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);
+}
+
+/* Mass that each end which the load hangs on has beyond its share of load.mass, kg. */
+static inline double zp_state_added(const ZpModel *model, const ZpState *state) {
+  return state->load_changed ? model->def.load.share * model->def.load.change_mass : 0;
+}
+
+/* Its weight, of the modelled part, N. */
+static inline double zp_state_hung(const ZpModel *model, const ZpState *state) {
+  return (double)zp_load_ends(&model->topology) * zp_state_added(model, state) * model->def.gravity;
 }
 
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */

@@ -687,6 +687,9 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   if (!implicit && def->damping.internal > 0)
     return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires solver.integrator implicit",
                    def->damping.internal);
+  if (!implicit && def->load.change_mass != 0)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: requires solver.integrator implicit",
+                   def->load.change_mass);
   if (!implicit && def->ribbon.plasticity)
     return zp_fail(err, ZP_BAD_INPUT, "ribbon.plasticity = true: requires solver.integrator implicit");
   if (def->ribbon.model != ZP_RIBBON_ROD && def->damping.internal > 0)
@@ -888,6 +891,21 @@ static ZpStatus check_stop(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+/* The mass that is caught or dropped. */
+static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
+  bool timed = !isnan(def->load.change_time);
+  if (def->load.change_mass != 0 && !timed)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: load.change_mass is given, which requires it");
+  if (def->load.change_mass == 0 && timed)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: requires load.change_mass");
+  if (def->load.drop_height > 0 && !(def->load.change_mass > 0))
+    return zp_fail(err, ZP_BAD_INPUT, "load.drop_height: requires a load.change_mass above 0 kg, which is caught");
+  if (-def->load.change_mass > def->load.mass)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: drops more than load.mass, %g kg",
+                   def->load.change_mass, def->load.mass);
+  return ZP_OK;
+}
+
 /* A half is the mirror image of the other only where gravity is vertical. */
 static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
   static const double half_turn = 3.14159265358979323846;
@@ -954,6 +972,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_check_ribbons(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_stop(def, err);
+  if (status == ZP_OK) status = check_change(def, err);
   if (status == ZP_OK) status = check_tilt(def, err);
   if (status == ZP_OK) status = check_waveform(def, "drive", err);
   if (status == ZP_OK) status = check_control(def, err);

@@ -53,6 +53,7 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .U0 = d->U0,
                   .U1 = d->U1,
                   .load = mean_load(d),
+                  .hung = zp_state_hung(d->model, d->state),
                   .own = d->own,
                   .memory = zp_state_memory(d->model, d->state),
                   .bead = d->state->bead,
@@ -160,11 +161,12 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
   Pair pair = {zp_is_pair(t) ? equation[2 * upper + 1] : -1, equation[2 * lower + 1], 1, 0};
   if (pair.lower < 0) return pair;
-  pair.reduced = d->model->mass[lower];
+  bool loaded = i >= t->platform.first && i <= t->platform.last;
+  double of_upper = d->model->mass[upper], of_lower = d->model->mass[lower] + (loaded ? d->added : 0);
+  pair.reduced = of_lower;
   if (pair.upper < 0) return pair;
-  double both = d->model->mass[upper] + d->model->mass[lower];
-  pair.upper_share = d->model->mass[upper] / both;
-  pair.reduced = d->model->mass[upper] * d->model->mass[lower] / both;
+  pair.upper_share = of_upper / (of_upper + of_lower);
+  pair.reduced = of_upper * of_lower / (of_upper + of_lower);
   return pair;
 }
 
@@ -295,14 +297,26 @@ static void inertia(void *self, const double *a, double *f) {
 }
 
 /* Each outer face moves its own mass of liquid up and down. */
-static void add_liquid(ZpDynamics *d) {
+static void weigh_liquid(ZpDynamics *d) {
   const ZpModel *model = d->model;
   double side = zp_outer_side(&model->outer);
   for (size_t j = 0; j < model->count; j++) {
     int row = d->assembly.equation[2 * j + 1];
     if (row >= 0) d->mass[row] += side * zp_film_length(&model->film, j / model->s);
   }
-  d->system.inertia = inertia;
+}
+
+/* Masses by equations, with `added` on each end that the load hangs on, kg. */
+static void weigh(ZpDynamics *d, double added) {
+  const ZpTopology *t = &d->model->topology;
+  zp_assembly_masses(&d->assembly, d->model->mass, d->mass);
+  if (d->model->has_film) weigh_liquid(d);
+  d->added = added;
+  for (size_t i = t->platform.first; added != 0 && i <= t->platform.last; i++)
+    for (size_t c = 0; c < 2; c++) {
+      int row = d->assembly.equation[2 * zp_lower(t, i) + c];
+      if (row >= 0) d->mass[row] += added;
+    }
 }
 
 /* The voltage behind a source has a rate and no inertia. */
@@ -333,9 +347,9 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!d->memory) return false;
   carve(d, d->memory);
   d->system.mass = d->mass;
-  zp_assembly_masses(&d->assembly, model->mass, d->mass);
+  weigh(d, 0);
   if (source || model->own) add_own(d);
-  if (model->has_film) add_liquid(d);
+  if (model->has_film) d->system.inertia = inertia;
   if (source) add_voltage(d);
   const ZpActuatorDef *def = &model->def;
   d->stepper.balance = 2e-6 * def->solver.tolerance;
@@ -458,12 +472,34 @@ static void store(ZpDynamics *d, ZpState *state) {
   state->next_step = d->history.next;
 }
 
+/* Momentum is kept by each coordinate of the load's nodes: the strips do not feel the impact. */
+void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
+  const ZpModel *model = d->model;
+  const ZpTopology *t = &model->topology;
+  double each = model->def.load.share * model->def.load.change_mass;
+  double fast = sqrt(2 * model->def.gravity * model->def.load.drop_height);
+  weigh(d, zp_state_added(model, state));
+  zp_assembly_gather(&d->assembly, zp_state_v(model, state), d->v);
+  for (size_t c = 0; c < 2; c++) {
+    int row = d->assembly.equation[2 * zp_load_node(t) + c];
+    if (row < 0 || each < 0) continue;
+    size_t ends = d->assembly.equation[2 * zp_lower(t, t->platform.last) + c] == row ? zp_load_ends(t) : 1;
+    double comes = (double)ends * each;
+    d->v[row] = (d->mass[row] * d->v[row] + comes * fast * model->fall[c]) / (d->mass[row] + comes);
+  }
+  zp_assembly_scatter(&d->assembly, d->v, zp_state_v(model, state));
+  memcpy(zp_state_mean_v(model, state), zp_state_v(model, state), 2 * model->stride * sizeof *d->v);
+  memset(zp_state_mean_a(model, state), 0, 2 * model->stride * sizeof *d->v);
+  state->last_step = state->next_step = 0;
+}
+
 double zp_dynamics_step(ZpDynamics *d, ZpState *state, double latest) {
   const ZpModel *model = d->model;
   d->state = state;
   d->latest = latest;
   d->U0 = state->U;
   d->stepper.accuracy = model->def.solver.tolerance * far(model, state);
+  if (d->added != zp_state_added(model, state)) weigh(d, zp_state_added(model, state));
   load(d, state);
   double taken = zp_implicit_step(&d->stepper, latest - state->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;

@@ -132,6 +132,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
+  row[SIGNAL_catch_loss] = parts * state->catch_loss;
   row[SIGNAL_plastic_loss] = parts * state->plastic_loss;
   row[SIGNAL_film_along_loss] = parts * state->along_loss;
   row[SIGNAL_film_across_loss] = parts * state->across_loss;
@@ -230,8 +231,8 @@ static void fill_row(ZpSim *sim, unsigned what) {
   if (what & MARGINS) fill_margins(sim, row);
   double in_liquid = state->along_loss + state->across_loss + state->jet_loss + state->outer_drag_loss;
   in_liquid += state->meniscus_loss;
-  double lost = state->drag_loss + state->internal_loss + state->plastic_loss + state->contact_loss + in_liquid +
-                state->leak_loss;
+  double lost = state->drag_loss + state->internal_loss + state->plastic_loss + state->catch_loss +
+                state->contact_loss + in_liquid + state->leak_loss;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 

@@ -53,11 +53,19 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
+/* Work on what was caught, from there to the end, and on what was dropped, until then, J; to be added to that on
+ * load.mass. */
+static double work_on_change(ZpSim *sim, const ZpModel *model) {
+  const ZpState *state = sim->state;
+  double y = zp_state_motion(model, state).y[zp_load_node(&model->topology)];
+  return -model->parts * zp_state_hung(model, state) * model->fall[1] * (y - state->changed_y);
+}
+
 /* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
   double compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  return zp_load_pull(model) * risen + compressed - at_end(sim, result, "load_work");
+  return zp_load_pull(model) * risen + compressed + work_on_change(sim, model) - at_end(sim, result, "load_work");
 }
 
 /* What the source gave, and what came of it. */
@@ -174,6 +182,8 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
   if (model->rod.plastic) summarize_plastic(sim, result);
+  if (!isnan(model->def.load.change_time))
+    zp_result_add(result, "catch_loss_J", "J", at_end(sim, result, "catch_loss"));
   if (model->has_bead) summarize_bead(sim, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));

@@ -486,6 +486,10 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",
                    zp_key(zp_key_find("drive.waveform"))->choices[kind].word);
+  if (def->load.change_mass != 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "load.change_mass: study cycle looks for periodic motion under one load; use study "
+                   "actuate");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
