@@ -40,6 +40,8 @@ PICTURES = {
     "meter.svg": "meter/plots/sense.svg",
     "pre-opened.svg": "pre-opened/plots/shapes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
+    "yielding.svg": "yielding/plots/plastic.svg",
+    "caught-mass.svg": "caught-mass/plots/stroke.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 

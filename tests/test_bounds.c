@@ -220,7 +220,9 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "source.voltage_limit") == 0) def->drive.voltage = fmin(value, def->drive.voltage);
   if (strncmp(key, "sense.", 6) == 0) make_meter(def, key, value);
   if (strncmp(key, "control.", 8) == 0 || strncmp(key, "setpoint.", 9) == 0) make_controller(def, key, value);
-  if (strstr(key, ".resistivity")) implicit = true;
+  if (strstr(key, "hardening_modulus")) def->ribbon.plasticity = true;
+  bool changes = strncmp(key, "load.change_", 12) == 0 || strcmp(key, "load.drop_height") == 0;
+  if (strstr(key, ".resistivity") || def->ribbon.plasticity || changes) implicit = true;
   if (unilateral || implicit || (strcmp(key, "damping.internal") == 0 && value > 0)) {
     def->contact.model = ZP_CONTACT_UNILATERAL;
     def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;
@@ -239,6 +241,10 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
   if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;
   if (strcmp(key, "load.rest_opening") == 0) def->load.stiffness = 1;
+  if (strcmp(key, "load.change_mass") == 0 && value != 0) def->load.change_time = 1e-5, def->load.mass = fabs(value);
+  if (strcmp(key, "load.change_time") == 0 || (strcmp(key, "load.drop_height") == 0 && value > 0))
+    def->load.change_mass = 1e-3;
+  if (strcmp(key, "load.drop_height") == 0 && value > 0) def->load.change_time = 1e-5;
   if (strcmp(key, "load.stop_stiffness") == 0) def->load.stop_opening = 1e-3;
   if (strcmp(key, "insulator.thickness") == 0 && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;

@@ -67,6 +67,13 @@ static ZpActuatorDef def_of(int which, double *cut, double *end) {
     *cut = FULL_OR(30e-3, 8e-3);
     *end = FULL_OR(33e-3, 9e-3);
     return DEF(IMPLICIT, {"mesh.nodes", FULL_OR(21, 9)}, {"electro.model", ZP_ELECTRO_FIELD});
+  case 6:
+    return DEF(IMPLICIT, {"mesh.nodes", 21}, {"ribbon.plasticity", true}, {"ribbon.yield_stress", 60e6}, SQUARE);
+  case 7:
+    return DEF(IMPLICIT, {"mesh.nodes", 21}, {"load.change_time", 20e-3}, {"load.change_mass", 4e-3},
+               {"load.drop_height", 5e-3});
+  case 8:
+    return DEF(IMPLICIT, {"mesh.nodes", 21}, {"load.change_time", 40e-3}, {"load.change_mass", -4e-3});
   default:
     return DEF(IMPLICIT, {"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 21}, {"initial.state", ZP_INITIAL_STRAIGHT});
   }
@@ -300,7 +307,7 @@ static unsigned char *block(unsigned char *byte, size_t size, const char *name) 
 /* Numbers that no run leaves: by hand, the file is whole. */
 START_TEST(test_no_state) {
   static const double wrong[] = {1e300, NAN, -1, 0.5};
-  enum { NUMBERS = 34, TIME = 0, VOLTAGE = 1, BY_HAND = 2, SUPPLY_MODE = 6 };
+  enum { NUMBERS = 34, TIME = 0, VOLTAGE = 1, BY_HAND = 2, SUPPLY_MODE = 7 };
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
   size_t size;
   unsigned char *byte = short_run(&size), *number = block(byte, size, "state.values");
@@ -436,7 +443,7 @@ END_TEST
 /* What an earlier program wrote says so. */
 START_TEST(test_earlier_file) {
   unsigned char old[64] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n', 2};
-  refused(old, sizeof old, 0, "of version 2 of the format; zipact " ZP_VERSION " reads version 6");
+  refused(old, sizeof old, 0, "of version 2 of the format; zipact " ZP_VERSION " reads version 7");
 }
 END_TEST
 
@@ -470,7 +477,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("checkpoint");
   TCase *same = tcase_create("continuation");
-  tcase_add_loop_test(same, test_goes_on_to_the_same_bits, 0, 7);
+  tcase_add_loop_test(same, test_goes_on_to_the_same_bits, 0, 10);
   tcase_add_test(same, test_another_voltage);
   tcase_add_loop_test(same, test_bad_ends, 0, 2);
   tcase_add_test(same, test_diverged);

@@ -14,6 +14,7 @@
 #define SAGS                                                                                                           \
   "study=stationary actuator.kind=ribbon actuator.right_end=free load.mass=0 gravity=0.001 ribbon.length=50mm "        \
   "mesh.nodes=21"
+#define YIELDS "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 mesh.nodes=81"
 #define CANTILEVER                                                                                                     \
   "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 load.mass=2mg mesh.nodes=21"
 
@@ -69,6 +70,9 @@
 
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
+
+/* Something falls on its platform, which hangs. */
+#define FALLS HANGING " drive.voltage=0 liquid.model=none load.change_time=1us solver.end_time=2us"
 
 /* The same in a bath, and in one so viscous that nothing else counts. */
 #define BATH "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s"
@@ -178,6 +182,18 @@ static const Row rows[] = {
     {"ribbon.thickness", STRIP, "50um", "100um", {{TIMES, "y_m", 1.0 / 8, 1e-4}}},
     {"ribbon.young_modulus", STRIP, "100GPa", "200GPa", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"ribbon.yield_stress", STRIP, "500MPa", "1GPa", {{TIMES, "yield_margin", 2, 1e-12}, {SAME, "y_m", 0, 1e-12}}},
+    /* 1.45 times the load at which the clamp yields: a cantilever of a metal that does not harden */
+    {"ribbon.plasticity",
+     YIELDS " ribbon.yield_stress=1MPa load.mass=7.8216mg",
+     "false",
+     "true",
+     {{TIMES, "y_m", (5 - (3 + 1.45) * 0.31622777) / (1.45 * 1.45) / 1.45, 5e-3}}},
+    /* 20 times that load; sums of the curvatures of (2.11), which bear its moments */
+    {"ribbon.hardening_modulus",
+     YIELDS " ribbon.plasticity=true ribbon.yield_stress=1MPa ribbon.length=10mm load.mass=1.078831g",
+     "200GPa",
+     "600GPa",
+     {{TIMES, "y_m", 0.672389, 2e-3}}},
     {"ribbon.poisson_ratio", STRIP, "0", "0.4", {{TIMES, "y_m", 1 - 0.16, 1e-4}}},
     {"ribbon.poisson_ratio", STRIP " ribbon.plane=stress", "0", "0.4", {{SAME, "y_m", 0, 0}}},
     {"ribbon.density",
@@ -283,6 +299,13 @@ static const Row rows[] = {
      "0.4",
      {{TIMES, "opening_m", (1 + 1 - 0.16) / 2, 1e-4}}},
     {"lower.ribbon.density", SAGGED, "2000kg/m3", "4000kg/m3", {{TIMES, "opening_m", 2, 1e-4}}},
+    /* two cantilevers back to back in each strip, which sink far less than they are thick: half of the sum of both */
+    {"lower.ribbon.hardening_modulus",
+     "study=stationary ribbon.density=0 ribbon.length=12.5mm load.mass=34.5227g mesh.nodes=81 drive.voltage=0 "
+     "ribbon.plasticity=true ribbon.yield_stress=1MPa ribbon.hardening_modulus=200GPa",
+     "200GPa",
+     "600GPa",
+     {{TIMES, "opening_m", 0.836194, 2e-3}}},
     {"lower.ribbon.yield_stress",
      SLIGHT,
      "100MPa",
@@ -435,6 +458,14 @@ static const Row rows[] = {
     {"member_8.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
     {"member_8.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
     {"member_8.insulator.permittivity", EIGHT_CLOSED, "4.62", "9.24", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},
+    /* what is caught weighs little beside what it falls on: all of its energy is lost */
+    {"load.change_mass", FALLS " load.drop_height=10mm", "8mg", "16mg", {{TIMES, "catch_loss_J", 2, 2e-3}}},
+    {"load.drop_height", FALLS " load.change_mass=8mg", "10mm", "20mm", {{TIMES, "catch_loss_J", 2, 1e-3}}},
+    {"load.change_time",
+     FALLS " load.change_mass=8mg load.drop_height=10mm",
+     "1us",
+     "1ms",
+     {{BECOMES, "catch_loss_J", 0, 0}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
     {"mount.tilt", STRIP, "0", "180degree", {{TIMES, "y_m", -1, 1e-9}}},

@@ -14,7 +14,7 @@ enum { MOST = 2048 };
 /* (model, positions of its nodes, which lie beyond the last as if the ribbon went on) => stress */
 static void stress_of(const ZpModel *model, const double *x, const double *y, double *stress) {
   ck_assert_uint_le(model->stride, MOST);
-  zp_stress(&model->stress, x, y, stress);
+  zp_stress(&model->stress, x, y, NULL, stress);
 }
 
 #define STRIP                                                                                                          \

@@ -45,6 +45,13 @@ static const Case cases[] = {
     {"clamped flange", SET(SOFT, FLANGE, {"actuator.right_end", ZP_END_CLAMPED}), 1e-4, 1e3, true},
     {"free ribbon", SET({"mesh.nodes", 8}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}), 0,
      0, false},
+    {"yielding ribbon",
+     SET({"mesh.nodes", 8}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
+         {"ribbon.plasticity", 1}, {"ribbon.yield_stress", 1e6}, {"ribbon.hardening_modulus", 30e9}),
+     0, 0, false},
+    {"yielding ribbons with stiff tapes",
+     SET({"mesh.nodes", 8}, {"ribbon.plasticity", 1}, {"ribbon.yield_stress", 1e6}, {"insulator.young_modulus", 5e9}),
+     1e-4, 0, false},
     {"clamped ribbon",
      SET({"mesh.nodes", 8}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED}), 0, 0, false},
 };

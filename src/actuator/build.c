@@ -7,6 +7,7 @@
 #include "base/kernel.h"
 #include "def/check.h"
 #include "math/elementary.h"
+#include "ribbon/rod_plastic.h"
 
 static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   ZpLayer layers[2] = {
@@ -14,6 +15,15 @@ static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
       {def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density},
   };
   return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane != ZP_PLANE_STRESS);
+}
+
+/* Fibres of the metal, of a ribbon of one thickness. */
+static ZpPlastic plastic_of(const ZpActuatorDef *def) {
+  bool plane_strain = def->ribbon.plane != ZP_PLANE_STRESS;
+  ZpLayer metal = {def->ribbon.thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density};
+  ZpSection section = section_of(def, def->ribbon.thickness);
+  return zp_plastic(&metal, &section, def->ribbon.width, plane_strain, def->ribbon.yield_stress,
+                    def->ribbon.hardening_modulus);
 }
 
 /* Eqs. (2.5) and (2.6), of a ribbon without segments. */
@@ -384,6 +394,17 @@ static void fill_rod(ZpModel *model, Arrays *a) {
       fill_end(model, ribbon, levels.of[k], a);
 }
 
+/* Its joints may yield. */
+static void fill_plastic(ZpModel *model) {
+  ZpActuatorDef lower = zp_def_lower(&model->def);
+  model->plastic_at = model->kept;
+  if (!model->def.ribbon.plasticity) return;
+  model->plastic[0] = plastic_of(&model->def);
+  model->plastic[1] = plastic_of(&lower);
+  model->rod.plastic = model->plastic;
+  model->kept += zp_rod_plastic_count(&model->rod);
+}
+
 /* The pieces within half an edge of node j count: the most that a moment and a force do to any of them. */
 static void fill_stress_of(const ZpModel *model, size_t j, Arrays *a) {
   const ZpTopology *t = &model->topology;
@@ -600,8 +621,8 @@ static void derive(ZpModel *model) {
   model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));
   if (model->leaks) model->leak = leak_of(model);
   model->leak_at = model->has_film ? ZP_FILM_STATE * model->nodes : 0;
-  model->kept = model->has_film ? ZP_FILM_STATE : 0;
-  if (model->leaks) model->kept += ZP_PLATES_PLACES;
+  model->kept = model->leak_at;
+  if (model->leaks) model->kept += ZP_PLATES_PLACES * model->nodes;
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part
@@ -683,6 +704,7 @@ static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, 
     fill_rod(model, &arrays);
   else
     fill_chain(model, &arrays);
+  fill_plastic(model);
   fill_stress(model, &arrays);
   fill_masses(model, &arrays);
   *out = model;
@@ -761,5 +783,5 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + (12 * model->stride + (model->own + model->kept) * model->nodes) * sizeof(double);
+  return sizeof(ZpState) + (12 * model->stride + zp_own_unknowns(model) + model->kept) * sizeof(double);
 }

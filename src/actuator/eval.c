@@ -29,8 +29,9 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   e->open = zp_carve(&carver, model->nodes);
   e->own_residual = e->film.r;
   zp_leak_carve(&model->plates, &e->leak, &carver);
-  e->memory_end = zp_carve(&carver, model->kept * model->nodes);
+  e->memory_end = zp_carve(&carver, model->kept);
   e->film.end = model->has_film ? e->memory_end : NULL;
+  e->rod_step.strain_end = model->rod.plastic ? e->memory_end + model->plastic_at : NULL;
   e->leak.Z = model->leaks ? e->memory_end + model->leak_at : NULL;
   zp_faces_carve(&model->faces, &e->faces, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);

@@ -44,7 +44,7 @@ typedef struct ZpEval {
   double meniscus[ZP_BEADS]; /* head at the meniscus, Pa */
   ZpBead bead_end[ZP_BEADS]; /* where the step ends */
   double *own_residual;      /* [own N] what is left of the equations of the laws' own unknowns */
-  double *memory_end;        /* [kept N] state of the laws where the span ends */
+  double *memory_end;        /* [kept] state of the laws where the span ends */
   bool solves;               /* it can solve the field, not only hold what was found */
   ZpSurplus surplus;         /* where it does */
   const char *fault;         /* why the last attempt to find a held force has failed; NULL: it has not */
@@ -100,6 +100,7 @@ typedef struct ZpEnergies {
 /* Lost by one modelled part over a span. */
 typedef struct ZpLosses {
   double drag, internal;      /* J */
+  double plastic;             /* heat of plastic bending, J */
   double along, across, jets; /* in the film of liquid, J */
   double outer;               /* to the form drag of the liquid outside, J */
   double leak;                /* heat of conduction through insulators and liquid, J */

@@ -65,6 +65,8 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
+  ZpPlastic plastic[2];     /* of each ribbon, where ribbon.plasticity */
+  size_t plastic_at;        /* where plastic strains begin in the laws' state */
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
@@ -78,7 +80,8 @@ struct ZpModel {
   ZpBeadParams bead;
   ZpPlatesParams air;      /* the law there */
   ZpOuterParams outer;     /* of liquid outside */
-  size_t own, kept;        /* unknowns, and numbers of state, of the laws at each station, in motion */
+  size_t own;              /* unknowns of the laws at each station, in motion */
+  size_t kept;             /* numbers of state of the laws, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
@@ -107,19 +110,24 @@ typedef struct ZpState {
   double U;     /* potential difference, V */
   bool by_hand; /* the user has set it: the waveform does not count any more */
   ZpZipState zip;
-  bool was_open;           /* has the opening been above 1 % of the hanging one? */
-  double zip_time;         /* s; NAN until zipped */
-  double opening0;         /* of the hanging equilibrium, m */
-  double base_U;           /* voltage since the account of work was last closed, V; where U is another, it has jumped
-                              there now */
-  double base_charge;      /* per part, when it was closed, C */
-  double base_energy;      /* per part: kinetic + stored without field at the start, J */
-  double base_field;       /* per part: field energy at the start, J */
-  double work;             /* per part: of the source until the account was closed, J */
-  double charging_loss;    /* per part: what the field did not keep of jumps of the voltage until then, J */
-  double drag_loss;        /* per part, J */
-  double contact_loss;     /* per part, J */
-  double internal_loss;    /* per part: of internal damping, J */
+  bool was_open;        /* has the opening been above 1 % of the hanging one? */
+  double zip_time;      /* s; NAN until zipped */
+  double opening0;      /* of the hanging equilibrium, m */
+  double base_U;        /* voltage since the account of work was last closed, V; where U is another, it has jumped
+                           there now */
+  double base_charge;   /* per part, when it was closed, C */
+  double base_energy;   /* per part: kinetic + stored without field at the start, J */
+  double base_field;    /* per part: field energy at the start, J */
+  double work;          /* per part: of the source until the account was closed, J */
+  double charging_loss; /* per part: what the field did not keep of jumps of the voltage until then, J */
+  double drag_loss;     /* per part, J */
+  double contact_loss;  /* per part, J */
+  double internal_loss; /* per part: of internal damping, J */
+  bool load_changed;    /* load.change_mass has been caught or dropped, */
+  double changed_x;     /* where its node was then, m */
+  double changed_y;
+  double catch_loss;       /* per part: of the impact of what was caught, J */
+  double plastic_loss;     /* per part: heat of plastic bending, J */
   double last_step;        /* implicit: length of the last step, s; 0: there is none */
   double next_step;        /* and of the next one to try */
   double refreshed;        /* time of the last refresh of a held electric force, s; NAN: due now */
@@ -152,7 +160,7 @@ typedef struct ZpState {
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
                     mean velocity and acceleration of the last implicit step [4 stride], the laws' own unknowns [own N]
-                    and state [kept N] */
+                    and state [kept] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -208,6 +216,16 @@ static inline bool zp_in_series(const ZpModel *model) {
 
 /* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (28.1). */
 ZpActuatorDef zp_member_at_rest(const ZpModel *member);
+
+/* Mass that each end which the load hangs on has beyond its share of load.mass, kg. */
+static inline double zp_state_added(const ZpModel *model, const ZpState *state) {
+  return state->load_changed ? model->def.load.share * model->def.load.change_mass : 0;
+}
+
+/* Its weight, of the modelled part, N. */
+static inline double zp_state_hung(const ZpModel *model, const ZpState *state) {
+  return (double)zp_load_ends(&model->topology) * zp_state_added(model, state) * model->def.gravity;
+}
 
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */
 static inline double zp_state_load(const ZpModel *model, const ZpState *state, double t) {
@@ -269,7 +287,7 @@ static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride;
 }
 
-/* State of the laws, [kept N]: of the film, then of what leaks, each station by station. */
+/* State of the laws, [kept]: of the film, then of what leaks, each station by station, then plastic strains. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
   return state->data + 12 * model->stride + zp_own_unknowns(model);
 }
@@ -277,6 +295,11 @@ static inline const double *zp_state_memory(const ZpModel *model, const ZpState 
 /* Interface voltages [ZP_PLATES_PLACES N] in a state of the laws; NULL of none. */
 static inline const double *zp_leak_memory(const ZpModel *model, const double *memory) {
   return memory ? memory + model->leak_at : NULL;
+}
+
+/* Plastic strains of ribbons that may yield (ribbon/rod_plastic.h). */
+static inline double *zp_state_strain(const ZpModel *model, ZpState *state) {
+  return state->data + 12 * model->stride + zp_own_unknowns(model) + model->plastic_at;
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

@@ -6,7 +6,7 @@
 #include "electro/series.h"
 
 void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
-  room->interface = NULL;
+  room->interface = room->strain = NULL;
   room->reach[0] = room->reach[1] = INFINITY;
   room->line_force = zp_carve(carver, model->nodes);
   room->insulator_field = zp_carve(carver, model->nodes);
@@ -40,7 +40,7 @@ static void fill_fields(const ZpModel *model, const ZpShapeRoom *room, const ZpS
 }
 
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape) {
-  zp_stress(&model->stress, shape->x, shape->y, room->stress);
+  zp_stress(&model->stress, shape->x, shape->y, room->strain, room->stress);
   shape->stress = room->stress;
   if (!model->field) return;
   for (size_t i = 0; i < model->nodes; i++)

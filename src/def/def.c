@@ -702,6 +702,11 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   if (!implicit && def->damping.internal > 0)
     return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires solver.integrator implicit",
                    def->damping.internal);
+  if (!implicit && def->load.change_mass != 0)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: requires solver.integrator implicit",
+                   def->load.change_mass);
+  if (!implicit && def->ribbon.plasticity)
+    return zp_fail(err, ZP_BAD_INPUT, "ribbon.plasticity = true: requires solver.integrator implicit");
   if (def->ribbon.model != ZP_RIBBON_ROD && def->damping.internal > 0)
     return zp_fail(err, ZP_BAD_INPUT, "damping.internal = %g s: requires ribbon.model rod", def->damping.internal);
   return zp_check_mass(def, err);
@@ -824,6 +829,27 @@ static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
   return alike == ZP_OK ? check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err) : alike;
 }
 
+/* What yields remembers how it was bent. The elastic states of rest that a meter and a controller are judged by do not.
+ */
+static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
+  static const Need needs[] = {{"ribbon.model", ZP_RIBBON_ROD}, {"control.kind", ZP_CONTROL_NONE}};
+  bool hardens = def->ribbon.hardening_modulus != 0 || !isnan(def->lower.ribbon.hardening_modulus);
+  if (!def->ribbon.plasticity && hardens)
+    return zp_fail(err, ZP_BAD_INPUT, "%sribbon.hardening_modulus: requires ribbon.plasticity true",
+                   def->ribbon.hardening_modulus != 0 ? "" : "lower.");
+  if (!def->ribbon.plasticity) return ZP_OK;
+  if (def->ribbon.plane == ZP_PLANE_ANTICLASTIC)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "ribbon.plane = anticlastic: a strip that curls across is elastic; ribbon.plasticity requires "
+                   "ribbon.plane strain or stress");
+  if (!isnan(def->sense.frequency))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "sense.frequency: its curve of strokes at rest is of elastic ribbons, which "
+                   "ribbon.plasticity excludes");
+  return check_needs(def, "ribbon.plasticity = true", needs, sizeof needs / sizeof needs[0], "ribbon.plasticity false",
+                     err);
+}
+
 /* Keys of a meter that is not there, or that it lacks. */
 static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
   static const struct {
@@ -873,6 +899,21 @@ static ZpStatus check_stop(const ZpActuatorDef *def, ZpError *err) {
                    "load.stop_opening: requires actuator.kind electro_ribbon, whose platforms it holds");
   if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
     return zp_fail(err, ZP_BAD_INPUT, "load.stop_opening: requires contact.model unilateral");
+  return ZP_OK;
+}
+
+/* The mass that is caught or dropped. */
+static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
+  bool timed = !isnan(def->load.change_time);
+  if (def->load.change_mass != 0 && !timed)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: load.change_mass is given, which requires it");
+  if (def->load.change_mass == 0 && timed)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: requires load.change_mass");
+  if (def->load.drop_height > 0 && !(def->load.change_mass > 0))
+    return zp_fail(err, ZP_BAD_INPUT, "load.drop_height: requires a load.change_mass above 0 kg, which is caught");
+  if (-def->load.change_mass > def->load.mass)
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: drops more than load.mass, %g kg",
+                   def->load.change_mass, def->load.mass);
   return ZP_OK;
 }
 
@@ -943,6 +984,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = zp_check_stack(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_stop(def, err);
+  if (status == ZP_OK) status = check_change(def, err);
   if (status == ZP_OK) status = check_tilt(def, err);
   if (status == ZP_OK) status = check_waveform(def, "drive", err);
   if (status == ZP_OK) status = check_control(def, err);
@@ -951,6 +993,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = check_symmetry(def, err);
   if (status == ZP_OK) status = check_liquid(def, err);
   if (status == ZP_OK) status = check_leak(def, err);
+  if (status == ZP_OK) status = check_plasticity(def, err);
   if (status == ZP_OK) status = check_meter(def, err);
   return status == ZP_OK ? check_electro(def, err) : status;
 }

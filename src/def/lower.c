@@ -43,6 +43,14 @@ ZpStatus zp_check_like_sections(const ZpActuatorDef *def, const char *asks, ZpEr
   return status == ZP_OK ? check_not_given(def, "lower.ribbon.thickness", asks, err) : status;
 }
 
+/* Has any segment another thickness than the rest of the ribbon? */
+static bool has_other_thickness(const ZpActuatorDef *ribbon) {
+  double b = ribbon->ribbon.thickness;
+  return (ribbon->segment_1.length > 0 && ribbon->segment_1.thickness != b) ||
+         (ribbon->segment_2.length > 0 && ribbon->segment_2.thickness != b) ||
+         (ribbon->segment_3.length > 0 && ribbon->segment_3.thickness != b);
+}
+
 static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed, double flexible, ZpError *err) {
   double segments = ribbon->segment_1.length + ribbon->segment_2.length + ribbon->segment_3.length;
   if (segments > flexible * (1 + 1e-12))
@@ -55,6 +63,12 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
         "%ssegment_1.length to %ssegment_3.length: %g m together, but ribbon.plane anticlastic knows ribbons "
         "without segments only",
         prefixed, prefixed, segments);
+  if (ribbon->ribbon.plasticity && has_other_thickness(ribbon))
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "%ssegment_1.thickness to %ssegment_3.thickness: ribbon.plasticity requires segments as thick as the "
+        "ribbon, %g m",
+        prefixed, prefixed, ribbon->ribbon.thickness);
   if (segments > 0 && ribbon->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT, "%ssegment_1.length = %g m: segments require ribbon.model rod", prefixed,
                    ribbon->segment_1.length);

@@ -57,6 +57,8 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
       {def->source.model != ZP_SOURCE_IDEAL, "source.model", "ideal"},
       {def->control.kind != ZP_CONTROL_NONE, "control.kind", "none"},
       {def->load.share != 0.5, "load.share", "0.5"},
+      {def->load.change_mass != 0, "load.change_mass", "0"},
+      {def->ribbon.plasticity, "ribbon.plasticity", "false"},
       {def->load.stiffness > 0, "load.stiffness", "0"},
       {!isnan(def->load.stop_opening), "load.stop_opening", "none"},
       {!isnan(def->insulator.resistivity), "insulator.resistivity", "none"},

@@ -1,5 +1,5 @@
 /* Pictures of one run over time: stroke.svg, zipped_length.svg, voltage.svg, source.svg, control.svg, loops.svg,
- * energies.svg, electric.svg, stress.svg. */
+ * energies.svg, electric.svg, stress.svg, plastic.svg. */
 #include <math.h>
 #include <string.h>
 
@@ -359,6 +359,22 @@ static void script_stress(const ZpPlot *plot, FILE *file) {
   plot_columns(plot, file, time, stress, "stress", curve, 1);
 }
 
+static bool has_plastic(const ZpPlot *plot) {
+  return plot->def.ribbon.plasticity && is_film(plot) && zp_plot_has(series(plot), "permanent_curvature_per_m");
+}
+
+static void script_plastic(const ZpPlot *plot, FILE *file) {
+  const char *const openings[][2] = {{"opening_m", "opening"}, {"stroke_m", "stroke"}},
+                    *const curvatures[][2] = {{"permanent_curvature_per_m", "permanent"}};
+  bool two = zp_plot_has(series(plot), "opening_m");
+  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"opening_m", "stroke_m", NULL}, "m");
+  ZpPlotUnit curvature =
+      zp_plot_table_unit(series(plot), (const char *const[]){"permanent_curvature_per_m", NULL}, "1/m");
+  two_panels(plot, file, "plastic", "What plastic bending has left over time",
+             &(Panel){"length", length, two ? openings : openings + 1, 1},
+             &(Panel){"curvature", curvature, curvatures, 1});
+}
+
 const ZpPicture zp_series_pictures[] = {
     {"stroke", "svg", has_stroke, script_stroke, NULL},
     {"zipped_length", "svg", has_zipped_length, script_zipped_length, NULL},
@@ -371,5 +387,6 @@ const ZpPicture zp_series_pictures[] = {
     {"energies", "svg", has_energies, script_energies, NULL},
     {"electric", "svg", has_electric, script_electric, NULL},
     {"stress", "svg", has_stress, script_stress, NULL},
+    {"plastic", "svg", has_plastic, script_plastic, NULL},
     {0},
 };

@@ -70,6 +70,7 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .U0 = d->U0,
                   .U1 = d->U1,
                   .load = mean_load(d),
+                  .hung = zp_state_hung(d->model, d->state),
                   .own = d->own,
                   .memory = zp_state_memory(d->model, d->state),
                   .bead = d->state->bead,
@@ -254,7 +255,7 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
   Pair pair = {zp_is_pair(t) ? equation[2 * upper + 1] : -1, equation[2 * lower + 1], 1, 0};
   if (pair.lower < 0) return pair;
-  double below = d->model->mass[lower] + (is_platform(d, i) ? mass_joined(d->below, true) : 0);
+  double below = d->model->mass[lower] + (is_platform(d, i) ? d->added + mass_joined(d->below, true) : 0);
   pair.reduced = below;
   if (pair.upper < 0) return pair;
   double above = d->model->mass[upper] + (is_platform(d, i) ? mass_joined(d->above, false) : 0), both = above + below;
@@ -409,13 +410,26 @@ static void inertia(void *self, const double *a, double *f) {
 }
 
 /* Each outer face moves its own mass of liquid up and down. */
-static void add_liquid(ZpDynamics *d) {
+static void weigh_liquid(ZpDynamics *d) {
   const ZpModel *model = d->model;
   double side = zp_outer_side(&model->outer);
   for (size_t j = 0; j < model->count; j++) {
     int row = d->assembly.equation[2 * j + 1];
     if (row >= 0) d->mass[row] += side * zp_film_length(&model->film, j / model->s);
   }
+}
+
+/* Masses by equations, with `added` on each end that the load hangs on, kg. */
+static void weigh(ZpDynamics *d, double added) {
+  const ZpTopology *t = &d->model->topology;
+  zp_assembly_masses(&d->assembly, d->model->mass, d->mass);
+  if (d->model->has_film) weigh_liquid(d);
+  d->added = added;
+  for (size_t i = t->platform.first; added != 0 && i <= t->platform.last; i++)
+    for (size_t c = 0; c < 2; c++) {
+      int row = d->assembly.equation[2 * zp_lower(t, i) + c];
+      if (row >= 0) d->mass[row] += added;
+    }
 }
 
 /* The voltage behind a source has a rate and no inertia. */
@@ -483,9 +497,8 @@ static void fill_equations(ZpDynamics *d) {
   for (size_t i = 0; i < d->system.n; i++)
     d->scale[i] = 1;
   for (ZpDynamics *m = d; m; m = m->below) {
-    zp_assembly_masses(&m->assembly, m->model->mass, m->mass);
+    weigh(m, 0);
     add_own(m);
-    if (m->model->has_film) add_liquid(m);
   }
   add_link_forces(d);
   d->system.mass = d->mass;
@@ -599,6 +612,7 @@ static void book_losses(ZpDynamics *d, ZpState *state) {
   ZpLosses losses = zp_system_losses(d->model, &span, &d->eval);
   state->drag_loss += losses.drag;
   state->internal_loss += losses.internal;
+  state->plastic_loss += losses.plastic;
   state->along_loss += losses.along;
   state->across_loss += losses.across;
   state->jet_loss += losses.jets;
@@ -615,8 +629,7 @@ static void store(ZpDynamics *d, ZpState *state) {
   zp_assembly_scatter(&d->assembly, d->history.w, zp_state_mean_v(model, state));
   zp_assembly_scatter(&d->assembly, d->history.a, zp_state_mean_a(model, state));
   memcpy(zp_state_own(model, state), d->own, zp_own_unknowns(model) * sizeof *d->own);
-  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), d->eval.memory_end,
-         model->kept * model->nodes * sizeof *d->own);
+  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), d->eval.memory_end, model->kept * sizeof *d->own);
   state->t = end_time(d);
   if (model->has_bead) memcpy(state->bead, d->eval.bead_end, sizeof state->bead);
   if (d->source) {
@@ -625,6 +638,27 @@ static void store(ZpDynamics *d, ZpState *state) {
   }
   state->last_step = d->history.last;
   state->next_step = d->history.next;
+}
+
+/* Momentum is kept by each coordinate of the load's nodes: the strips do not feel the impact. */
+void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
+  const ZpModel *model = d->model;
+  const ZpTopology *t = &model->topology;
+  double each = model->def.load.share * model->def.load.change_mass;
+  double fast = sqrt(2 * model->def.gravity * model->def.load.drop_height);
+  weigh(d, zp_state_added(model, state));
+  zp_assembly_gather(&d->assembly, zp_state_v(model, state), d->v);
+  for (size_t c = 0; c < 2; c++) {
+    int row = d->assembly.equation[2 * zp_load_node(t) + c];
+    if (row < 0 || each < 0) continue;
+    size_t ends = d->assembly.equation[2 * zp_lower(t, t->platform.last) + c] == row ? zp_load_ends(t) : 1;
+    double comes = (double)ends * each;
+    d->v[row] = (d->mass[row] * d->v[row] + comes * fast * model->fall[c]) / (d->mass[row] + comes);
+  }
+  zp_assembly_scatter(&d->assembly, d->v, zp_state_v(model, state));
+  memcpy(zp_state_mean_v(model, state), zp_state_v(model, state), 2 * model->stride * sizeof *d->v);
+  memset(zp_state_mean_a(model, state), 0, 2 * model->stride * sizeof *d->v);
+  state->last_step = state->next_step = 0;
 }
 
 /* What a step has moved, given and lost, of one member. */
@@ -658,6 +692,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
     m->state = state[k];
     m->latest = latest;
     m->U0 = state[k]->U;
+    if (m->added != zp_state_added(m->model, state[k])) weigh(m, zp_state_added(m->model, state[k]));
     load(m, state[k]);
   }
   for (size_t link = first_link(d); link < d->system.n && d->links > 0; link++)

@@ -28,6 +28,7 @@ typedef struct ZpDynamics {
   double charge0;                   /* of one part where the step begins, C, */
   double charge1;                   /* and where the last one ended */
   double *mass, *q, *v;             /* [n] by equations */
+  double added;                     /* mass on each end that the load hangs on, beyond that of the model, kg */
   double *start, *end;              /* [2 stride] coordinates of nodes */
   double *force;                    /* [2 stride] N */
   double *gap;                      /* [N] gaps of the last force, m */
@@ -45,6 +46,9 @@ typedef struct ZpDynamics {
  * False if there is no memory. */
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
+
+/* The mass that load.change_mass says comes, as fast as it has fallen, or goes => the state's velocities. */
+void zp_dynamics_change_load(ZpDynamics *dynamics, ZpState *state);
 
 /* One step that ends at `latest`, s, or before => the state [members] at its end: its time, its losses, the source's
  * work where the voltage has changed. The account of the voltage must be closed (state->base_U == state->U). => the

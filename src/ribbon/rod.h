@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 #include "ribbon/curl.h"
+#include "ribbon/plastic.h"
 
 /* Two joints that bend together, eq. (8.9): the one at a held slope, and the one beside it. */
 typedef struct ZpRodEnd {
@@ -31,7 +32,8 @@ typedef struct ZpRodParams {
   size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
   size_t ends;
   ZpRodEnd end[ZP_ROD_MOST_ENDS];
-  ZpCurl curl[2]; /* of each ribbon, which then is of one section and not bent by nature */
+  ZpCurl curl[2];           /* of each ribbon, which then is of one section and not bent by nature */
+  const ZpPlastic *plastic; /* [ribbons], which then are of one section each; NULL: they stay elastic */
 } ZpRodParams;
 
 /* Written by zp_rod_eval. Arrays over edges and joints, with one edge more before the first and after the

@@ -11,6 +11,7 @@
 
 #include "base/kernel.h"
 #include "ribbon/rod_curl.h"
+#include "ribbon/rod_plastic.h"
 
 static size_t edge_count(const ZpRodParams *p) {
   return p->ribbons * (p->nodes - 1);
@@ -191,6 +192,7 @@ void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
   }
   bend_ends(p, e0, e1, damping, s);
   zp_rod_curl_step(p, e0, e1, s);
+  zp_rod_plastic_step(p, e1, e0 == e1, s);
   edge_forces(p, edges, s);
 }
 

@@ -19,9 +19,11 @@ typedef struct ZpRodStep {
   double *stiffness;               /* joints: dM/dphi, N m */
   double across[ZP_ROD_MOST_ENDS]; /* of joints that bend together: dM/dphi of the other one, N m */
   double *endx, *endy;             /* edges at the end, m */
-  double *tension; /* edges: tension that the last change of the end foresaw, N; the stiffness takes it */
-  bool begun;      /* an end was tried since zp_rod_step_begin */
-  double *Rx, *Ry; /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
+  double *tension;            /* edges: tension that the last change of the end foresaw, N; the stiffness takes it */
+  bool begun;                 /* an end was tried since zp_rod_step_begin */
+  const double *strain_start; /* plastic strains at the start (rod_plastic.h); NULL: none */
+  double *strain_end;         /* and at the end */
+  double *Rx, *Ry;            /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodStep;
 
 void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);

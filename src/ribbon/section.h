@@ -15,9 +15,15 @@ typedef struct ZpSection {
   double EI; /* bending stiffness about the neutral axis, N m^2 */
   double mu; /* mass per length, kg/m */
 
+  double axis;     /* height of the neutral axis over the first layer's lower face, m */
+  double strained; /* what resists a strain of the neutral axis as the layers resist bending, N */
+
   double per_moment; /* stress of the first layer's outer fibre by a moment about the neutral axis, Pa/(N m) */
   double per_force;  /* and by a force along the ribbon, Pa/N */
 } ZpSection;
+
+/* Modulus of a layer in bending, Pa. */
+double zp_bending_modulus(const ZpLayer *layer, int plane_strain);
 
 /* (layers, width m, plane strain?) => section; theory eqs. (2.1)-(2.4). EA takes Young's modulus as it
  * is, as eq. (2) of the paper does; plane strain stiffens bending only. */

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "ribbon/rod_point.h"
+
 /* An edge: its direction and its tension. */
 typedef struct Edge {
   double ux, uy, T;
@@ -60,32 +62,41 @@ static double tension_at_end(Edge last, Edge next) {
   return 1.5 * last.T - 0.5 * next.T;
 }
 
-static double stress_at(const ZpStressParams *p, size_t j, double moment, double tension) {
-  return p->per_moment[j] * fabs(moment) + p->per_force[j] * fabs(tension);
+/* Where the metal may yield the elastic moment tells the curvature. */
+static double bending_stress(const ZpStressParams *p, const double *strain, size_t j, double moment) {
+  if (!p->rod.plastic) return p->per_moment[j] * fabs(moment);
+  const ZpPlastic *plastic = &p->rod.plastic[j % p->rod.ribbons];
+  const double *before = strain ? strain + ZP_FIBRES * zp_rod_point_at(&p->rod, j) : NULL;
+  return zp_plastic_stress(plastic, before, moment / plastic->EI);
+}
+
+static double stress_at(const ZpStressParams *p, const double *strain, size_t j, double moment, double tension) {
+  return bending_stress(p, strain, j, moment) + p->per_force[j] * fabs(tension);
 }
 
 /* From node j to node `last` of a ribbon, between which no edge is rigid. */
-static void stress_between(const ZpStressParams *params, const double *x, const double *y, size_t j, size_t last,
-                           double *stress) {
+static void stress_between(const ZpStressParams *params, const double *x, const double *y, const double *strain,
+                           size_t j, size_t last, double *stress) {
   static const Edge held = {1, 0, 0}; /* the slope beyond an end */
   const ZpRodParams *p = &params->rod;
   size_t s = p->ribbons;
   Edge before = edge_of(p, x, y, j), after = edge_of(p, x, y, j + s);
-  stress[j] = stress_at(params, j, moment_of(params, x, y, j, held, before), tension_at_end(before, after));
+  stress[j] = stress_at(params, strain, j, moment_of(params, x, y, j, held, before), tension_at_end(before, after));
   for (j += s; j < last; j += s) {
     after = edge_of(p, x, y, j);
-    stress[j] = stress_at(params, j, moment_of(params, x, y, j, before, after), 0.5 * (before.T + after.T));
+    stress[j] = stress_at(params, strain, j, moment_of(params, x, y, j, before, after), 0.5 * (before.T + after.T));
     if (j + s < last) before = after;
   }
-  stress[last] = stress_at(params, last, moment_of(params, x, y, last, after, held), tension_at_end(after, before));
+  stress[last] =
+      stress_at(params, strain, last, moment_of(params, x, y, last, after, held), tension_at_end(after, before));
 }
 
-void zp_stress(const ZpStressParams *params, const double *x, const double *y, double *stress) {
+void zp_stress(const ZpStressParams *params, const double *x, const double *y, const double *strain, double *stress) {
   const ZpRodParams *p = &params->rod;
   bool whole = p->rigid == p->rigid_end;
   for (size_t r = 0; r < p->ribbons; r++) {
     size_t last = (p->nodes - 1) * p->ribbons + r;
-    stress_between(params, x, y, r, whole ? last : p->rigid * p->ribbons + r, stress);
-    if (!whole) stress_between(params, x, y, p->rigid_end * p->ribbons + r, last, stress);
+    stress_between(params, x, y, strain, r, whole ? last : p->rigid * p->ribbons + r, stress);
+    if (!whole) stress_between(params, x, y, strain, p->rigid_end * p->ribbons + r, last, stress);
   }
 }

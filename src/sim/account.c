@@ -39,7 +39,7 @@ void zp_sim_start_account(ZpSim *sim) {
   ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   state->work = state->charging_loss = state->drag_loss = state->contact_loss = state->internal_loss = 0;
   state->along_loss = state->across_loss = state->jet_loss = state->outer_drag_loss = state->meniscus_loss = 0;
-  state->load_work = state->leak_loss = 0;
+  state->load_work = state->leak_loss = state->plastic_loss = state->catch_loss = 0;
   state->source_energy = state->source_loss = state->bleeder_loss = 0;
   state->base_energy = zp_energy_without_field(&energies);
   state->base_field = zp_field_energy(now, state->U);

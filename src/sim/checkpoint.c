@@ -60,7 +60,6 @@ bool zp_checkpoint_holds(int index) {
                                            "isometric.",
                                            "profile.",
                                            "output.",
-                                           "ribbon.yield_stress",
                                            "sampling.",
                                            "optimize."};
   const char *name = zp_key(index)->name;

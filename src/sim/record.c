@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "ribbon/rod_plastic.h"
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
 
@@ -143,6 +144,8 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_load_work] = parts * state->load_work;
   row[SIGNAL_drag_loss] = parts * state->drag_loss;
   row[SIGNAL_internal_loss] = parts * state->internal_loss;
+  row[SIGNAL_catch_loss] = parts * state->catch_loss;
+  row[SIGNAL_plastic_loss] = parts * state->plastic_loss;
   row[SIGNAL_film_along_loss] = parts * state->along_loss;
   row[SIGNAL_film_across_loss] = parts * state->across_loss;
   row[SIGNAL_viscous_loss] = parts * (state->along_loss + state->across_loss);
@@ -153,6 +156,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_bead_outside] = state->bead[0].outside;
   row[SIGNAL_bead_lost] = state->bead[0].lost;
   row[SIGNAL_contact_loss] = parts * state->contact_loss;
+  row[SIGNAL_permanent_curvature] = zp_rod_plastic_set(&sim->model->rod, zp_state_strain(sim->model, sim->state));
 }
 
 /* => rise of kinetic and stored energy without the field since the account was opened, of one part, J. */
@@ -209,6 +213,7 @@ static ZpShape shape_of(ZpSim *sim) {
     shape.gap = sim->eval.plates.gap;
   }
   if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
+  if (model->rod.plastic) sim->shape_room.strain = zp_state_strain(model, sim->state);
   for (int half = 0; model->has_bead && half < ZP_BEADS; half++)
     sim->shape_room.reach[half] = state->bead[half].reach;
   zp_shape_fill(model, &sim->shape_room, &shape);
@@ -257,7 +262,8 @@ static void fill_own_row(ZpSim *sim, unsigned what) {
   if (what & MARGINS) fill_margins(sim, row);
   double in_liquid = state->along_loss + state->across_loss + state->jet_loss + state->outer_drag_loss;
   in_liquid += state->meniscus_loss;
-  double lost = state->drag_loss + state->internal_loss + state->contact_loss + in_liquid + state->leak_loss;
+  double lost = state->drag_loss + state->internal_loss + state->plastic_loss + state->catch_loss +
+                state->contact_loss + in_liquid + state->leak_loss;
   row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
 }
 

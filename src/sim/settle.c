@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "rest/rest.h"
+#include "ribbon/rod_plastic.h"
 #include "sim/sim_internal.h"
 #include "solve/relax.h"
 
@@ -107,6 +108,16 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   sim->settle_residual = info.residual;
 }
 
+/* What has yielded on the way there stays bent. */
+static void start_at(ZpSim *sim, const double *q) {
+  const ZpModel *model = sim->model;
+  ZpSpan there = zp_span_at(q);
+  memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
+  zp_system_force(model, &there, &sim->eval, sim->relax_work + 2 * model->stride);
+  memcpy(zp_state_strain(model, sim->state), sim->eval.memory_end + model->plastic_at,
+         zp_rod_plastic_count(&model->rod) * sizeof *q);
+}
+
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
   double *q = sim->relax_work;
@@ -121,7 +132,6 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   if (!found && !zp_in_series(model)) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
-  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM)
-    memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
+  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);
   return true;
 }

@@ -209,7 +209,8 @@ static double next_corner(const ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  return fmin(fmin(voltage, zp_sim_control_due(sim)), zp_ramp_corner(&state->load_input, state->t));
+  double load = fmin(zp_sim_load_due(sim), zp_ramp_corner(&state->load_input, state->t));
+  return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
 }
 
 /* Longest step for an input by hand whose size matters from `least` on, s; never so short that time stands still. */
@@ -361,6 +362,7 @@ static void note_steps(ZpSim *sim) {
 
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   ZpState *state = sim->state;
+  if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
   if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
   double corner = next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));

@@ -117,6 +117,10 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 /* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 
+/* When load.change_mass is still to come or to go, s; INFINITY: never. And it comes or goes now (catch.c). */
+double zp_sim_load_due(const ZpSim *sim);
+void zp_sim_change_load(ZpSim *sim);
+
 /* Resume from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 

@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 6
+ *   8 .. 11         version of the format, 7
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -15,7 +15,8 @@
  *   state.values    these numbers
  *   position ...    its arrays, each all x, then all y
  *   laws            what laws have beyond positions: heads of the liquid, its flows and cavities, each station by
- *                   station, then interface voltages, place by place; empty without liquid and leak
+ *                   station, then interface voltages, place by place, then plastic strains, fibre by fibre; empty
+ *                   without liquid, leak and plasticity
  *
  * A number that comes, goes or means something else raises the version. */
 #include "sim/snapshot.h"
@@ -29,7 +30,7 @@
 
 #include "base/fail.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 6, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 7, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -51,6 +52,7 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(COUNT, zip.front),
                                 NUMBER(FLAG, zip.platform),
                                 NUMBER(FLAG, was_open),
+                                NUMBER(FLAG, load_changed),
                                 NUMBER(COUNT, supply_mode),
                                 NUMBER(REAL, zip_time),
                                 NUMBER(REAL, opening0),
@@ -63,6 +65,10 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, drag_loss),
                                 NUMBER(REAL, contact_loss),
                                 NUMBER(REAL, internal_loss),
+                                NUMBER(REAL, changed_x),
+                                NUMBER(REAL, changed_y),
+                                NUMBER(REAL, catch_loss),
+                                NUMBER(REAL, plastic_loss),
                                 NUMBER(REAL, along_loss),
                                 NUMBER(REAL, across_loss),
                                 NUMBER(REAL, jet_loss),
@@ -134,7 +140,7 @@ _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == NUMBERS * sizeof(double
 
 /* Of array k, of nodes all but the last. */
 static size_t length_of(const ZpModel *model, size_t k) {
-  return k + 1 < ARRAYS ? 2 * model->stride : (model->own + model->kept) * model->nodes;
+  return k + 1 < ARRAYS ? 2 * model->stride : zp_own_unknowns(model) + model->kept;
 }
 
 static double number_of(const ZpState *state, size_t k) {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "ribbon/rod_plastic.h"
 #include "sim/sim_internal.h"
 
 ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
@@ -18,7 +19,9 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   if (known < size) memset((char *)state + known, 0, size - known); /* a liquid that comes is at rest */
   double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
   if (model->own != other->own)
-    memset(zp_state_own(model, state), 0, (model->own + model->kept) * model->nodes * sizeof(double));
+    memset(zp_state_own(model, state), 0, (zp_own_unknowns(model) + model->kept) * sizeof(double));
+  if (model->plastic_at != other->plastic_at || model->kept != other->kept)
+    memset(zp_state_strain(model, state), 0, zp_rod_plastic_count(&model->rod) * sizeof(double));
   zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
     for (size_t j = 0; j < 2 * model->stride; j++)

@@ -53,12 +53,20 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
+/* Work on what was caught, from there to the end, and on what was dropped, until then, J; to be added to that on
+ * load.mass. */
+static double work_on_change(ZpSim *sim, const ZpModel *model) {
+  const ZpState *state = sim->state;
+  double y = zp_state_motion(model, state).y[zp_load_node(&model->topology)];
+  return -model->parts * zp_state_hung(model, state) * model->fall[1] * (y - state->changed_y);
+}
+
 /* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
   model = zp_lowest(model); /* which carries the load */
   double compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  return zp_load_pull(model) * risen + compressed - at_end(sim, result, "load_work");
+  return zp_load_pull(model) * risen + compressed + work_on_change(sim, model) - at_end(sim, result, "load_work");
 }
 
 /* What the source gave, and what came of it. */
@@ -121,7 +129,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   if (model->field)
     zp_add_margins(result, model, zp_sim_margins(sim));
   else
-    zp_add_stress(result, zp_sim_margins(sim));
+    zp_add_stress(result, model, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
   if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
   zp_note_liquid(result, model);
@@ -154,6 +162,12 @@ static void summarize_leak(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "interface_voltage_V", "V", at_end(sim, result, "interface_voltage"));
 }
 
+/* What has yielded. */
+static void summarize_plastic(ZpSim *sim, ZpResult *result) {
+  zp_result_add(result, "plastic_loss_J", "J", at_end(sim, result, "plastic_loss"));
+  zp_result_add(result, "permanent_curvature_per_m", "1/m", at_end(sim, result, "permanent_curvature"));
+}
+
 static void summarize_bead(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "meniscus_loss_J", "J", at_end(sim, result, "meniscus_loss"));
   zp_result_add(result, "wet_length_m", "m", at_end(sim, result, "wet_length"));
@@ -178,6 +192,9 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
+  if (model->rod.plastic) summarize_plastic(sim, result);
+  if (!isnan(model->def.load.change_time))
+    zp_result_add(result, "catch_loss_J", "J", at_end(sim, result, "catch_loss"));
   if (model->has_bead) summarize_bead(sim, result);
   summarize_members(sim, model, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));

@@ -168,10 +168,11 @@ static int shoot(Cycles *c) {
 }
 
 /* In how many cycles the motion repeats itself, waiting or shooting: that starts from positions and velocities alone,
- * which is all only without liquid and charge that stays. */
+ * which is all only without liquid, charge that stays and ribbons that yield. */
 static int look(Cycles *c) {
   read_state(c, c->end);
-  bool open = stays_open(c) && !c->model->has_film && !c->model->leaks;
+  const ZpModel *model = c->model;
+  bool remembers = model->has_film || model->leaks || model->rod.plastic, open = stays_open(c) && !remembers;
   if (!open) zp_fixed_point_forget(&c->shooting);
   int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
   read_state(c, c->start);
@@ -485,6 +486,10 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",
                    zp_key(zp_key_find("drive.waveform"))->choices[kind].word);
+  if (def->load.change_mass != 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "load.change_mass: study cycle looks for periodic motion under one load; use study "
+                   "actuate");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)

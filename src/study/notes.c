@@ -30,20 +30,22 @@ static void add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *
   note_breakdown(result, model, seen);
 }
 
-void zp_add_stress(ZpResult *result, const ZpMargins *seen) {
+void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   zp_result_add(result, "max_stress_Pa", "Pa", seen->stress);
   zp_result_add(result, "max_stress_place_m", "m", seen->stress_place);
   zp_result_add(result, "yield_margin", "1", seen->stress > 0 ? seen->yields / seen->stress : NAN);
-  if (seen->stress > seen->yields)
+  if (model->rod.plastic && seen->stress >= seen->yields)
+    zp_result_note(result, "the metal reaches its yield stress of %.4g MPa: it stays bent", seen->yields / 1e6);
+  else if (seen->stress > seen->yields)
     zp_result_note(result,
                    "the metal's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent, which "
-                   "is not modelled",
+                   "ribbon.plasticity true computes",
                    seen->stress / 1e6, seen->yields / 1e6);
 }
 
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   add_fields(result, model, seen);
-  zp_add_stress(result, seen);
+  zp_add_stress(result, model, seen);
 }
 
 /* -- the mesh -------------------------------------------------------------------------------------- */

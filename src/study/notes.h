@@ -16,7 +16,7 @@
 #define ZP_MARGIN_VALUES(margins) (margins).insulator, (margins).stress
 
 /* Add the stress of the metal, with a note where it yields. */
-void zp_add_stress(ZpResult *result, const ZpMargins *seen);
+void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
 /* The same, and what the insulators see, with a note where they or, without cap, the liquid break down. */
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen);

@@ -77,7 +77,7 @@ static void run(ZpRest *rest, ZpResult *result) {
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
   ZpShape shape = zp_statics_shape(s, 0, &rest->shape_room);
   ZpMargins margins = found ? zp_margins_of(s->model, &shape) : zp_margins_none();
-  zp_add_stress(result, &margins);
+  zp_add_stress(result, s->model, &margins);
   zp_note_mesh(result, s->model, 0);
   if (!found) return;
   fill_table(s, &shape, result->series);

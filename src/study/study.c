@@ -45,6 +45,15 @@ static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
   return def->stack.series > 1 ? in_series[study] : table[study].run;
 }
 
+/* Does it unload ribbons through states of rest? */
+static bool is_elastic(ZpStudy study) {
+  static const bool elastic[ZpStudy_COUNT] = {
+#define ZP_ELASTIC(enumerator) [enumerator] = true,
+#include <zipact/studies.def>
+  };
+  return elastic[study];
+}
+
 ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (!is_study(study))
     return zp_fail(err, ZP_BAD_INPUT, "study = %d: out of range; 0 to %d", (int)study, ZpStudy_COUNT - 1);
@@ -55,6 +64,11 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (!run_of(study, def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; use stack.series 1",
                    def->stack.series, table[study].word);
+  if (def->ribbon.plasticity && is_elastic(study))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "ribbon.plasticity = true: study %s unloads ribbons through states of rest, which have no history; "
+                   "use study actuate, or ribbon.plasticity false",
+                   table[study].word);
   return table[study].check(def, err);
 }
 

@@ -38,6 +38,9 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
   span.v = v;
   span.U0 = span.U1 = state->U;
   span.load = zp_state_load(model, state, state->t);
+  span.hung = zp_state_hung(model, state);
+  span.hung_at[0] = state->changed_x;
+  span.hung_at[1] = state->changed_y;
   span.faces_pass = def->contact.model != ZP_CONTACT_UNILATERAL;
   span.memory = zp_state_memory(model, state);
   span.bead = state->bead;
@@ -92,6 +95,11 @@ ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval
   ZpEnergies sum = {0};
   for (size_t j = 0; j < model->count; j++)
     sum.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
+  double added = zp_state_added(model, state);
+  for (size_t i = model->topology.platform.first; added != 0 && i <= model->topology.platform.last; i++) {
+    size_t j = zp_lower(&model->topology, i);
+    sum.kinetic += 0.5 * added * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
+  }
   for (size_t k = 0; k < e->terms; k++)
     if (e->term[k]->energy) e->term[k]->energy(model, &now, e, &sum);
   return sum;

@@ -1,5 +1,7 @@
-/* The rod: stretching, bending, internal damping. Eqs. (8.4) and (18.2). */
+/* The rod: stretching, bending, internal damping, yielding. Eqs. (8.4), (8.12) and (18.2). */
 #include "term/term.h"
+
+#include "ribbon/rod_plastic.h"
 
 static bool acts(const ZpModel *model) {
   return model->is_rod;
@@ -13,8 +15,14 @@ static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   zp_rod_eval(&model->rod, span->start, span->start + model->stride, &e->rod_start);
 }
 
+/* Plastic strains where the span starts. */
+static const double *strain_of(const ZpModel *model, const ZpSpan *span) {
+  return span->memory ? span->memory + model->plastic_at : NULL;
+}
+
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   zp_rod_eval(&model->rod, span->end, span->end + model->stride, &e->rod);
+  e->rod_step.strain_start = strain_of(model, span);
   zp_rod_step(&model->rod, start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
 }
@@ -31,7 +39,15 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
   zp_rod_eval(&model->rod, now->end, now->end + model->stride, &e->rod);
   sum->axial += zp_rod_stretching_energy(&model->rod, &e->rod);
-  sum->bending += zp_rod_bending_energy(&model->rod, &e->rod);
+  sum->bending +=
+      zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
+}
+
+/* The edges are those where the span has ended, a last correction beyond the last force. */
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+  zp_term_edges_loss(model, span, e, sum);
+  e->rod_step.strain_start = strain_of(model, span);
+  sum->plastic += zp_rod_plastic_heat(&model->rod, &e->rod_start, &e->rod, &e->rod_step);
 }
 
 const ZpTerm zp_term_rod = {.name = "rod",
@@ -40,4 +56,4 @@ const ZpTerm zp_term_rod = {.name = "rod",
                             .force = force,
                             .stiffness = stiffness,
                             .energy = energy,
-                            .loss = zp_term_edges_loss};
+                            .loss = loss};

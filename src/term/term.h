@@ -14,10 +14,11 @@ typedef struct ZpSpan {
   double U0, U1;             /* voltages at its start and its end, V */
   double load;               /* N, mean of the load input, down on the lower platform (one ribbon: the right end) */
   double hung;               /* N, weight that hangs there, along gravity, beyond that of load.mass */
+  double hung_at[2];         /* of an instant: coordinates of its node at which its potential energy is 0, m */
   double share;              /* of all weight that acts: 1, less on the way to an equilibrium */
   bool faces_pass;           /* faces do not push: they may pass through each other, or contact is sequential */
   const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
-  const double *memory;      /* of a step, at its start, or of an instant: [kept N] the laws' own state */
+  const double *memory;      /* of a step, at its start, or of an instant: [kept] the laws' own state */
   const ZpBead *bead;        /* of a step: [ZP_BEADS] at its start; of an instant: there; NULL: all liquid lies between
                                 the faces */
   const double *v0;          /* of a step: velocities at its start [2 stride] */

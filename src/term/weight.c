@@ -41,7 +41,10 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
     double along = x[j] - zp_straight_x(model, j / model->s);
     sum->gravity -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
   }
-  sum->gravity += constant_of(model) * y[zp_load_node(&model->topology)];
+  size_t load = zp_load_node(&model->topology);
+  sum->gravity += constant_of(model) * y[load];
+  sum->gravity -=
+      now->hung * (model->fall[0] * (x[load] - now->hung_at[0]) + model->fall[1] * (y[load] - now->hung_at[1]));
 }
 
 const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};

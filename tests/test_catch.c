@@ -1,0 +1,115 @@
+/* A mass that is caught or dropped in motion: momentum, the loss of the impact, energy, where it comes to rest. Section
+ * 27 of docs/theory.md. */
+#include "state_util.h"
+
+#define CAUGHT                                                                                                         \
+  {"load.change_time", 20e-3}, {"load.change_mass", 4e-3}, {"load.drop_height", 10e-3}, {                              \
+    "mesh.nodes", 21                                                                                                   \
+  }
+
+static const double fallen = 0.44294469180700207; /* m/s, from 10 mm */
+
+static double run_to(ZpSim *sim, double end_time, const char *signal) {
+  ZpRunInfo info;
+  ck_assert_msg(zp_outcome_good(zp_sim_run(sim, end_time, false, NULL, &info)), "%s", info.message);
+  return zp_sim_get(sim, signal);
+}
+
+/* On a platform at rest: both go on with the speed that shares the momentum, and what is lost is known. Of a half, of
+ * the whole, at the end of one ribbon. */
+START_TEST(momentum_is_shared) {
+  ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0});
+  if (_i == 1) def.actuator.symmetry = ZP_SYMMETRY_NONE;
+  if (_i == 2) def.actuator.kind = ZP_KIND_RIBBON, def.load.share = 1;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  size_t j = zp_load_node(&model->topology);
+  double m = model->mass[j], comes = def.load.share * def.load.change_mass, after = comes * fallen / (m + comes);
+  double loss = 0.5 * m * comes / (m + comes) * fallen * fallen * model->parts * (double)zp_load_ends(&model->topology);
+  ck_below(fabs(run_to(sim, 20e-3, "end_velocity")), 1e-6);
+  zp_sim_change_load(sim);
+  ck_near(zp_sim_get(sim, "end_velocity"), -after, 1e-5);
+  ck_near(zp_sim_get(sim, "catch_loss"), loss, 1e-5);
+  ck_assert(isinf(zp_sim_load_due(sim)));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Energy balances over the impact and after it, whatever moves when it comes. */
+START_TEST(energy_with_a_caught_mass) {
+  ZpActuatorDef def =
+      DEF(CAUGHT, {"drive.voltage", 9e3}, {"solver.end_time", 0.15}, {"solver.stop_when_zipped", ZP_WHEN_FALSE});
+  if (_i == 1) def.actuator.symmetry = ZP_SYMMETRY_NONE, def.mount.tilt = 0.5;
+  if (_i == 2) def.liquid.model = ZP_LIQUID_BEAD;
+  if (_i == 3) def.liquid.model = ZP_LIQUID_SUBMERGED;
+  if (_i == 4) def.load.change_mass = -8e-3, def.load.drop_height = 0;
+  if (_i == 5) def.load.change_time = 0.1; /* onto closed faces */
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  double loss = zp_result_get(result, "catch_loss_J");
+  if (_i == 4)
+    ck_below(fabs(loss), 1e-12); /* what is dropped goes on as it was */
+  else
+    ck_assert_double_gt(loss, 1e-4);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Damped, it comes to rest where the load with the change hangs; what is dropped is gone. */
+START_TEST(rests_where_the_sum_hangs) {
+  ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0}, {"damping.internal", 30e-3}, {"solver.end_time", 20});
+  if (_i == 1) def.load.change_mass = -5e-3, def.load.drop_height = 0;
+  double found = answered_value(ZP_STUDY_ACTUATE, &def, "opening_m");
+  def.load.mass += def.load.change_mass;
+  def.load.change_mass = def.load.drop_height = 0, def.load.change_time = NAN;
+  ck_near(found, answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-4);
+}
+END_TEST
+
+/* Work on the load counts what was caught from where it was caught. */
+START_TEST(work_counts_the_mass) {
+  ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 9e3}, {"load.drop_height", 0}, {"solver.end_time", 0.3});
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  size_t rows = result->series->rows, row = 0;
+  while (row < rows && zp_table_get(result->series, row, "time_s") < def.load.change_time)
+    row++;
+  double start = zp_table_get(result->series, 0, "opening_m"), caught = zp_table_get(result->series, row, "opening_m"),
+         end = zp_table_get(result->series, rows - 1, "opening_m");
+  double work = def.gravity * (def.load.mass * (start - end) + def.load.change_mass * (caught - end));
+  ck_near(zp_result_get(result, "mechanical_work_J"), work, 1e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(what_it_lacks_is_said) {
+  static const struct {
+    ZpStudy study;
+    Setting setting, other;
+    const char *says;
+  } refused[] = {
+      {ZP_STUDY_ACTUATE, {"load.change_mass", 1e-3}, {"mesh.nodes", 21}, "load.change_time"},
+      {ZP_STUDY_ACTUATE, {"load.change_time", 1e-3}, {"mesh.nodes", 21}, "requires load.change_mass"},
+      {ZP_STUDY_ACTUATE, {"load.change_time", 1e-3}, {"load.change_mass", -9e-3}, "drops more than load.mass"},
+      {ZP_STUDY_ACTUATE, {"load.drop_height", 1e-3}, {"mesh.nodes", 21}, "which is caught"},
+      {ZP_STUDY_CYCLE, {"load.change_time", 1e-3}, {"load.change_mass", 1e-3}, "under one load"}};
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    ZpActuatorDef def = DEF(refused[k].setting, refused[k].other);
+    ZpError err = {ZP_OK, ""};
+    ck_assert_int_eq(zp_study_check(refused[k].study, &def, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, refused[k].says), "%s", err.message);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("catch");
+  TCase *c = tcase_create("catch");
+  tcase_add_loop_test(c, momentum_is_shared, 0, 3);
+  tcase_add_loop_test(c, energy_with_a_caught_mass, 0, 6);
+  tcase_add_loop_test(c, rests_where_the_sum_hangs, 0, 2);
+  tcase_add_test(c, work_counts_the_mass);
+  tcase_add_test(c, what_it_lacks_is_said);
+  suite_add_tcase(suite, c);
+  return run_suite(suite);
+}

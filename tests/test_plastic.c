@@ -1,0 +1,324 @@
+/* Ribbons that yield: the law of a section against closed forms and against many fibres, its energy, shapes at rest,
+ * motion, cycles, and what a state remembers; sections 2 and 8 of docs/theory.md. */
+#include "state_util.h"
+
+#include "ribbon/plastic.h"
+#include "ribbon/rod_plastic.h"
+
+static const double E = 200e9, nu = 0.285, b = 50e-6, w = 12.7e-3, yields = 1e9;
+
+/* The metal with a tape of thickness t and modulus E_t, which is in plane strain, too. */
+static ZpPlastic plastic_of(double hardening, double t, double E_t) {
+  ZpLayer layer[2] = {{b, E, nu, 7850}, {t, E_t, 0, 1000}};
+  ZpSection section = zp_section(layer, 2, w, true);
+  return zp_plastic(&layer[0], &section, w, true, yields, hardening);
+}
+
+/* The curvature at which the faces of the metal alone yield, and the moment there. */
+static double first_curvature(const ZpPlastic *plastic) {
+  return plastic->yields / (plastic->E * 0.5 * b);
+}
+
+/* Eq. (2.11): of the metal alone, bent from flat to x times the curvature at which it yields, over the moment there. */
+static double closed_form(double x, double hardening, double modulus) {
+  double tangent = hardening / (modulus + hardening), perfect = x > 1 ? 1.5 - 0.5 / (x * x) : x;
+  return (1 - tangent) * perfect + tangent * x;
+}
+
+static double moment(const ZpPlastic *plastic, double curvature, const double *p) {
+  return plastic->EI * curvature - zp_plastic_moment(plastic, p);
+}
+
+static const double multiples[] = {0.5, 0.99, 1.02, 1.1, 1.3, 1.5, 1.9, 2.4, 3.3, 5, 8, 20, -1.4, -6};
+
+START_TEST(moment_is_the_closed_form) {
+  double x = multiples[_i], p[ZP_FIBRES];
+  for (int k = 0; k < 3; k++) {
+    double hardening = 10e9 * k;
+    ZpPlastic plastic = plastic_of(hardening, 0, 0);
+    double first = first_curvature(&plastic), unit = plastic.EI * first;
+    zp_plastic_bend(&plastic, NULL, x * first, p);
+    double M = moment(&plastic, x * first, p) / unit, expected = closed_form(fabs(x), hardening, plastic.E);
+    ck_near(M, copysign(expected, x), fabs(x) < 1 ? 1e-14 : 2e-3);
+  }
+}
+END_TEST
+
+/* Let go after it was bent to x. Close to the first yield little is left: there the fibres' share of it is coarse. */
+START_TEST(residual_curvature_is_the_closed_form) {
+  static const double over[] = {1.3, 1.5, 1.7, 2, 2.5, 3, 4, 6, 10};
+  double x = over[_i], p[ZP_FIBRES];
+  ZpPlastic plastic = plastic_of(0, 0, 0);
+  double first = first_curvature(&plastic);
+  zp_plastic_bend(&plastic, NULL, x * first, p);
+  ck_near(zp_plastic_moment(&plastic, p) / plastic.EI / first, x - closed_form(x, 0, plastic.E), x < 1.5 ? 2e-2 : 5e-3);
+}
+END_TEST
+
+/* Masing: on the way back the moment falls by twice that of half the way from flat; and a loop closes. */
+START_TEST(loops_are_those_of_masing) {
+  double hardening = 5e9 * _i, p[ZP_FIBRES], back[ZP_FIBRES], again[ZP_FIBRES];
+  ZpPlastic plastic = plastic_of(hardening, 0, 0);
+  double first = first_curvature(&plastic), unit = plastic.EI * first, top = 3;
+  zp_plastic_bend(&plastic, NULL, top * first, p);
+  double highest = moment(&plastic, top * first, p) / unit;
+  for (double x = top; x >= -top; x -= 0.25) {
+    zp_plastic_bend(&plastic, p, x * first, back);
+    double expected = highest - 2 * closed_form(0.5 * (top - x), hardening, plastic.E);
+    ck_below(fabs(moment(&plastic, x * first, back) / unit - expected), 4e-3);
+  }
+  zp_plastic_bend(&plastic, back, top * first, again);
+  for (int i = 0; i < ZP_FIBRES; i++)
+    ck_below(fabs(again[i] - p[i]), 1e-15);
+}
+END_TEST
+
+/* With stiff tape the axis moves as the metal yields: against many thin fibres and an axis found by bisection. */
+static double by_bisection(const ZpPlastic *plastic, double curvature, double t, double E_t) {
+  enum { THIN = 20000 };
+  double low = -1, high = 1, M = 0;
+  for (int k = 0; k < 60; k++) {
+    double e = 0.5 * (low + high), force = 0, r = plastic->hardening / plastic->E, room = plastic->yields / plastic->E;
+    double top = plastic->surface[1] + 0.5 * t;
+    M = 0;
+    for (int i = 0; i < THIN; i++) {
+      double z = plastic->surface[0] + b * (i + 0.5) / THIN, s = z * curvature + e;
+      double yielded = copysign(fmax(fabs(s) - room, 0) / (1 + r), s), stress = plastic->E * (s - yielded);
+      force += stress * w * b / THIN;
+      M += stress * z * w * b / THIN;
+    }
+    force += E_t * w * t * (top * curvature + e);
+    M += E_t * w * (t * top * (top * curvature + e) + t * t * t / 12 * curvature);
+    *(force > 0 ? &high : &low) = e;
+  }
+  return M;
+}
+
+START_TEST(tape_shifts_the_axis) {
+  static const double t = 100e-6, E_t = 8e9;
+  double p[ZP_FIBRES], x = fabs(multiples[_i]);
+  for (int k = 0; k < 2; k++) {
+    ZpPlastic plastic = plastic_of(20e9 * k, t, E_t);
+    double curvature = x * first_curvature(&plastic);
+    zp_plastic_bend(&plastic, NULL, curvature, p);
+    ck_near(moment(&plastic, curvature, p), by_bisection(&plastic, curvature, t, E_t), 2e-3);
+  }
+}
+END_TEST
+
+/* Over any way, in steps of any length: what the mean moment does is stored or heat, which is never negative. */
+START_TEST(work_is_stored_or_heat) {
+  uint64_t seed = 7;
+  ZpPlastic plastic = plastic_of(_i % 2 ? 30e9 : 0, _i < 2 ? 0 : 130e-6, _i < 2 ? 0 : 5e9);
+  double p0[ZP_FIBRES] = {0}, p1[ZP_FIBRES], at = 0, work = 0, heat = 0, scale = 0;
+  for (int k = 0; k < 400; k++) {
+    double to = 5 * first_curvature(&plastic) * noise(&seed), before = moment(&plastic, at, p0);
+    zp_plastic_bend(&plastic, p0, to, p1);
+    double lost = zp_plastic_heat(&plastic, p0, at, p1, to);
+    ck_assert_double_ge(lost, -1e-14 * plastic.EI * first_curvature(&plastic) * first_curvature(&plastic));
+    heat += lost;
+    work += 0.5 * (before + moment(&plastic, to, p1)) * (to - at);
+    scale += fabs(work);
+    memcpy(p0, p1, sizeof p0);
+    at = to;
+  }
+  double stored = 0.5 * plastic.EI * at * at - zp_plastic_relief(&plastic, p0, at);
+  ck_below(fabs(work - stored - heat), 1e-13 * scale);
+  ck_assert_double_gt(heat, 0.1 * work);
+}
+END_TEST
+
+START_TEST(stiffness_is_the_derivative) {
+  double x = multiples[_i], p0[ZP_FIBRES], p[ZP_FIBRES];
+  for (int k = 0; k < 4; k++) {
+    ZpPlastic plastic = plastic_of(k % 2 ? 30e9 : 0, k < 2 ? 0 : 130e-6, k < 2 ? 0 : 5e9);
+    double first = first_curvature(&plastic), h = 1e-6 * first;
+    zp_plastic_bend(&plastic, NULL, -2.5 * first, p0);
+    double slope =
+        (zp_plastic_bend(&plastic, p0, x * first + h, p).M - zp_plastic_bend(&plastic, p0, x * first - h, p).M) /
+        (2 * h);
+    ck_below(fabs(zp_plastic_bend(&plastic, p0, x * first, p).K - slope), 1e-6 * plastic.EI);
+  }
+}
+END_TEST
+
+/* -- a rod ----------------------------------------------------------------------------------------- */
+
+/* The curvature at which the closed form bears M, by bisection. */
+static double curvature_under(double M, double EI, double first) {
+  double low = 0, high = 1e3 * first;
+  for (int k = 0; k < 100; k++) {
+    double middle = 0.5 * (low + high);
+    *(closed_form(middle / first, 0, 1) * EI * first < M ? &low : &high) = middle;
+  }
+  return low;
+}
+
+/* A cantilever under an end load of 1.3 times that at which its clamp yields: small deflections. */
+START_TEST(cantilever_beyond_its_yield) {
+  static const double L = 3e-3;
+  enum { PARTS = 4000 };
+  double EI = E / (1 - nu * nu) * w * b * b * b / 12, first = yields / (E / (1 - nu * nu) * 0.5 * b);
+  double P = 1.3 * EI * first / L * 0.05, low = first * 0.05, sag = 0, l = L / PARTS;
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.width", w},
+                          {"ribbon.thickness", b}, {"ribbon.length", L}, {"ribbon.poisson_ratio", nu},
+                          {"ribbon.density", 0}, {"load.mass", P / 9.81}, {"ribbon.plasticity", true},
+                          {"ribbon.yield_stress", 0.05 * yields}, {"mesh.nodes", 201});
+  for (int k = 0; k < PARTS; k++) {
+    double arm = (k + 0.5) * l;
+    sag += curvature_under(P * arm, EI, low) * arm * l;
+  }
+  ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
+  double found = -zp_table_get(result->series, result->series->rows - 1, "y_m");
+  zp_result_destroy(result);
+  ck_near(found, sag, 2e-3);
+  def.ribbon.plasticity = false;
+  result = answer_of(ZP_STUDY_STATIONARY, &def);
+  ck_assert_double_gt(found, -1.02 * zp_table_get(result->series, result->series->rows - 1, "y_m"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Clamped, guided, free ends; half and whole actuators, with liquid; bowed ribbons; stiff tape. */
+static ZpActuatorDef moving(int which) {
+  ZpActuatorDef def = DEF({"ribbon.plasticity", true}, {"ribbon.yield_stress", 150e6}, {"mesh.nodes", 15},
+                          {"ribbon.hardening_modulus", which % 2 ? 4e9 : 0}, {"solver.end_time", 0.1},
+                          {"solver.stop_when_zipped", ZP_WHEN_FALSE});
+  if (which < 3) {
+    def.actuator.kind = ZP_KIND_RIBBON, def.actuator.right_end = which, def.damping.internal = 1e-5;
+    def.initial.state = ZP_INITIAL_STRAIGHT, def.ribbon.yield_stress = which == ZP_END_CLAMPED ? 1e6 : 50e6;
+  }
+  if (which == 4) def.actuator.symmetry = ZP_SYMMETRY_NONE;
+  if (which == 5) def.liquid.model = ZP_LIQUID_BEAD;
+  if (which == 6) def.segment_1.length = 10e-3, def.segment_1.curvature = 20;
+  if (which == 7) def.insulator.young_modulus = 5e9, def.lower.ribbon.yield_stress = 200e6;
+  return def;
+}
+enum { MOVING = 8 };
+
+START_TEST(energy_in_motion) {
+  ZpActuatorDef def = moving(_i);
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  double most = 0, worst = 0, before = 0;
+  for (size_t row = 0; row < result->series->rows; row++) {
+    double heat = zp_table_get(result->series, row, "plastic_loss_J");
+    ck_assert_double_ge(heat, before);
+    before = heat;
+    most = fmax(most, fabs(zp_table_get(result->series, row, "gravity_energy_J")) +
+                          fabs(zp_table_get(result->series, row, "electric_work_J")));
+    worst = fmax(worst, fabs(zp_table_get(result->series, row, "energy_imbalance_J")));
+  }
+  ck_below(worst, 1e-6 * most);
+  ck_assert_double_gt(before, 1e-3 * most);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A state of rest in motion is that of statics: what hangs has yielded on its way there, and stays. */
+START_TEST(what_hangs_stays) {
+  ZpActuatorDef def = moving(3);
+  def.ribbon.yield_stress = 60e6, def.drive.voltage = 0, def.load.mass = 15e-3;
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  double first = zp_table_get(result->series, 0, "opening_m");
+  ck_assert_double_gt(zp_table_get(result->series, 0, "permanent_curvature_per_m"), 1);
+  ck_near(zp_result_get(result, "opening_m"), first, 1e-6);
+  ck_near(first, answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-12);
+  ck_below(zp_result_get(result, "plastic_loss_J"), 1e-9);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* The signal at the first row from a time on. */
+static double at_time(const ZpResult *result, double t, const char *column) {
+  size_t row = 0;
+  while (row + 1 < result->series->rows && zp_table_get(result->series, row, "time_s") < t)
+    row++;
+  return zp_table_get(result->series, row, column);
+}
+
+/* Zipping over and over, the ribbons stay bent more and more, by less in each cycle; where the metal does not yield
+ * nothing changes from cycle to cycle. */
+START_TEST(ratchet_over_cycles) {
+  ZpActuatorDef def =
+      DEF({"ribbon.plasticity", true}, {"ribbon.yield_stress", 250e6}, {"ribbon.hardening_modulus", 2e9},
+          {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.rise_time", 0.2},
+          {"damping.internal", 2e-3}, {"mesh.nodes", 31}, {"solver.end_time", 4});
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  double before = 0, grown = INFINITY;
+  for (int cycle = 1; cycle <= 4; cycle++) {
+    double set = at_time(result, cycle, "permanent_curvature_per_m");
+    ck_assert_double_gt(set - before, 1);
+    ck_assert_double_lt(set - before, grown);
+    grown = set - before;
+    before = set;
+  }
+  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  zp_result_destroy(result);
+  def.ribbon.yield_stress = 1.1e9;
+  result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_double_eq(zp_result_get(result, "permanent_curvature_per_m"), 0);
+  ck_assert_double_eq(zp_result_get(result, "plastic_loss_J"), 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Ribbons that do not reach their yield stress move as elastic ones do. */
+START_TEST(below_the_yield_stress_it_is_elastic) {
+  ZpActuatorDef def = moving(3);
+  def.ribbon.yield_stress = 1.1e9, def.ribbon.hardening_modulus = 0;
+  ZpResult *plastic = answer_of(ZP_STUDY_ACTUATE, &def);
+  def.ribbon.plasticity = false;
+  ZpResult *elastic = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_double_eq(zp_result_get(plastic, "zip_time_s"), zp_result_get(elastic, "zip_time_s"));
+  ck_near(zp_result_get(plastic, "max_stress_Pa"), zp_result_get(elastic, "max_stress_Pa"), 1e-12);
+  zp_result_destroy(plastic), zp_result_destroy(elastic);
+}
+END_TEST
+
+START_TEST(what_it_lacks_is_said) {
+  static const struct {
+    ZpStudy study;
+    Setting setting, other;
+    const char *says;
+  } refused[] = {
+      {ZP_STUDY_LIMITS, {"mesh.nodes", 21}, {"mesh.nodes", 21}, "study limits unloads ribbons"},
+      {ZP_STUDY_EQUILIBRIUM, {"mesh.nodes", 21}, {"mesh.nodes", 21}, "use study actuate"},
+      {ZP_STUDY_ACTUATE, {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, "requires ribbon.model rod"},
+      {ZP_STUDY_ACTUATE, {"ribbon.plane", ZP_PLANE_ANTICLASTIC}, {"mesh.nodes", 21}, "requires ribbon.plane strain"},
+      {ZP_STUDY_ACTUATE, {"control.kind", ZP_CONTROL_PI}, {"setpoint.value", 5e-3}, "requires control.kind none"},
+      {ZP_STUDY_ACTUATE, {"segment_1.length", 5e-3}, {"segment_1.thickness", 9e-5}, "segments as thick as the ribbon"},
+      {ZP_STUDY_ACTUATE,
+       {"ribbon.plasticity", false},
+       {"ribbon.hardening_modulus", 1e9},
+       "requires ribbon.plasticity"}};
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    ZpActuatorDef def = DEF({"ribbon.plasticity", true}, refused[k].setting, refused[k].other);
+    ZpError err = {ZP_OK, ""};
+    ck_assert_int_eq(zp_study_check(refused[k].study, &def, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, refused[k].says), "%s", err.message);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("plastic");
+  TCase *law = tcase_create("law");
+  tcase_add_loop_test(law, moment_is_the_closed_form, 0, LENGTH_OF(multiples));
+  tcase_add_loop_test(law, residual_curvature_is_the_closed_form, 0, 9);
+  tcase_add_loop_test(law, loops_are_those_of_masing, 0, 3);
+  tcase_add_loop_test(law, tape_shifts_the_axis, 0, LENGTH_OF(multiples));
+  tcase_add_loop_test(law, work_is_stored_or_heat, 0, 4);
+  tcase_add_loop_test(law, stiffness_is_the_derivative, 0, LENGTH_OF(multiples));
+  suite_add_tcase(suite, law);
+  TCase *rest = tcase_create("rest");
+  tcase_add_test(rest, cantilever_beyond_its_yield);
+  tcase_add_test(rest, what_it_lacks_is_said);
+  suite_add_tcase(suite, rest);
+  TCase *motion = tcase_create("motion");
+  tcase_add_loop_test(motion, energy_in_motion, 0, MOVING);
+  tcase_add_test(motion, what_hangs_stays);
+  tcase_add_test(motion, ratchet_over_cycles);
+  tcase_add_test(motion, below_the_yield_stress_it_is_elastic);
+  suite_add_tcase(suite, motion);
+  return run_suite(suite);
+}
