@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -176,6 +177,7 @@ def chain_motion(runs):
 
 
 READING = 0.15  # of what is read off the published plots
+STEEL, GAUGE = 200e9, 0.05  # Pa; two standard deviations of the thickness of strip
 SOFTER, STIFFER = 200 * 0.85, 200 * 1.15  # GPa: steel 5 % thinner or thicker bends as much more or less
 
 
@@ -198,18 +200,93 @@ class Experiment:
         return "with the load" if self.by_load[0] <= high and low <= self.by_load[1] else "**no**"
 
 
+def strokes_of(runs, settings=None):
+    """Computed openings of all published rows, mm."""
+    return [1e3 * row["fitted_m"] for row in runs.rows("../experiments", settings)]
+
+
 def experiments(runs):
     """All published rows, in the order of the data."""
-    def ours(settings=None):
-        return [1e3 * row["fitted_m"] for row in runs.rows("../experiments", settings)]
     with open(os.path.join(HOME, "examples", "data", "experiments-2018.csv"), newline="") as file:
         rows = list(csv.DictReader(line for line in file if line[0] != "#"))
-    loads = [ours({"load.share": 0.5 * (1 + sign * READING)}) for sign in (-1, 1)]
-    steels = [ours({"ribbon.young_modulus": f"{E} GPa"}) for E in (STIFFER, SOFTER)]
-    return [Experiment(*all_of) for all_of in zip(rows, ours(), zip(*loads), zip(*steels), strict=True)]
+    loads = [strokes_of(runs, {"load.share": 0.5 * (1 + sign * READING)}) for sign in (-1, 1)]
+    steels = [strokes_of(runs, {"ribbon.young_modulus": f"{E} GPa"}) for E in (STIFFER, SOFTER)]
+    return [Experiment(*all_of) for all_of in zip(rows, strokes_of(runs), zip(*loads), zip(*steels), strict=True)]
+
+
+class Spread:
+    """What is not known of the published actuators: settings for its value as it is, and two standard deviations below
+    and above."""
+
+    def __init__(self, key, value, deviation, material=True):
+        self.key, self.material = key, material
+        self.settings = [{key: value * math.exp(2 * sign * deviation)} for sign in (-1, 1)]
+
+
+def of_material(name, key):
+    """(value, spread) of a material's key, as include/zipact/materials.def has them."""
+    with open(os.path.join(HOME, "include", "zipact", "materials.def"), encoding="utf-8") as file:
+        found = re.search(rf'^ZP_\w+\({name}, "{key}", ([^,]+), ([^,]+),', file.read(), re.M)
+    return tuple(float(text) for text in found.groups())
+
+
+def spreads():
+    """Of steel, tape, gauge and load. Stiffness goes with the cube of the gauge."""
+    tape = [("insulator." + key, *of_material("ZP_INSULATOR_PVC_TAPE", key)) for key in ("young_modulus", "density")]
+    steel = "ribbon.young_modulus", STEEL, of_material("ZP_STRIP_STEEL_301", "young_modulus")[1]
+    half = math.log(1 + READING) / 2
+    return tape, [Spread(*steel), *(Spread(*one) for one in tape),
+                  Spread("ribbon.young_modulus", STEEL, 3 * GAUGE / 2, material=False),
+                  Spread("load.share", 0.5, half, material=False)]
+
+
+class Band:
+    """Openings of the published actuators with their tape, mm, and where they lie when all that spreads does."""
+
+    def __init__(self, middle, changes):
+        self.middle, self.range = middle, {}
+        for name, counted in (("material", [c for c, material in changes if material]), ("all", [c for c, _ in changes])):
+            down = math.hypot(*(min(0, *pair) for pair in counted))
+            up = math.hypot(*(max(0, *pair) for pair in counted))
+            self.range[name] = middle * math.exp(-down), middle * math.exp(up)
+
+    def distance(self, e, name=None):
+        """How far the measured opening lies from the computed one, in standard deviations of both: of the reading
+        alone, or with a range. Openings are compared by their logarithms."""
+        off = math.log(e.measured / self.middle)
+        reaches = abs(math.log(self.range[name][off > 0] / self.middle)) if name else 0
+        return off / (math.hypot(math.log(1 + READING), reaches) / 2)
+
+    def explains(self, e):
+        """What the measured opening may follow from, to two standard deviations."""
+        for words, name in ("the reading", None), ("the materials", "material"), ("gauge and load", "all"):
+            if abs(self.distance(e, name)) <= 2:
+                return words
+        return "**not explained**"
+
+
+def bands(runs):
+    """One band for each published row."""
+    tape, all_of = spreads()
+    known = {"ribbon.young_modulus": STEEL, **{key: value for key, value, _ in tape}}
+    middle = strokes_of(runs, known)
+    changes = [[strokes_of(runs, {**known, **one}) for one in spread.settings] for spread in all_of]
+    return [Band(at, [(tuple(math.log(values[row] / at) for values in pair), spread.material)
+                      for pair, spread in zip(changes, all_of)]) for row, at in enumerate(middle)]
 
 
 # The page.
+
+
+def spread_table(runs):
+    rows = []
+    for e, band in zip(experiments(runs), bands(runs), strict=True):
+        ranges = [f"{low:.3g} to {high:.3g} mm" for low, high in (band.range["material"], band.range["all"])]
+        rows.append([e.plot, f"{e.length:g} mm × {e.width:g} mm × {e.thickness:g} µm",
+                     f"{e.measured * (1 - READING):.3g} to {e.measured * (1 + READING):.3g} mm", f"{e.ours:.3g} mm",
+                     f"{band.middle:.3g} mm", *ranges, f"{band.distance(e, 'all'):+.1f}".replace("-", "−"), band.explains(e)])
+    return table(["plot", "actuator", "measured", "without tape", "with tape", "steel and tape", "with gauge and load", "off by", "explained by"],
+                 rows)
 
 
 def experiments_table(runs):
@@ -312,6 +389,7 @@ def quick_sections(runs):
     yield "chain-limits", limits(strokes, "chain against rod", "stroke {:.2f} of the half length".format, "not up to 0.64")
     yield "chain-stroke", grid(strokes, "stroke / half length", "{:.3f}".format)
     yield "experiments", experiments_table(runs)
+    yield "experiments-spread", spread_table(runs)
 
 
 def slow_sections(runs):
@@ -368,16 +446,16 @@ def draw(name, panels):
     subprocess.run(["gnuplot"], input=script, text=True, check=True)
 
 
-def draw_experiments(found):
-    """Computed over measured, point by point, with a colour for each of the published plots."""
+def draw_experiments(found, bands):
+    """Computed over measured with its band, point by point, with a colour for each of the published plots."""
     plots = list(dict.fromkeys(e.plot for e in found))
-    points = ["\n".join(f"{x} {e.ours / e.measured} {e.by_load[0] / e.measured} {e.by_load[1] / e.measured}"
-                        for x, e in enumerate(found) if e.plot == plot) for plot in plots]
+    points = ["\n".join(f"{x} {b.middle / e.measured} {b.range['all'][0] / e.measured} {b.range['all'][1] / e.measured}"
+                        for x, (e, b) in enumerate(zip(found, bands)) if e.plot == plot) for plot in plots]
     blocks = "".join(f"$c{k} << EOD\n{text}\nEOD\n" for k, text in enumerate(points))
     curves = ", ".join(f"$c{k} using 1:2:3:4 with yerrorbars lw 2 pt {5 + 2 * k} ps 0.7 lc rgb '{INK[k]}' title 'by {plot}'"
                        for k, plot in enumerate(plots))
     ticks = ", ".join(f"'{e.varied()}' {x}" for x, e in enumerate(found))
-    draw("validity-experiments", [blocks + f"""set title 'Opening under the largest load, nothing fitted'
+    draw("validity-experiments", [blocks + f"""set title 'Opening under the largest load, two standard deviations'
 set ylabel 'computed / measured'
 set xrange [-0.8:{len(found) - 0.2}]
 set yrange [0.5:1.7]
@@ -405,7 +483,7 @@ def pictures(runs):
               zip_times(runs), LOG.format(low=0.5, high=100) + "set logscale x\nset xrange [0.9:25]\nset xtics (1, 2, 5, 10, 20)\n"),
         panel("Closed length after the voltage fell from 10 kV", "voltage it fell to / kV", "closed length of one half / mm",
               closed_lengths(runs), "set xrange [0:2]\nset yrange [-2:50]\n")])
-    draw_experiments(experiments(runs))
+    draw_experiments(experiments(runs), bands(runs))
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
               LOG.format(low=0.003, high=20) + "set xrange [0:0.7]\n"),
