@@ -154,7 +154,7 @@ static ZpOutcome run_and_check(ZpStudy study, const ZpActuatorDef *def, const ch
   ZpError err = {ZP_OK, ""};
   double start = cpu_seconds();
   ZpActuatorDef bounded = *def;
-  int most_steps = def->mesh.nodes > 200 ? 20000 : 300000; /* 0.3 s, 1.3 s */
+  int most_steps = def->mesh.nodes > 200 ? 20000 : 100000; /* 0.3 s, 1.5 s */
   if (def->solver.max_steps > most_steps) bounded.solver.max_steps = most_steps;
   const ZpDriveTable table = {3, (const double[]){0, 5e-5, 5e-5}, (const double[]){-1e6, 1e6, 0}};
   bool by_table = def->drive.waveform == ZP_WAVEFORM_TABLE || def->setpoint.waveform == ZP_WAVEFORM_TABLE;
