@@ -30,6 +30,7 @@ static const struct {
             {bench_swing_explicit, 21},
             {bench_swing_explicit, 61},
             {bench_swing_explicit, 131},
+            {bench_strip, 14},
             {bench_strip, 21},
             {bench_strip, 33},
             {bench_strip, 45},

@@ -91,8 +91,12 @@ void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *n
 }
 
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
-  for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) equations[a->equation[k]] += nodes[place(a, k)];
+  const double *x = nodes, *y = nodes + a->stride;
+  for (size_t j = 0; j < a->count; j++) {
+    int row_x = a->equation[2 * j], row_y = a->equation[2 * j + 1];
+    if (row_x >= 0) equations[row_x] += x[j];
+    if (row_y >= 0) equations[row_y] += y[j];
+  }
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -177,18 +181,30 @@ static void edges_of_node(const ZpAssembly *a, size_t i, size_t j, const double 
   if (beyond) add_block(a, j + 2 * s, j, before, K);
 }
 
+static bool is_free(const ZpAssembly *a, size_t i) {
+  return a->symmetric && i > 0 && a->first[i] >= 0;
+}
+
+ZP_INLINE void edges_of_free_stations(const ZpAssembly *a, size_t s, size_t per, const double (*D)[4], ZpBand *K) {
+  for (size_t i = 1; i < a->nodes; i++)
+    for (size_t j = s * i; a->first[i] >= 0 && j < s * (i + 1); j++)
+      edges_of_free_node(a, s, per, i, j, D, K);
+}
+
+ZP_KERNEL static void edges_of_free(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
+  if (a->own > 0)
+    edges_of_free_stations(a, a->s, per_station(a), D, K);
+  else if (a->s == 2)
+    edges_of_free_stations(a, 2, 4, D, K);
+  else
+    edges_of_free_stations(a, 1, 2, D, K);
+}
+
 void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
   for (size_t i = 0; i < a->nodes; i++)
-    for (size_t j = a->s * i; j < a->s * (i + 1); j++) {
-      if (a->first[i] < 0 || i == 0 || !a->symmetric)
-        edges_of_node(a, i, j, D, K);
-      else if (a->own > 0)
-        edges_of_free_node(a, a->s, per_station(a), i, j, D, K);
-      else if (a->s == 2)
-        edges_of_free_node(a, 2, 4, i, j, D, K);
-      else
-        edges_of_free_node(a, 1, 2, i, j, D, K);
-    }
+    for (size_t j = a->s * i; !is_free(a, i) && j < a->s * (i + 1); j++)
+      edges_of_node(a, i, j, D, K);
+  if (a->symmetric) edges_of_free(a, D, K);
 }
 
 /* How edge j goes with u. */

@@ -18,6 +18,8 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->good = zp_carve(&carver, 2 * stride);
   s->tension = zp_carve(&carver, stride);
   s->k0_now = zp_carve(&carver, stride);
+  s->rotation = zp_carve(&carver, stride);
+  s->stretch = zp_carve(&carver, stride);
   s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
   return carver.used;
 }
@@ -435,25 +437,47 @@ static double part(const ZpStatics *s, const double *step, size_t k) {
   return s->assembly.equation[k] >= 0 ? step[s->assembly.equation[k]] : 0;
 }
 
-/* Rotation and stretch of edge j under a step. */
-static void turn(const ZpStatics *s, const double *step, size_t j, double *rotation, double *stretch) {
-  const ZpEdges *e = &s->eval.edges;
-  size_t to = j + s->model->s;
-  double dx = part(s, step, 2 * to) - part(s, step, 2 * j), dy = part(s, step, 2 * to + 1) - part(s, step, 2 * j + 1);
-  double length = e->dpx[j] * e->ux[j] + e->dpy[j] * e->uy[j];
-  *rotation = (e->ux[j] * dy - e->uy[j] * dx) / length;
-  *stretch = e->ux[j] * dx + e->uy[j] * dy;
+ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const double *restrict dx,
+                                       const double *restrict dy, const ZpEdges *e, double *restrict rotation,
+                                       double *restrict stretch) {
+  const double *restrict x = e->dpx, *restrict y = e->dpy, *restrict ux = e->ux, *restrict uy = e->uy;
+  const double *restrict to_dx = dx + ribbons, *restrict to_dy = dy + ribbons;
+  ZP_SIMD
+  for (size_t j = 0; j < edges; j++) {
+    double by_x = to_dx[j] - dx[j], by_y = to_dy[j] - dy[j], length = x[j] * ux[j] + y[j] * uy[j];
+    rotation[j] = (ux[j] * by_y - uy[j] * by_x) / length;
+    stretch[j] = ux[j] * by_x + uy[j] * by_y;
+  }
+}
+
+static size_t edge_count(const ZpStatics *s) {
+  return s->model->count - s->model->s;
+}
+
+/* Rotation and stretch of all edges under a step => s. */
+static void turn(ZpStatics *s, const double *step) {
+  const int *equation = s->assembly.equation;
+  double *dx = s->moved, *dy = dx + s->model->stride;
+  for (size_t j = 0; j < s->model->count; j++) {
+    int x = equation[2 * j], y = equation[2 * j + 1];
+    dx[j] = x >= 0 ? step[x] : 0;
+    dy[j] = y >= 0 ? step[y] : 0;
+  }
+  edges_under_step(edge_count(s), s->model->s, dx, dy, &s->eval.edges, s->rotation, s->stretch);
+}
+
+/* The largest rotation of an edge under a step, rad; NAN where one is. */
+static double largest_rotation(ZpStatics *s, const double *step) {
+  double most = 0;
+  turn(s, step);
+  for (size_t j = 0; j < edge_count(s) && !isnan(most); j++)
+    if (!(fabs(s->rotation[j]) <= most)) most = fabs(s->rotation[j]);
+  return most;
 }
 
 static double length(void *self, const double *step) {
   static const double longest = 0.5; /* rad: what linearised rotations stand */
-  const ZpStatics *s = self;
-  double most = 0, rotation, stretch;
-  for (size_t j = 0; j < s->model->count - s->model->s && !isnan(most); j++) {
-    turn(s, step, j, &rotation, &stretch);
-    if (!(fabs(rotation) <= most)) most = fabs(rotation);
-  }
-  return most / longest;
+  return largest_rotation(self, step) / longest;
 }
 
 /* The largest share by which a step changes a gap with its insulators. */
@@ -473,15 +497,29 @@ static double gap_share(const ZpStatics *s, const double *step) {
 /* The largest rotation of an edge, rad, and under a voltage the largest share by which a gap with its insulators
  * changes. */
 static double change(void *self, const double *step) {
-  const ZpStatics *s = self;
+  ZpStatics *s = self;
   const ZpModel *model = s->model;
-  double most = 0, rotation, stretch;
-  for (size_t j = 0; j < model->count - model->s; j++) {
-    turn(s, step, j, &rotation, &stretch);
-    most = fmax(most, fabs(rotation));
-  }
+  double most = largest_rotation(s, step);
   if (model->field && s->U != 0) most = fmax(most, gap_share(s, step));
   return most / (1e-3 * model->def.solver.tolerance);
+}
+
+/* Axial stiffness of edge j: S[j], or `all` where S is NULL. => vectors of the edges, in place of what their nodes have
+ * moved by, and tensions */
+ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *restrict S, double all,
+                                   const ZpEdges *e, const double *restrict rotation, const double *restrict stretch,
+                                   double *restrict tension, double *restrict to_x, double *restrict to_y) {
+  const double *restrict x = e->dpx, *restrict y = e->dpy, *restrict ux = e->ux, *restrict uy = e->uy,
+                         *restrict T = e->T;
+  ZP_SIMD
+  for (size_t j = 0; j < edges; j++) {
+    double axial = S ? S[j] : all, turned = fraction * rotation[j];
+    tension[j] = T[j] + fraction * axial * stretch[j];
+    double tx = ux[j] - turned * uy[j], ty = uy[j] + turned * ux[j];
+    double l = (x[j] * ux[j] + y[j] * uy[j] + fraction * stretch[j]) / sqrt(tx * tx + ty * ty);
+    to_x[j] = l * tx;
+    to_y[j] = l * ty;
+  }
 }
 
 /* Turn and stretch each edge instead of moving its ends along straight lines: a rotation then does not
@@ -489,20 +527,10 @@ static double change(void *self, const double *step) {
  * foresees go into the next stiffness: those of the edges as they come to lie are off by what they were
  * turned, times a stiffness a million times that of bending. => edge vectors in s->moved. */
 static void turn_edges(ZpStatics *s, const double *step, double fraction) {
-  const ZpEdges *e = &s->eval.edges;
   const ZpModel *model = s->model;
-  size_t stride = model->stride;
-  for (size_t j = 0; j < model->count - model->s; j++) {
-    double rotation, stretch;
-    turn(s, step, j, &rotation, &stretch);
-    double axial = model->is_rod ? model->rod.S[j] : model->spring.K_D;
-    s->tension[j] = e->T[j] + fraction * axial * stretch;
-    rotation *= fraction;
-    double tx = e->ux[j] - rotation * e->uy[j], ty = e->uy[j] + rotation * e->ux[j];
-    double l = (e->dpx[j] * e->ux[j] + e->dpy[j] * e->uy[j] + fraction * stretch) / sqrt(tx * tx + ty * ty);
-    s->moved[j] = l * tx;
-    s->moved[stride + j] = l * ty;
-  }
+  turn(s, step);
+  edges_turned(edge_count(s), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &s->eval.edges,
+               s->rotation, s->stretch, s->tension, s->moved, s->moved + model->stride);
 }
 
 /* Put the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the right

@@ -22,11 +22,12 @@ typedef struct ZpStatics {
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
-  double scale;    /* force that a residual is relative to, N */
-  double *tension; /* [edges] what the last step foresaw, N */
-  double *moved;   /* [2 stride] work space of a move */
-  double *force;   /* [2 stride] */
-  double *good;    /* [2 stride] the last equilibrium on that way */
+  double scale;               /* force that a residual is relative to, N */
+  double *tension;            /* [edges] what the last step foresaw, N */
+  double *moved;              /* [2 stride] work space of a move */
+  double *rotation, *stretch; /* [edges] under the last step that was looked at, rad, m */
+  double *force;              /* [2 stride] */
+  double *good;               /* [2 stride] the last equilibrium on that way */
   void *memory;
 } ZpStatics;
 

@@ -211,25 +211,42 @@ double zp_rod_step_loss(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEv
   return damping * sum;
 }
 
-/* The edge with itself: stretching, bending of both joints, tension, and what moments do as the edge turns. */
-static void own_stiffness(const ZpRodParams *p, const ZpRodStep *s, double T, double damping, double over, size_t j,
-                          double D[4]) {
-  size_t next = j + p->ribbons;
-  double tx = s->tx[j], ty = s->ty[j], gx = s->gx[j], gy = s->gy[j];
-  double tension = T * over, stretch = (0.5 + damping) * p->S[j] - tension;
-  double bend = s->stiffness[j] + s->stiffness[next], twist = -0.5 * (s->M[j] - s->M[next]);
-  /* 0.5 dg/dd of g = n / L turned with the edge: -(t n + n t) / L^2, and (gy, -gx) is t / L */
-  D[0] = stretch * tx * tx + tension + bend * gx * gx + twist * 2 * gy * gx;
-  D[1] = D[2] = stretch * tx * ty + bend * gx * gy + twist * (gy * gy - gx * gx);
-  D[3] = stretch * ty * ty + tension + bend * gy * gy - twist * 2 * gx * gy;
+/* c times g of one edge by g of another. */
+ZP_INLINE void put_product(double c, double gx, double gy, double other_gx, double other_gy, double *restrict D) {
+  D[0] = c * gx * other_gx;
+  D[1] = c * gx * other_gy;
+  D[2] = c * gy * other_gx;
+  D[3] = c * gy * other_gy;
 }
 
-static void coupling(const ZpRodStep *s, size_t joint, ptrdiff_t j, ptrdiff_t k, double D[4]) {
-  double c = -s->stiffness[joint];
-  D[0] = c * s->gx[j] * s->gx[k];
-  D[1] = c * s->gx[j] * s->gy[k];
-  D[2] = c * s->gy[j] * s->gx[k];
-  D[3] = c * s->gy[j] * s->gy[k];
+/* Each edge with that before it, with itself (stretching, bending of both joints, tension, and what moments do as the
+ * edge turns) and with the next one: 12 numbers of D. */
+ZP_KERNEL static void edge_stiffness(const ZpRodParams *p, size_t edges, const ZpRodEval *e0, const ZpRodEval *e1,
+                                     double damping, const ZpRodStep *s, const double *restrict tensions,
+                                     double *restrict D) {
+  size_t r = p->ribbons;
+  const double *restrict x0 = e0->dpx, *restrict y0 = e0->dpy, *restrict ux0 = e0->ux, *restrict uy0 = e0->uy,
+                         *restrict x1 = e1->dpx, *restrict y1 = e1->dpy, *restrict ux1 = e1->ux, *restrict uy1 = e1->uy,
+                         *restrict S = p->S, *restrict M = s->M, *restrict c = s->stiffness;
+  const double *restrict all_tx = s->tx, *restrict all_ty = s->ty, *restrict all_gx = s->gx, *restrict all_gy = s->gy;
+  const double *restrict next_M = M + r, *restrict next_c = c + r, *restrict before_gx = all_gx - r,
+                         *restrict before_gy = all_gy - r, *restrict next_gx = all_gx + r,
+                         *restrict next_gy = all_gy + r;
+  ZP_SIMD
+  for (size_t j = 0; j < edges; j++) {
+    double L0 = x0[j] * ux0[j] + y0[j] * uy0[j], L1 = x1[j] * ux1[j] + y1[j] * uy1[j];
+    double tx = all_tx[j], ty = all_ty[j], gx = all_gx[j], gy = all_gy[j];
+    double tension = tensions[j] * (1 / (L0 + L1)), stretch = (0.5 + damping) * S[j] - tension;
+    double bend = c[j] + next_c[j], twist = -0.5 * (M[j] - next_M[j]);
+    put_product(-c[j], gx, gy, before_gx[j], before_gy[j], D + 12 * j);
+    /* 0.5 dg/dd of g = n / L turned with the edge: -(t n + n t) / L^2, and (gy, -gx) is t / L */
+    double across = stretch * tx * ty + bend * gx * gy + twist * (gy * gy - gx * gx);
+    D[12 * j + 4] = stretch * tx * tx + tension + bend * gx * gx + twist * 2 * gy * gx;
+    D[12 * j + 5] = across;
+    D[12 * j + 6] = across;
+    D[12 * j + 7] = stretch * ty * ty + tension + bend * gy * gy - twist * 2 * gx * gy;
+    put_product(-next_c[j], gx, gy, next_gx[j], next_gy[j], D + 12 * j + 8);
+  }
 }
 
 /* D += factor times g of edge a by g of edge b. */
@@ -252,13 +269,7 @@ static void end_stiffness(const ZpRodStep *s, const ZpRodEnd *end, double across
 
 void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping,
                       const ZpRodStep *s, const double *tension, double (*D)[4]) {
-  for (size_t j = 0; j < edge_count(p); j++) {
-    ptrdiff_t here = (ptrdiff_t)j, step = (ptrdiff_t)p->ribbons;
-    double L0 = e0->dpx[j] * e0->ux[j] + e0->dpy[j] * e0->uy[j], L1 = e1->dpx[j] * e1->ux[j] + e1->dpy[j] * e1->uy[j];
-    coupling(s, j, here, here - step, D[3 * j]);
-    own_stiffness(p, s, tension[j], damping, 1 / (L0 + L1), j, D[3 * j + 1]);
-    coupling(s, j + p->ribbons, here, here + step, D[3 * j + 2]);
-  }
+  edge_stiffness(p, edge_count(p), e0, e1, damping, s, tension, &D[0][0]);
   for (size_t i = 0; i < p->ends; i++)
     end_stiffness(s, &p->end[i], s->across[i], D);
 }

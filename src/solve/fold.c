@@ -101,7 +101,7 @@ static void changes_of_test(ZpFold *f, double dm_a, double dm_n, double *g_a, do
 
 /* -- solutions ------------------------------------------------------------------------------------- */
 
-enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20, SLOW_AT = 3 };
+enum { MOST_ITERATIONS = 9, MOST_REFRESHES = 20 };
 
 /* Move by a + along xi and dm, or by a part of it => change. */
 static void step(ZpFold *f, double xi, double dm) {
@@ -197,7 +197,6 @@ static bool is_there(const ZpFold *f, const Goal *goal, double change_before, do
 static bool solve(ZpFold *f, Goal goal) {
   const ZpStaticSystem *rest = &f->system->at_rest;
   static const double astray = 0.2; /* what a step after the first may change */
-  static const double slow = 0.5;   /* on the way: of the step before; slower, a shorter way is cheaper */
   int refreshes = 0;
   f->test = 0;
   f->change = INFINITY;
@@ -205,7 +204,6 @@ static bool solve(ZpFold *f, Goal goal) {
     double change = f->change, test = f->test;
     if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;
     if (!step_to(f, &goal) || (k > 0 && f->change > astray)) return false;
-    if (k >= SLOW_AT && goal.to == ZP_FOLD_ROUGH && f->change > slow * change) return false;
     if (!is_there(f, &goal, change, test)) continue;
     bool fresh = !rest->refresh || k == 0;
     if (fresh) return rest->residual(rest->self, f->newton->r, NULL) == ZP_END_FOUND;

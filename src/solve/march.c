@@ -146,9 +146,11 @@ static double turn_of(ZpMarch *m) {
   return 1 / zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
 }
 
-/* Where the branch is as it was at the last good point, and further: stable, m going the same way. */
+/* Where the branch is as it was at the last good point, and not behind it: stable, m going the same way. */
 static bool is_before_fold(ZpMarch *m, double sign) {
-  return sign * (parameter(m) - m->m) > 0 && is_stable(m) && turn_of(m) * m->slope > 0;
+  static const double rounding = 1e-10; /* of m, which is flat at a limit point */
+  bool behind = sign * (parameter(m) - m->m) < -rounding * fabs(m->m);
+  return !behind && is_stable(m) && turn_of(m) * m->slope > 0;
 }
 
 /* Halve the way to a limit point that lies between the last good point and `value`: a corner, where the stiffness
