@@ -125,6 +125,15 @@ export function voltagePlot(place, data) {
   });
 }
 
+/** The design chart: the largest load that closes, over voltage; and where the scenario is. */
+export function chartPlot(place, data) {
+  const ends = () => ({x: axisEnds([data.volts.at(-1) / 1e3]), y: axisEnds(scaled(data.y, 1e3).filter((v) => v > 0), [1e3 * data.mass, 1e-3])});
+  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('load / g', {size: 44})}, ends, (plot) => {
+    curve(plot, scaled(data.volts, 1e-3), scaled(data.y, 1e3), {colour: 'accent', width: 2.5});
+    dot(plot, data.voltage / 1e3, 1e3 * data.mass, 'warm');
+  });
+}
+
 /** Powers of ten around all values above 0. */
 function decades(values) {
   const there = values.filter((v) => v > 0), log = (v) => Math.log10(v);
