@@ -31,6 +31,11 @@ export class Chart {
     return this.#drawn.some((version) => version < this.#version);
   }
 
+  /** Whether point `k` is of the newest scenario. */
+  fresh(k) {
+    return this.#drawn[k] === this.#version && !(this.#remote.busy && k === this.#next);
+  }
+
   /** `values`: a Map of key => text */
   ask(values) {
     this.#values = values;

@@ -52,7 +52,7 @@ export class View {
   #plots;
   #next = 0; // plot to draw
 
-  /** `highest`: voltage to which the states of rest are followed, V; `chart`: {volts, y} of the design chart. */
+  /** `highest`: voltage to which the states of rest are followed, V; `chart`: {volts, y, fresh} of the design chart. */
   constructor(core, live, highest, chart) {
     this.core = core;
     this.live = live;
@@ -61,7 +61,7 @@ export class View {
     this.#time = {run: null, trace: live.trace};
     this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
     this.#current = {trace: live.trace};
-    this.#chart = {volts: chart.volts, y: chart.y, voltage: 0, mass: 0};
+    this.#chart = {volts: chart.volts, y: chart.y, fresh: (k) => chart.fresh(k), voltage: 0, mass: 0};
     this.#plots = [
       timePlot($('plot-time'), this.#time),
       voltagePlot($('plot-voltage'), this.#rest),

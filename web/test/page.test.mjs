@@ -364,7 +364,7 @@ pageTest('a supply: chosen from the table, slower than the drive, on the plot of
   await page.waitForFunction(() => location.hash.includes('source.supply=pocket_6kv'));
   await page.fill('#any-key', 'drive.voltage=8 kV');
   await page.keyboard.press('Enter');
-  assert.match(await page.textContent('[role=alert]'), /drive\.voltage.*voltage_limit/);
+  assert.match(await page.textContent('#refusal'), /drive\.voltage.*voltage_limit/);
   await page.selectOption('#source-supply', 'none');
   assert.doesNotMatch(await page.textContent('#command'), /source/);
   assert.ok(await page.isHidden('#source-resistance'));
