@@ -7,6 +7,7 @@
 # make fmu     the actuator of examples/fmu.yaml as an FMU in out/, with a binary for Windows if mingw-w64 is there
 # make install; make uninstall removes what it installed
 # make deb     Debian packages in build-deb
+# make windows the library for Windows as a zip in build/win64, tried under wine
 # make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make html without
 #              remaking them; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.
@@ -17,7 +18,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install uninstall deb clean
+.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install uninstall deb windows clean
 all: $(BUILD)/zipact
 
 deps:
@@ -119,6 +120,9 @@ uninstall:
 
 deb:
 	scripts/make-deb.sh $(BUILD)
+
+windows: $(BUILD)/zipact
+	scripts/make-windows-zip.sh $(BUILD)
 
 clean:
 	rm -rf $(BUILD) out web/build web/dist web/node_modules

@@ -8,7 +8,7 @@
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses, and what builds and tries FMUs for Windows
 #   scripts/deps.sh --docs   also what makes the manual's HTML
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
-#   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, a browser for its tests
+#   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, two browsers for its tests
 set -eu
 packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev libopenmpi-dev openmpi-bin libzip-dev libxml2-dev libxml2-utils check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 python3-yaml python3-jsonschema ca-certificates"
@@ -19,7 +19,7 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
 [ "${1:-}" = --docs ] && packages="$packages pandoc doxygen fonts-dejavu-extra"
 [ "${1:-}" = --browser ] && packages="$packages chromium"
 if [ "${1:-}" = --web ]; then
-  packages="$packages clang lld wasi-libc libclang-rt-14-dev-wasm32 chromium"
+  packages="$packages clang lld wasi-libc libclang-rt-14-dev-wasm32 chromium firefox-esr"
   command -v npm >/dev/null 2>&1 || packages="$packages nodejs npm"
 fi
 

@@ -21,7 +21,7 @@ $python -m pip wheel --no-build-isolation --no-deps --no-index -w "$folder/wheel
   exit 1
 }
 $python -m venv --system-site-packages "$folder/venv"
-"$folder/venv/bin/pip" install -q --no-index "$folder"/wheel/zipact-*.whl
+CC=/bin/false "$folder/venv/bin/pip" install -q --no-index "$folder"/wheel/zipact-*.whl
 
 export ZIPACT_COMMAND="$build/zipact" MPLBACKEND=agg PYTHONDONTWRITEBYTECODE=1
 fortified=$([ -n "$sanitize" ] || echo --fortified)

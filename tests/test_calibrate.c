@@ -390,6 +390,15 @@ static void refuse_file(const char *text, const char *keys, const char *words) {
   refuse(ZP_STUDY_CALIBRATE, &def, words);
 }
 
+START_TEST(bad_numbers_of_studies_are_refused) {
+  const char *E = "ribbon.young_modulus";
+  refuse_file("load_g,force_N\n8,2\n", E, "calibrate.y");
+  refuse_file("load_g,frequency_mm\n8,2\n", E, "calibrate.y");
+  refuse_file("time_ms,pull_in_voltage_V\n8,2\n", E, "calibrate.y");
+  refuse_file("load_g,pull_in_voltage_kV\n8,12\n", E, "bad.csv:2: a pull-in voltage of 12000 V was measured");
+}
+END_TEST
+
 START_TEST(bad_input_is_refused) {
   const char *E = "ribbon.young_modulus", *good = "load_g,stroke_mm\n8,2\n9,3\n";
   ZpActuatorDef missing = calibration("no such file.csv", E), nameless = calibration("", E);
@@ -407,7 +416,6 @@ START_TEST(bad_input_is_refused) {
   refuse_file("load_s,stroke_mm\n8,2\n", E, "calibrate.x");
   refuse_file("load_g,stroke_kg\n8,2\n", E, "calibrate.y");
   refuse_file("load_g\n8\n", E, "calibrate.y");
-  refuse_file("load_g,force_N\n8,2\n", E, "calibrate.y");
   refuse_file("isometric.separation_mm,force_N\n2,1\n89,2\n", E, "bad.csv:3: isometric.separation = 0.089 m");
   refuse_file("load_g,stroke_mm\n-8,2\n", E, "load.mass");
   refuse_file(good, "ribbon.young_modulos", "did you mean ribbon.young_modulus?");
@@ -593,6 +601,83 @@ START_TEST(held_force_data) {
 }
 END_TEST
 
+/* A number of a study against the load: what the data were made with is found again. */
+static void find_again(const char *column, const char *key, double truth, ZpStudy study, const char *number) {
+  ZpActuatorDef def = calibration("number.csv", key);
+  char text[512];
+  set(&def, "mesh.nodes", 15);
+  set(&def, "drive.voltage", 12e3);
+  int used = snprintf(text, sizeof text, "load_g,%s\n", column);
+  for (int grams = 4; grams <= 8; grams += 2) {
+    ZpActuatorDef row = def;
+    set(&row, key, truth);
+    set(&row, "load.mass", 1e-3 * grams);
+    set(&row, "output.errors", 0);
+    used += snprintf(text + used, sizeof text - (size_t)used, "%d,%.12g\n", grams, scalar_of(study, &row, number));
+  }
+  write_file("number.csv", text);
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, key), truth, 1e-5);
+  zp_result_destroy(result);
+}
+
+START_TEST(limits_and_frequencies) {
+  find_again("pull_in_voltage_V", "insulator.permittivity", 4.1, ZP_STUDY_LIMITS, "pull_in_voltage_V");
+  find_again("release_voltage_V", "insulator.permittivity", 4.1, ZP_STUDY_LIMITS, "release_voltage_V");
+  find_again("frequency_Hz", "ribbon.young_modulus", 185e9, ZP_STUDY_MODES, "frequency_1_Hz");
+}
+END_TEST
+
+/* Frequencies of a cantilever by the formula of Euler and Bernoulli, f = 1.8751^2 / (2 pi L^2) sqrt(E t^2 / (12 rho)),
+ * with 190 GPa. */
+START_TEST(modulus_from_the_frequencies_of_a_cantilever) {
+  ZpActuatorDef def = calibration("cantilever.csv", "ribbon.young_modulus");
+  def.actuator.kind = ZP_KIND_RIBBON;
+  def.actuator.right_end = ZP_END_FREE;
+  set(&def, "mesh.nodes", 61);
+  set(&def, "ribbon.plane", ZP_PLANE_STRESS);
+  set(&def, "load.mass", 0);
+  set(&def, "gravity", 0);
+  set(&def, "insulator.density", 0);
+  set(&def, "insulator.young_modulus", 0);
+  FILE *file = fopen("cantilever.csv", "w");
+  fputs("ribbon.length_mm,frequency_Hz\n", file);
+  for (int mm = 40; mm <= 80; mm += 20) {
+    double L = 1e-3 * mm, t = def.ribbon.thickness;
+    double f = pow(1.8751040687 / L, 2) * sqrt(190e9 * t * t / 12 / def.ribbon.density) / (8 * atan(1));
+    fprintf(file, "%d,%.12g\n", mm, f);
+  }
+  ck_assert_int_eq(fclose(file), 0);
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 190e9, 1e-3); /* the mesh's */
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* The capacitance at rest below pull-in is that of the branch of study equilibrium. */
+START_TEST(capacitances_at_rest) {
+  ZpActuatorDef def = calibration("capacitance.csv", "medium.permittivity"), truth = def;
+  ZpResult *result;
+  truth.medium.permittivity = 2.4;
+  *truth.data.file = 0;
+  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_EQUILIBRIUM, &truth, NULL, &result, NULL), ZP_OK);
+  double pull_in = zp_result_get(result, "pull_in_voltage_V");
+  FILE *file = fopen("capacitance.csv", "w");
+  fputs("voltage_V,capacitance_pF\n", file);
+  for (size_t row = 1; row < result->series->rows && zp_table_get(result->series, row, "voltage_V") < 0.99 * pull_in;
+       row++)
+    fprintf(file, "%.17g,%.17g\n", zp_table_get(result->series, row, "voltage_V"),
+            1e12 * zp_table_get(result->series, row, "capacitance_F"));
+  ck_assert_int_eq(fclose(file), 0);
+  zp_result_destroy(result);
+  result = fit(&def);
+  ck_assert_uint_gt(result->series->rows, 3);
+  assert_near(zp_result_get(result, "medium.permittivity"), 2.4, 1e-5);
+  ck_assert_str_eq(result->series->column[1].name, "measured_F");
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* A ribbon that swings, slowed by drag: the drag is found again from its stroke over time. */
 START_TEST(drag_is_found_from_a_swing) {
   ZpActuatorDef def = calibration("swing.csv", "damping.drag");
@@ -644,7 +729,11 @@ int main(void) {
   tcase_add_test(fits, published_experiments_of_length_and_width_are_compared);
   tcase_add_test(fits, force_against_stroke);
   tcase_add_test(fits, held_force_data);
+  tcase_add_test(fits, limits_and_frequencies);
+  tcase_add_test(fits, modulus_from_the_frequencies_of_a_cantilever);
+  tcase_add_test(fits, capacitances_at_rest);
   tcase_add_test(fits, drag_is_found_from_a_swing);
+  tcase_add_test(fits, bad_numbers_of_studies_are_refused);
   tcase_add_test(fits, bad_input_is_refused);
   tcase_add_test(areas, area_of_known_curves);
   tcase_add_test(areas, area_error_of_stationary);

@@ -29,6 +29,9 @@ ZP_API bool zp_rest_hang(ZpRest *rest, double voltage);
 ZP_API double zp_rest_stroke(const ZpRest *rest);
 ZP_API double zp_rest_opening(const ZpRest *rest);
 
+/* Its capacitance between the electrodes, F, of the whole actuator. */
+ZP_API double zp_rest_capacitance(const ZpRest *rest);
+
 /* Derivatives of both by key `key` at the present state, which zp_rest_hang has found: m per SI unit of the key, the
  * voltage being that of the state; exact but for rounding. Where the state has none they are NAN. ZP_BAD_INPUT: `key`
  * is no real number that the model has (zp_study_check says what sensitivity.by may name), or electro.model is

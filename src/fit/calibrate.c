@@ -1,4 +1,4 @@
-/* Study `calibrate`: keys fitted to measured strokes, forces or zip times. */
+/* Study `calibrate`: keys fitted to measurements. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,26 +10,31 @@
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-  ZpColumn column[ZP_FIT_CAPACITANCE][4];   /* of lengths, of forces, of times */
+  ZpColumn column[ZP_FIT_KINDS][4];
 } Names;
 
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
+#define TABLE(x, unit, help, of, what, computed)                                                                       \
+  {                                                                                                                    \
+    {x, unit, help}, {"measured_" of, of, what " in data.file"}, {"fitted_" of, of, computed},                         \
+        {"residual_" of, of, "fitted minus measured"},                                                                 \
+  }
+#define TABLE_OF_NUMBER(key, unit, of, what, number, none)                                                             \
+  TABLE(key "_" unit, unit, "value set on the bench", of, what, number ", computed with the fitted values; nan: " none)
 #define NAMES(key, unit)                                                                                               \
   {key "_standard_error",                                                                                              \
    {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"},                           \
-   {{{key "_" unit, unit, "value set on the bench"},                                                                   \
-     {"measured_m", "m", "stroke or opening in data.file"},                                                            \
-     {"fitted_m", "m", "the same, computed with the fitted values; nan: no equilibrium"},                              \
-     {"residual_m", "m", "fitted minus measured"}},                                                                    \
-    {{key "_" unit, unit, "value set on the bench"},                                                                   \
-     {"measured_N", "N", "force in data.file"},                                                                        \
-     {"fitted_N", "N", "force_N of study isometric, computed with the fitted values; nan: no equilibrium"},            \
-     {"residual_N", "N", "fitted minus measured"}},                                                                    \
-    {{key "_" unit, unit, "value set on the bench"},                                                                   \
-     {"measured_s", "s", "zip time in data.file"},                                                                     \
-     {"fitted_s", "s", "zip_time_s of study actuate, computed with the fitted values; nan: not closed"},               \
-     {"residual_s", "s", "fitted minus measured"}}}},
+   {[ZP_FIT_LENGTH] = TABLE_OF_NUMBER(key, unit, "m", "stroke or opening", "the same", "no equilibrium"),              \
+    [ZP_FIT_CAPACITANCE] = TABLE_OF_NUMBER(key, unit, "F", "capacitance", "the same", "no equilibrium"),               \
+    [ZP_FIT_FORCE] = TABLE_OF_NUMBER(key, unit, "N", "force", "force_N of study isometric", "no equilibrium"),         \
+    [ZP_FIT_TIME] = TABLE_OF_NUMBER(key, unit, "s", "zip time", "zip_time_s of study actuate", "not closed"),          \
+    [ZP_FIT_PULL_IN] =                                                                                                 \
+        TABLE_OF_NUMBER(key, unit, "V", "pull-in voltage", "pull_in_voltage_V of study limits", "no pull-in"),         \
+    [ZP_FIT_RELEASE] =                                                                                                 \
+        TABLE_OF_NUMBER(key, unit, "V", "release voltage", "release_voltage_V of study limits", "no release"),         \
+    [ZP_FIT_FREQUENCY] =                                                                                               \
+        TABLE_OF_NUMBER(key, unit, "Hz", "frequency", "frequency_1_Hz of study modes", "no stable equilibrium")}},
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name, unit)
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
@@ -109,22 +114,15 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
     zp_result_note(result, "the data cannot distinguish the fitted keys: they have no standard errors");
 }
 
-static const ZpColumn over_time[4] = {
-    {"time_s", "s", "time since the voltage was switched on"},
-    {"measured_m", "m", "stroke or opening in data.file"},
-    {"fitted_m", "m", "the same, computed with the fitted values"},
-    {"residual_m", "m", "fitted minus measured"},
-};
-static const ZpColumn capacitance_over_time[4] = {
-    {"time_s", "s", "time since the voltage was switched on"},
-    {"measured_F", "F", "capacitance in data.file"},
-    {"fitted_F", "F", "the same, computed with the fitted values"},
-    {"residual_F", "F", "fitted minus measured"},
-};
+#define TABLE_OVER_TIME(of, what)                                                                                      \
+  TABLE("time_s", "s", "time since the voltage was switched on", of, what, "the same, computed with the fitted values")
+
+static const ZpColumn length_over_time[4] = TABLE_OVER_TIME("m", "stroke or opening"),
+                      capacitance_over_time[4] = TABLE_OVER_TIME("F", "capacitance");
 
 static const ZpColumn *columns_of(const ZpFit *fit) {
-  if (fit->kind == ZP_FIT_CAPACITANCE) return capacitance_over_time;
-  return fit->x_key < 0 ? over_time : names[fit->x_key].column[fit->kind];
+  if (fit->x_key >= 0) return names[fit->x_key].column[fit->kind];
+  return fit->kind == ZP_FIT_CAPACITANCE ? capacitance_over_time : length_over_time;
 }
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
@@ -141,7 +139,8 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   double highest = fit->x_key < 0 ? fmax(def.drive.voltage, fabs(def.drive.offset)) : -1, voltage;
   for (size_t i = 0; i < fit->rows && fit->x_key >= 0; i++) {
     if (!zp_fit_row(fit, z, i, &row, &voltage)) continue;
-    if (fit->kind != ZP_FIT_LENGTH) voltage = row.drive.voltage;
+    if (zp_fit_number[fit->kind].number)
+      voltage = fit->kind == ZP_FIT_FREQUENCY ? row.modes.voltage : row.drive.voltage;
     if (voltage <= highest) continue;
     highest = voltage;
     def = row;
@@ -153,18 +152,16 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   return ZP_OK;
 }
 
-/* By kind: unit, name of what is left, and how the message says it. */
+/* By kind: name of what is left, and how the message says it. */
 static const struct {
-  const char *unit, *residual, *shown;
+  const char *residual, *shown;
   double factor;
-} of_kind[ZP_FIT_KINDS] = {{"m", "residual_rms_m", "mm", 1e3},
-                           {"N", "residual_rms_N", "mN", 1e3},
-                           {"s", "residual_rms_s", "ms", 1e3},
-                           {"F", "residual_rms_F", "pF", 1e12}};
-
-const char *zp_fit_unit(const ZpFit *fit) {
-  return of_kind[fit->kind].unit;
-}
+} of_kind[ZP_FIT_KINDS] = {
+    [ZP_FIT_LENGTH] = {"residual_rms_m", "mm", 1e3},   [ZP_FIT_CAPACITANCE] = {"residual_rms_F", "pF", 1e12},
+    [ZP_FIT_FORCE] = {"residual_rms_N", "mN", 1e3},    [ZP_FIT_TIME] = {"residual_rms_s", "ms", 1e3},
+    [ZP_FIT_PULL_IN] = {"residual_rms_V", "V", 1},     [ZP_FIT_RELEASE] = {"residual_rms_V", "V", 1},
+    [ZP_FIT_FREQUENCY] = {"residual_rms_Hz", "Hz", 1},
+};
 
 /* The static pull-in of the model as fitted, of the last row: zip times just above it show where it is. */
 static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result) {
@@ -200,11 +197,11 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
              bound ? "; at its bound: " : "", bound ? bound : "");
   else
     snprintf(result->message, sizeof result->message,
-             fit->stopped ? "interrupted" : "some rows have no equilibrium within the bounds");
+             fit->stopped ? "interrupted" : "the model gives no value for some rows within the bounds");
   report_keys(fit, z, has_J ? J : NULL, weighted, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   if (good && fit->kind == ZP_FIT_TIME && note_pull_in(fit, z, result) != ZP_OK) return zp_fail_memory(err);
-  zp_result_add(result, of_kind[fit->kind].residual, of_kind[fit->kind].unit, rms);
+  zp_result_add(result, of_kind[fit->kind].residual, zp_fit_number[fit->kind].unit, rms);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);

@@ -1,4 +1,4 @@
-/* A fit of keys to measured strokes, forces or zip times: what is fitted to what. */
+/* A fit of keys to measurements: what is fitted to what. */
 #ifndef ZP_FIT_FIT_H
 #define ZP_FIT_FIT_H
 
@@ -9,9 +9,27 @@ enum {
   ZP_FIT_OTHERS = 8 /* further columns that set keys */
 };
 
-/* What is measured: a stroke or an opening, the force of study isometric, the zip time of study actuate, over time the
- * capacitance. */
-typedef enum ZpFitKind { ZP_FIT_LENGTH, ZP_FIT_FORCE, ZP_FIT_TIME, ZP_FIT_CAPACITANCE, ZP_FIT_KINDS } ZpFitKind;
+/* What is measured, at rest or over time: a stroke or an opening, a capacitance; or a number of a study. */
+typedef enum ZpFitKind {
+  ZP_FIT_LENGTH,
+  ZP_FIT_CAPACITANCE,
+  ZP_FIT_FORCE,
+  ZP_FIT_TIME,
+  ZP_FIT_PULL_IN,
+  ZP_FIT_RELEASE,
+  ZP_FIT_FREQUENCY,
+  ZP_FIT_KINDS
+} ZpFitKind;
+
+/* Of a kind that is a number of a study: what its column is called, its unit, study and number. */
+typedef struct ZpFitNumber {
+  const char *column, *unit;
+  ZpStudy study;
+  const char *number; /* NULL: the kind is no number of a study */
+  bool has_slopes;    /* sensitivity.by differentiates it */
+} ZpFitNumber;
+
+extern const ZpFitNumber zp_fit_number[ZP_FIT_KINDS];
 
 typedef struct ZpFit {
   const ZpActuatorDef *def;
@@ -43,7 +61,7 @@ void zp_fit_close(ZpFit *fit);
  * value is out of its key's range. */
 bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage);
 
-/* What the model gives for row `row`, m, N or s, where rows are not one run; NAN where it finds none. */
+/* What the model gives for row `row`, SI, where rows are not one run; NAN where it finds none. */
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
 
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */
@@ -52,9 +70,6 @@ bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
 /* Read and check what study calibrate is given; run it. */
 ZpStatus zp_fit_check(const ZpActuatorDef *def, ZpError *err);
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err);
-
-/* The unit of what is measured: "m", "N", "s" or "F". */
-const char *zp_fit_unit(const ZpFit *fit);
 
 /* Fitted minus measured over its standard deviation, or as it is where none are given. */
 double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row);

@@ -10,6 +10,14 @@
 #include "io/data.h"
 #include "io/range.h"
 
+const ZpFitNumber zp_fit_number[ZP_FIT_KINDS] = {
+    [ZP_FIT_LENGTH] = {"stroke", "m", 0, NULL, false},
+    [ZP_FIT_CAPACITANCE] = {"capacitance", "F", 0, NULL, false},
+#define ZP_MEASURED(enumerator, kind, column, unit, scalar, has_slopes)                                                \
+  [kind] = {column, unit, enumerator, scalar, has_slopes},
+#include <zipact/studies.def>
+};
+
 void zp_fit_close(ZpFit *fit) {
   free(fit->x);
   free(fit->y);
@@ -199,11 +207,19 @@ static ZpStatus check_run(const ZpActuatorDef *def, ZpError *err) {
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
 
-/* Rows must be possible ones: those of held platforms and of zips as their studies say, others in their voltage. */
+/* Rows must be possible ones: numbers of a study as the study says, others in their voltage. */
 static ZpStatus check_row(const ZpFit *fit, const ZpActuatorDef *def, double voltage, ZpError *reason) {
-  if (fit->kind == ZP_FIT_FORCE) return zp_study_check(ZP_STUDY_ISOMETRIC, def, reason);
-  if (fit->kind == ZP_FIT_TIME) return zp_study_check(ZP_STUDY_ACTUATE, def, reason);
-  return zp_def_check_voltage(def, voltage, reason);
+  if (!zp_fit_number[fit->kind].number) return zp_def_check_voltage(def, voltage, reason);
+  return zp_study_check(zp_fit_number[fit->kind].study, def, reason);
+}
+
+/* Study limits looks for pull-in and release up to drive.voltage. */
+static ZpStatus check_limit(const ZpFit *fit, const ZpActuatorDef *def, size_t row, ZpError *reason) {
+  bool is_limit = fit->kind == ZP_FIT_PULL_IN || fit->kind == ZP_FIT_RELEASE;
+  if (!is_limit || fit->y[row] < def->drive.voltage) return ZP_OK;
+  return zp_fail(reason, ZP_BAD_INPUT,
+                 "a %s of %g V was measured; the model looks for it below drive.voltage = %g V: raise drive.voltage",
+                 fit->kind == ZP_FIT_PULL_IN ? "pull-in voltage" : "release voltage", fit->y[row], def->drive.voltage);
 }
 
 static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
@@ -215,7 +231,7 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
     if (!zp_fit_row(fit, start, i, &def, &voltage)) continue; /* read_column has said it */
-    if (check_row(fit, &def, voltage, &reason) == ZP_OK) continue;
+    if (check_row(fit, &def, voltage, &reason) == ZP_OK && check_limit(fit, &def, i, &reason) == ZP_OK) continue;
     int line;
     const char *path = zp_data_place(data, i, &line);
     return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", path, line, reason.message);
@@ -225,7 +241,7 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpData *data, ZpError *err) {
 
 /* The standard deviations of what is measured, where a column has them: "sigma_mm". */
 static ZpStatus read_sigma(ZpFit *fit, const ZpData *data, ZpError *err) {
-  const char *unit = zp_fit_unit(fit);
+  const char *unit = zp_fit_number[fit->kind].unit;
   double factor, divisor;
   size_t column = 0;
   while (column < data->columns && strncasecmp(data->cell[column], "sigma", 5) != 0)
@@ -249,24 +265,33 @@ static ZpStatus read_sigma(ZpFit *fit, const ZpData *data, ZpError *err) {
   return ZP_OK;
 }
 
+/* Whether a kind can be measured against what was set: over time only what a run shows; a weight is no force. */
+static bool is_possible(const ZpFit *fit, ZpFitKind kind) {
+  if (fit->x_key < 0) return !zp_fit_number[kind].number;
+  return kind != ZP_FIT_FORCE || fit->x_key != zp_key_find("load.mass");
+}
+
+/* The kind of a column by its name, and the unit; false if it is none. */
+static bool find_kind(ZpFit *fit, const char *name, double *factor, double *divisor) {
+  fit->kind = ZP_FIT_LENGTH;
+  fit->opening = zp_data_unit(name, "opening", "m", factor, divisor);
+  for (int kind = 0; kind < ZP_FIT_KINDS && !fit->opening; kind++) {
+    const ZpFitNumber *of = &zp_fit_number[kind];
+    fit->kind = (ZpFitKind)kind;
+    if (is_possible(fit, fit->kind) && zp_data_unit(name, of->column, of->unit, factor, divisor)) return true;
+  }
+  return fit->opening;
+}
+
 static ZpStatus read_y(ZpFit *fit, const ZpData *data, int column, ZpError *err) {
   double factor, divisor;
   const char *name = data->cell[column];
-  bool by_load = fit->x_key < 0 || fit->x_key == zp_key_find("load.mass");
-  if (!by_load && zp_data_unit(name, "force", "N", &factor, &divisor))
-    fit->kind = ZP_FIT_FORCE;
-  else if (fit->x_key >= 0 && zp_data_unit(name, "zip_time", "s", &factor, &divisor))
-    fit->kind = ZP_FIT_TIME;
-  else if (fit->x_key < 0 && zp_data_unit(name, "capacitance", "F", &factor, &divisor))
-    fit->kind = ZP_FIT_CAPACITANCE;
-  else if (zp_data_unit(name, "opening", "m", &factor, &divisor))
-    fit->opening = true;
-  else if (!zp_data_unit(name, "stroke", "m", &factor, &divisor))
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "calibrate.y: column %.60s: is not a stroke or an opening with a unit of length, nor a force "
-        "against voltage or another key, nor a zip_time with a unit of time against a key, nor a capacitance over time",
-        name);
+  if (!find_kind(fit, name, &factor, &divisor))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "calibrate.y: column %.60s: takes stroke, opening or capacitance with its unit; against a key, not "
+                   "over time, also zip_time, pull_in_voltage, release_voltage or frequency; against a key that is not "
+                   "the load, also force",
+                   name);
   if (fit->opening && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   ZpStatus status = ZP_OK;

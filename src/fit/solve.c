@@ -23,7 +23,9 @@ static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
   if (zp_rest_create(model, &rest, fit->err) != ZP_OK)
     fit->status = ZP_MACHINE;
   else if (zp_rest_hang(rest, voltage))
-    value = fit->opening ? zp_rest_opening(rest) : zp_rest_stroke(rest);
+    value = fit->kind == ZP_FIT_CAPACITANCE ? zp_rest_capacitance(rest)
+            : fit->opening                  ? zp_rest_opening(rest)
+                                            : zp_rest_stroke(rest);
   zp_rest_destroy(rest);
   return value;
 }
@@ -54,32 +56,21 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
   return set;
 }
 
-/* Study isometric; NULL where it cannot be run. */
-static ZpResult *isometric(ZpFit *fit, ZpActuatorDef *def) {
+/* The study whose number is measured; NULL where it cannot be run. */
+static ZpResult *run_study(ZpFit *fit, ZpActuatorDef *def) {
   ZpResult *result = NULL;
-  def->output.samples = 10; /* of the way there only the end is asked for */
+  def->output.samples = 10; /* only the numbers are asked for */
   def->output.shapes = 2;
   def->output.errors = false;
-  ZpStatus status = zp_study_run(ZP_STUDY_ISOMETRIC, def, NULL, NULL, &result, NULL);
+  ZpStatus status = zp_study_run(zp_fit_number[fit->kind].study, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   return result;
 }
 
-/* Its force, N; NAN where it finds none. */
-static double predict_force(ZpFit *fit, ZpActuatorDef *def) {
-  ZpResult *result = isometric(fit, def);
-  double value = result ? zp_result_get(result, "force_N") : NAN;
-  zp_result_destroy(result);
-  return value;
-}
-
-/* Of study actuate, s; NAN where it does not close before solver.end_time. */
-static double predict_time(ZpFit *fit, ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  def->output.errors = false;
-  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, NULL);
-  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
-  double value = result ? zp_result_get(result, "zip_time_s") : NAN;
+/* Its number, SI; NAN where it finds none. */
+static double predict_number(ZpFit *fit, ZpActuatorDef *def) {
+  ZpResult *result = run_study(fit, def);
+  double value = result ? zp_result_get(result, zp_fit_number[fit->kind].number) : NAN;
   zp_result_destroy(result);
   return value;
 }
@@ -88,8 +79,7 @@ double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
   double voltage;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
-  if (set && fit->kind == ZP_FIT_FORCE) return predict_force(fit, &def);
-  if (set && fit->kind == ZP_FIT_TIME) return predict_time(fit, &def);
+  if (set && zp_fit_number[fit->kind].number) return predict_number(fit, &def);
   ZpModel *model = set ? build(fit, &def) : NULL;
   double value = model ? measure(fit, model, voltage) : NAN;
   zp_model_destroy(model);
@@ -218,14 +208,14 @@ static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
     used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
 }
 
-/* The same of the force of study isometric. */
-static bool slopes_of_force(ZpFit *fit, ZpActuatorDef *def, double *row) {
+/* The same of the number of a study. */
+static bool slopes_of_number(ZpFit *fit, ZpActuatorDef *def, double *row) {
   int found = 0;
   name_keys(fit, def);
-  ZpResult *result = isometric(fit, def);
+  ZpResult *result = run_study(fit, def);
   for (size_t i = 0; result && i < result->sensitivities && found < fit->n; i++) {
     const ZpSensitivity *s = &result->sensitivity[i];
-    if (strcmp(s->output, "force_N") == 0) row[found++] = s->value;
+    if (strcmp(s->output, zp_fit_number[fit->kind].number) == 0) row[found++] = s->value;
   }
   zp_result_destroy(result);
   for (int k = 0; k < found; k++)
@@ -233,16 +223,16 @@ static bool slopes_of_force(ZpFit *fit, ZpActuatorDef *def, double *row) {
   return found == fit->n;
 }
 
-/* Exact, where the rows are states of rest whose derivatives by all these keys are known. */
+/* Exact, where the derivatives of the rows by all these keys are known. */
 static bool differentiate(ZpFit *fit, const double *z, double *J) {
-  bool good = fit->x_key >= 0 && fit->kind != ZP_FIT_TIME;
+  bool is_number = zp_fit_number[fit->kind].number != NULL;
+  bool good = fit->x_key >= 0 && (fit->kind == ZP_FIT_LENGTH || zp_fit_number[fit->kind].has_slopes);
   fit->evaluations += good;
   for (size_t i = 0; i < fit->rows && good; i++) {
     ZpActuatorDef def;
     double voltage, *row = J + i * (size_t)fit->n;
     good = !ask(fit) && zp_fit_row(fit, z, i, &def, &voltage);
-    good =
-        good && (fit->kind == ZP_FIT_FORCE ? slopes_of_force(fit, &def, row) : slopes_of_rest(fit, &def, voltage, row));
+    good = good && (is_number ? slopes_of_number(fit, &def, row) : slopes_of_rest(fit, &def, voltage, row));
     for (int k = 0; k < fit->n && good; k++)
       row[k] *= fit->start[k];
   }

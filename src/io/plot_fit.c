@@ -1,4 +1,4 @@
-/* Picture of a calibration, fit.svg: measurements against the fit. */
+/* Picture of a calibration, fit.svg: measurements and fit, below them the residuals. */
 #include <math.h>
 #include <string.h>
 
@@ -6,19 +6,17 @@
 #include "io/report.h"
 #include "io/units.h"
 
-/* The columns of a calibration: x, measured and computed, both in the unit of what was measured. */
-enum { X, MEASURED, COMPUTED };
+/* The columns of a calibration: x, then measured, computed and their difference in the unit of what was measured. */
+enum { X, MEASURED, COMPUTED, RESIDUAL };
 
 static double value_at(const ZpTable *table, size_t row, size_t column) {
   return table->value[row * table->columns + column];
 }
 
-/* What was measured, by its unit. */
-static const char *quantity(const ZpTable *table) {
-  static const struct { const char *unit, *name; } of[] = {{"N", "force"}, {"s", "zip time"}, {"F", "capacitance"}};
-  for (size_t k = 0; k < sizeof of / sizeof of[0]; k++)
-    if (strcmp(table->column[MEASURED].unit, of[k].unit) == 0) return of[k].name;
-  return "stroke or opening";
+/* What was measured, "force in data.file" => "force / N" in a unit that suits. */
+static void label_of_y(const ZpTable *table, const char *unit, FILE *file) {
+  const char *help = table->column[MEASURED].help, *end = strstr(help, " in data.file");
+  fprintf(file, "set ylabel '%.*s / %s' offset 0.5\n", end ? (int)(end - help) : (int)strlen(help), help, unit);
 }
 
 static bool has_fit(const ZpPlot *plot) {
@@ -79,24 +77,57 @@ static const char *axes(const ZpTable *table) {
   return "set autoscale noextend\nset yrange [0:*]\nset offsets graph 0.04, graph 0.04, graph 0.06, 0\n";
 }
 
+static bool is_fitted(const ZpPlot *plot) {
+  ZpActuatorDef def;
+  bool resolved = zp_scenario_def(plot->report->scenario, 0, &def, NULL) == ZP_OK;
+  return resolved && strspn(def.calibrate.fit, " ") < strlen(def.calibrate.fit);
+}
+
+/* Few tics of a low panel. */
+static void few_tics(const ZpTable *table, double factor, FILE *file) {
+  enum { TICS = 4 };
+  double least = 0, largest = 0;
+  for (size_t row = 0; row < table->rows; row++) {
+    least = fmin(least, value_at(table, row, RESIDUAL));
+    largest = fmax(largest, value_at(table, row, RESIDUAL));
+  }
+  double step = zp_plot_step((largest - least) * factor, TICS);
+  if (step > 0) fprintf(file, "set ytics %.6g\n", step);
+}
+
+/* The residuals, below: fitted minus measured, against the same x. */
+static void script_residuals(const ZpTable *table, ZpPlotUnit x, const char *label, FILE *file) {
+  const char *const shown[] = {table->column[RESIDUAL].name, NULL};
+  const ZpPlotUnit y = zp_plot_table_unit(table, shown, table->column[RESIDUAL].unit);
+  few_tics(table, y.factor, file);
+  fputs("unset label\nset tmargin at screen 0.33\nset bmargin at screen 0.12\nset format x\nset xlabel ", file);
+  zp_plot_text(file, label);
+  fprintf(file,
+          "\nset ylabel 'residual / %s' offset 0.5\nunset logscale y\nset yrange [*:*]\nset offsets %s\n"
+          "set xzeroaxis lt 1 lw 1 lc rgb '#555555'\n"
+          "plot 'fit.dat' using ($1*%g):(($3-$2)*%g) with impulses lw 1.5 lc rgb '%s' notitle, \\\n"
+          "     'fit.dat' using ($1*%g):(($3-$2)*%g) with points pt 7 ps 0.6 lc rgb '%s' notitle\n"
+          "unset multiplot\n",
+          y.text, "graph 0.04, graph 0.04, graph 0.15, graph 0.15", x.factor, y.factor, zp_plot_colour(1), x.factor,
+          y.factor, zp_plot_colour(1));
+}
+
 static void script_fit(const ZpPlot *plot, FILE *file) {
   const ZpTable *table = zp_report_result(plot->report, 0)->series;
   const char *const shown[] = {table->column[MEASURED].name, table->column[COMPUTED].name, NULL};
   char label[128];
   const ZpPlotUnit y = zp_plot_table_unit(table, shown, table->column[MEASURED].unit);
   const ZpPlotUnit x = unit_of_x(&table->column[0], label, sizeof label);
-  ZpActuatorDef def;
-  bool resolved = zp_scenario_def(plot->report->scenario, 0, &def, NULL) == ZP_OK;
-  bool fitted = resolved && strspn(def.calibrate.fit, " ") < strlen(def.calibrate.fit);
+  bool fitted = is_fitted(plot);
   zp_plot_head(plot, file, "fit", fitted ? "Measured and fitted" : "Measured and computed", 0.82);
-  fputs("set xlabel ", file);
-  zp_plot_text(file, label);
+  label_of_y(table, y.text, file);
   fprintf(file,
-          "\nset ylabel '%s / %s' offset 0.5\n%s"
+          "%sset multiplot\nset bmargin at screen 0.38\nset format x ''\n"
           "plot 'fit.dat' using ($1*%g):($2*%g) with points pt 6 ps 1.2 lw 1.5 lc rgb '%s' title 'measured', \\\n"
           "     'fit.dat' using ($1*%g):($3*%g) with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title '%s'\n",
-          quantity(table), y.text, axes(table), x.factor, y.factor, zp_plot_colour(0), x.factor, y.factor,
-          zp_plot_colour(1), fitted ? "fitted" : "computed");
+          axes(table), x.factor, y.factor, zp_plot_colour(0), x.factor, y.factor, zp_plot_colour(1),
+          fitted ? "fitted" : "computed");
+  script_residuals(table, x, label, file);
 }
 
 const ZpPicture zp_fit_pictures[] = {

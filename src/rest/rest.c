@@ -82,6 +82,10 @@ double zp_rest_opening(const ZpRest *rest) {
   return zp_statics_opening(&rest->statics);
 }
 
+double zp_rest_capacitance(const ZpRest *rest) {
+  return zp_statics_capacitance(&rest->statics);
+}
+
 ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err) {
   ZpSlope slope;
   *stroke = *opening = NAN;

@@ -6,7 +6,8 @@ import {Live} from './live.js';
 import {fixed, pretty} from './numbers.js';
 import {Remote} from './remote.js';
 import * as scenario from './scenario.js';
-import {Study} from './studies.js';
+import {Chart, Study} from './studies.js';
+import {Tour} from './tour.js';
 import {View} from './view.js';
 
 const $ = (id) => document.getElementById(id);
@@ -15,11 +16,14 @@ const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 const module = new WebAssembly.Module(wasm);
 const core = new Core(module); // of the scenario; what is computed from it, engines do
 const live = new Live(module);
-const view = new View(core, live, highest);
+const volts = Array.from({length: 11}, (_, k) => highest * (k + 1.2) / 11.2); // of the design chart
+const chart = new Chart(module, 'limits', 'max_load_kg', volts, () => view.showChart());
+const view = new View(core, live, highest, chart);
 
 // -- messages
 
 let refusal = null; // of the last change, in the core's words
+let field = null; // the control of that change; null: the address
 
 const broken = (words) => `The computation broke off: ${words}. Please report it, with the link.`;
 
@@ -31,8 +35,12 @@ function standstill() {
   return refused ?? (stopped ? scenario.tooLong(core, stopped) : broken(words));
 }
 
+/** What is refused is said beside the control, whatever else stands still above the picture. */
 function showAlert() {
-  const text = refusal ?? standstill();
+  const beside = refusal !== null && field !== null, text = beside ? standstill() : refusal ?? standstill();
+  if (beside && $('refusal').previousElementSibling !== field) field.after($('refusal'));
+  $('refusal').hidden = !beside;
+  if (beside && $('refusal').textContent !== refusal) $('refusal').textContent = refusal;
   $('alert').hidden = !text;
   if (text && $('alert').textContent !== text) $('alert').textContent = text;
 }
@@ -117,7 +125,9 @@ const kept = [['output.samples', '1000'], ['output.shapes', '2']]; // what is ke
 /** The run is to the zip time, also behind a supply. */
 function askStudies(values) {
   runStudy.ask(new Map([['solver.stop_when_zipped', 'true'], ...values, ...kept]));
-  restStudy.ask(new Map([...scenario.atRest(values), ...kept, ['drive.voltage', `${highest} V`]]));
+  const rest = scenario.atRest(values);
+  restStudy.ask(new Map([...rest, ...kept, ['drive.voltage', `${highest} V`]]));
+  chart.ask(new Map([['mesh.nodes', '31'], ...rest, ...kept, ['output.errors', 'false'], ['liquid.model', 'none']]));
 }
 
 // -- the scenario
@@ -144,6 +154,19 @@ function change(values, kind = null) {
   return true;
 }
 
+/** A change by the control that is in `row`: a refusal is said beside it. */
+function by(row, act) {
+  field = row;
+  const done = act();
+  if (!done) show();
+  return done;
+}
+
+const rowOf = (key) => $(key.replace('.', '-')).parentElement;
+
+/** What a material is, or that its keys are as they are set. */
+const materialWords = ({key}) => (core.value(key) === 0 ? 'the values of the other keys' : null);
+
 function set(key, text, kind = null) {
   if (key === 'drive.voltage') pressed = 'step';
   return change(new Map([...history.present, [key, text]]), kind);
@@ -153,7 +176,9 @@ function show() {
   for (const list of sliders) list.show();
   liquidChoice.show();
   supplyChoice.show(scenario.supplyWords(core));
+  for (const [i, choice] of materialChoices.entries()) choice.show(materialWords(scenario.materials[i]));
   view.showLegend();
+  view.showChart();
   showButtons();
   $('undo').disabled = !history.canUndo;
   $('redo').disabled = !history.canRedo;
@@ -186,6 +211,7 @@ function work(passed) {
   showAlert();
   $('time-note').classList.toggle('due', runStudy.due);
   $('voltage-note').classList.toggle('due', restStudy.due);
+  $('chart-note').classList.toggle('due', chart.due);
   if (!live.frame) return;
   view.draw(calm);
   announceZip();
@@ -218,10 +244,13 @@ function frame(now) {
 // -- what a person does
 
 const slow = new SlowMotion($('slow'), $('slow-value'), given.slow, remember);
-const liquidChoice = new Choice($('liquid'), core, scenario.liquidChoice, (word) => set('liquid.model', word) || show());
-const supplyChoice = new Choice($('supply'), core, scenario.supplyChoice, (word) => change(scenario.withSupply(core, history.present, word)) || show());
+const liquidChoice = new Choice($('liquid'), core, scenario.liquidChoice, (word) => by(rowOf('liquid.model'), () => set('liquid.model', word)));
+const supplyChoice = new Choice($('supply'), core, scenario.supplyChoice,
+  (word) => by(rowOf('source.supply'), () => change(scenario.withSupply(core, history.present, word))));
+const materialChoices = scenario.materials.map((spec) => new Choice($('materials'), core, spec,
+  (word) => by(rowOf(spec.key), () => change(scenario.withMaterial(history.present, spec, word)))));
 const sliders = [['sliders', scenario.sliders], ['liquid', scenario.liquidSliders], ['supply', scenario.supplySliders]]
-  .map(([place, list]) => new Sliders($(place), core, list, (key, text) => set(key, text, key), () => history.close()));
+  .map(([place, list]) => new Sliders($(place), core, list, (key, text) => by(rowOf(key), () => set(key, text, key)), () => history.close()));
 makePresets($('presets'), scenario.presets, (values) => {
   if (change(new Map([...scenario.beginning, ...values]))) press('step');
 });
@@ -242,9 +271,16 @@ for (const {name, help} of core.keys.values()) $('all-keys').append(new Option(h
 $('controls').addEventListener('submit', (event) => {
   event.preventDefault();
   const [key, ...text] = $('any-key').value.split('=');
-  if (set(key.trim(), text.join('=').trim())) $('any-key').value = '';
+  if (by($('any-key').parentElement, () => set(key.trim(), text.join('=').trim()))) $('any-key').value = '';
 });
-window.addEventListener('hashchange', () => change(scenario.fromAddress(location.hash).values));
+window.addEventListener('hashchange', () => {
+  field = null;
+  change(scenario.fromAddress(location.hash).values);
+});
+new Tour($('tour'), $('guide'), (values, button) => {
+  field = null;
+  if (change(new Map([...scenario.beginning, ...Object.entries(values)]))) press(button);
+});
 
 /** Copy, and say so on the button. Where copying is forbidden, the text stands in the address or on the page. */
 async function copy(button, text) {

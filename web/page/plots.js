@@ -125,6 +125,17 @@ export function voltagePlot(place, data) {
   });
 }
 
+/** The design chart: the largest load that closes, over voltage, dashed where it is of an older scenario; and where the scenario is. */
+export function chartPlot(place, data) {
+  const ends = () => ({x: axisEnds([data.volts.at(-1) / 1e3]), y: axisEnds(scaled(data.y, 1e3).filter((v) => v > 0), [1e3 * data.mass, 1e-3])});
+  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('load / g', {size: 44})}, ends, (plot) => {
+    const x = scaled(data.volts, 1e-3), fresh = data.y.map((load, k) => (data.fresh(k) ? 1e3 * load : NaN));
+    if (fresh.some(Number.isNaN)) curve(plot, x, scaled(data.y, 1e3), {colour: 'soft', width: 1.5, dash: [5, 4]});
+    curve(plot, x, fresh, {colour: 'accent', width: 2.5});
+    dot(plot, data.voltage / 1e3, 1e3 * data.mass, 'warm');
+  });
+}
+
 /** Powers of ten around all values above 0. */
 function decades(values) {
   const there = values.filter((v) => v > 0), log = (v) => Math.log10(v);

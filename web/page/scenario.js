@@ -39,6 +39,20 @@ export const supplySliders = [{key: 'source.resistance', label: 'Series resistan
 export const liquidChoice = {key: 'liquid.model', label: 'Liquid'};
 export const supplyChoice = {key: 'source.supply', label: 'Supply', words: {none: 'ideal'}};
 
+/** Materials: keys of which a word fills others, and these. */
+export const materials = [
+  {key: 'ribbon.material', label: 'Strip', fills: ['young_modulus', 'poisson_ratio', 'density', 'yield_stress'], words: {none: 'as set'}},
+  {key: 'insulator.material', label: 'Insulator', fills: ['permittivity', 'density', 'young_modulus', 'breakdown_field'], words: {none: 'as set'}},
+  {key: 'medium.material', label: 'Liquid', fills: ['permittivity', 'breakdown_field', 'kinematic_viscosity', 'density', 'surface_tension'], words: {none: 'as set'}},
+];
+
+/** Another material: what it fills is not given otherwise. */
+export function withMaterial(values, {key, fills}, word) {
+  const group = key.split('.')[0];
+  const others = new Map([...values].filter(([name]) => name !== key && !fills.some((filled) => name === `${group}.${filled}`)));
+  return word === 'none' ? others : others.set(key, word);
+}
+
 /** Another supply: none of the old one's values stays, and the drive is no higher than it can be. */
 export function withSupply(core, values, word) {
   const others = new Map([...values].filter(([key]) => !key.startsWith('source.')));

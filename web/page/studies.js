@@ -3,6 +3,53 @@ import {Remote} from './remote.js';
 
 const tooOld = 500; // ms after which a question that is overtaken is given up
 
+/** A number of a study at each of several voltages. Voltages are asked for in turn, each for the newest scenario: while one
+ * drags, the curve follows from one end to the other. */
+export class Chart {
+  #remote;
+  #values = null;
+  #version = 0;
+  #drawn; // version of each point
+  #next = 0;
+
+  /** `volts` ascending; `changed` comes after each point, which are in `y`, NaN where there is none. */
+  constructor(module, study, scalar, volts, changed) {
+    this.volts = volts;
+    this.y = volts.map(() => NaN);
+    this.#drawn = volts.map(() => 0);
+    this.#remote = new Remote(module, ({result}) => {
+      this.y[this.#next] = result?.scalars[scalar] ?? NaN;
+      this.#next = (this.#next + 1) % volts.length;
+      changed();
+      this.#go();
+    });
+    this.form = {study, scalars: [scalar], columns: []};
+  }
+
+  /** True while points are due. */
+  get due() {
+    return this.#drawn.some((version) => version < this.#version);
+  }
+
+  /** Whether point `k` is of the newest scenario. */
+  fresh(k) {
+    return this.#drawn[k] === this.#version && !(this.#remote.busy && k === this.#next);
+  }
+
+  /** `values`: a Map of key => text */
+  ask(values) {
+    this.#values = values;
+    this.#version++;
+    if (!this.#remote.busy) this.#go();
+  }
+
+  #go() {
+    if (!this.due) return;
+    this.#drawn[this.#next] = this.#version;
+    this.#remote.ask({...this.form, values: new Map([...this.#values, ['drive.voltage', `${this.volts[this.#next]} V`]])});
+  }
+}
+
 export class Study {
   #remote;
   #waiting = null;

@@ -1,7 +1,7 @@
 // What is seen of the actuator: picture, numbers, plots; now, and what the two studies say of the whole scenario.
 import {digits, fixed, pretty, Tiles} from './numbers.js';
 import {Picture} from './picture.js';
-import {currentPlot, liquidPlot, profilePlot, timePlot, voltagePlot} from './plots.js';
+import {chartPlot, currentPlot, liquidPlot, profilePlot, timePlot, voltagePlot} from './plots.js';
 
 const tiles = {
   voltage: {label: 'Voltage', unit: 'kV', title: 'between the electrodes, now'},
@@ -45,14 +45,15 @@ export class View {
   #rest;
   #profile = {length: 1, force: new Float64Array(2), field: new Float64Array(2), largest: 1};
   #current; // trace
+  #chart; // volts, y, and the scenario's voltage and mass
   #liquid = {length: 1, film: new Float64Array(2), pressure: new Float64Array(2)};
   #notes = [];
   #notice = null;
   #plots;
   #next = 0; // plot to draw
 
-  /** `highest`: voltage to which the states of rest are followed, V. */
-  constructor(core, live, highest) {
+  /** `highest`: voltage to which the states of rest are followed, V; `chart`: {volts, y, fresh} of the design chart. */
+  constructor(core, live, highest, chart) {
     this.core = core;
     this.live = live;
     this.picture = new Picture($('picture'));
@@ -60,9 +61,11 @@ export class View {
     this.#time = {run: null, trace: live.trace};
     this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
     this.#current = {trace: live.trace};
+    this.#chart = {volts: chart.volts, y: chart.y, fresh: (k) => chart.fresh(k), voltage: 0, mass: 0};
     this.#plots = [
       timePlot($('plot-time'), this.#time),
       voltagePlot($('plot-voltage'), this.#rest),
+      chartPlot($('plot-chart'), this.#chart),
       profilePlot($('plot-profile'), this.#profile),
       currentPlot($('plot-current'), this.#current),
       liquidPlot($('plot-liquid'), this.#liquid),
@@ -114,6 +117,14 @@ export class View {
     const strongest = this.core.value('medium.breakdown_field') / 1e6;
     $('legend-middle').textContent = `${strongest / 4}`; // half way, for shades go by the square root
     $('legend-end').textContent = `${strongest} MV/m`;
+  }
+
+  /** The scenario's place in the design chart. */
+  showChart() {
+    this.#chart.voltage = this.core.value('drive.voltage');
+    this.#chart.mass = this.core.value('load.mass');
+    const most = digits(1e3 * Math.max(...this.#chart.y.filter((v) => v > 0)));
+    $('plot-chart').setAttribute('aria-label', `Largest load that closes over voltage: up to ${most} grams at ${this.#chart.volts.at(-1) / 1e3} kilovolts`);
   }
 
   /** The newest frame. `still`: nothing moves but the actuator. */

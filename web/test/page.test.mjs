@@ -180,12 +180,58 @@ pageTest('what the command refuses is refused in its words, and the page goes on
   ]) {
     await page.fill('#any-key', given);
     await page.keyboard.press('Enter');
-    assert.equal(await page.textContent('[role=alert]'), words);
+    assert.equal(await page.textContent('#any #refusal'), words);
     assert.equal(await page.textContent('#command'), text);
   }
+  assert.ok(await page.isHidden('#alert'));
   await page.focus('#load-mass');
   await page.keyboard.press('ArrowRight');
-  assert.ok(await page.isHidden('[role=alert]'));
+  assert.ok(await page.isHidden('#refusal'));
+});
+
+pageTest('a slider whose value is refused says so beside it', {hash: '#platform.length=60mm'}, async (page) => {
+  await page.focus('#ribbon-length');
+  await page.keyboard.press('Home'); // 40 mm, shorter than the platform
+  assert.match(await page.textContent('#sliders #refusal'), /^platform\.length = 0\.06 m: at most 0\.9 of ribbon\.length/);
+  assert.equal(await page.evaluate(() => document.getElementById('refusal').previousElementSibling.querySelector('input').id), 'ribbon-length');
+  assert.equal(await page.inputValue('#ribbon-length'), '100');
+});
+
+pageTest('materials fill what is not set otherwise', {hash: '#insulator.permittivity=9'}, async (page) => {
+  await page.selectOption('#insulator-material', 'kapton');
+  assert.equal(await page.textContent('label[for=insulator-permittivity] ~ output'), '3.4');
+  assert.match(await page.textContent('#command'), /insulator\.material=kapton/);
+  await page.selectOption('#ribbon-material', 'copper');
+  await page.click('#undo');
+  await page.click('#undo');
+  assert.equal(await page.textContent('label[for=insulator-permittivity] ~ output'), '9');
+});
+
+pageTest('the design chart follows the thickness; its last point is the command’s', {}, async (page) => {
+  const most = async () => Number((await page.getAttribute('#plot-chart', 'aria-label')).match(/up to ([\d.]+) grams/)?.[1]);
+  const settled = () => page.waitForFunction(() => !document.getElementById('chart-note').classList.contains('due'));
+  await page.waitForFunction(() => /up to \d/.test(document.getElementById('plot-chart').getAttribute('aria-label')));
+  await settled();
+  await page.waitForTimeout(300);
+  const thin = await most();
+  const {max_load_kg: load} = native('limits', new Map([['liquid.model', 'none'], ['mesh.nodes', '31'], ['drive.voltage', '12 kV'], ['output.errors', 'false']]));
+  assert.equal(thin, Number(digits(1e3 * load)));
+  await page.focus('#ribbon-thickness');
+  for (let k = 0; k < 10; k++) await page.keyboard.press('ArrowRight');
+  await settled();
+  await page.waitForTimeout(300);
+  assert.ok((await most()) > 1.2 * thin, `${await most()} after ${thin}`);
+});
+
+pageTest('the tour has five steps and ends where it began', {}, async (page) => {
+  await page.click('#tour');
+  for (let k = 1; k <= 5; k++) {
+    assert.match(await page.textContent('#guide h2'), new RegExp(`^${k} of 5: `));
+    if (k === 5) assert.match(await page.textContent('#command'), /liquid\.model=submerged/);
+    await page.click('#guide-next');
+  }
+  assert.ok(await page.isHidden('#guide'));
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'tour');
 });
 
 pageTest('an address that is refused says so', {hash: '#ribbon.length=20'}, async (page) => {
@@ -318,7 +364,7 @@ pageTest('a supply: chosen from the table, slower than the drive, on the plot of
   await page.waitForFunction(() => location.hash.includes('source.supply=pocket_6kv'));
   await page.fill('#any-key', 'drive.voltage=8 kV');
   await page.keyboard.press('Enter');
-  assert.match(await page.textContent('[role=alert]'), /drive\.voltage.*voltage_limit/);
+  assert.match(await page.textContent('#refusal'), /drive\.voltage.*voltage_limit/);
   await page.selectOption('#source-supply', 'none');
   assert.doesNotMatch(await page.textContent('#command'), /source/);
   assert.ok(await page.isHidden('#source-resistance'));
