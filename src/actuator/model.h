@@ -206,7 +206,7 @@ static inline bool zp_in_series(const ZpModel *model) {
   return model->below || model->topology.platform.kind == ZP_JOINT_LINK;
 }
 
-/* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (28.1). */
+/* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (29.1). */
 ZpActuatorDef zp_member_at_rest(const ZpModel *member);
 
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */

@@ -20,8 +20,9 @@ ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
  * load.mass and load.force, the others a link. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
-/* What a stack asks of other keys. */
+/* What a stack asks of other keys; may all members of a series have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);
+ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);

@@ -71,8 +71,9 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
                      unknown[k].instead);
   for (int member = 1; member <= def->stack.series; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
-    ZpStatus status = zp_def_check(&one, err);
-    if (status != ZP_OK) return status;
+    ZpError reason;
+    ZpStatus status = zp_def_check(&one, &reason);
+    if (status != ZP_OK) return zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
   }
   return ZP_OK;
 }
@@ -85,4 +86,15 @@ ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
                    def->stack.series > 1 ? def->stack.series : def->stack.parallel);
   ZpStatus status = check_members(def, err);
   return status == ZP_OK && def->stack.series > 1 ? check_series(def, err) : status;
+}
+
+ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int member = 1; member <= def->stack.series && status == ZP_OK; member++) {
+    ZpActuatorDef one = zp_def_member(def, member);
+    ZpError reason;
+    status = zp_def_check_voltage(&one, voltage, &reason);
+    if (status != ZP_OK) zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
+  }
+  return status;
 }

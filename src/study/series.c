@@ -1,4 +1,4 @@
-/* Studies at rest of actuators in series: under a dead load the force on each member is known, eq. (28.1), so that each
+/* Studies at rest of actuators in series: under a dead load the force on each member is known, eq. (29.1), so that each
  * is at rest as it would be alone; what is asked of the series follows from its members. */
 #include "study/series.h"
 

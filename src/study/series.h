@@ -1,4 +1,4 @@
-/* Studies that look at each member of a series alone: docs/theory.md, section 28. */
+/* Studies that look at each member of a series alone: docs/theory.md, section 29. */
 #ifndef ZP_STUDY_SERIES_H
 #define ZP_STUDY_SERIES_H
 
