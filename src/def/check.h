@@ -7,6 +7,9 @@
 /* A mount.tilt nearer than this to a right angle is one: what degrees written with five digits round to, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
+/* Members of a series at most: so many groups member_K are in keys.def. */
+enum { ZP_MOST_MEMBERS = 8 };
+
 /* (name of a choice key, place in its list) => the word. */
 const char *zp_word_of(const char *key, int choice);
 
