@@ -38,6 +38,7 @@ PICTURES = {
     "bead.svg": "bead/plots/forces.svg",
     "hold.svg": "hold/plots/interface.svg",
     "meter.svg": "meter/plots/sense.svg",
+    "stack.svg": "stack/plots/members.svg",
     "pre-opened.svg": "pre-opened/plots/shapes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
     "yielding.svg": "yielding/plots/plastic.svg",

@@ -40,7 +40,11 @@ static double cpu_seconds(void) {
 /* -- what a result may hold --------------------------------------------------------------------------- */
 
 static bool has_insulators(const ZpActuatorDef *def) {
-  return def->actuator.kind != ZP_KIND_RIBBON && def->insulator.thickness > 0;
+  bool bare = false; /* a member of a series */
+  for (int key = 0; key < zp_key_count(); key++)
+    if (strncmp(zp_key(key)->name, "member_", 7) == 0 && strstr(zp_key(key)->name, "insulator.thickness"))
+      bare |= zp_def_get(def, key) == 0;
+  return def->actuator.kind != ZP_KIND_RIBBON && def->insulator.thickness > 0 && !bare;
 }
 
 /* Numbers that may not exist: no pull-in, never zipped, no opening to contract from, no work, no clock, no drag, at

@@ -1,5 +1,5 @@
 /* Actuators in series and in parallel: at rest against one alone, in motion against what springs in series do, energy,
- * links, and what is refused. docs/theory.md, section 28. */
+ * links, and what is refused. docs/theory.md, section 29. */
 #include "check_util.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
@@ -64,7 +64,7 @@ START_TEST(parallel_shares_the_load) {
 }
 END_TEST
 
-/* Without voltage a series stays where its members are at rest one by one: eq. (28.1) is that of the whole. */
+/* Without voltage a series stays where its members are at rest one by one: eq. (29.1) is that of the whole. */
 START_TEST(series_at_rest_stays) {
   ZpActuatorDef def = DEF({"stack.series", 3}, {"mesh.nodes", 21}, {"drive.voltage", 0}, {"solver.end_time", 0.2},
                           {"member_2.ribbon.thickness", 60e-6}, {"stack.link_mass", 1e-3},
@@ -75,7 +75,7 @@ START_TEST(series_at_rest_stays) {
 }
 END_TEST
 
-/* Stiff light ribbons below a heavy load are a spring: let go from straight, two in series open twice as far in sqrt(2)
+/* Stiff light ribbons below a heavy load are a spring: released from straight, two in series open twice as far in sqrt(2)
  * times the time, whatever part of the swing is looked at. */
 START_TEST(two_in_series_are_half_as_stiff) {
   static const double part[] = {2e-3, 4e-3, 6e-3}; /* s */

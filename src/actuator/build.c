@@ -719,6 +719,15 @@ static double mass_from_here(const ZpModel *model) {
   return model->parts * sum + model->carried;
 }
 
+/* Alone at rest, the uppermost has all that hangs on it as load.mass. */
+static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
+  double most = zp_key(zp_key_find("load.mass"))->max, hangs = uppermost->def.load.mass + uppermost->carried;
+  if (hangs <= most) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "load.mass: with members and links of stack.series %g kg hang on the uppermost, more than %g kg",
+                 hangs, most);
+}
+
 /* The members of a series, from the lowest up. */
 static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
   ZpModel *below = NULL;
@@ -734,8 +743,12 @@ static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *tabl
     if (below) model->carried = mass_from_here(below);
     below = model;
   }
-  *out = below;
-  return ZP_OK;
+  ZpStatus status = check_carried(below, err);
+  if (status == ZP_OK)
+    *out = below;
+  else
+    zp_model_destroy(below);
+  return status;
 }
 
 ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {

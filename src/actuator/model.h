@@ -214,7 +214,7 @@ static inline bool zp_in_series(const ZpModel *model) {
   return model->below || model->topology.platform.kind == ZP_JOINT_LINK;
 }
 
-/* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (28.1). */
+/* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (29.1). */
 ZpActuatorDef zp_member_at_rest(const ZpModel *member);
 
 /* Mass that each end which the load hangs on has beyond its share of load.mass, kg. */

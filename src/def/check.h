@@ -7,6 +7,9 @@
 /* A mount.tilt nearer than this to a right angle is one: what degrees written with five digits round to, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
+/* Members of a series at most: so many groups member_K are in keys.def. */
+enum { ZP_MOST_MEMBERS = 8 };
+
 /* (name of a choice key, place in its list) => the word. */
 const char *zp_word_of(const char *key, int choice);
 
@@ -20,8 +23,9 @@ ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
  * load.mass and load.force, the others a link. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
-/* What a stack asks of other keys. */
+/* What a stack asks of other keys; may all members of a series have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);
+ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);

@@ -1,26 +1,26 @@
 /* Several actuators as one system: what each member of a series is, and what a stack asks of other keys. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
 #include "def/check.h"
 
-/* The rest of a key's name behind "member_K." of a member; NULL of all other keys. */
-static const char *behind_prefix(const char *name, int member) {
-  char prefix[16];
-  int length = snprintf(prefix, sizeof prefix, "member_%d.", member);
-  return strncmp(name, prefix, (size_t)length) == 0 ? name + length : NULL;
+static const char prefix[] = "member_";
+enum { PREFIX = sizeof prefix - 1, WHOLE_PREFIX = PREFIX + 2 }; /* with a digit and a point */
+
+/* The member whose key this is; 0 of all other keys. */
+static int member_of(const ZpKey *key) {
+  return strncmp(key->name, prefix, PREFIX) == 0 ? key->name[PREFIX] - '0' : 0;
 }
 
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def;
   bool last = member == def->stack.series;
   for (int key = 0; key < zp_key_count(); key++) {
-    const char *name = behind_prefix(zp_key(key)->name, member);
-    double value = name ? zp_def_get(def, key) : NAN;
-    if (!isnan(value)) zp_def_set(&one, zp_key_find(name), value, NULL);
-    if (strncmp(zp_key(key)->name, "member_", 7) == 0) zp_def_set(&one, key, NAN, NULL);
+    int of = member_of(zp_key(key));
+    double value = of == member ? zp_def_get(def, key) : NAN;
+    if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + WHOLE_PREFIX), value, NULL);
+    if (of > 0) zp_def_set(&one, key, NAN, NULL);
   }
   one.stack.series = 1;
   one.stack.link_mass = 0;
@@ -31,12 +31,13 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
-  int members = def->stack.series > 1 ? def->stack.series : 0, most = (int)zp_key(zp_key_find("stack.series"))->max;
-  for (int key = 0; key < zp_key_count(); key++)
-    for (int member = members + 1; member <= most; member++)
-      if (behind_prefix(zp_key(key)->name, member) && !isnan(zp_def_get(def, key)))
-        return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.series of at least %d, but it is %d", zp_key(key)->name,
-                       member > 1 ? member : 2, def->stack.series);
+  int members = def->stack.series > 1 ? def->stack.series : 0;
+  for (int key = 0; key < zp_key_count(); key++) {
+    int member = member_of(zp_key(key));
+    if (member > members && !isnan(zp_def_get(def, key)))
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.series of at least %d, but it is %d", zp_key(key)->name,
+                     member > 1 ? member : 2, def->stack.series);
+  }
   if (members == 0 && def->stack.link_mass > 0)
     return zp_fail(err, ZP_BAD_INPUT, "stack.link_mass = %g kg: requires stack.series of at least 2",
                    def->stack.link_mass);
@@ -73,8 +74,9 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
                      unknown[k].instead);
   for (int member = 1; member <= def->stack.series; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
-    ZpStatus status = zp_def_check(&one, err);
-    if (status != ZP_OK) return status;
+    ZpError reason;
+    ZpStatus status = zp_def_check(&one, &reason);
+    if (status != ZP_OK) return zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
   }
   return ZP_OK;
 }
@@ -87,4 +89,15 @@ ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
                    def->stack.series > 1 ? def->stack.series : def->stack.parallel);
   ZpStatus status = check_members(def, err);
   return status == ZP_OK && def->stack.series > 1 ? check_series(def, err) : status;
+}
+
+ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int member = 1; member <= def->stack.series && status == ZP_OK; member++) {
+    ZpActuatorDef one = zp_def_member(def, member);
+    ZpError reason;
+    status = zp_def_check_voltage(&one, voltage, &reason);
+    if (status != ZP_OK) zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
+  }
+  return status;
 }

@@ -159,7 +159,7 @@ static size_t first_link(const ZpDynamics *d) {
   return d->system.n - d->links;
 }
 
-/* Eq. (28.2): each pulls the platform below it up and that above it down, and both are where the other is. */
+/* Eq. (29.2): each pulls the platform below it up and that above it down, and both are where the other is. */
 static void add_links(const ZpDynamics *d, const double *q1, double *f) {
   size_t link = first_link(d);
   for (const ZpDynamics *m = d->below; m; m = m->below, link++) {

@@ -2,7 +2,7 @@
  * energies of ribbons and plates change, unilateral contact, damping. docs/theory.md, section 18.
  *
  * A series of actuators is one system: the equations of its members one after the other, then, in the border, the force
- * of each link, which makes the platforms that it joins move as one. Section 28. */
+ * of each link, which makes the platforms that it joins move as one. Section 29. */
 #ifndef ZP_REST_DYNAMICS_H
 #define ZP_REST_DYNAMICS_H
 

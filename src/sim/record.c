@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "ribbon/rod_plastic.h"
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
@@ -18,7 +19,6 @@ enum {
 /* Behind the signals, of a series: the opening of each member. */
 #define OPENING_OF(member)                                                                                             \
   { "member_" #member "_opening_m", "m", "distance of the platforms' faces of member " #member " of a series" }
-enum { MOST_MEMBERS = 8 };
 #define OPENINGS                                                                                                       \
   OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
 
@@ -26,7 +26,7 @@ enum { MOST_MEMBERS = 8 };
 static const ZpColumn columns[] = {
 #include <zipact/signals.def>
     OPENINGS};
-_Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + MOST_MEMBERS, "one opening for each member");
+_Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + ZP_MOST_MEMBERS, "one opening for each member");
 
 /* The same where the controller holds a length, and where it holds a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)

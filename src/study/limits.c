@@ -10,6 +10,7 @@
 #include "def/check.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
+#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -434,5 +435,27 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (f.limits && f.limits->hangs) status = derive(&f, result, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
+  return status;
+}
+
+ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
+  static const ZpColumn columns[] = {
+      {"member", "1", "of the series, 1 is the uppermost"},
+      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
+      {"pull_in_voltage_V", "V", "at which it pulls in"},
+      {"closing_voltage_V", "V", "at which it is closed"},
+      {"release_voltage_V", "V", "at which it opens, the voltage falling"},
+      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, what it carries included"},
+      {"travel_m", "m", "by which its opening shrinks"},
+  };
+  ZpMembers members;
+  ZpStatus status = zp_members_run(task, result->study, zp_study_limits, &members, err);
+  if (status == ZP_OK) status = zp_members_join(&members, columns, sizeof columns / sizeof columns[0], result, err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome)) {
+    zp_members_say(&members, "pull in", "pull_in_voltage_V", result->message, sizeof result->message);
+    zp_members_say(&members, "close", "closing_voltage_V", result->message, sizeof result->message);
+    zp_members_say(&members, "open", "release_voltage_V", result->message, sizeof result->message);
+  }
+  zp_members_forget(&members);
   return status;
 }

@@ -1,4 +1,4 @@
-/* Studies at rest of actuators in series: under a dead load the force on each member is known, eq. (28.1), so that each
+/* Studies at rest of actuators in series: under a dead load the force on each member is known, eq. (29.1), so that each
  * is at rest as it would be alone; what is asked of the series follows from its members. */
 #include "study/series.h"
 
@@ -8,16 +8,6 @@
 
 #include "actuator/model.h"
 #include "base/fail.h"
-
-enum { MOST_MEMBERS = 8 };
-
-/* The results of all members, the uppermost first. */
-typedef struct Members {
-  size_t count;
-  ZpResult *of[MOST_MEMBERS];
-  double carried[MOST_MEMBERS]; /* mass that hangs on it beyond load.mass, kg */
-  double link_mass;             /* of the link that each but the uppermost hangs on, kg */
-} Members;
 
 /* How a number of the series follows from those of its members, which are NAN where a member has none. */
 typedef enum Rule {
@@ -71,21 +61,21 @@ static double join(Rule rule, double sofar, double value) {
   return NAN;
 }
 
-static double number_of(const Members *members, size_t k, const char *name) {
+static double number_of(const ZpMembers *members, size_t k, const char *name) {
   double value = zp_result_get(members->of[k], name);
   if (k > 0 && strcmp(name, "mass_kg") == 0) return value + members->link_mass;
   if (rule_of(name) != LOAD || isnan(value)) return value;
   return value > members->carried[k] ? value - members->carried[k] : NAN;
 }
 
-static double number_of_all(const Members *members, const char *name) {
+static double number_of_all(const ZpMembers *members, const char *name) {
   double value = number_of(members, 0, name);
   for (size_t k = 1; k < members->count; k++)
     value = join(rule_of(name), value, number_of(members, k, name));
   return value;
 }
 
-static void add_numbers(const Members *members, ZpResult *result) {
+static void add_numbers(const ZpMembers *members, ZpResult *result) {
   const ZpResult *first = members->of[0];
   for (size_t i = 0; i < first->scalars; i++) {
     const ZpScalar *scalar = &first->scalar[i];
@@ -101,14 +91,14 @@ static bool has_note(const ZpResult *result, const char *note) {
 }
 
 /* Each once. */
-static void add_notes(const Members *members, ZpResult *result) {
+static void add_notes(const ZpMembers *members, ZpResult *result) {
   for (size_t k = 0; k < members->count; k++)
     for (size_t i = 0; i < members->of[k]->notes; i++)
       if (!has_note(result, members->of[k]->note[i])) zp_result_note(result, "%s", members->of[k]->note[i]);
 }
 
 /* The outcome is that of the first member which has not a good one. */
-static void add_outcome(const Members *members, ZpResult *result) {
+static void add_outcome(const ZpMembers *members, ZpResult *result) {
   result->outcome = members->of[0]->outcome;
   result->resolution = members->of[0]->resolution;
   for (size_t k = members->count; k-- > 0;) {
@@ -123,7 +113,7 @@ static void add_outcome(const Members *members, ZpResult *result) {
 /* -- tables and shapes ----------------------------------------------------------------------------- */
 
 /* A row of a member: its number, the mass that it carries, then these numbers of its own result. */
-static bool add_table(const Members *members, const ZpColumn *columns, size_t count, ZpResult *result) {
+static bool add_table(const ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result) {
   enum { MOST_COLUMNS = 16 };
   double row[MOST_COLUMNS];
   result->series = zp_table_create(columns, count, members->count);
@@ -137,9 +127,7 @@ static bool add_table(const Members *members, const ZpColumn *columns, size_t co
   return result->series != NULL;
 }
 
-/* One frame: all members, each hung on the one above, as if their stations were those of one; none where a member has
- * no shape. False if there is no memory. */
-static bool add_shape(const Members *members, ZpResult *result) {
+bool zp_members_shape(const ZpMembers *members, ZpResult *result) {
   size_t ribbons = members->of[0]->shapes->ribbons, nodes = members->of[0]->shapes->nodes, count = ribbons * nodes;
   size_t all = members->count * nodes;
   double *room = zp_calloc(3 * ribbons * all + 3 * all, sizeof *room), bottom = 0;
@@ -170,16 +158,15 @@ static bool add_shape(const Members *members, ZpResult *result) {
 
 /* -- studies --------------------------------------------------------------------------------------- */
 
-static void forget(Members *members) {
+void zp_members_forget(ZpMembers *members) {
   for (size_t k = 0; k < members->count; k++)
     zp_result_destroy(members->of[k]);
 }
 
-/* Run the study of each member. */
-static ZpStatus run_all(const ZpTask *task, ZpStudy study, ZpStudyRun run, Members *members, ZpError *err) {
+ZpStatus zp_members_run(const ZpTask *task, ZpStudy study, ZpStudyRun run, ZpMembers *members, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
-  *members = (Members){.link_mass = task->def->stack.link_mass};
+  *members = (ZpMembers){.link_mass = task->def->stack.link_mass};
   if (status != ZP_OK) return status;
   for (const ZpModel *m = model; m && status == ZP_OK; m = m->below) {
     ZpActuatorDef def = zp_member_at_rest(m);
@@ -197,35 +184,14 @@ static ZpStatus run_all(const ZpTask *task, ZpStudy study, ZpStudyRun run, Membe
   return status;
 }
 
-/* What all studies say. */
-static ZpStatus finish(Members *members, const ZpColumn *columns, size_t count, ZpResult *result, ZpError *err) {
+ZpStatus zp_members_join(ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result, ZpError *err) {
   add_numbers(members, result);
   add_notes(members, result);
   add_outcome(members, result);
   return add_table(members, columns, count, result) ? ZP_OK : zp_fail_memory(err);
 }
 
-ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  static const ZpColumn columns[] = {
-      {"member", "1", "of the series, 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
-      {"stroke_m", "m", "height of its clip over its lower platform"},
-      {"opening_m", "m", "distance of its platforms' faces"},
-      {"max_stress_Pa", "Pa", "largest stress of its metal"},
-  };
-  Members members;
-  ZpStatus status = run_all(task, ZP_STUDY_STATIONARY, zp_study_stationary, &members, err);
-  if (status == ZP_OK) status = finish(&members, columns, sizeof columns / sizeof columns[0], result, err);
-  if (status == ZP_OK && !add_shape(&members, result)) status = zp_fail_memory(err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome))
-    snprintf(result->message, sizeof result->message, "%zu members at rest, each under all that hangs on it",
-             members.count);
-  forget(&members);
-  return status;
-}
-
-/* "pulls in at 1 V to 2 V" */
-static void say(const Members *members, const char *words, const char *name, char *text, size_t size) {
+void zp_members_say(const ZpMembers *members, const char *words, const char *name, char *text, size_t size) {
   double least = NAN, most = NAN;
   for (size_t k = 0; k < members->count; k++) {
     least = fmin(least, zp_result_get(members->of[k], name));
@@ -237,26 +203,4 @@ static void say(const Members *members, const char *words, const char *name, cha
     snprintf(text + used, size - used, "%sno member %s", between, words);
   else
     snprintf(text + used, size - used, "%smembers %s at %.4g V to %.4g V", between, words, least, most);
-}
-
-ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
-  static const ZpColumn columns[] = {
-      {"member", "1", "of the series, 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
-      {"pull_in_voltage_V", "V", "at which it pulls in"},
-      {"closing_voltage_V", "V", "at which it is closed"},
-      {"release_voltage_V", "V", "at which it opens, the voltage falling"},
-      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, what it carries included"},
-      {"travel_m", "m", "by which its opening shrinks"},
-  };
-  Members members;
-  ZpStatus status = run_all(task, ZP_STUDY_LIMITS, zp_study_limits, &members, err);
-  if (status == ZP_OK) status = finish(&members, columns, sizeof columns / sizeof columns[0], result, err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome)) {
-    say(&members, "pull in", "pull_in_voltage_V", result->message, sizeof result->message);
-    say(&members, "close", "closing_voltage_V", result->message, sizeof result->message);
-    say(&members, "open", "release_voltage_V", result->message, sizeof result->message);
-  }
-  forget(&members);
-  return status;
 }

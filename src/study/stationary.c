@@ -6,6 +6,7 @@
 #include "rest/rest.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
+#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -103,5 +104,24 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);
   zp_rest_close(&rest);
   zp_model_destroy(model);
+  return status;
+}
+
+ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
+  static const ZpColumn columns[] = {
+      {"member", "1", "of the series, 1 is the uppermost"},
+      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
+      {"stroke_m", "m", "height of its clip over its lower platform"},
+      {"opening_m", "m", "distance of its platforms' faces"},
+      {"max_stress_Pa", "Pa", "largest stress of its metal"},
+  };
+  ZpMembers members;
+  ZpStatus status = zp_members_run(task, result->study, zp_study_stationary, &members, err);
+  if (status == ZP_OK) status = zp_members_join(&members, columns, sizeof columns / sizeof columns[0], result, err);
+  if (status == ZP_OK && !zp_members_shape(&members, result)) status = zp_fail_memory(err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome))
+    snprintf(result->message, sizeof result->message, "%zu members at rest, each under all that hangs on it",
+             members.count);
+  zp_members_forget(&members);
   return status;
 }
