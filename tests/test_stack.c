@@ -75,8 +75,8 @@ START_TEST(series_at_rest_stays) {
 }
 END_TEST
 
-/* Stiff light ribbons below a heavy load are a spring: released from straight, two in series open twice as far in sqrt(2)
- * times the time, whatever part of the swing is looked at. */
+/* Stiff light ribbons below a heavy load are a spring: released from straight, two in series open twice as far in
+ * sqrt(2) times the time, whatever part of the swing is looked at. */
 START_TEST(two_in_series_are_half_as_stiff) {
   static const double part[] = {2e-3, 4e-3, 6e-3}; /* s */
   ZpActuatorDef one =
