@@ -185,7 +185,7 @@ static ZpActuatorDef moving(int which) {
                           {"ribbon.hardening_modulus", which % 2 ? 4e9 : 0}, {"solver.end_time", 0.1},
                           {"solver.stop_when_zipped", ZP_WHEN_FALSE});
   if (which < 3) {
-    def.actuator.kind = ZP_KIND_RIBBON, def.actuator.right_end = which, def.damping.internal = 1e-5;
+    def.actuator.kind = ZP_KIND_RIBBON, def.actuator.right_end = (ZpRightEnd)which, def.damping.internal = 1e-5;
     def.initial.state = ZP_INITIAL_STRAIGHT, def.ribbon.yield_stress = which == ZP_END_CLAMPED ? 1e6 : 50e6;
   }
   if (which == 4) def.actuator.symmetry = ZP_SYMMETRY_NONE;
