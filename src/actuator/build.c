@@ -728,7 +728,7 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
                  hangs, most);
 }
 
-/* The members of a series, from the lowest up. */
+/* The members of a series, two or more, from the lowest up. */
 static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
   ZpModel *below = NULL;
   for (int member = def->stack.series; member >= 1; member--) {
@@ -743,7 +743,7 @@ static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *tabl
     if (below) model->carried = mass_from_here(below);
     below = model;
   }
-  ZpStatus status = check_carried(below, err);
+  ZpStatus status = below ? check_carried(below, err) : ZP_OK;
   if (status == ZP_OK)
     *out = below;
   else

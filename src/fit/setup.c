@@ -246,7 +246,7 @@ static ZpStatus read_sigma(ZpFit *fit, const ZpData *data, ZpError *err) {
   size_t column = 0;
   while (column < data->columns && strncasecmp(data->cell[column], "sigma", 5) != 0)
     column++;
-  if (column == data->columns) return ZP_OK;
+  if (column == data->columns || fit->rows == 0) return ZP_OK;
   if (!zp_data_unit(data->cell[column], "sigma", unit, &factor, &divisor))
     return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: not in a unit of what is measured, %s",
                    data->cell[column], unit);

@@ -181,8 +181,9 @@ static ZpStatus set_input(ZpFmu *fmu, ZpInput input, double value, double rate, 
 /* The simulation continues where it is, in a model with another value of a key. If that fails all is as before. */
 static ZpStatus tune(ZpFmu *fmu, int key, double value, ZpError *err) {
   size_t size = zp_fmu_state_size(fmu);
-  unsigned char *before = zp_calloc(2, size), *after = before + size;
+  unsigned char *before = zp_calloc(2, size);
   if (!before) return zp_fail_memory(err);
+  unsigned char *after = before + size;
   zp_fmu_save(fmu, before);
   ZpStatus status = zp_def_set(&fmu->def, key, value, err);
   if (status == ZP_OK) {

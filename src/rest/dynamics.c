@@ -221,9 +221,10 @@ static void border_of_links(const ZpDynamics *d, ZpBordered *J) {
 
 static void tangent(void *self, ZpBordered *J) {
   ZpDynamics *d = self;
+  const bool joined = d->links > 0;
   for (ZpDynamics *m = d; m; m = m->below)
     tangent_of_one(m, J);
-  if (d->links > 0) border_of_links(d, J);
+  if (joined) border_of_links(d, J);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */
@@ -687,6 +688,7 @@ static void arrive(ZpDynamics *d, ZpState *state) {
 }
 
 double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
+  const size_t first = first_link(d);
   size_t k = 0;
   for (ZpDynamics *m = d; m; m = m->below, k++) {
     m->state = state[k];
@@ -695,7 +697,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
     if (m->added != zp_state_added(m->model, state[k])) weigh(m, zp_state_added(m->model, state[k]));
     load(m, state[k]);
   }
-  for (size_t link = first_link(d); link < d->system.n && d->links > 0; link++)
+  for (size_t link = first; link < d->system.n && d->links > 0; link++)
     d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
   d->stepper.accuracy = d->model->def.solver.tolerance * far(d->model, state[0]);
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);

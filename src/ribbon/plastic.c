@@ -13,9 +13,11 @@ static const double none[ZP_FIBRES] = {0};
 /* Two Gauss points in each of equal slices: all that is quadratic in the height is exact. */
 static void lay_fibres(ZpPlastic *plastic, double thickness, double width) {
   static const double off = 0.28867513459481288; /* half of 1 / sqrt(3) */
-  double slice = thickness / (ZP_FIBRES / 2);
+  enum { SLICES = ZP_FIBRES / 2 };
+  double slice = thickness / SLICES;
   for (int i = 0; i < ZP_FIBRES; i++) {
-    double above = slice * (i / 2 + 0.5 + (i % 2 ? off : -off));
+    int below = i / 2;
+    double above = slice * (below + 0.5 + (i % 2 ? off : -off));
     plastic->z[i] = above + plastic->surface[0];
     plastic->part[i] = 0.5 * plastic->E * width * slice;
   }
