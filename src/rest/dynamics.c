@@ -172,9 +172,10 @@ static void add_links(const ZpDynamics *d, const double *q1, double *f) {
 
 static ZpEnd force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
+  const bool joined = d->links > 0;
   for (ZpDynamics *m = d; m; m = m->below)
     force_of_one(m, q1 + m->at, h, f + m->at);
-  add_links(d, q1, f);
+  if (joined) add_links(d, q1, f);
   return ZP_END_FOUND;
 }
 
