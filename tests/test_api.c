@@ -159,6 +159,26 @@ START_TEST(stops_when_asked) {
 }
 END_TEST
 
+/* Studies at rest ask while they look for a first equilibrium. They asked from the second on only: ribbons of 1 um bent
+ * to a radius of 1 mm, for which none is found, took seconds that no limit of time ended. */
+START_TEST(rest_asks_before_it_hangs) {
+  static const ZpStudy studies[] = {ZP_STUDY_STATIONARY, ZP_STUDY_MODES,     ZP_STUDY_EQUILIBRIUM,
+                                    ZP_STUDY_LIMITS,     ZP_STUDY_ISOMETRIC, ZP_STUDY_ACTUATE};
+  ZpActuatorDef def = zp_actuator_def_default();
+  def.ribbon.thickness = 1e-6;
+  def.mount.tilt = 3.141592653589793;
+  def.segment_3.curvature = -1000;
+  Asked asked = {0, 2, 1, 0, 0};
+  ZpHooks hooks = {&asked, on_progress, NULL};
+  ZpResult *result = NULL;
+  ck_assert_int_eq(zp_study_run(studies[_i], &def, NULL, &hooks, &result, NULL), ZP_OK);
+  ck_assert_str_eq(zp_outcome_name(result->outcome), "interrupted");
+  ck_assert_ptr_nonnull(strstr(result->message, "interrupted"));
+  ck_assert_int_le(asked.calls, 10);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* An implicit run asks its caller every few steps. It asked every 1024 only: where steps are nanoseconds long, minutes
  * passed before an interrupt or a limit of time counted. */
 START_TEST(implicit_run_asks_every_few_steps) {
@@ -489,6 +509,7 @@ int main(void) {
   tcase_add_test(c, scenario_without_err);
   tcase_add_test(c, study_without_hooks);
   tcase_add_test(c, hooks_are_asked);
+  tcase_add_loop_test(c, rest_asks_before_it_hangs, 0, 6);
   tcase_add_loop_test(c, stops_when_asked, 0, 6);
   tcase_add_test(c, implicit_run_asks_every_few_steps);
   tcase_add_test(c, weightless_actuator_settles);

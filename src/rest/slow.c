@@ -203,7 +203,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
   double sign = target > parameter(f) ? 1 : -1;
   bool was_closed = zp_slow_is_closed(f);
   for (int k = 0; k < MOST; k++) {
-    if (f->stop(f->caller)) return ZP_SLOW_STOPPED;
+    if (zp_statics_asked_to_stop(f->statics)) return ZP_SLOW_STOPPED;
     ZpMarchEnd end = zp_march(&f->march, target);
     if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
     if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;

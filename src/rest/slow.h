@@ -31,11 +31,9 @@ typedef struct ZpSlow {
   ZpNewtonWork *newton;
   ZpBranchSystem square, load; /* along the voltage's square, along the load */
   ZpMarch march;
-  double closed;              /* gap at which it counts as closed, m */
-  void *held;                 /* a state to come back to */
-  bool was_closed;            /* at the limit point that it falls from */
-  bool (*stop)(void *caller); /* asked between limit points: stop there? */
-  void *caller;
+  double closed;   /* gap at which it counts as closed, m */
+  void *held;      /* a state to come back to */
+  bool was_closed; /* at the limit point that it falls from */
 } ZpSlow;
 
 typedef enum ZpSlowEnd {
@@ -45,7 +43,6 @@ typedef enum ZpSlowEnd {
   ZP_SLOW_STOPPED
 } ZpSlowEnd;
 
-/* `stop` with `caller` must be set by hand. */
 void zp_slow_carve(ZpSlow *slow, ZpRest *rest, ZpCarver *carver);
 
 /* The actuator hangs with this gap that closes last, m: that says when it is closed. */

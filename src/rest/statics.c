@@ -398,8 +398,16 @@ static double largest_of(const ZpAssembly *a, double *r) {
   return largest;
 }
 
+bool zp_statics_asked_to_stop(ZpStatics *s) {
+  s->unasked = 0;
+  s->stopped = s->stopped || (s->stop && s->stop(s->caller));
+  return s->stopped;
+}
+
 static ZpEnd residual(void *self, double *r, double *size) {
+  enum { BETWEEN = 64 }; /* residuals between two questions: about a millisecond */
   ZpStatics *s = self;
+  if (s->stopped || (++s->unasked >= BETWEEN && zp_statics_asked_to_stop(s))) return ZP_END_STOP;
   ZpSpan here = span_of(s);
   zp_system_force(s->model, &here, &s->eval, s->force);
   zp_assembly_sum(&s->assembly, s->force, r);

@@ -28,12 +28,19 @@ typedef struct ZpStatics {
   double *rotation, *stretch; /* [edges] under the last step that was looked at, rad, m */
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium on that way */
+  bool (*stop)(void *caller); /* asked now and then: stop there? NULL: nobody is asked */
+  void *caller;
+  int unasked;  /* residuals since it was asked */
+  bool stopped; /* it said so: from then on no residual is found */
   void *memory;
 } ZpStatics;
 
 /* Allocate and start straight, without voltage. False if there is no memory. */
 bool zp_statics_create(const ZpModel *model, ZpStatics *statics);
 void zp_statics_destroy(ZpStatics *statics);
+
+/* Ask whether to stop. Once it is said, it holds. */
+bool zp_statics_asked_to_stop(ZpStatics *statics);
 
 /* The vtable for solve/newton.h. */
 ZpStaticSystem zp_statics_system(ZpStatics *statics);

@@ -62,16 +62,24 @@ static double rounding_floor(const ZpModel *model) {
   return 3 * DBL_EPSILON * model->L * model->spring.K_D / zp_eval_weight_scale(model);
 }
 
+static bool stop_hanging(void *hooks) {
+  const ZpHooks *h = hooks;
+  return h && h->progress && h->progress(h->user, "settling", 0);
+}
+
 /* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when
  * straight). => false if there is no memory. */
-static bool solve_at(ZpSim *sim, const ZpModel *model, double *q, bool *found) {
+static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, double *q, bool *found) {
   ZpRest rest;
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
+    rest.statics.stop = stop_hanging;
+    rest.statics.caller = (void *)hooks;
     ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
     *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
+    if (rest.statics.stopped) sim->settled = ZP_INTERRUPTED;
     memcpy(q, rest.statics.q, 2 * model->stride * sizeof *q);
   }
   zp_rest_close(&rest);
@@ -79,18 +87,18 @@ static bool solve_at(ZpSim *sim, const ZpModel *model, double *q, bool *found) {
 }
 
 /* Of a series: the member alone, under all that hangs on it. */
-static bool solve_member(ZpSim *sim, double *q, bool *found) {
+static bool solve_member(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
   ZpActuatorDef def = zp_member_at_rest(sim->model);
   ZpDriveTable table = sim->model->waveform.table;
   ZpModel *alone;
   if (zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &alone, NULL) != ZP_OK) return false;
-  bool solved = solve_at(sim, alone, q, found);
+  bool solved = solve_at(sim, alone, hooks, q, found);
   zp_model_destroy(alone);
   return solved;
 }
 
-static bool solve(ZpSim *sim, double *q, bool *found) {
-  return zp_in_series(sim->model) ? solve_member(sim, q, found) : solve_at(sim, sim->model, q, found);
+static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
+  return zp_in_series(sim->model) ? solve_member(sim, hooks, q, found) : solve_at(sim, sim->model, hooks, q, found);
 }
 
 /* By damped stepping. */
@@ -127,9 +135,13 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   /* of one straight ribbon neither a start nor a reference is needed */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
-  if (!solve(sim, q, &found)) return false;
-  if (!found && zp_in_series(model)) sim->settled = ZP_NOT_SETTLED;
-  if (!found && !zp_in_series(model)) relax(sim, hooks, q);
+  if (!solve(sim, hooks, q, &found)) return false;
+  if (!found && sim->settled == ZP_REACHED_END) {
+    if (zp_in_series(model))
+      sim->settled = ZP_NOT_SETTLED;
+    else
+      relax(sim, hooks, q);
+  }
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);

@@ -32,7 +32,7 @@ static const double hanging_part = 0.01;
 
 typedef struct Follower {
   const ZpModel *model;
-  const ZpHooks *hooks;
+  const ZpTask *task;
   ZpResult *result;
   ZpRest rest;
   ZpSlow slow;
@@ -89,17 +89,9 @@ static void record(Follower *f, int branch) {
   zp_shapes_keep_last(f->result->shapes, &shape);
 }
 
-static bool asked_to_stop(const Follower *f) {
-  const ZpHooks *hooks = f->hooks;
-  double fraction = fabs(f->rest.statics.U) / fmax(f->model->def.drive.voltage, 1);
-  return hooks && hooks->progress && hooks->progress(hooks->user, "following", fmin(fraction, 1));
-}
-
-/* The same, between limit points. */
-static bool must_stop(void *follower) {
-  Follower *f = follower;
-  if (asked_to_stop(f)) f->outcome = ZP_INTERRUPTED;
-  return f->outcome == ZP_INTERRUPTED;
+static bool asked_to_stop(void *follower) {
+  const Follower *f = follower;
+  return zp_task_stops(f->task, "following", fabs(f->rest.statics.U) / fmax(f->model->def.drive.voltage, 1));
 }
 
 static bool is_beyond_top(void *user) {
@@ -142,10 +134,7 @@ static bool follow(Follower *f, bool growing, int mark) {
       return true;
     }
     record(f, mark);
-    if (asked_to_stop(f)) {
-      f->outcome = ZP_INTERRUPTED;
-      return true;
-    }
+    if (zp_statics_asked_to_stop(&f->rest.statics)) return true;
   }
   return false;
 }
@@ -195,7 +184,7 @@ static bool find_voltages(Follower *f) {
   if (!zp_slow_close(&f->slow, top)) return false;
   f->rest.system.save(&f->rest.statics, f->start);
   zp_slow_lower(&f->slow, &f->closing, &f->release);
-  return f->outcome != ZP_INTERRUPTED;
+  return !f->rest.statics.stopped;
 }
 
 /* Both branches; where hanging and closed are connected, the first holds all. */
@@ -207,7 +196,7 @@ static void find(Follower *f) {
   }
   follow_whole(f, true, 0);
   bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->model->field && zp_slow_is_closed(&f->slow);
-  if (f->outcome == ZP_INTERRUPTED) return;
+  if (f->rest.statics.stopped) return;
   zp_slow_go_to(&f->slow, f->start);
   if (!find_voltages(f) || whole) return;
   zp_slow_go_to(&f->slow, f->start);
@@ -252,7 +241,9 @@ static void describe(Follower *f) {
     snprintf(down, sizeof down, ", releases at %.4g V", release);
   else if (isnan(f->shorted))
     snprintf(down, sizeof down, "; no release: %s", f->release.reason);
-  if (f->outcome == ZP_NOT_SETTLED)
+  if (f->rest.statics.stopped)
+    snprintf(r->message, sizeof r->message, "interrupted at %.4g V; what was done is kept", fabs(f->rest.statics.U));
+  else if (f->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
   else
     snprintf(r->message, sizeof r->message, "%s%s%s%s%s%s", up, closes, down,
@@ -261,6 +252,7 @@ static void describe(Follower *f) {
 }
 
 static ZpOutcome outcome_of(const Follower *f) {
+  if (f->rest.statics.stopped) return ZP_INTERRUPTED;
   bool lost = f->pull_in.end == ZP_MARCH_LOST || f->closing.end == ZP_MARCH_LOST || f->release.end == ZP_MARCH_LOST;
   return lost && f->outcome == ZP_FOLLOWED ? ZP_BRANCH_LOST : f->outcome;
 }
@@ -272,7 +264,7 @@ static ZpStatus derive(Follower *f, ZpError *err) {
                        {"release_voltage_V", &f->release, false},
                        {"closing_voltage_V", &f->closing, false}},
                       3};
-  if (f->outcome == ZP_NOT_SETTLED) return ZP_OK;
+  if (f->outcome == ZP_NOT_SETTLED || f->rest.statics.stopped) return ZP_OK;
   return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, f->result, err);
 }
 
@@ -282,6 +274,8 @@ static ZpStatus run(Follower *f, ZpError *err) {
   f->result->shapes = zp_shapes_create(f->model->s, f->model->nodes, (size_t)def->output.shapes);
   if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, carve, f))
     return zp_fail_memory(err);
+  f->rest.statics.stop = asked_to_stop;
+  f->rest.statics.caller = f;
   const size_t first = f->result->scalars;
   zp_result_add(f->result, "pull_in_voltage_V", "V", NAN);
   zp_result_add(f->result, "release_voltage_V", "V", NAN);
@@ -307,14 +301,12 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Follower f = {.model = model,
-                .hooks = task->hooks,
+                .task = task,
                 .result = result,
                 .shorted = NAN,
                 .left = NAN,
                 .margins = zp_margins_none(),
                 .outcome = ZP_FOLLOWED};
-  f.slow.stop = must_stop;
-  f.slow.caller = &f;
   status = run(&f, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);

@@ -35,7 +35,7 @@ static const double look_beyond = 1.25;
 
 typedef struct Holder {
   const ZpModel *model;
-  const ZpHooks *hooks;
+  const ZpTask *task;
   ZpResult *result;
   ZpRest rest;
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
@@ -89,10 +89,9 @@ static void record(Holder *h, bool passed, bool last) {
   zp_shapes_keep_last(h->result->shapes, &shape);
 }
 
-static bool asked_to_stop(const Holder *h) {
-  const ZpHooks *hooks = h->hooks;
-  double fraction = fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage;
-  return hooks && hooks->progress && hooks->progress(hooks->user, "raising the voltage", fmin(fraction, 1));
+static bool asked_to_stop(void *holder) {
+  const Holder *h = holder;
+  return zp_task_stops(h->task, "raising the voltage", fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage);
 }
 
 /* Can the present state be? Its force is at most the attraction of closed faces. */
@@ -152,7 +151,7 @@ static End follow(Holder *h) {
       return ARRIVED;
     }
     record(h, s->U == h->highest, false);
-    if (asked_to_stop(h)) return INTERRUPTED;
+    if (zp_statics_asked_to_stop(s)) return INTERRUPTED;
   }
   return turned ? TURNED_FOR_GOOD : LOST;
 }
@@ -340,6 +339,8 @@ static void derive(void *user, ZpSlope *slope, ZpResult *r) {
 
 static void run(Holder *h) {
   ZpStatics *s = &h->rest.statics;
+  s->stop = asked_to_stop;
+  s->caller = h;
   ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
   if (zp_newton_good(info.end)) {
     h->unpowered = h->model->parts * s->reaction;
@@ -349,6 +350,7 @@ static void run(Holder *h) {
   } else {
     h->outcome = ZP_NOT_SETTLED;
   }
+  if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);
   describe(h);
   note(h);
@@ -384,8 +386,7 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
-  Holder h = {
-      .model = model, .hooks = task->hooks, .result = result, .margins = zp_margins_none(), .outcome = ZP_CONVERGED};
+  Holder h = {.model = model, .task = task, .result = result, .margins = zp_margins_none(), .outcome = ZP_CONVERGED};
   result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
   result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)bare.output.shapes);
   if (result->series && result->shapes && zp_rest_open(&h.rest, model, carve, &h))

@@ -35,7 +35,7 @@ static const Scalar scalars[] = {
 
 typedef struct Finder {
   const ZpModel *model;
-  const ZpHooks *hooks;
+  const ZpTask *task;
   ZpRest rest;
   ZpSlow slow;
   ZpLimits *limits;
@@ -44,7 +44,6 @@ typedef struct Finder {
   bool arrived;         /* that state is known */
   ZpMargins margins;
   ZpLimitList list; /* of what is differentiated */
-  bool interrupted;
 } Finder;
 
 static void carve(void *user, ZpCarver *carver) {
@@ -54,10 +53,8 @@ static void carve(void *user, ZpCarver *carver) {
 }
 
 static bool asked_to_stop(void *finder) {
-  Finder *f = finder;
-  const ZpHooks *hooks = f->hooks;
-  if (hooks && hooks->progress && hooks->progress(hooks->user, "limits", 0)) f->interrupted = true;
-  return f->interrupted;
+  const Finder *f = finder;
+  return zp_task_stops(f->task, "limits", 0);
 }
 
 /* -- from a neighbour ------------------------------------------------------------------------------- */
@@ -345,9 +342,10 @@ static void describe(Finder *f, ZpResult *r) {
 }
 
 static ZpOutcome outcome_of(const Finder *f) {
+  if (f->rest.statics.stopped) return ZP_INTERRUPTED;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     if (f->limits->limit[k].end == ZP_MARCH_LOST) return ZP_BRANCH_LOST;
-  return f->interrupted ? ZP_INTERRUPTED : ZP_CONVERGED;
+  return ZP_CONVERGED;
 }
 
 static void pose_closed(const ZpActuatorDef *def, ZpStatics *s) {
@@ -384,15 +382,18 @@ static ZpStatus derive(Finder *f, ZpResult *r, ZpError *err) {
 }
 
 static void run(Finder *f, ZpResult *r) {
+  f->rest.statics.stop = asked_to_stop;
+  f->rest.statics.caller = f;
   bool hangs = find(f);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_result_add(r, scalars[k].name, scalars[k].unit, f->limits->limit[k].value);
   zp_result_add(r, "travel_m", "m", travel_of(f));
   zp_result_add(r, "mass_kg", "kg", mass_of(f->model));
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
-  r->outcome = hangs ? outcome_of(f) : ZP_NOT_SETTLED;
+  r->outcome = hangs || f->rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);
   if (!hangs) snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
+  if (f->rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; what was done is kept");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
     record(f, r->series, r->shapes, k);
   look_at_ends(f);
@@ -421,9 +422,7 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Finder f = {.model = model, .hooks = task->hooks, .near = neighbour_of(task, model), .margins = zp_margins_none()};
-  f.slow.stop = asked_to_stop;
-  f.slow.caller = &f;
+  Finder f = {.model = model, .task = task, .near = neighbour_of(task, model), .margins = zp_margins_none()};
   result->series = zp_table_create(columns, COLUMNS, ZP_LIMIT_KINDS);
   result->shapes = zp_shapes_create(model->s, model->nodes, ZP_LIMIT_KINDS);
   bool open = result->series && result->shapes && zp_rest_open(&f.rest, model, carve, &f);

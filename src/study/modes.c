@@ -120,11 +120,13 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   }
 }
 
-static void run(Problem *p, ZpResult *result) {
+static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   size_t modes = p->vibration.m < MODES ? p->vibration.m : MODES;
+  zp_task_watches(task, &p->rest.statics);
   ZpNewtonInfo info = zp_statics_hang(&p->rest.statics, &p->rest.branch.newton);
-  result->outcome = ZP_NOT_SETTLED;
-  snprintf(result->message, sizeof result->message, "no hanging equilibrium found");
+  result->outcome = p->rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  snprintf(result->message, sizeof result->message, "%s",
+           p->rest.statics.stopped ? "interrupted" : "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return;
   double voltage = p->rest.statics.model->def.modes.voltage;
   if (voltage > 0 && p->rest.statics.model->field &&
@@ -205,7 +207,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
   if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
     p->margins = zp_margins_none();
-    run(p, result);
+    run(p, task, result);
     zp_margins_join(&p->margins, zp_margins_at_clip(model, task->def->modes.voltage));
     zp_add_margins(result, model, &p->margins);
     zp_note_mesh(result, model, task->def->modes.voltage);

@@ -66,12 +66,13 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
 }
 
-static void run(ZpRest *rest, ZpResult *result) {
+static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
   ZpStatics *s = &rest->statics;
+  zp_task_watches(task, s);
   ZpNewtonInfo info = zp_statics_hang(s, &rest->branch.newton);
   bool found = zp_newton_good(info.end);
-  result->outcome = found ? ZP_CONVERGED : ZP_NOT_SETTLED;
-  snprintf(result->message, sizeof result->message, "%s", words_of(info.end));
+  result->outcome = found ? ZP_CONVERGED : s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  snprintf(result->message, sizeof result->message, "%s", s->stopped ? "interrupted" : words_of(info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
   if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
@@ -98,7 +99,7 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   result->series = zp_table_create(columns, COLUMNS, model->nodes);
   result->shapes = zp_shapes_create(model->s, model->nodes, 2);
   if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))
-    run(&rest, result);
+    run(&rest, task, result);
   else
     status = zp_fail_memory(err);
   if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);

@@ -5,12 +5,20 @@
 
 #include <zipact/study.h>
 
+#include "rest/statics.h"
+
 /* What a study is given. */
 typedef struct ZpTask {
   const ZpActuatorDef *def; /* checked */
   ZpStudyInput input;
   const ZpHooks *hooks; /* may be NULL */
 } ZpTask;
+
+/* Tell the caller how far the study is. => Is it to stop? */
+bool zp_task_stops(const ZpTask *task, const char *stage, double fraction);
+
+/* Let a hanging equilibrium that is looked for ask so. `task` must outlive it. */
+void zp_task_watches(const ZpTask *task, ZpStatics *statics);
 
 /* What fills a result: a zp_study_WORD. */
 typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);

@@ -72,6 +72,20 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   return table[study].check(def, err);
 }
 
+bool zp_task_stops(const ZpTask *task, const char *stage, double fraction) {
+  const ZpHooks *hooks = task->hooks;
+  return hooks && hooks->progress && hooks->progress(hooks->user, stage, fmin(fraction, 1));
+}
+
+static bool stops_hanging(void *task) {
+  return zp_task_stops(task, "hanging", 0);
+}
+
+void zp_task_watches(const ZpTask *task, ZpStatics *statics) {
+  statics->stop = stops_hanging;
+  statics->caller = (void *)task;
+}
+
 ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
                       ZpResult **out, ZpError *err) {
   *out = NULL;
