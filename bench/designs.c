@@ -362,7 +362,7 @@ typedef struct Estimated {
   double *factor;
 } Estimated;
 
-#define ZP_ESTIMATE(study, scalar, error, unit) {study, scalar, error, 0, 0, NULL},
+#define ZP_ESTIMATE(study, scalar, error, unit, factor, order) {study, scalar, error, 0, 0, NULL},
 static Estimated estimated[] = {
 #include <zipact/studies.def>
 };

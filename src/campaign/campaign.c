@@ -23,6 +23,7 @@
 #include "campaign/journal.h"
 #include "campaign/remote.h"
 #include "fit/case.h"
+#include "io/cases.h"
 
 /* How often the writer looks around, and for how long rows may wait for their commit, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
@@ -172,7 +173,7 @@ static bool hash_chunk(const ZpCampaign *c, size_t from, size_t to, uint64_t has
   bool known = true;
   for (size_t i = from; i < to; i++) {
     ZpActuatorDef def;
-    const bool resolved = zp_scenario_def(c->scenario, i, &def, NULL) == ZP_OK; /* if not, running it says why */
+    const bool resolved = zp_scenario_given(c->scenario, i, &def, NULL) == ZP_OK; /* if not, running it says why */
     before = hash[i - from] = resolved ? zp_case_hash(before, &def) : before;
     known = known && resolved && c->hash[i] == before;
   }

@@ -10,6 +10,20 @@ static const double zp_tilt_rounding = 1e-5;
 /* Members of a series at most: so many groups member_K are in keys.def. */
 enum { ZP_MOST_MEMBERS = 8 };
 
+/* Where the fields of a group of keys lie in a Def. */
+typedef struct ZpKeyGroup {
+  const char *name;
+  size_t first, size;
+} ZpKeyGroup;
+#define ZP_KEY_GROUP(group)                                                                                            \
+  { #group, offsetof(ZpActuatorDef, group), sizeof(((ZpActuatorDef *)0)->group) }
+
+/* Is this a key of the group? Asked of all keys for every case: no names are compared. */
+static inline bool zp_key_is_in(int key, ZpKeyGroup group) {
+  size_t offset = zp_key(key)->offset;
+  return offset >= group.first && offset - group.first < group.size;
+}
+
 /* (name of a choice key, place in its list) => the word. */
 const char *zp_word_of(const char *key, int choice);
 

@@ -468,21 +468,21 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_check_insulator_of_field(def, err) : status;
 }
 
-/* Asked of all keys for every case: most differ in the first letter. */
-static bool is_in(int key, const char *group) {
-  const char *name = keys[key].name;
-  size_t length = strlen(group);
-  return name[0] == group[0] && strncmp(name, group, length) == 0 && name[length] == '.';
+static const ZpKeyGroup drive = ZP_KEY_GROUP(drive), setpoint = ZP_KEY_GROUP(setpoint), control = ZP_KEY_GROUP(control),
+                        source = ZP_KEY_GROUP(source);
+
+/* Without the group and the point. */
+static const char *name_in(int key, ZpKeyGroup group) {
+  return keys[key].name + strlen(group.name) + 1;
 }
 
-/* The keys of a waveform have a group: drive or setpoint. */
-static int key_in(const char *group, const char *name) {
+static int key_in(ZpKeyGroup group, const char *name) {
   for (int i = 0; i < KEY_COUNT; i++)
-    if (is_in(i, group) && strcmp(keys[i].name + strlen(group) + 1, name) == 0) return i;
+    if (zp_key_is_in(i, group) && strcmp(name_in(i, group), name) == 0) return i;
   return -1;
 }
 
-static double value_in(const ZpActuatorDef *def, const char *group, const char *name) {
+static double value_in(const ZpActuatorDef *def, ZpKeyGroup group, const char *name) {
   return zp_def_get(def, key_in(group, name));
 }
 
@@ -493,36 +493,48 @@ static bool is_set(const ZpActuatorDef *def, int key) {
   return text ? *text != 0 : value != keys[key].def && !(isnan(value) && isnan(keys[key].def));
 }
 
-static ZpStatus check_square(const ZpActuatorDef *def, const char *group, ZpError *err) {
+static ZpStatus check_square(const ZpActuatorDef *def, ZpKeyGroup group, ZpError *err) {
   double duty = value_in(def, group, "duty"), rise_time = value_in(def, group, "rise_time");
   double shorter = fmin(duty, 1 - duty) / value_in(def, group, "frequency");
   if (rise_time <= shorter) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "%s.rise_time = %g s: longer than the shorter part of the square wave, %g s (%s.duty / %s.frequency)",
-                 group, rise_time, shorter, group, group);
+                 group.name, rise_time, shorter, group.name, group.name);
+}
+
+/* A key of a waveform, and what it goes with. */
+typedef struct WaveformKey {
+  const char *name, *goes_with;
+  bool used[ZpWaveformKind_COUNT];
+} WaveformKey;
+
+/* NULL of a key that goes with every waveform. */
+static const WaveformKey *waveform_key(const char *name) {
+  static const WaveformKey of[] = {{"offset", "ramp, sine or square", {0, 1, 1, 1, 0}},
+                                   {"rise_time", "ramp or square", {0, 1, 0, 1, 0}},
+                                   {"frequency", "sine or square", {0, 0, 1, 1, 0}},
+                                   {"duty", "square", {0, 0, 0, 1, 0}},
+                                   {"table", "table", {0, 0, 0, 0, 1}},
+                                   {"file", "table", {0, 0, 0, 0, 1}}};
+  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+    if (strcmp(name, of[i].name) == 0) return &of[i];
+  return NULL;
 }
 
 /* A key that the waveform does not use must not be given: it would be a mistake in the one or the other. */
-static ZpStatus check_waveform(const ZpActuatorDef *def, const char *group, ZpError *err) {
-  static const struct {
-    const char *name, *goes_with;
-    bool used[ZpWaveformKind_COUNT];
-  } of[] = {{"offset", "ramp, sine or square", {0, 1, 1, 1, 0}},
-            {"rise_time", "ramp or square", {0, 1, 0, 1, 0}},
-            {"frequency", "sine or square", {0, 0, 1, 1, 0}},
-            {"duty", "square", {0, 0, 0, 1, 0}},
-            {"table", "table", {0, 0, 0, 0, 1}},
-            {"file", "table", {0, 0, 0, 0, 1}}};
-  ZpWaveformKind kind = (ZpWaveformKind)value_in(def, group, "waveform");
-  for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
-    if (is_set(def, key_in(group, of[i].name)) && !of[i].used[kind])
-      return zp_fail(err, ZP_BAD_INPUT, "%s.%s: requires %s.waveform %s, but it is %s", group, of[i].name, group,
-                     of[i].goes_with, words_of_ZpWaveformKind[kind].word);
-  if (is_set(def, key_in(group, "table")) && is_set(def, key_in(group, "file")))
-    return zp_fail(err, ZP_BAD_INPUT, "%s.table: %s.file is given as well; give only one of them", group, group);
+static ZpStatus check_waveform(const ZpActuatorDef *def, ZpKeyGroup group, ZpWaveformKind kind, ZpError *err) {
+  for (int i = 0; i < KEY_COUNT; i++) {
+    const WaveformKey *key = zp_key_is_in(i, group) ? waveform_key(name_in(i, group)) : NULL;
+    if (key && !key->used[kind] && is_set(def, i))
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s.waveform %s, but it is %s", keys[i].name, group.name,
+                     key->goes_with, words_of_ZpWaveformKind[kind].word);
+  }
+  if (kind == ZP_WAVEFORM_TABLE && is_set(def, key_in(group, "table")) && is_set(def, key_in(group, "file")))
+    return zp_fail(err, ZP_BAD_INPUT, "%s.table: %s.file is given as well; give only one of them", group.name,
+                   group.name);
   if (kind == ZP_WAVEFORM_RAMP && value_in(def, group, "rise_time") == 0)
     return zp_fail(err, ZP_BAD_INPUT, "%s.rise_time = 0 s: a ramp needs a rise time above 0; or use %s.waveform step",
-                   group, group);
+                   group.name, group.name);
   return kind == ZP_WAVEFORM_SQUARE ? check_square(def, group, err) : ZP_OK;
 }
 
@@ -534,7 +546,7 @@ bool zp_def_takes_table(const ZpActuatorDef *def) {
 /* Without a controller its keys would do nothing. */
 static ZpStatus check_no_control(const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < KEY_COUNT; i++) {
-    if ((is_in(i, "control") || is_in(i, "setpoint")) && is_set(def, i))
+    if ((zp_key_is_in(i, control) || zp_key_is_in(i, setpoint)) && is_set(def, i))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires control.kind pi or boost_pi, but it is none", keys[i].name);
   }
   return ZP_OK;
@@ -589,7 +601,7 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "control.period = %g s: more than %g samples until solver.end_time = %g s",
                    period, most, def->solver.end_time);
   ZpStatus status = check_plant(def, err);
-  if (status == ZP_OK) status = check_waveform(def, "setpoint", err);
+  if (status == ZP_OK) status = check_waveform(def, setpoint, def->setpoint.waveform, err);
   return status == ZP_OK ? check_reach(def, err) : status;
 }
 
@@ -597,10 +609,11 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
                                              "capacitance", "bleeder",       "bandwidth",  "voltage_limit"};
-  for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++) {
-    int key = key_in("source", of_amplifier[i]);
-    if (is_set(def, key))
-      return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", keys[key].name);
+  for (int key = 0; key < KEY_COUNT; key++) {
+    if (!zp_key_is_in(key, source) || !is_set(def, key)) continue;
+    for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++)
+      if (strcmp(name_in(key, source), of_amplifier[i]) == 0)
+        return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", keys[key].name);
   }
   return ZP_OK;
 }
@@ -739,14 +752,18 @@ static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
 /* A choice that another key must have. */
 typedef struct Need {
   const char *key;
+  size_t offset; /* of its field */
   int word;
 } Need;
+#define NEED(group, name, word)                                                                                        \
+  { #group "." #name, offsetof(ZpActuatorDef, group.name), word }
 
 /* `what` is what asks for it, `instead` what does without. */
 static ZpStatus check_needs(const ZpActuatorDef *def, const char *what, const Need *needs, size_t count,
                             const char *instead, ZpError *err) {
   for (size_t i = 0; i < count; i++) {
-    int given = (int)zp_def_get(def, zp_key_find(needs[i].key));
+    int given;
+    memcpy(&given, (const char *)def + needs[i].offset, sizeof given);
     if (given != needs[i].word)
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s %s, but it is %s; use %s", what, needs[i].key,
                      zp_word_of(needs[i].key, needs[i].word), zp_word_of(needs[i].key, given), instead);
@@ -757,20 +774,19 @@ static ZpStatus check_needs(const ZpActuatorDef *def, const char *what, const Ne
 /* What the whole actuator asks of other keys: the paper's own numerics, and the solved field, know the half only. */
 static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {
-      {"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"ribbon.model", ZP_RIBBON_ROD},
-      {"electro.model", ZP_ELECTRO_PLATES},      {"electro.surface", ZP_SURFACE_POLYLINE},
-      {"contact.model", ZP_CONTACT_UNILATERAL},  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+      NEED(actuator, kind, ZP_KIND_ELECTRO_RIBBON), NEED(ribbon, model, ZP_RIBBON_ROD),
+      NEED(electro, model, ZP_ELECTRO_PLATES),      NEED(electro, surface, ZP_SURFACE_POLYLINE),
+      NEED(contact, model, ZP_CONTACT_UNILATERAL),  NEED(solver, integrator, ZP_INTEGRATOR_IMPLICIT)};
   if (def->actuator.symmetry != ZP_SYMMETRY_NONE) return ZP_OK;
   return check_needs(def, "actuator.symmetry = none", needs, sizeof needs / sizeof needs[0], "actuator.symmetry half",
                      err);
 }
 
 /* What the film of liquid asks for: it lies between two ribbons, and its heads are unknowns of implicit steps. */
-static const Need film_needs[] = {{"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
-                                  {"ribbon.model", ZP_RIBBON_ROD},
-                                  {"electro.surface", ZP_SURFACE_POLYLINE},
-                                  {"contact.model", ZP_CONTACT_UNILATERAL},
-                                  {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
+static const Need film_needs[] = {NEED(actuator, kind, ZP_KIND_ELECTRO_RIBBON), NEED(ribbon, model, ZP_RIBBON_ROD),
+                                  NEED(electro, surface, ZP_SURFACE_POLYLINE),
+                                  NEED(contact, model, ZP_CONTACT_UNILATERAL),
+                                  NEED(solver, integrator, ZP_INTEGRATOR_IMPLICIT)};
 enum { FILM_NEEDS = sizeof film_needs / sizeof film_needs[0] };
 
 /* Beyond a bead there is air. */
@@ -808,32 +824,30 @@ static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
 
 /* Interface charge is that of the plates law in implicit steps, of real insulators and a real liquid. */
 static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
-  static const Need needs[] = {{"electro.model", ZP_ELECTRO_PLATES},
-                               {"electro.surface", ZP_SURFACE_POLYLINE},
-                               {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}};
-  const ZpKey *given =
-      &keys[zp_key_find(isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity")];
+  static const Need needs[] = {NEED(electro, model, ZP_ELECTRO_PLATES), NEED(electro, surface, ZP_SURFACE_POLYLINE),
+                               NEED(solver, integrator, ZP_INTEGRATOR_IMPLICIT)};
+  const char *given = isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity";
   if (isnan(def->insulator.resistivity) && isnan(def->medium.resistivity)) return ZP_OK;
   if (def->actuator.kind == ZP_KIND_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electrodes; actuator.kind is ribbon", given->name);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electrodes; actuator.kind is ribbon", given);
   if (def->insulator.thickness == 0)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "insulator.thickness = 0 m: %s requires an insulator, on whose face charge gathers", given->name);
+                   "insulator.thickness = 0 m: %s requires an insulator, on whose face charge gathers", given);
   if (def->electro.force_scale != 1 || def->electro.voltage_share != 1 || !isnan(def->electro.insulator_offset))
     return zp_fail(err, ZP_BAD_INPUT,
                    "%s: requires electro.force_scale 1, electro.voltage_share 1 and electro.insulator_offset auto",
-                   given->name);
+                   given);
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT, "%s: requires electro.edges false: no charge gathers in the field at the edges",
-                   given->name);
-  ZpStatus alike = zp_check_like_insulators(def, given->name, err);
-  return alike == ZP_OK ? check_needs(def, given->name, needs, sizeof needs / sizeof needs[0], "none", err) : alike;
+                   given);
+  ZpStatus alike = zp_check_like_insulators(def, given, err);
+  return alike == ZP_OK ? check_needs(def, given, needs, sizeof needs / sizeof needs[0], "none", err) : alike;
 }
 
 /* What yields remembers how it was bent. The elastic states of rest that a meter and a controller are judged by do not.
  */
 static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
-  static const Need needs[] = {{"ribbon.model", ZP_RIBBON_ROD}, {"control.kind", ZP_CONTROL_NONE}};
+  static const Need needs[] = {NEED(ribbon, model, ZP_RIBBON_ROD), NEED(control, kind, ZP_CONTROL_NONE)};
   bool hardens = def->ribbon.hardening_modulus != 0 || !isnan(def->lower.ribbon.hardening_modulus);
   if (!def->ribbon.plasticity && hardens)
     return zp_fail(err, ZP_BAD_INPUT, "%sribbon.hardening_modulus: requires ribbon.plasticity true",
@@ -853,13 +867,17 @@ static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
 
 /* Keys of a meter that is not there, or that it lacks. */
 static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
-  static const struct {
+  const struct {
     const char *name;
+    double value;
     bool needed;
-  } of[] = {{"sense.amplitude", true}, {"sense.sampling_rate", true}, {"sense.bits", false}, {"sense.noise", false}};
+  } of[] = {{"sense.amplitude", def->sense.amplitude, true},
+            {"sense.sampling_rate", def->sense.sampling_rate, true},
+            {"sense.bits", def->sense.bits, false},
+            {"sense.noise", def->sense.noise, false}};
   bool on = !isnan(def->sense.frequency);
   for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
-    bool given = !isnan(zp_def_get(def, zp_key_find(of[i].name)));
+    bool given = !isnan(of[i].value);
     if (given && !on) return zp_fail(err, ZP_BAD_INPUT, "%s: requires sense.frequency", of[i].name);
     if (on && of[i].needed && !given)
       return zp_fail(err, ZP_BAD_INPUT, "%s: sense.frequency is given, which requires it", of[i].name);
@@ -987,7 +1005,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = check_stop(def, err);
   if (status == ZP_OK) status = check_change(def, err);
   if (status == ZP_OK) status = check_tilt(def, err);
-  if (status == ZP_OK) status = check_waveform(def, "drive", err);
+  if (status == ZP_OK) status = check_waveform(def, drive, def->drive.waveform, err);
   if (status == ZP_OK) status = check_control(def, err);
   if (status == ZP_OK) status = check_source(def, err);
   if (status == ZP_OK) status = check_initial(def, err);

@@ -9,8 +9,8 @@ static const char prefix[] = "lower.";
 
 /* Is this a key of lower.* that is given? Of a material, the word none is not. */
 static bool is_given(const ZpActuatorDef *def, int key) {
-  size_t offset = zp_key(key)->offset, first = offsetof(ZpActuatorDef, lower);
-  if (offset < first || offset >= first + sizeof def->lower) return false;
+  static const ZpKeyGroup lower = ZP_KEY_GROUP(lower);
+  if (!zp_key_is_in(key, lower)) return false;
   double value = zp_def_get(def, key);
   return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
 }

@@ -6,18 +6,24 @@
 #include "def/check.h"
 
 static const char prefix[] = "member_";
-enum { PREFIX = sizeof prefix - 1, WHOLE_PREFIX = PREFIX + 2 }; /* with a digit and a point */
+enum { WHOLE_PREFIX = sizeof prefix + 1 }; /* with a digit and a point */
+_Static_assert(offsetof(ZpActuatorDef, member_8) ==
+                   offsetof(ZpActuatorDef, member_1) + (ZP_MOST_MEMBERS - 1) * sizeof(((ZpActuatorDef *)0)->member_1),
+               "the keys of the members are alike and follow each other");
 
 /* The member whose key this is; 0 of all other keys. */
-static int member_of(const ZpKey *key) {
-  return strncmp(key->name, prefix, PREFIX) == 0 ? key->name[PREFIX] - '0' : 0;
+static int member_of(int key) {
+  static const ZpKeyGroup first = ZP_KEY_GROUP(member_1), last = ZP_KEY_GROUP(member_8);
+  size_t offset = zp_key(key)->offset;
+  bool is_in = offset >= first.first && offset < last.first + last.size;
+  return is_in ? 1 + (int)((offset - first.first) / first.size) : 0;
 }
 
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def;
   bool last = member == def->stack.series;
   for (int key = 0; key < zp_key_count(); key++) {
-    int of = member_of(zp_key(key));
+    int of = member_of(key);
     double value = of == member ? zp_def_get(def, key) : NAN;
     if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + WHOLE_PREFIX), value, NULL);
     if (of > 0) zp_def_set(&one, key, NAN, NULL);
@@ -33,7 +39,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
   int members = def->stack.series > 1 ? def->stack.series : 0;
   for (int key = 0; key < zp_key_count(); key++) {
-    int member = member_of(zp_key(key));
+    int member = member_of(key);
     if (member > members && !isnan(zp_def_get(def, key)))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.series of at least %d, but it is %d", zp_key(key)->name,
                      member > 1 ? member : 2, def->stack.series);

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "io/cases.h"
 #include "io/number.h"
 #include "io/report.h"
 #include "io/writers.h"
@@ -50,7 +51,7 @@ static ZpStatus write_keys(FILE *file, const ZpReport *report, size_t run, ZpErr
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
   ZpActuatorDef def;
-  ZpStatus status = zp_scenario_def(report->scenario, run, &def, err);
+  ZpStatus status = zp_scenario_given(report->scenario, run, &def, err);
   for (size_t i = 0; i < keys && status == ZP_OK; i++) {
     double value = zp_def_get(&def, key[i]);
     const char *word = zp_key_word(key[i], value);

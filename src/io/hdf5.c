@@ -22,6 +22,7 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
 #include "io/shows.h"
@@ -301,7 +302,7 @@ static void take_row(Store *store, Columns *c, size_t run, size_t place) {
   ZpActuatorDef def;
   const ZpResult *result = zp_report_result(c->report, run);
   double *value = c->value + place;
-  store->bad = store->bad || zp_scenario_def(c->report->scenario, run, &def, NULL) != ZP_OK;
+  store->bad = store->bad || zp_scenario_given(c->report->scenario, run, &def, NULL) != ZP_OK;
   for (size_t i = 0; i < c->keys && !store->bad; i++, value += BLOCK)
     *value = clean(zp_def_get(&def, c->key[i]));
   for (size_t i = 0; i < c->names.count && !store->bad; i++, value += BLOCK)

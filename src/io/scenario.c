@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/fail.h"
+#include "io/cases.h"
 #include "io/plan.h"
 #include "io/range.h"
 #include "io/sampled.h"
@@ -630,6 +631,11 @@ static ZpStatus fail_plan(const ZpScenario *s, ZpError *err) {
   const ZpSource source = {.name = s->name};
   if (!s->name) return zp_fail(err, ZP_BAD_INPUT, "%s", s->plan.problem);
   return zp_source_fail(&source, 0, err, "%s", s->plan.problem);
+}
+
+ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+  def->layout = zp_def_layout();
+  return resolve(s, index, def, err);
 }
 
 ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {

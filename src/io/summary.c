@@ -7,6 +7,7 @@
 #include <zipact/version.h>
 
 #include "base/fail.h"
+#include "io/cases.h"
 #include "io/json.h"
 #include "io/report.h"
 #include "io/sampled.h"
@@ -105,7 +106,7 @@ static json_t *row_of(const void *user, size_t run) {
   const ZpResult *result = zp_report_result(report, run);
   ZpActuatorDef def;
   json_t *row = json_object(), *notes = json_array();
-  bool done = zp_scenario_def(report->scenario, run, &def, NULL) == ZP_OK;
+  bool done = zp_scenario_given(report->scenario, run, &def, NULL) == ZP_OK;
   for (size_t i = 0; i < keys && done; i++)
     done = zp_json_set(row, zp_key(key[i])->name, zp_json_key(key[i], zp_def_get(&def, key[i])));
   done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));

@@ -12,17 +12,19 @@ enum { MESHES = 3, FEWEST_NODES = 4 };
 typedef struct Estimated {
   ZpStudy study;
   const char *value, *error, *unit;
+  double factor; /* F of eq. (21.1) */
+  int order;     /* p */
 } Estimated;
 
 static const Estimated estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit) {enumerator, scalar, error, unit},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, factor, order) {enumerator, scalar, error, unit, factor, order},
 #include <zipact/studies.def>
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
 
 /* What the three meshes give for each row above; NAN where they give none. */
 typedef struct Findings {
-  double elements[MESHES], f[MESHES][COUNT];
+  double elements[MESHES], f[COUNT][MESHES];
 } Findings;
 
 static bool is_estimated(ZpStudy study) {
@@ -51,7 +53,7 @@ static ZpActuatorDef coarser(ZpActuatorDef def, bool moves) {
 static void take(const ZpResult *result, ZpStudy study, int mesh, const ZpActuatorDef *def, Findings *findings) {
   findings->elements[mesh] = def->mesh.nodes - 1;
   for (int k = 0; k < COUNT; k++)
-    findings->f[mesh][k] = estimated[k].study == study ? zp_result_get(result, estimated[k].value) : NAN;
+    findings->f[k][mesh] = estimated[k].study == study ? zp_result_get(result, estimated[k].value) : NAN;
 }
 
 /* Solve on a coarser mesh. One on which the study has no answer is no failure. */
@@ -69,12 +71,11 @@ static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mes
 
 /* Eq. (21.1). A number that no coarser mesh has is NAN; the coarsest may be missing. */
 static double error_of(const Findings *findings, int k) {
-  static const double margin = 4;
-  double finer = findings->elements[0] / findings->elements[1], least = finer * finer, most = least * finer;
-  double first = fabs(findings->f[0][k] - findings->f[1][k]), second = fabs(findings->f[1][k] - findings->f[2][k]);
-  if (isnan(second)) return margin * first / (least - 1);
-  double ratio = first > 0 ? fmin(fmax(second / first, least), most) : most;
-  return margin * fmax(first, second / ratio) / (ratio - 1);
+  const double *f = findings->f[k];
+  double first = fabs(f[0] - f[1]), second = fabs(f[1] - f[2]);
+  for (int i = 0; i < estimated[k].order; i++)
+    second *= findings->elements[1] / findings->elements[0];
+  return estimated[k].factor * (isnan(second) ? first : fmax(first, second));
 }
 
 static bool has(const ZpResult *result, const char *name) {
@@ -87,7 +88,7 @@ static void forget_all(Findings *findings) {
   for (int mesh = 0; mesh < MESHES; mesh++) {
     findings->elements[mesh] = NAN;
     for (int k = 0; k < COUNT; k++)
-      findings->f[mesh][k] = NAN;
+      findings->f[k][mesh] = NAN;
   }
 }
 
@@ -105,7 +106,7 @@ static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
 /* Is there a number to estimate? What an actuator does not do, coarser ones need not show. */
 static bool any_found(const Findings *findings) {
   for (int k = 0; k < COUNT; k++)
-    if (!isnan(findings->f[0][k])) return true;
+    if (!isnan(findings->f[k][0])) return true;
   return false;
 }
 
