@@ -100,6 +100,9 @@ START_TEST(eigenvalues_of_known_matrices) {
     least = fmax(least, off);
   }
   ck_below(least, 1e-10);
+  static const double useless[] = {INFINITY, -INFINITY, NAN};
+  for (size_t k = 0; k < LENGTH_OF(useless); k++)
+    ck_assert(!zp_eigenvalues(2, (double[]){1, useless[k], useless[k], 1}, work, value));
   static double R[MANY * MANY];
   uint64_t seed = 7;
   double trace = 0, squares = 0, sum = 0, sum2 = 0;
@@ -448,7 +451,12 @@ START_TEST(study_says_what_is_held) {
   ZpResult *nowhere = study_of(ZP_STUDY_MODES, &def);
   ck_assert_double_eq(zp_result_get(nowhere, "held"), 0);
   ck_assert(isnan(zp_result_get(nowhere, "held_voltage_V")));
-  ZpResult *const all[] = {held, lost, weak, nowhere};
+  def.setpoint.value = 0.5;
+  def.control.period = def.solver.end_time = 1e4; /* in which it grows by e^10000 */
+  ZpResult *unknown = study_of(ZP_STUDY_MODES, &def);
+  ck_assert_double_nan(zp_result_get(unknown, "held"));
+  ck_assert_ptr_nonnull(note_of(unknown, "is not known"));
+  ZpResult *const all[] = {held, lost, weak, nowhere, unknown};
   for (size_t k = 0; k < LENGTH_OF(all); k++)
     zp_result_destroy(all[k]);
 }
@@ -459,6 +467,11 @@ START_TEST(what_the_study_refuses) {
       DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.suction", 0.5}, {"control.kind", ZP_CONTROL_PI},
           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.5});
   ck_refused_by(ZP_STUDY_MODES, &def, "bead.suction");
+  def.bead.suction = 0;
+  def.control.kind = ZP_CONTROL_BOOST_PI;
+  def.control.boost_voltage = 1e3;
+  def.setpoint.value = 0;
+  ck_refused_by(ZP_STUDY_MODES, &def, "setpoint.value = 0");
 }
 END_TEST
 
