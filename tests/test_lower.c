@@ -68,10 +68,10 @@ START_TEST(insulators_lie_in_series) {
   ZpActuatorDef def = DEF({"insulator.permittivity", 4});
   double alike = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
   def.insulator.thickness = 100e-6, def.lower.insulator.thickness = 160e-6;
-  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-12);
   def.insulator.thickness = 130e-6, def.lower.insulator.thickness = NAN;
   def.insulator.permittivity = 6, def.lower.insulator.permittivity = 3;
-  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-12);
 }
 END_TEST
 
