@@ -382,7 +382,7 @@ START_TEST(unlike_ribbons_keep_energy_and_momentum) {
       sum[c] += F[k];
       most = fmax(most, fabs(F[k]));
     }
-  ck_below(fabs(work + after - before) / size, 1e-9);
+  ck_below(fabs(work + after - before) / size, 1e-11);
   ck_below(fabs(sum[0]) / most, 1e-9);
   ck_below(fabs(sum[1]) / most, 1e-9);
   free(q0), free(q1), free(F);
