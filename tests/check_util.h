@@ -97,6 +97,35 @@ static inline double answered_value(ZpStudy study, const ZpActuatorDef *def, con
   return value;
 }
 
+/* The first note of a result that has these words; NULL if there is none. */
+static inline const char *note_of(const ZpResult *result, const char *words) {
+  for (size_t i = 0; i < result->notes; i++)
+    if (strstr(result->note[i], words)) return result->note[i];
+  return NULL;
+}
+
+/* How many have them. */
+static inline size_t notes_with(const ZpResult *result, const char *words) {
+  size_t count = 0;
+  for (size_t i = 0; i < result->notes; i++)
+    count += strstr(result->note[i], words) != NULL;
+  return count;
+}
+
+/* A Def is refused, whatever the study, with a message that has these words. */
+static inline void ck_refused(const ZpActuatorDef *def, const char *words) {
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_def_check(def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, words) != NULL, "no '%s' in: %s", words, err.message);
+}
+
+/* The same by one study. */
+static inline void ck_refused_by(ZpStudy study, const ZpActuatorDef *def, const char *words) {
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_study_check(study, def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, words) != NULL, "no '%s' in: %s", words, err.message);
+}
+
 static inline ZpModel *model_of(const ZpActuatorDef *def) {
   ZpModel *model = NULL;
   ZpError err = {ZP_OK, ""};

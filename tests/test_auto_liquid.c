@@ -59,12 +59,6 @@ END_TEST
 
 /* -- studies --------------------------------------------------------------------------------------- */
 
-static bool is_noted(const ZpResult *result, const char *words) {
-  for (size_t k = 0; k < result->notes; k++)
-    if (strstr(result->note[k], words)) return true;
-  return false;
-}
-
 /* Summaries of two runs have the same bits, wall times aside. */
 static void ck_same_scalars(const ZpResult *a, const ZpResult *b) {
   ck_assert_uint_eq(a->scalars, b->scalars);
@@ -98,12 +92,12 @@ START_TEST(test_auto_runs_as_what_it_stands_for) {
       continue; /* the study does not know that key's value at all */
     ZpResult *given = study_of(study, &def);
     bool draws = study != ZP_STUDY_STATIONARY && study != ZP_STUDY_PROFILE && study != ZP_STUDY_MODES;
-    ck_assert_int_eq(is_noted(given, "liquid.model auto stands for none"), draws && of[k].says);
-    if (draws && of[k].says) ck_assert(is_noted(given, of[k].says));
+    ck_assert_int_eq(note_of(given, "liquid.model auto stands for none") != NULL, draws && of[k].says);
+    if (draws && of[k].says) ck_assert_ptr_nonnull(note_of(given, of[k].says));
     def.liquid.model = of[k].liquid;
     ZpResult *said = study_of(study, &def);
     ck_same_scalars(given, said);
-    ck_assert(!is_noted(said, "liquid.model auto"));
+    ck_assert_ptr_null(note_of(said, "liquid.model auto"));
     zp_result_destroy(given);
     zp_result_destroy(said);
   }
@@ -115,7 +109,7 @@ START_TEST(test_modes_leave_the_bead_out) {
   ZpActuatorDef bead = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_AUTO}), dry = DEF({"mesh.nodes", 11});
   ZpResult *with = study_of(ZP_STUDY_MODES, &bead), *without = study_of(ZP_STUDY_MODES, &dry);
   ck_same_scalars(with, without);
-  ck_assert(is_noted(with, "the bead is left out") && !is_noted(without, "bead"));
+  ck_assert(notes_with(with, "the bead is left out") == 1 && notes_with(without, "bead") == 0);
   zp_result_destroy(with);
   zp_result_destroy(without);
 }

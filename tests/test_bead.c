@@ -293,7 +293,7 @@ END_TEST
 START_TEST(test_full_bead_without_a_platform) {
   Setting none = {"platform.length", 0};
   ZpActuatorDef dry = DEF(none), full = DEF(none, BEAD, {"bead.suction", 1}, {"bead.volume", 1e-3});
-  ck_near(settled_value(&full, "opening"), settled_value(&dry, "opening"), 1e-9);
+  ck_near(settled_value(&full, "opening"), settled_value(&dry, "opening"), 1e-12);
 }
 END_TEST
 

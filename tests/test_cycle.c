@@ -88,10 +88,10 @@ START_TEST(test_energy_of_a_cycle) {
   ck_assert(zp_result_get(result, "periodic") == 1 && zp_result_get(result, "closes") == 1);
   ck_near(lost, zp_result_get(result, "energy_per_cycle_J"), 2e-3); /* periodic to 1e-3 */
   ck_near(area, zp_result_get(result, "energy_per_cycle_J"), 2e-2); /* of 100 trapezoids */
-  double work = zp_result_get(result, "work_per_cycle_J"), efficiency = zp_result_get(result, "efficiency");
-  ck_assert(work > 0 &&
-            zp_result_get(result, "energy_drawn_per_cycle_J") > zp_result_get(result, "energy_per_cycle_J"));
-  ck_assert(isnan(efficiency) || efficiency == work / zp_result_get(result, "energy_per_cycle_J"));
+  double work = zp_result_get(result, "work_per_cycle_J"), energy = zp_result_get(result, "energy_per_cycle_J");
+  ck_assert(work > 0 && zp_result_get(result, "energy_drawn_per_cycle_J") > energy);
+  printf("work %.3g J, energy %.3g J\n", work, energy);
+  ck_near(zp_result_get(result, "efficiency"), work / energy, 1e-12);
   ck_near(zp_result_get(result, "efficiency_without_recovery"),
           work / zp_result_get(result, "energy_drawn_per_cycle_J"), 1e-12);
   zp_result_destroy(result);

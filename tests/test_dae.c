@@ -742,8 +742,8 @@ START_TEST(test_pair_steps_as_one_mass) {
   start(&one);
   pair.stepper.accuracy = one.stepper.accuracy = 1e-6;
   for (int k = 0; k < 100; k++)
-    ck_near(step(&pair, 1), step(&one, 1), 1e-6);
-  ck_near(pair.y[0], one.y[0], 1e-6);
+    ck_near(step(&pair, 1), step(&one, 1), 1e-9);
+  ck_near(pair.y[0], one.y[0], 1e-9);
   zp_free(pair.memory);
   zp_free(one.memory);
 }

@@ -258,12 +258,12 @@ START_TEST(test_insulator_sees_the_charge) {
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   ZpError err;
-  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T + GAP * EPS_I / EPS_M), 1e-4);
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T + GAP * EPS_I / EPS_M), 1e-10);
   ck_assert(zp_outcome_good(zp_sim_step(sim, 10, NULL, NULL)));
-  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T), 1e-4);
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T), 1e-10);
   ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
   double E_m = VOLTS / (GAP + 2 * T * EPS_M / EPS_I);
-  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T) - E_m * EPS_M / EPS_I, 1e-4);
+  ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T) - E_m * EPS_M / EPS_I, 1e-10);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }

@@ -404,7 +404,7 @@ START_TEST(test_scaling) {
   large.drive.voltage *= c;
   ZpResult *one = limits_of(&def), *other = limits_of(&large);
   for (int k = 0; k < 3; k++)
-    ck_near(zp_result_get(other, names[k]), c * zp_result_get(one, names[k]), 2e-3);
+    ck_near(zp_result_get(other, names[k]), c * zp_result_get(one, names[k]), 1e-9);
   ck_near(zp_result_get(other, "max_load_kg"), c * c * c * zp_result_get(one, "max_load_kg"), 2e-3);
   zp_result_destroy(one);
   zp_result_destroy(other);
@@ -421,7 +421,7 @@ START_TEST(test_largest_load) {
     ZpActuatorDef def = DEF({"load.mass", masses[k]});
     ZpResult *result = limits_of(&def);
     largest[k] = zp_result_get(result, "max_load_kg");
-    ck_near(largest[k], largest[0], 1e-6);
+    ck_near(largest[k], largest[0], 1e-10);
     zp_result_destroy(result);
   }
   ZpActuatorDef def = DEF({"load.mass", largest[0]});

@@ -68,10 +68,10 @@ START_TEST(insulators_lie_in_series) {
   ZpActuatorDef def = DEF({"insulator.permittivity", 4});
   double alike = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
   def.insulator.thickness = 100e-6, def.lower.insulator.thickness = 160e-6;
-  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-12);
   def.insulator.thickness = 130e-6, def.lower.insulator.thickness = NAN;
   def.insulator.permittivity = 6, def.lower.insulator.permittivity = 3;
-  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-9);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-12);
 }
 END_TEST
 
@@ -118,9 +118,7 @@ START_TEST(what_needs_like_ribbons_is_refused) {
   };
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].lower, refused[k].asks);
-    ZpError err = {ZP_OK, ""};
-    ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
-    ck_assert_msg(strstr(err.message, refused[k].says), "%s", err.message);
+    ck_refused(&def, refused[k].says);
   }
 }
 END_TEST

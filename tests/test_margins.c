@@ -139,12 +139,12 @@ START_TEST(stress_of_pure_bending) {
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 201}, {"segment_1.length", 0.1}, {"segment_1.curvature", curvature});
   double b = def.ribbon.thickness, t = def.insulator.thickness, E = 200e9 / (1 - 0.285 * 0.285);
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
-  ck_near(zp_result_get(result, "max_stress_Pa"), E * curvature * b / 2, 1e-5);
+  ck_near(zp_result_get(result, "max_stress_Pa"), E * curvature * b / 2, 1e-8);
   zp_result_destroy(result);
   def.insulator.young_modulus = tape;
   result = study_of(ZP_STUDY_STATIONARY, &def);
   double c = (E * b * b / 2 + tape * t * (b + t / 2)) / (E * b + tape * t);
-  ck_near(zp_result_get(result, "max_stress_Pa"), E * curvature * c, 1e-5);
+  ck_near(zp_result_get(result, "max_stress_Pa"), E * curvature * c, 1e-8);
   zp_result_destroy(result);
 }
 END_TEST
@@ -154,7 +154,7 @@ START_TEST(stress_of_a_hanging_strip) {
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 201}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0.1},
                           {"ribbon.thickness", 10e-6});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
-  ck_near(zp_table_get(result->series, 200, "stress_Pa"), 0.1 * 9.81 / (12.7e-3 * 10e-6), 1e-4);
+  ck_near(zp_table_get(result->series, 200, "stress_Pa"), 0.1 * 9.81 / (12.7e-3 * 10e-6), 1e-7);
   zp_result_destroy(result);
 }
 END_TEST
@@ -228,15 +228,11 @@ START_TEST(every_study_has_its_margins) {
   ck_assert(stress > 1e6 && stress < 1e9);
   ck_near(zp_result_get(result, "yield_margin"), 1.1e9 / stress, 1e-13);
   ck_assert(zp_result_get(result, "max_stress_place_m") <= 45.0001e-3);
-  for (size_t i = 0; i < result->notes; i++)
-    ck_assert_ptr_null(strstr(result->note[i], "yield"));
+  ck_assert_uint_eq(notes_with(result, "yield"), 0);
   zp_result_destroy(result);
   def.ribbon.yield_stress = 0.99 * stress;
   result = study_of(under_voltage[_i], &def);
-  bool noted = false;
-  for (size_t i = 0; i < result->notes; i++)
-    noted = noted || strstr(result->note[i], "above its yield stress");
-  ck_assert(noted);
+  ck_assert_uint_gt(notes_with(result, "above its yield stress"), 0);
   ck_near(zp_result_get(result, "yield_margin"), 0.99, 1e-13);
   zp_result_destroy(result);
 }
@@ -316,7 +312,7 @@ START_TEST(limits_see_the_same_from_a_neighbour) {
   ZpStudyInput input = {.neighbour = neighbour};
   ck_assert(zp_study_run(ZP_STUDY_LIMITS, &def, &input, NULL, &warm, NULL) == ZP_OK);
   ck_assert(zp_result_get(warm, "warm_starts") > 0);
-  ck_near(zp_result_get(warm, "max_stress_Pa"), zp_result_get(cold, "max_stress_Pa"), 1e-6);
+  ck_near(zp_result_get(warm, "max_stress_Pa"), zp_result_get(cold, "max_stress_Pa"), 1e-9);
   ck_assert_double_eq(zp_result_get(warm, "breakdown_margin"), zp_result_get(cold, "breakdown_margin"));
   zp_result_destroy(cold);
   zp_result_destroy(neighbour);

@@ -2,13 +2,6 @@
  * what the coarse meshes that are noted are really off by, and the finer ones that they advise. */
 #include "check_util.h"
 
-/* The first note that has these words; NULL if there is none. */
-static const char *note_of(const ZpResult *result, const char *words) {
-  for (size_t i = 0; i < result->notes; i++)
-    if (strstr(result->note[i], words)) return result->note[i];
-  return NULL;
-}
-
 static bool notes(ZpStudy study, const ZpActuatorDef *def, const char *words) {
   ZpResult *result = study_of(study, def);
   bool found = note_of(result, words) != NULL;
@@ -90,12 +83,66 @@ END_TEST
 /* "closed after 0.46 ms" came from an opening of 7 um, without a word. */
 START_TEST(nearly_closed_start_is_noted) {
   ZpActuatorDef def = DEF({"gravity", 0}, {"mesh.nodes", 31});
-  ck_assert(notes(ZP_STUDY_ACTUATE, &def, "nearly closed from the start"));
+  ck_assert(notes(ZP_STUDY_ACTUATE, &def, "starts closed and does not open"));
   ck_assert(notes(ZP_STUDY_EQUILIBRIUM, &def, "nearly closed from the start"));
   def.drive.voltage = 0; /* nothing closes */
   ck_assert(!notes(ZP_STUDY_EQUILIBRIUM, &def, "nearly closed"));
   def = DEF(QUICK);
   ck_assert(!notes(ZP_STUDY_ACTUATE, &def, "nearly closed"));
+  def.gravity = 5e-3; /* hangs open by some 10 um */
+  ck_assert(notes(ZP_STUDY_ACTUATE, &def, "nearly closed from the start"));
+}
+END_TEST
+
+/* Straight ribbons were said to zip with the first step: they start closed. Held by the voltage they never zip; let
+ * fall they zip when the voltage that comes later closes them. */
+START_TEST(closed_start_is_no_zip) {
+  static const Setting how[] = {{"solver.integrator", ZP_INTEGRATOR_IMPLICIT},
+                                {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
+                                {"stack.series", 2},
+                                {"liquid.model", ZP_LIQUID_BEAD}};
+  ZpActuatorDef def = DEF(QUICK, {"initial.state", ZP_INITIAL_STRAIGHT}, how[_i]);
+  ZpResult *held = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_int_eq(held->outcome, ZP_REACHED_END);
+  ck_assert_double_nan(zp_result_get(held, "zip_time_s"));
+  ck_assert_double_gt(zp_result_get(held, "contraction"), 0.99);
+  ck_assert_ptr_nonnull(note_of(held, "it starts closed and does not open"));
+  ck_assert_ptr_null(note_of(held, "bead is too small"));
+  zp_result_destroy(held);
+}
+END_TEST
+
+/* Let fall from there they zip once the voltage comes on, here after 20 ms. */
+START_TEST(zip_after_a_fall_from_straight) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 0},
+                          {"drive.offset", 10e3}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 25},
+                          {"drive.duty", 0.5}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.end_time", 39e-3});
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_int_eq(result->outcome, ZP_ZIPPED);
+  ck_assert_double_gt(zp_result_get(result, "widest_opening_m"), 1e-3);
+  ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 20e-3);
+  ck_assert_ptr_null(note_of(result, "starts"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Efficiencies of -272 % were told: a load let fall from straight ends lower than it began; one that loses half of its
+ * mass is lifted by the ribbons. Neither is work of the source. */
+START_TEST(efficiency_is_of_the_source_only) {
+  ZpActuatorDef def = DEF(QUICK, {"drive.voltage", 100}, {"initial.state", ZP_INITIAL_STRAIGHT});
+  ZpResult *falls = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_double_lt(zp_result_get(falls, "mechanical_work_J"), 0);
+  ck_assert_double_nan(zp_result_get(falls, "efficiency"));
+  ck_assert_ptr_nonnull(note_of(falls, "efficiency is null: the load ends lower than it began"));
+  zp_result_destroy(falls);
+  def = DEF({"mesh.nodes", 15}, {"solver.end_time", 20e-3}, {"drive.voltage", 100}, {"load.change_time", 1e-3},
+            {"load.change_mass", -4e-3});
+  ZpResult *rises = answer_of(ZP_STUDY_ACTUATE, &def);
+  double energy = zp_result_get(rises, "source_energy_J");
+  ck_assert(energy > 0 && zp_result_get(rises, "mechanical_work_J") > energy);
+  ck_assert_double_nan(zp_result_get(rises, "efficiency"));
+  ck_assert_ptr_nonnull(note_of(rises, "is more than the source gave"));
+  zp_result_destroy(rises);
 }
 END_TEST
 
@@ -248,6 +295,9 @@ int main(void) {
   tcase_add_test(c, nothing_to_note);
   tcase_add_test(c, flange_is_noted_where_it_touches);
   tcase_add_test(c, nearly_closed_start_is_noted);
+  tcase_add_loop_test(c, closed_start_is_no_zip, 0, 4);
+  tcase_add_test(c, zip_after_a_fall_from_straight);
+  tcase_add_test(c, efficiency_is_of_the_source_only);
   if (!SANITIZED) tcase_add_loop_test(c, coarse_front_is_noted, 0, 2);
   tcase_add_test(c, front_length_is_that_of_a_peeled_ribbon);
   tcase_add_loop_test(c, what_rest_leaves_out_is_noted, 0, 4);

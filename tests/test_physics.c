@@ -257,9 +257,7 @@ START_TEST(test_imbalance_is_told) {
     ZpResult *result = NULL;
     ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
     double error = zp_result_get(result, "energy_error");
-    bool told = false;
-    for (size_t k = 0; k < result->notes; k++)
-      told |= strstr(result->note[k], "energy balance") != NULL;
+    bool told = notes_with(result, "energy balance") > 0;
     printf("energy error %.1e, told %d\n", error, told);
     ck_assert_int_eq(error > 1e-4, wrong);
     ck_assert_int_eq(told, wrong);

@@ -233,7 +233,7 @@ START_TEST(drag_bounds_the_steps) {
   run_to(start, time);
   ZpRunInfo info = run_to(start, 2 * time);
   ck_near(info.smallest_bound[0], 2 * m / (c * v_t), 1e-4);
-  ck_near(info.smallest_bound[1], 2 * model->l / v_t, 1e-4);
+  ck_near(info.smallest_bound[1], 2 * model->l / v_t, 1e-9);
   ck_assert_double_eq(info.smallest_bound[2], 0); /* straight */
   zp_sim_save(start, state);
   ck_assert_int_eq(zp_sim_restore(sim, state, size, NULL), ZP_OK);

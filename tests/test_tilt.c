@@ -36,7 +36,7 @@ START_TEST(gravity_along_a_strip_stretches_it) {
   double L = def.ribbon.length, area = def.ribbon.width * def.ribbon.thickness, EA = def.ribbon.young_modulus * area;
   double weight = def.ribbon.density * area * L * def.gravity, load = def.load.mass * def.gravity;
   double moved = place_of(&def, "x_m", true) - place_of(&straight, "x_m", true);
-  ck_near(moved, (load + 0.5 * weight) * L / EA, 1e-6);
+  ck_near(moved, (load + 0.5 * weight) * L / EA, 1e-9);
   def.mount.tilt = -0.5 * half_turn, def.load.mass = 0;
   def.ribbon.length = 0.02;
   ck_below(fabs(place_of(&def, "y_m", true)), 1e-12);
@@ -73,10 +73,10 @@ START_TEST(force_outweighs_the_load) {
   double opening = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
   def.mount.tilt = half_turn;
   def.load.force = 2 * def.load.mass * def.gravity;
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-9);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-12);
   def.mount.tilt = 0;
   def.load.mass = 0, def.load.force *= 0.5;
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-9);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-12);
 }
 END_TEST
 
@@ -88,7 +88,7 @@ START_TEST(guide_takes_what_is_not_vertical) {
   double opening = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
   def.mount.tilt = half_turn / 3;
   def.load.mass *= 2;
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-9);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-12);
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg"), 2 * most, 1e-4);
   def.mount.tilt = 0.5 * half_turn;
   ck_assert(isnan(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg")));
@@ -116,7 +116,7 @@ START_TEST(leaning_left_mirrors_leaning_right) {
   other = def;
   other.actuator.symmetry = ZP_SYMMETRY_HALF;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
-          answered_value(ZP_STUDY_STATIONARY, &other, "opening_m"), 1e-9);
+          answered_value(ZP_STUDY_STATIONARY, &other, "opening_m"), 1e-12);
 }
 END_TEST
 
@@ -139,11 +139,9 @@ END_TEST
 
 START_TEST(half_is_vertical) {
   ZpActuatorDef def = DEF({"mount.tilt", 0.1});
-  ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, "requires actuator.symmetry none"), "%s", err.message);
+  ck_refused(&def, "requires actuator.symmetry none");
   def.mount.tilt = -half_turn;
-  ck_assert_int_eq(zp_def_check(&def, &err), ZP_OK);
+  ck_assert_int_eq(zp_def_check(&def, NULL), ZP_OK);
 }
 END_TEST
 

@@ -261,9 +261,7 @@ START_TEST(what_knows_the_half_only_is_refused) {
                   "%s", err.message);
   }
   ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 21);
-  ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_study_check(ZP_STUDY_PROFILE, &def, &err), ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, "actuator.symmetry = none"), "%s", err.message);
+  ck_refused_by(ZP_STUDY_PROFILE, &def, "actuator.symmetry = none");
 }
 END_TEST
 
@@ -384,7 +382,7 @@ START_TEST(unlike_ribbons_keep_energy_and_momentum) {
       sum[c] += F[k];
       most = fmax(most, fabs(F[k]));
     }
-  ck_below(fabs(work + after - before) / size, 1e-9);
+  ck_below(fabs(work + after - before) / size, 1e-11);
   ck_below(fabs(sum[0]) / most, 1e-9);
   ck_below(fabs(sum[1]) / most, 1e-9);
   free(q0), free(q1), free(F);

@@ -139,8 +139,16 @@ static void sweep(const Schur *s, size_t first, size_t last, double sum, double 
   }
 }
 
+/* Infinite entries would be balanced for ever. */
+static bool all_finite(size_t count, const double *a) {
+  for (size_t k = 0; k < count; k++)
+    if (!isfinite(a[k])) return false;
+  return true;
+}
+
 bool zp_eigenvalues(size_t n, double *a, double *work, ZpEigenvalue *value) {
   enum { MOST = 60, EXCEPTIONAL = 10 }; /* sweeps for an eigenvalue; after so many other shifts are tried */
+  if (!all_finite(n * n, a)) return false;
   balance(n, a);
   for (size_t k = 0; k + 2 < n; k++) {
     reflect(n, a, k, work);

@@ -57,13 +57,19 @@ void zp_vibration_start(ZpVibration *v) {
   orthonormalize(v, v->u);
 }
 
+/* K^-1 m u of vector j => its row of next. */
+static double *deflect(ZpVibration *v, size_t j) {
+  double *next = v->next + j * v->n;
+  for (size_t i = 0; i < v->n; i++)
+    next[i] = v->mass[i] * v->u[j * v->n + i];
+  zp_band_solve(v->K, next);
+  return next;
+}
+
 void zp_vibration_iterate(ZpVibration *v) {
   size_t n = v->n, m = v->m;
-  for (size_t j = 0; j < m; j++) {
-    for (size_t i = 0; i < n; i++)
-      v->next[j * n + i] = v->mass[i] * v->u[j * n + i];
-    zp_band_solve(v->K, v->next + j * n);
-  }
+  for (size_t j = 0; j < m; j++)
+    deflect(v, j);
   /* of u, orthonormal in m: u' m K^-1 m u has the eigenvalues 1 / omega^2 */
   for (size_t j = 0; j < m; j++)
     for (size_t k = 0; k < m; k++)
@@ -79,6 +85,13 @@ void zp_vibration_iterate(ZpVibration *v) {
         to[i] += v->turn[k * m + j] * v->next[k * n + i];
   }
   orthonormalize(v, v->u);
+}
+
+double zp_vibration_residual(ZpVibration *v, size_t j) {
+  double *left = deflect(v, j);
+  for (size_t i = 0; i < v->n; i++)
+    left[i] = v->u[j * v->n + i] - v->omega2[j] * left[i];
+  return sqrt(zp_vibration_inner(v, left, left));
 }
 
 static bool settled(const ZpVibration *v, const double *before, size_t modes) {

@@ -33,6 +33,10 @@ void zp_vibration_start(ZpVibration *v);
 /* One round: u => K^-1 m u, then turned to the best approximations of the modes inside that subspace. */
 void zp_vibration_iterate(ZpVibration *v);
 
+/* Residual of mode j after a round, eq. (11.2): |u - omega^2 K^-1 m u| in the mass's measure, relative to |u| = 1. An
+ * exact omega_i^2 lies no further from omega^2 than this part of itself. Overwrites `next`. */
+double zp_vibration_residual(ZpVibration *v, size_t j);
+
 /* From a start until the first `modes` no longer change; false if they do after 200 rounds. */
 bool zp_vibration_solve(ZpVibration *v, size_t modes);
 

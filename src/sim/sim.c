@@ -266,11 +266,16 @@ static bool is_open(const ZpModel *model, const ZpState *state) {
   return opening(model, state) > ZP_CLOSED_PART * state->opening0;
 }
 
-/* From open to closed, or, where it started closed, held there by the platforms' faces. */
+static bool started_open(const ZpSim *sim) {
+  return sim->step_start.opening > ZP_CLOSED_PART * sim->state->opening0;
+}
+
+/* From open to closed. What starts closed, as straight ribbons do, has to open first. */
 static bool reached_zip(const ZpModel *model, const ZpState *state) {
   size_t margin = (size_t)model->def.contact.complete_margin;
+  if (!state->was_open) return false;
   if (margin) return state->zip.front + margin >= model->topology.platform.first;
-  return state->opening0 > 0 && (state->zip.platform || (state->was_open && !is_open(model, state)));
+  return state->opening0 > 0 && (state->zip.platform || !is_open(model, state));
 }
 
 /* Closed for good: with a margin or in a liquid, out of which it creeps for seconds, as soon as it is zipped, else when
@@ -317,17 +322,18 @@ static double zipped_at(const ZpModel *model, const ZpState *state, ZpStepStart 
 static void note_closing(ZpSim *sim) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  state->was_open |= is_open(model, state);
+  state->was_open |= started_open(sim) || is_open(model, state);
   if (!isnan(state->zip_time) || state->U == 0 || !reached_zip(model, state)) return;
   state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, sim->step_start);
 }
 
 /* Has a zip front outrun its bead? Its meniscus then is where the film is thinner than what stands for the insulators.
- */
+ * Ribbons that have been closed from the start have no front. */
 static void note_starving(ZpSim *sim, const ZpDynamics *dynamics) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  if (!model->has_bead || !isnan(state->starved_time) || state->U == 0 || !isnan(state->zip_time)) return;
+  bool zips = state->U != 0 && state->was_open && isnan(state->zip_time);
+  if (!model->has_bead || !isnan(state->starved_time) || !zips) return;
   const double *gap = dynamics->eval.plates.gap;
   for (int half = 0; half < zp_beads(&model->film); half++) {
     ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);

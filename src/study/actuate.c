@@ -82,7 +82,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (zp_model_info(model).ribbons < 2) return;
   double work = work_on_load(sim, model, result);
   zp_result_add(result, "mechanical_work_J", "J", work);
-  zp_result_add(result, "efficiency", "1", energy > 0 ? work / energy : NAN);
+  zp_add_efficiency(result, "efficiency", work, energy);
 }
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
@@ -123,6 +123,21 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
                    remedy(def));
 }
 
+static bool was_open(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m; m = m->below)
+    if (m->state->was_open) return true;
+  return false;
+}
+
+/* What starts closed, or nearly so. */
+static void note_start(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
+  double opening = zp_table_get(result->series, 0, "opening_m");
+  if (zp_model_info(model).ribbons == 2 && sim->state->t > 0 && !was_open(sim))
+    zp_result_note(result, "it starts closed and does not open: it does not zip, and zip_time_s is null");
+  else if (opening > 0)
+    zp_note_start(result, model, opening);
+}
+
 static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double highest = zp_waveform_largest(&model->waveform);
   note_imbalance(zp_model_def(model), result);
@@ -131,7 +146,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   else
     zp_add_stress(result, model, zp_sim_margins(sim));
   zp_note_mesh(result, model, highest);
-  if (highest > 0) zp_note_start(result, model, zp_table_get(result->series, 0, "opening_m"));
+  if (highest > 0) note_start(sim, model, result);
   zp_note_liquid(result, model);
   double starved = zp_result_get(result, "starved_time_s");
   if (isfinite(starved))

@@ -311,11 +311,6 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
 }
 
-/* NAN where the load swings: it then rises by more than the source gives, and gives that back as it sinks. */
-static double efficiency_of(double work, double energy) {
-  return energy > 0 && work <= energy ? work / energy : NAN;
-}
-
 static void summarize_energy(const Cycles *c, ZpResult *result) {
   double given, taken, work = work_of(c), square = 0;
   Range current = range_of(c, "current_A");
@@ -327,8 +322,8 @@ static void summarize_energy(const Cycles *c, ZpResult *result) {
   zp_result_add(result, "energy_drawn_per_cycle_J", "J", given);
   zp_result_add(result, "work_per_cycle_J", "J", work);
   zp_result_add(result, "power_W", "W", (given - taken) / c->period);
-  zp_result_add(result, "efficiency", "1", efficiency_of(work, given - taken));
-  zp_result_add(result, "efficiency_without_recovery", "1", efficiency_of(work, given));
+  zp_add_efficiency(result, "efficiency", work, given - taken);
+  zp_add_efficiency(result, "efficiency_without_recovery", work, given);
   zp_result_add(result, "peak_current_A", "A", jumps ? NAN : fmax(current.most, -current.least));
   zp_result_add(result, "rms_current_A", "A", jumps ? NAN : sqrt(square));
 }

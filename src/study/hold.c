@@ -18,8 +18,9 @@ static const char *const growth_name[TOLD] = {"loop_growth_1_per_s", "loop_growt
                          *const factor_name[TOLD] = {"loop_factor_1", "loop_factor_2", "loop_factor_3",
                                                      "loop_factor_4"};
 
-static void add_none(ZpResult *result) {
-  zp_result_add(result, "held", "count", 0);
+/* Held: 0, or NAN where that is not known. */
+static void add_none(ZpResult *result, double held) {
+  zp_result_add(result, "held", "count", held);
   zp_result_add(result, "held_voltage_V", "V", NAN);
 }
 
@@ -58,6 +59,14 @@ static double gain(const ZpControl *c, double setpoint, bool closing) {
   return c->proportional + (closing && c->boost > 0 ? c->boost / (c->band * fabs(setpoint)) : 0);
 }
 
+static void note_unknown(const ZpControl *c, ZpResult *result) {
+  add_none(result, NAN);
+  zp_result_note(result,
+                 "control: whether the setpoint is held is not known: no eigenvalues of the loop are found; within "
+                 "control.period = %g s small motions may grow beyond all numbers, try a shorter one",
+                 c->period);
+}
+
 /* Of a loop with a boost what decays less of both sides. */
 static bool look(const ZpRest *rest, const ZpSetpointSignal *signal, double setpoint, ZpResult *result) {
   const ZpControl *c = &rest->statics.model->control;
@@ -72,11 +81,12 @@ static bool look(const ZpRest *rest, const ZpSetpointSignal *signal, double setp
     size_t alone = zp_open_loop(c, &system, plant.neutral, open, work);
     size_t count = zp_closed_loop(c, &system, gain(c, setpoint, false), plant.neutral, closed, work);
     size_t others = zp_closed_loop(c, &system, gain(c, setpoint, true), plant.neutral, boosted, work);
-    bool worse = others > 0 && boosted->rate > closed->rate;
-    if (alone > 0 && count > 0)
+    if (alone > 0 && count > 0 && others > 0) {
+      bool worse = boosted->rate > closed->rate;
       report(rest, open, worse ? boosted : closed, worse ? others : count, result);
-    else
-      add_none(result);
+    } else {
+      note_unknown(c, result);
+    }
   }
   done = work != NULL;
   zp_free(work);
@@ -96,7 +106,7 @@ ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err) {
   if (done && zp_setpoint_find(rest, &signal, def->setpoint.value)) {
     done = look(rest, &signal, def->setpoint.value, result);
   } else if (done) {
-    add_none(result);
+    add_none(result, 0);
     zp_result_note(result, "control: no state of rest on the way from hanging has the setpoint: it cannot be held");
   }
   if (rest) zp_rest_close(rest);
@@ -115,5 +125,11 @@ ZpStatus zp_check_hold(const ZpActuatorDef *def, ZpError *err) {
                    def->bead.suction);
   if (isnan(def->setpoint.value))
     return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: the study modes looks at the state that it asks for; give it");
+  if (def->control.kind == ZP_CONTROL_BOOST_PI && def->control.boost_voltage > 0 && def->setpoint.value == 0)
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "setpoint.value = 0: there control.boost_voltage = %g V acts in full on any error, and the loop has no "
+        "eigenvalues; use another setpoint, or control.kind pi",
+        def->control.boost_voltage);
   return ZP_OK;
 }
