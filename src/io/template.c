@@ -97,11 +97,11 @@ static bool find_line(const char *script, long wanted, char path[LINE_SIZE], lon
 }
 
 void zp_template_complaint(const char *script, char *reason, size_t size) {
-  char path[LINE_SIZE], *copy = strdup(reason);
-  long line = 0;
+  char *copy = strdup(reason);
+  long wanted = 0, line = 0;
   int end = 0;
-  if (copy && sscanf(copy, "\"%*[^\"]\" line %ld:%n", &line, &end) == 1 && end > 0) {
-    const long wanted = line;
+  if (copy && sscanf(copy, "\"%*[^\"]\" line %ld:%n", &wanted, &end) == 1 && end > 0) {
+    char path[LINE_SIZE];
     if (find_line(script, wanted, path, &line))
       snprintf(reason, size, "template %s, line %ld:%s", path, line, copy + end);
   }
@@ -110,17 +110,20 @@ void zp_template_complaint(const char *script, char *reason, size_t size) {
 
 /* -- for users ------------------------------------------------------------------------------------- */
 
+static ZpStatus write_text(const char *path, const char *text, ZpError *err) {
+  FILE *file = fopen(path, "wxe");
+  if (!file && errno == EEXIST)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: is there already, and may be edited; give the name of another folder", path);
+  if (!file) return zp_fail(err, ZP_MACHINE, "%s: cannot be written: %s", path, strerror(errno));
+  const bool written = fputs(text, file) >= 0;
+  if (fclose(file) == 0 && written) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "%s: cannot be written: %s", path, strerror(errno));
+}
+
 static ZpStatus write_one(const char *folder, const ZpTemplate *one, ZpError *err) {
   char *path = zp_path_join(folder, one->name);
   if (!path) return zp_fail_memory(err);
-  FILE *file = fopen(path, "wxe");
-  const bool exists = !file && errno == EEXIST, failed = !file || fputs(one->text, file) < 0;
-  ZpStatus status = ZP_OK;
-  if (exists)
-    status =
-        zp_fail(err, ZP_BAD_INPUT, "%s: is there already, and may be edited; give the name of another folder", path);
-  else if ((file && fclose(file) != 0) || failed)
-    status = zp_fail(err, ZP_MACHINE, "%s: cannot be written: %s", path, strerror(errno));
+  ZpStatus status = write_text(path, one->text, err);
   free(path);
   return status;
 }
