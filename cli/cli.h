@@ -27,6 +27,7 @@ typedef struct Options {
   const char **set;     /* [sets] values of --set, in order */
   int sets;
   const char *directory; /* what -o names; NULL: not given */
+  const char *templates; /* what --templates names; NULL: not given */
   int jobs;              /* processors to use; 0: all */
   int fmi;               /* version of FMI that was asked for; 0: none */
   bool resume, no_plots, json, yaml, quiet, help;
@@ -59,6 +60,7 @@ int cli_fmu(const Options *options);
 int cli_keys(const Options *options);
 int cli_schema(const Options *options);
 int cli_completion(const Options *options);
+int cli_plots(const Options *options);
 int cli_man(const Options *options);
 int cli_bench(const Options *options);
 int cli_reproduce(const Options *options);

@@ -51,6 +51,9 @@ static int take_option(int letter, const char **set, Options *options) {
   case 'p':
     options->no_plots = true;
     break;
+  case 't':
+    options->templates = optarg;
+    break;
   case 'r':
     options->resume = true;
     break;

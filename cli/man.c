@@ -75,7 +75,8 @@ static const Entry files[] = {
     {"journal.sqlite", "of a sweep: a row per case as it is done (`--resume`)"},
     {"shapes.pvd, shapes/, field.vts", "for ParaView"},
     {"checkpoint.zps", "the state of a run in time, from which it can be resumed (`initial.file`)"},
-    {"plots/", "SVG pictures and the gnuplot scripts that drew them"},
+    {"plots/", "SVG pictures and the gnuplot scripts that drew them; `zipact plots` writes the templates of these "
+               "scripts, `--templates` takes those of a folder"},
     {NULL, NULL}};
 
 static const Entry statuses[] = {

@@ -19,11 +19,22 @@ static void note_bare_numbers(const ZpScenario *scenario) {
   }
 }
 
+static ZpStatus set_templates(ZpScenario *scenario, const char *folder, ZpError *err) {
+  char assignment[4096];
+  const int length = snprintf(assignment, sizeof assignment, "output.templates=%s", folder);
+  if (length >= (int)sizeof assignment) {
+    *err = (ZpError){ZP_BAD_INPUT, "--templates: the name of the folder is too long"};
+    return ZP_BAD_INPUT;
+  }
+  return zp_scenario_set(scenario, assignment, err);
+}
+
 ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
   if (status == ZP_OK && o->no_plots) status = zp_scenario_set(scenario, "output.plots=false", err);
+  if (status == ZP_OK && o->templates) status = set_templates(scenario, o->templates, err);
   if (status == ZP_OK && !o->quiet) note_bare_numbers(scenario);
   if (!study || status != ZP_OK) return status;
   char assignment[64];

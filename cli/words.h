@@ -16,7 +16,8 @@ enum {
 enum {
 #define ZP_OPTION(name, word, letter, argument, help) OPTION_##name = 1 << OPTION_PLACE_##name,
 #include "words.def"
-  STUDY_OPTIONS = OPTION_SET | OPTION_OUTPUT | OPTION_NO_PLOTS | OPTION_JOBS | OPTION_RESUME | OPTION_JSON
+  STUDY_OPTIONS =
+      OPTION_SET | OPTION_OUTPUT | OPTION_NO_PLOTS | OPTION_TEMPLATES | OPTION_JOBS | OPTION_RESUME | OPTION_JSON
 };
 
 typedef struct Option {

@@ -465,6 +465,25 @@ ok "without gnuplot: a notice" says gnuplot
 ok "without gnuplot: status 0" status_is 0
 ok "without gnuplot: the scripts stay" is_file missing-gnuplot/plots/stroke.gp
 
+# -- templates of pictures ------------------------------------------------------------------------------------------
+zp plots
+ok "plots without a folder: status 2" status_is 2
+ok "plots without a folder: says what it needs" says 'plots needs a folder to write to: -o FOLDER'
+zp plots -o mine
+ok "plots: status 0" status_is 0
+ok "plots writes the templates" is_file mine/stroke.gp
+zp plots -o mine
+ok "plots does not write over them: status 2" status_is 2
+ok "plots does not write over them: says so" says 'mine/.*: is there already'
+echo '# edited' >>mine/stroke.gp
+zp actuate $short --templates mine -o edited
+ok "--templates: status 0" status_is 0
+ok "--templates: the script has what was edited" grep -q '^# edited' edited/plots/stroke.gp
+ok "--templates is in scenario.yaml" grep -q 'templates: .*/mine' edited/scenario.yaml
+zp actuate $short --templates nowhere -o nothing
+ok "--templates of no folder: status 2" status_is 2
+ok "--templates of no folder: says so" says 'output.templates: there is no folder .*/nowhere'
+
 cat >terminal.py <<'END'
 """Run a command with stderr on a terminal => what it wrote there."""
 import os, pty, subprocess, sys

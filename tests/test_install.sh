@@ -17,7 +17,7 @@ DESTDIR="$scratch/root" cmake --install "$build" >/dev/null
 cp "$build/install_manifest.txt" "$scratch/installed.txt"
 prefix=$(sed -n 's|/bin/zipact$||p' "$scratch/installed.txt")
 place=$scratch/root$prefix
-for file in bin/zipact share/zipact/scenario.schema.json share/man/man1/zipact.1 share/man/man1/zipact-limits.1 \
+for file in bin/zipact share/zipact/scenario.schema.json share/zipact/plots/style.gp share/man/man1/zipact.1 share/man/man1/zipact-limits.1 \
   share/bash-completion/completions/zipact share/zsh/site-functions/_zipact share/fish/vendor_completions.d/zipact.fish; do
   for_all "$file is installed" test -s "$place/$file"
 done

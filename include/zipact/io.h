@@ -74,6 +74,10 @@ ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
  * is SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
 ZP_API ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
+/* Write the templates of all pictures to `folder`, which is made if needed: to be edited there and named as the key
+ * output.templates. ZP_BAD_INPUT if a file of that name is there already, ZP_MACHINE if one cannot be written. */
+ZP_API ZpStatus zp_templates_write(const char *folder, ZpError *err);
+
 /* Write a value of key `index` as a person would: "100 mm", "auto", "true", "plates". Reads back to the
  * same bits; of a text key, its default. `text` gets at most `size` bytes with the final 0. */
 ZP_API void zp_value_print(int index, double value, char *text, size_t size);

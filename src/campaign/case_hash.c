@@ -57,8 +57,10 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
 
 /* Pictures are no part of a result; how cases were chosen is in their values. */
 static bool is_no_part(const ZpKey *key) {
-  return strcmp(key->name, "output.plots") == 0 || strcmp(key->name, "output.animation") == 0 ||
-         strncmp(key->name, "sampling.", 9) == 0 || strncmp(key->name, "optimize.", 9) == 0;
+  static const char *const of_pictures[] = {"output.plots", "output.templates", "output.animation"};
+  for (size_t i = 0; i < sizeof of_pictures / sizeof of_pictures[0]; i++)
+    if (strcmp(key->name, of_pictures[i]) == 0) return true;
+  return strncmp(key->name, "sampling.", 9) == 0 || strncmp(key->name, "optimize.", 9) == 0;
 }
 
 uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {

@@ -1,4 +1,4 @@
-/* What the pictures share: their table, the numbers that they look at, the look that they have. */
+/* What the pictures share: their table, the numbers that they look at, what they define for their templates. */
 #ifndef ZP_IO_PLOT_H
 #define ZP_IO_PLOT_H
 
@@ -21,12 +21,14 @@ typedef struct ZpPlot {
   const struct ZpRuns *runs; /* what pictures of several reports look at; else NULL */
 } ZpPlot;
 
-/* A picture: NAME.gp makes NAME.EXTENSION, from ../table.csv or from NAME.dat. */
+/* A picture: NAME.gp makes NAME.EXTENSION, from ../table.csv or from NAME.dat. The script is what `define` writes, then
+ * the template, which says all that is look and layout. */
 typedef struct ZpPicture {
   const char *name, *extension;
   bool (*has)(const ZpPlot *plot);                /* whether there is something to draw */
-  void (*script)(const ZpPlot *plot, FILE *file); /* writes the .gp */
+  void (*define)(const ZpPlot *plot, FILE *file); /* writes the variables that the template reads */
   void (*data)(const ZpPlot *plot, FILE *file);   /* writes the .dat; NULL if there is none */
+  const char *template;                           /* "stroke.gp"; NULL: what `define` writes is all */
 } ZpPicture;
 
 /* Wall time after which gnuplot counts as hanging, s. The animation takes 2 s on an idle machine. */
@@ -52,7 +54,6 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 /* All pictures that any report may have; the last has no name. */
 extern const ZpPicture zp_series_pictures[];
 extern const ZpPicture zp_shape_pictures[];
-extern const ZpPicture zp_member_pictures[];
 extern const ZpPicture zp_liquid_pictures[];
 extern const ZpPicture zp_sweep_pictures[];
 extern const ZpPicture zp_map_pictures[];
@@ -64,39 +65,44 @@ extern const ZpPicture zp_sensitivity_pictures[];
 extern const ZpPicture zp_sample_pictures[];
 extern const ZpPicture zp_many_pictures[];
 
-/* A unit with an SI prefix in which a quantity has one to three digits before the point. */
-typedef struct ZpPlotUnit {
-  double factor; /* number in this unit = SI value * factor */
-  char text[16]; /* "mm" */
-} ZpPlotUnit;
-
-/* (largest absolute value in SI, SI unit) => unit to show it in. */
-ZpPlotUnit zp_plot_unit(double largest, const char *unit);
-
-/* The same for the columns (ended by NULL) of a table together. */
-ZpPlotUnit zp_plot_table_unit(const ZpTable *table, const char *const *column, const char *unit);
-
-/* Whether the column has two values at least that can be drawn. */
-bool zp_plot_has(const ZpTable *table, const char *column);
-
 /* Box around all frames, m; of a run that diverged, around what is finite. */
 typedef struct ZpPlotBox {
   double left, right, bottom, top;
 } ZpPlotBox;
 
+/* Define a variable of a script: a number in SI, NaN where there is none; a whole number; a text, shown as it is; a
+ * word of the program, to be compared and not to be shown. */
+void zp_plot_define(FILE *file, const char *name, double value);
+void zp_plot_define_count(FILE *file, const char *name, size_t value);
+void zp_plot_define_text(FILE *file, const char *name, const char *text);
+void zp_plot_define_word(FILE *file, const char *name, const char *word);
+
+/* Define the key "drive.voltage" of the first run as drive_voltage, in SI or as its word. */
+void zp_plot_define_key(const ZpPlot *plot, FILE *file, const char *key);
+
+/* Define a number of the summary of the only run under its own name. */
+void zp_plot_define_scalar(const ZpPlot *plot, FILE *file, const char *name);
+
+/* Define what plots/functions.gp asks about a table: columns, and of each the largest absolute value, the lowest and
+ * the highest one. */
+void zp_plot_define_table(FILE *file, const ZpTable *table);
+
+/* Define box_left, box_right, box_bottom and box_top, m; and `same_scale`: whether x and y may have one. */
+void zp_plot_define_box(FILE *file, const ZpPlotBox *box);
+
+/* Define an array of `count` (1 or more) entries, which zp_plot_define_count and the like then fill as NAME[1], ... */
+void zp_plot_define_array(FILE *file, const char *name, size_t count);
+
+/* "NAME[k]", k from 1, for these. */
+typedef struct ZpPlotEntry {
+  char text[48];
+} ZpPlotEntry;
+ZpPlotEntry zp_plot_entry(const char *name, size_t k);
+
+/* Whether the column has two values at least that can be drawn. */
+bool zp_plot_has(const ZpTable *table, const char *name);
+
 ZpPlotBox zp_plot_box(const ZpShapes *shapes);
-
-/* Whether what is in the box can be seen where x and y have the same scale. */
-bool zp_plot_fits_same_scale(const ZpPlotBox *box);
-
-/* The unit for both axes. */
-ZpPlotUnit zp_plot_box_unit(const ZpPlotBox *box);
-
-/* The distance of tics, 1, 2 or 5 times a power of ten, of which at most `tics` fit into `range`; 0 of no range. */
-double zp_plot_step(double range, int tics);
-
-/* Give both axes the same scale and tics, about as many as `tics` on the longer one. */
-void zp_plot_same_scale(FILE *file, const ZpPlotBox *box, ZpPlotUnit unit, int tics);
 
 /* Is this the last node of a ribbon of a member of a series? */
 static inline bool zp_plot_ends_member(const ZpShapes *shapes, size_t node) {
@@ -129,41 +135,10 @@ double zp_plot_at_time(const ZpTable *table, const char *column, double time);
 /* Write a number of a .dat file so that it reads back the same. */
 void zp_plot_put(FILE *file, double value, char after);
 
-/* Write `text` as a gnuplot string that shows it as it is, in enhanced mode, too. */
-void zp_plot_text(FILE *file, const char *text);
-
-/* Settings that all SVG pictures share, with title and subtitle; the plot area is left of `right`
- * (0 .. 1) and the legend, at the top, right of it. */
-void zp_plot_head(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right);
-
 /* Do the shapes show the left half only, the right half being its mirror image? */
 bool zp_plot_is_half(const ZpPlot *plot);
 
-/* As zp_plot_head, the title that of the shapes drawn: it says where they are of the left half only. */
-void zp_plot_head_of_shapes(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right);
-
-/* Small print at the foot of a picture that shows how fast something zips. */
-void zp_plot_foot(const ZpPlot *plot, FILE *file, const char *more);
-
-/* Small print at the foot, on the left. */
-void zp_plot_remark(FILE *file, const char *text);
-
-/* Upper and lower of two panels. Title and small print belong to the whole and are drawn once. */
-void zp_plot_upper_panel(FILE *file);
-void zp_plot_lower_panel(FILE *file, double right, const char *xlabel);
-
 /* The sentence of the small print. */
 const char *zp_plot_drag_note(const ZpPlot *plot);
-
-/* Colours that colour-blind people can tell apart (Okabe and Ito), "#0072b2". */
-#define ZP_COLOURS 8
-const char *zp_plot_colour(size_t index);
-
-/* A place (0 .. 1) on a scale from dark to light: 0x440154. */
-unsigned zp_plot_shade(double place);
-
-/* Write one curve of ../table.csv over time; the `first` opens the plot command, which the caller ends
- * with a newline. `expression` is in gnuplot's words. */
-void zp_plot_curve(FILE *file, bool first, ZpPlotUnit time, const char *expression, const char *title, size_t colour);
 
 #endif

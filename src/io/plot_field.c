@@ -4,48 +4,19 @@
 
 #include "io/plot.h"
 
-#define RIGHT 0.76
-
 /* Pixels of the field's colours, and the decades that they span. */
 #define WIDE    480
 #define HIGH    300
 #define DECADES 2.5
-
-/* Lines of potential between the electrodes, which stand this many steps apart. */
-#define STEPS 20
 
 static bool has_profile(const ZpPlot *plot) {
   return plot->shows == ZP_SHOWS_field && plot->single && zp_plot_has(plot->single->series, "ratio") &&
          plot->def.drive.voltage > 0;
 }
 
-static void curve(FILE *file, const char *before, ZpPlotUnit x, const char *column, double factor, const char *look,
-                  const char *title) {
-  fprintf(file, "%s'../table.csv' using (column('x_m')*%g):(column('%s')*%g) with lines %s title \"%s\"", before,
-          x.factor, column, factor, look, title);
-}
-
-static void script_profile(const ZpPlot *plot, FILE *file) {
-  const ZpTable *table = plot->single->series;
-  const bool capped = zp_result_get(plot->single, "capped_length_m") > 0;
-  ZpPlotUnit x = zp_plot_table_unit(table, (const char *const[]){"x_m", NULL}, "m");
-  ZpPlotUnit line = zp_plot_table_unit(table, (const char *const[]){"plates_N_per_m", "field_N_per_m", NULL}, "N/m");
-  char label[64];
-  zp_plot_head(plot, file, "profile", "Electric force along a ribbon", RIGHT);
-  fputs("set datafile separator ','\nset key autotitle columnhead\nset autoscale x noextend\n", file);
-  zp_plot_upper_panel(file);
-  fprintf(file, "set yrange [0:*]\nset ylabel 'force per length / %s' offset 0.5\n", line.text);
-  curve(file, "plot ", x, "field_N_per_m", line.factor, "lw 4 lc rgb '#56b4e9'", "field");
-  curve(file, ", \\\n     ", x, "plates_N_per_m", line.factor, "lw 1.5 dt 2 lc rgb '#000000'", "plates law");
-  if (capped) curve(file, ", \\\n     ", x, "force_N_per_m", line.factor, "lw 2.5 lc rgb '#d55e00'", "with breakdown");
-  snprintf(label, sizeof label, "x from the clip / %s", x.text);
-  fputc('\n', file);
-  zp_plot_lower_panel(file, RIGHT, label);
-  fputs(
-      "unset key\nset autoscale y\nset offsets 0, 0, graph 0.08, graph 0.05\nset ylabel 'field / plates' offset 2.2\n",
-      file);
-  curve(file, "plot ", x, "ratio", 1, "lw 2.5 lc rgb '#0072b2'", "");
-  fputs("\nunset multiplot\n", file);
+static void define_profile(const ZpPlot *plot, FILE *file) {
+  zp_plot_define_scalar(plot, file, "capped_length_m");
+  zp_plot_define_table(file, plot->single->series);
 }
 
 /* -- the field ------------------------------------------------------------------------------------- */
@@ -282,70 +253,29 @@ static void data_tip(const ZpPlot *plot, FILE *file) {
   put_view(plot, file, &view);
 }
 
-static void view_colours(FILE *file, const View *view, ZpPlotUnit field) {
-  fprintf(file,
-          "set palette defined (0 '#ffffff', 0.25 '#fee599', 0.5 '#fdb55f', 0.75 '#f2703f', 1 '#c81e3c')\n"
-          "%sset cbrange [%.6g:%.6g]\nset cblabel 'field strength / %s' offset 0.5\n"
-          "set colorbox user origin screen 0.85, screen 0.19 size screen 0.025, screen 0.67\n",
-          view->decades ? "set logscale cb\n" : "", view->weakest * field.factor, view->strongest * field.factor,
-          field.text);
+static void define_view(const ZpPlot *plot, FILE *file, const View *view) {
+  zp_plot_define_box(file, &view->box);
+  zp_plot_define(file, "weakest", view->weakest);
+  zp_plot_define(file, "strongest", view->strongest);
+  zp_plot_define_count(file, "decades", view->decades);
+  zp_plot_define_count(file, "pixels_across", WIDE);
+  zp_plot_define_count(file, "pixels_up", HIGH);
+  zp_plot_define_key(plot, file, "drive.voltage");
 }
 
-static void view_axes(FILE *file, const ZpPlotBox *box, ZpPlotUnit mm) {
-  fprintf(file,
-          "unset grid\nunset key\nset bmargin at screen 0.19\nset lmargin at screen 0.125\nset tics front out\n"
-          "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
-          "set xlabel 'x from the clip / %s'\nset ylabel 'y / %s' offset 0.5\n",
-          box->left * mm.factor, box->right * mm.factor, box->bottom * mm.factor, box->top * mm.factor, mm.text,
-          mm.text);
-}
-
-static void plot_view(FILE *file, const char *name, const ZpPlotBox *box, ZpPlotUnit mm, ZpPlotUnit field) {
-  const double dx = (box->right - box->left) / WIDE * mm.factor, dy = (box->top - box->bottom) / HIGH * mm.factor;
-  fprintf(file,
-          "plot '%s.dat' index 0 matrix using (%.8g+$1*%.8g):(%.8g+$2*%.8g):($3*%g) with image, \\\n"
-          "     $lines using 1:2 with lines lw 0.6 lc rgb '#303030', \\\n"
-          "     for [k=4:5] '%s.dat' index k using ($1*%g):($2*%g) with lines lw 1.6 lc rgb '#0060c0', \\\n"
-          "     for [k=2:3] '%s.dat' index k using ($1*%g):($2*%g) with filledcurves closed fc rgb '#8c8c8c'\n",
-          name, box->left * mm.factor + 0.5 * dx, dx, box->bottom * mm.factor + 0.5 * dy, dy, field.factor, name,
-          mm.factor, mm.factor, name, mm.factor, mm.factor);
-}
-
-static void script_view(const ZpPlot *plot, FILE *file, const char *name, const char *title, const View *view) {
-  const double U = plot->def.drive.voltage;
-  ZpPlotUnit mm = zp_plot_unit(view->box.right, "m"), field = zp_plot_unit(view->strongest, "V/m");
-  ZpPlotUnit step = zp_plot_unit(U / STEPS, "V");
-  char remark[256];
-  snprintf(
-      remark, sizeof remark,
-      "grey: metal; blue: the insulators' faces; black: potential, lines %.4g %s apart; x and y have different scales",
-      U / STEPS * step.factor, step.text);
-  zp_plot_head(plot, file, name, title, 0.83);
-  zp_plot_remark(file, remark);
-  view_colours(file, view, field);
-  /* standalone: the picture is in the file, not beside it; the lines are drawn twice, first into a table */
-  fprintf(file,
-          "set terminal svg size 800,500 dynamic standalone enhanced font 'Helvetica,14' background '#ffffff'\n"
-          "set contour base\nunset surface\nset cntrparam levels incremental %.17g,%.17g,%.17g\n"
-          "set table $lines\nsplot '%s.dat' index 1 using ($1*%g):($2*%g):3 with lines nosurface\nunset table\n",
-          -U / 2 + U / STEPS, U / STEPS, U / 2 - 0.5 * U / STEPS, name, mm.factor, mm.factor);
-  view_axes(file, &view->box, mm);
-  plot_view(file, name, &view->box, mm, field);
-}
-
-static void script_field(const ZpPlot *plot, FILE *file) {
+static void define_field(const ZpPlot *plot, FILE *file) {
   const View view = whole_view(plot);
-  script_view(plot, file, "field", "Electric field around the ribbons, left half", &view);
+  define_view(plot, file, &view);
 }
 
-static void script_tip(const ZpPlot *plot, FILE *file) {
+static void define_tip(const ZpPlot *plot, FILE *file) {
   const View view = tip_view(plot);
-  script_view(plot, file, "field_tip", "Electric field where the ribbons part", &view);
+  define_view(plot, file, &view);
 }
 
 const ZpPicture zp_field_pictures[] = {
-    {"profile", "svg", has_profile, script_profile, NULL},
-    {"field", "svg", has_field, script_field, data_field},
-    {"field_tip", "svg", has_field, script_tip, data_tip},
+    {"profile", "svg", has_profile, define_profile, NULL, "profile.gp"},
+    {"field", "svg", has_field, define_field, data_field, "field.gp"},
+    {"field_tip", "svg", has_field, define_tip, data_tip, "field_tip.gp"},
     {0},
 };

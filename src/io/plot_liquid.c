@@ -77,36 +77,25 @@ static void data_film(const ZpPlot *plot, FILE *file) {
   }
 }
 
-static void plot_snapshots(const ZpPlot *plot, FILE *file, ZpPlotUnit length) {
-  const ZpPlotUnit time = zp_plot_unit(zp_shapes_get(shapes(plot), shapes(plot)->frames - 1).time, "s");
-  size_t index = 0;
-  for (size_t k = 0; k < SNAPSHOTS; k++) {
-    if (k > 0 && frame_of(plot, k) == frame_of(plot, k - 1)) continue;
-    double now = zp_shapes_get(shapes(plot), frame_of(plot, k)).time * time.factor;
-    fprintf(file,
-            "%s index %zu using ($1*%g):($2-$3 > least ? ($2-$3)*1e6 : least*1e6) with lines lw 2 lc rgb '#%06x' title "
-            "'%.4g %s'",
-            index ? ", \\\n     ''" : "plot 'film.dat'", index, length.factor,
-            zp_plot_shade((double)k / (SNAPSHOTS - 1)), now, time.text);
-    index++;
-  }
-  fputc('\n', file);
-}
-
-static void script_film(const ZpPlot *plot, FILE *file) {
+static void define_film(const ZpPlot *plot, FILE *file) {
   const ZpPlotBox box = zp_plot_box(shapes(plot));
-  const ZpPlotUnit length = zp_plot_box_unit(&box);
-  zp_plot_head(plot, file, "film", "Liquid between the faces, left half", 0.82);
-  zp_plot_foot(plot, file, zp_plot_has_bead(plot) ? "a curve ends where the bead does" : NULL);
-  fprintf(file,
-          "least = %g # film.roughness: between closed faces\n"
-          "set logscale y\nset format y '10^{%%L}'\nset xlabel 'x / %s'\n"
-          "set ylabel 'distance of the faces / µm' offset 0.5\n",
-          plot->def.film.roughness, length.text);
-  plot_snapshots(plot, file, length);
+  size_t count = 0, frame[SNAPSHOTS] = {0};
+  for (size_t k = 0; k < SNAPSHOTS; k++)
+    if (k == 0 || frame_of(plot, k) != frame_of(plot, k - 1)) frame[count++] = k;
+  zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
+  zp_plot_define_key(plot, file, "film.roughness");
+  zp_plot_define_count(file, "bead", zp_plot_has_bead(plot));
+  zp_plot_define_box(file, &box);
+  zp_plot_define_array(file, "now", count);
+  zp_plot_define_array(file, "part", count);
+  for (size_t i = 0; i < count; i++) {
+    zp_plot_define(file, zp_plot_entry("now", i + 1).text, zp_shapes_get(shapes(plot), frame_of(plot, frame[i])).time);
+    zp_plot_define(file, zp_plot_entry("part", i + 1).text, (double)frame[i] / (SNAPSHOTS - 1));
+  }
+  zp_plot_define(file, "end", zp_shapes_get(shapes(plot), shapes(plot)->frames - 1).time);
 }
 
 const ZpPicture zp_liquid_pictures[] = {
-    {"film", "svg", has_film, script_film, data_film},
+    {"film", "svg", has_film, define_film, data_film, "film.gp"},
     {0},
 };

@@ -10,9 +10,6 @@
 /* Axes of a picture; lines: more hide each other. */
 enum { AXES_MOST = 12, LINES_MOST = 400 };
 
-/* Right edge of the plot area. */
-#define RIGHT 0.80
-
 /* A key, or an output where `key` is -1. */
 typedef struct Axis {
   int key;
@@ -107,53 +104,28 @@ static void data_parallel(const ZpPlot *plot, FILE *file) {
     if (is_best(plot, run)) put_line(plot, file, &many, run);
 }
 
-/* "max_load_kg", or "ribbon.thickness / um". */
-static void put_name(FILE *file, const Axis *axis) {
+/* An axis k: axis_name[k], axis_low[k], axis_high[k]. */
+static void define_axis(FILE *file, const Axis *axis, size_t k) {
+  char name[128];
   if (axis->output)
-    zp_plot_text(file, axis->output);
+    snprintf(name, sizeof name, "%s", axis->output);
   else
-    zp_sweep_label(file, axis->key);
+    zp_sweep_label(axis->key, name, sizeof name);
+  zp_plot_define_text(file, zp_plot_entry("axis_name", k).text, name);
+  zp_plot_define(file, zp_plot_entry("axis_low", k).text, axis->low);
+  zp_plot_define(file, zp_plot_entry("axis_high", k).text, axis->high);
 }
 
-/* Names below, ends of the ranges at both ends, every second name lower so that they do not meet. */
-static void put_axes(FILE *file, const Many *many) {
-  fputs("unset grid\nunset xtics\nunset ytics\nset border 0\nset yrange [-0.02:1.02]\n", file);
-  fprintf(file, "set xrange [-0.15:%g]\n", (double)many->axes - 0.85);
-  for (size_t i = 0; i < many->axes; i++) {
-    const Axis *axis = &many->axis[i];
-    fprintf(file,
-            "set arrow %zu from %zu,0 to %zu,1 nohead lw 1.2 lc rgb '#333333' front\n"
-            "set label %zu '%.4g' at %zu,1 center offset 0,0.7 font ',11'\n"
-            "set label %zu '%.4g' at %zu,0 center offset 0,-0.7 font ',11'\nset label %zu ",
-            i + 10, i, i, 3 * i + 10, axis->high, i, 3 * i + 11, axis->low, i, 3 * i + 12);
-    put_name(file, axis);
-    fprintf(file, " at %zu,0 center offset 0,%g font ',11'\n", i, i % 2 ? -3.2 : -2);
-  }
-}
-
-static void put_palette(FILE *file) {
-  enum { STEPS = 4 };
-  fputs("set palette defined (", file);
-  for (int i = 0; i <= STEPS; i++)
-    fprintf(file, "%s%d '#%06x'", i ? ", " : "", i, zp_plot_shade((double)i / STEPS));
-  fputs(")\nset colorbox user origin 0.85,0.2 size 0.025,0.5\n", file);
-}
-
-static void script_parallel(const ZpPlot *plot, FILE *file) {
+static void define_parallel(const ZpPlot *plot, FILE *file) {
   const Many many = look(plot);
-  char remark[96];
-  zp_plot_head(plot, file, "parallel", "All cases: a line for each", RIGHT);
-  snprintf(remark, sizeof remark, "%zu cases; those without a value on an axis are left out", plot->report->count);
-  zp_plot_remark(file, remark);
-  put_axes(file, &many);
-  put_palette(file);
-  fputs("set bmargin at screen 0.20\nset tmargin at screen 0.81\nset cblabel ", file);
-  put_name(file, &many.axis[many.colour]);
-  fputs(" offset 0.5\nplot 'parallel.dat' index 0 using 1:2:3 with lines lw 0.8 lc palette notitle", file);
-  if (plot->report->optimum)
-    fprintf(file, ", \\\n     '' index 1 using 1:2 with lines lw 3 lc rgb '%s' title '%s'", zp_plot_colour(1),
-            plot->report->optimum->objectives > 1 ? "front" : "best");
-  fputc('\n', file);
+  zp_plot_define_count(file, "cases", plot->report->count);
+  zp_plot_define_count(file, "objectives", plot->report->optimum ? plot->report->optimum->objectives : 0);
+  zp_plot_define_count(file, "colour_axis", many.colour + 1);
+  zp_plot_define_array(file, "axis_name", many.axes);
+  zp_plot_define_array(file, "axis_low", many.axes);
+  zp_plot_define_array(file, "axis_high", many.axes);
+  for (size_t i = 0; i < many.axes; i++)
+    define_axis(file, &many.axis[i], i + 1);
 }
 
 /* -- pareto ----------------------------------------------------------------------------------------- */
@@ -183,54 +155,45 @@ static void data_pareto(const ZpPlot *plot, FILE *file) {
     put_objectives(plot, file, optimum->row[i]);
 }
 
-/* The unit of an objective over all cases; without one, of a pure number. */
-static ZpPlotUnit unit_of(const ZpPlot *plot, size_t k) {
+/* The unit of an objective; none of a pure number. */
+static const char *unit_of(const ZpPlot *plot, size_t k) {
   const ZpResult *result = zp_report_result(plot->report, 0);
   const char *unit = "1";
-  double largest = 0;
   for (size_t i = 0; i < result->scalars; i++)
     if (strcmp(result->scalar[i].name, plot->report->optimum->objective[k]) == 0) unit = result->scalar[i].unit;
+  return strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0 ? "" : unit;
+}
+
+/* "mass" of mass_kg. */
+static void define_objective(const ZpPlot *plot, FILE *file, size_t k) {
+  const char *unit = unit_of(plot, k);
+  double largest = 0;
+  char words[128];
+  snprintf(words, sizeof words, "%.90s", plot->report->optimum->objective[k]);
+  char *last = strrchr(words, '_');
+  if (*unit && last) *last = 0;
+  for (char *c = words; *c; c++)
+    if (*c == '_') *c = ' ';
   for (size_t run = 0; run < plot->report->count; run++)
     largest = fmax(largest, fabs(objective(plot, run, k)));
-  if (strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0) return (ZpPlotUnit){.factor = 1};
-  return zp_plot_unit(largest, unit);
+  zp_plot_define_text(file, zp_plot_entry("objective", k + 1).text, words);
+  zp_plot_define_text(file, zp_plot_entry("si", k + 1).text, unit);
+  zp_plot_define(file, zp_plot_entry("largest_value", k + 1).text, largest);
 }
 
-/* "mass / g" of mass_kg. */
-static void put_label(FILE *file, const char *output, const ZpPlotUnit *unit) {
-  char label[128];
-  snprintf(label, sizeof label, "%.90s", output);
-  char *last = strrchr(label, '_');
-  if (*unit->text && last) *last = 0;
-  for (char *c = label; *c; c++)
-    if (*c == '_') *c = ' ';
-  const size_t used = strlen(label);
-  snprintf(label + used, sizeof label - used, "%s%s", *unit->text ? " / " : "", unit->text);
-  zp_plot_text(file, label);
-}
-
-static void script_pareto(const ZpPlot *plot, FILE *file) {
-  const ZpOptimum *optimum = plot->report->optimum;
-  const ZpPlotUnit x = unit_of(plot, 0), y = unit_of(plot, 1);
-  char remark[128];
-  zp_plot_head(plot, file, "pareto", "Pareto front", RIGHT);
-  snprintf(remark, sizeof remark, "%zu of %zu cases are on the front; others are worse, or miss a constraint",
-           optimum->count, plot->report->count);
-  zp_plot_remark(file, remark);
-  fputs("set xlabel ", file);
-  put_label(file, optimum->objective[0], &x);
-  fputs("\nset ylabel ", file);
-  put_label(file, optimum->objective[1], &y);
-  fprintf(
-      file,
-      " offset 0.5\nset offsets graph 0.03, graph 0.03, graph 0.05, graph 0.03\n"
-      "plot 'pareto.dat' index 0 using ($1*%g):($2*%g) with points pt 7 ps 0.4 lc rgb '#999999' title 'others', \\\n"
-      "     '' index 1 using ($1*%g):($2*%g) with %s lw 2 pt 7 ps 0.8 lc rgb '%s' title 'front'\n",
-      x.factor, y.factor, x.factor, y.factor, optimum->objectives == 2 ? "linespoints" : "points", zp_plot_colour(1));
+static void define_pareto(const ZpPlot *plot, FILE *file) {
+  zp_plot_define_count(file, "cases", plot->report->count);
+  zp_plot_define_count(file, "best", plot->report->optimum->count);
+  zp_plot_define_count(file, "objectives", plot->report->optimum->objectives);
+  zp_plot_define_array(file, "objective", 2);
+  zp_plot_define_array(file, "si", 2);
+  zp_plot_define_array(file, "largest_value", 2);
+  for (size_t k = 0; k < 2; k++)
+    define_objective(plot, file, k);
 }
 
 const ZpPicture zp_many_pictures[] = {
-    {"parallel", "svg", has_parallel, script_parallel, data_parallel},
-    {"pareto", "svg", has_pareto, script_pareto, data_pareto},
+    {"parallel", "svg", has_parallel, define_parallel, data_parallel, "parallel.gp"},
+    {"pareto", "svg", has_pareto, define_pareto, data_pareto, "pareto.gp"},
     {0},
 };

@@ -105,90 +105,59 @@ static void data_map(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* An axis whose key grows by factors, over more than a decade, is logarithmic, with tics at the values. */
-static void put_scale(const ZpPlot *plot, FILE *file, char axis, int key, size_t count, size_t stride) {
+/* An axis: NAME_label and NAME_factor of its key; NAME_log says whether its values grow by factors, over more than a
+ * decade; then NAME_tics are the values, of which there are not many. */
+static void define_axis(const ZpPlot *plot, FILE *file, const char *name, int key, size_t count, size_t stride) {
   enum { MOST_TICS = 12 };
   double first = zp_sweep_value(plot, 0, key), last = zp_sweep_value(plot, (count - 1) * stride, key);
   double middle = zp_sweep_value(plot, (count - 1) / 2 * stride, key), low = fmin(first, last),
          high = fmax(first, last);
-  if (!(low > 0) || high < 10 * low || middle > 0.35 * high) return;
-  fprintf(file, "set logscale %c\n", axis);
-  for (size_t i = 0; count <= MOST_TICS && i < count; i++)
-    fprintf(file, "%s%g%s",
-            i             ? ", "
-            : axis == 'x' ? "set xtics ("
-                          : "set ytics (",
-            zp_sweep_value(plot, i * stride, key) * zp_sweep_factor(key), i + 1 < count ? "" : ")\n");
+  const bool log = low > 0 && high >= 10 * low && middle <= 0.35 * high;
+  char variable[32], label[128];
+  snprintf(variable, sizeof variable, "%s_label", name);
+  zp_sweep_label(key, label, sizeof label);
+  zp_plot_define_text(file, variable, label);
+  snprintf(variable, sizeof variable, "%s_factor", name);
+  zp_plot_define(file, variable, zp_sweep_factor(key));
+  snprintf(variable, sizeof variable, "%s_log", name);
+  zp_plot_define_count(file, variable, log);
+  fprintf(file, "%s_tics = '", name);
+  for (size_t i = 0; log && count <= MOST_TICS && i < count; i++)
+    fprintf(file, "%s%g", i ? ", " : "", zp_sweep_value(plot, i * stride, key) * zp_sweep_factor(key));
+  fputs("'\n", file);
 }
 
-static void put_colours(FILE *file) {
-  enum { STEPS = 4 };
-  fputs("set palette defined (", file);
-  for (int i = 0; i <= STEPS; i++)
-    fprintf(file, "%s%d '#%06x'", i ? ", " : "", i, zp_plot_shade((double)i / STEPS));
-  fputs(")\n", file);
-}
-
-static void put_axes(const ZpPlot *plot, FILE *file, const Grid *grid, ZpPlotUnit unit) {
-  fputs("set xlabel ", file);
-  zp_sweep_label(file, grid->x);
-  fputs("\nset ylabel ", file);
-  zp_sweep_label(file, grid->y);
-  fprintf(file, " offset 0.5\nset autoscale xfix\nset autoscale yfix\nset cblabel '%s%s%s%s%s%s' offset 0.5\n",
-          grid->axis, grid->which ? " (" : "", grid->which ? grid->which : "", grid->which ? ")" : "",
-          grid->unit ? " / " : "", unit.text);
-  put_scale(plot, file, 'x', grid->x, grid->columns, 1);
-  put_scale(plot, file, 'y', grid->y, grid->rows, grid->columns);
-}
-
-/* Colours in cells so fine that they look smooth, contours and their values on them. */
-static void put_surface(FILE *file, const Grid *grid, ZpPlotUnit unit, const char *name, size_t index, int levels) {
-  enum { CELLS = 60 };
-  static const char *const layers[] = {"with pm3d nocontour", "with lines lw 1.2 lc rgb '#ffffff' nosurface",
-                                       "with labels tc rgb '#ffffff' nosurface"};
-  fprintf(file,
-          "unset grid\nunset key\nset view map\nset pm3d interpolate %zu,%zu\nset contour base\n"
-          "set cntrparam levels auto %d\nset cntrlabel onecolor start 2 interval -1 font ',11'\n"
-          "%s\n",
-          1 + CELLS / grid->rows, 1 + CELLS / grid->columns, levels,
-          index == 0 ? "set colorbox user origin 0.85,0.17 size 0.03,0.69" : "unset colorbox");
-  for (size_t i = 0; i < sizeof layers / sizeof layers[0]; i++)
-    fprintf(file, "%s'%s.dat' index %zu using ($1*%g):($2*%g):($3*%g) %s", i ? ", \\\n      " : "splot ", name, index,
-            zp_sweep_factor(grid->x), zp_sweep_factor(grid->y), unit.factor, layers[i]);
-  fputc('\n', file);
-}
-
-/* Title and small print; the range of all values, for the colours. */
-static ZpPlotUnit put_head(const ZpPlot *plot, FILE *file, const Grid *grid, const char *name, double *low,
-                           double *high) {
+/* The answer, how often there is one, and its range over all runs. */
+static void define_answer(const ZpPlot *plot, FILE *file, const Grid *grid) {
   size_t found = 0;
-  char more[96];
-  *low = *high = NAN;
+  double low = NAN, high = NAN;
+  char text[128];
   for (size_t run = 0; run < plot->report->count; run++) {
-    double value = value_of(plot, grid, run);
+    const double value = value_of(plot, grid, run);
     found += isfinite(value) != 0;
-    *low = fmin(*low, value);
-    *high = fmax(*high, value);
+    low = fmin(low, value);
+    high = fmax(high, value);
   }
-  const double largest = fmax(fabs(*low), fabs(*high));
-  ZpPlotUnit unit = grid->unit ? zp_plot_unit(largest, grid->unit) : (ZpPlotUnit){.factor = 1};
-  snprintf(more, sizeof more, "%zu of %zu runs %s; straight between them", found, plot->report->count, grid->count);
-  zp_plot_head(plot, file, name, grid->title, 0.82);
-  if (plot->shows == ZP_SHOWS_motion)
-    zp_plot_foot(plot, file, more);
-  else
-    zp_plot_remark(file, more);
-  put_axes(plot, file, grid, unit);
-  put_colours(file);
-  return unit;
+  snprintf(text, sizeof text, "%zu of %zu runs %s; straight between them", found, plot->report->count, grid->count);
+  zp_plot_define_text(file, "remark", text);
+  zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
+  zp_plot_define_count(file, "motion", plot->shows == ZP_SHOWS_motion);
+  zp_plot_define_text(file, "title", grid->title);
+  snprintf(text, sizeof text, grid->which ? "%s (%s)" : "%s", grid->axis, grid->which);
+  zp_plot_define_text(file, "quantity", text);
+  zp_plot_define_word(file, "si", grid->unit ? grid->unit : "");
+  zp_plot_define(file, "lowest_value", low);
+  zp_plot_define(file, "highest_value", high);
 }
 
-static void script_map(const ZpPlot *plot, FILE *file) {
+static void define_map(const ZpPlot *plot, FILE *file) {
   Grid grid;
-  double low, high;
   if (!find_grid(plot, &grid)) return;
-  const ZpPlotUnit unit = put_head(plot, file, &grid, "map", &low, &high);
-  put_surface(file, &grid, unit, "map", 0, 8);
+  define_answer(plot, file, &grid);
+  zp_plot_define_count(file, "rows", grid.rows);
+  zp_plot_define_count(file, "columns_across", grid.columns);
+  define_axis(plot, file, "x", grid.x, grid.columns, 1);
+  define_axis(plot, file, "y", grid.y, grid.rows, grid.columns);
 }
 
 /* -- small multiples -------------------------------------------------------------------------------- */
@@ -198,40 +167,20 @@ static bool has_maps(const ZpPlot *plot) {
   return find_grid(plot, &grid) && grid.z >= 0;
 }
 
-/* Where panel `k` is, with axes named at the edges of the picture only; over it the value of the third key. */
-static void put_panel(const ZpPlot *plot, FILE *file, const Grid *grid, size_t k) {
-  const size_t panels = drawn_panels(grid), across = panels <= 4 ? 2 : 3, down = (panels + across - 1) / across;
-  const size_t row = k / across;
-  const double width = 0.71 / (double)across, height = 0.70 / (double)down;
-  const double left = 0.11 + width * (double)(k % across), top = 0.86 - height * (double)row;
-  const double value = zp_sweep_value(plot, chosen_panel(grid, k) * grid->rows * grid->columns, grid->z);
-  fprintf(file,
-          "set lmargin at screen %g\nset rmargin at screen %g\nset tmargin at screen %g\nset bmargin at screen %g\n"
-          "set label 5 '%s = %.4g %s' at graph 0.5, graph 1.08 center font ',11' noenhanced\n"
-          "set xlabel font ',11' offset 0,0.5\nset ylabel font ',11' offset -0.3\n",
-          left, left + width - 0.025, top - 0.035, top - height + 0.03, zp_key(grid->z)->name,
-          value * zp_sweep_factor(grid->z), zp_key(grid->z)->shown);
-  const bool lowest = k + across >= panels, first = k % across == 0;
-  fprintf(file, "set format x '%s'\nset format y '%s'\n", lowest ? "%g" : "", first ? "%g" : "");
-  if (!lowest) fputs("unset xlabel\n", file);
-  if (!first) fputs("unset ylabel\n", file);
-}
-
-static void script_maps(const ZpPlot *plot, FILE *file) {
+/* A panel: panel_at[k], the value of the third key, `z_name`. */
+static void define_maps(const ZpPlot *plot, FILE *file) {
   Grid grid;
-  double low, high;
   if (!find_grid(plot, &grid)) return;
-  const ZpPlotUnit unit = put_head(plot, file, &grid, "maps", &low, &high);
-  fprintf(file, "set tics font ',11' scale 0.4\nset cbrange [%.17g:%.17g]\nset multiplot\n", low * unit.factor,
-          high * unit.factor);
+  define_map(plot, file);
+  zp_plot_define_text(file, "z_name", zp_key(grid.z)->name);
+  zp_plot_define_text(file, "z_unit", zp_key(grid.z)->shown);
+  zp_plot_define_array(file, "panel_at", drawn_panels(&grid));
   for (size_t k = 0; k < drawn_panels(&grid); k++) {
-    put_axes(plot, file, &grid, unit);
-    put_panel(plot, file, &grid, k);
-    put_surface(file, &grid, unit, "maps", k, 4);
-    fputs("unset label 1\nunset label 2\nunset label 3\nunset label 4\n", file);
+    const double value = zp_sweep_value(plot, chosen_panel(&grid, k) * grid.rows * grid.columns, grid.z);
+    zp_plot_define(file, zp_plot_entry("panel_at", k + 1).text, value * zp_sweep_factor(grid.z));
   }
-  fputs("unset multiplot\n", file);
 }
 
-const ZpPicture zp_map_pictures[] = {
-    {"map", "svg", has_map, script_map, data_map}, {"maps", "svg", has_maps, script_maps, data_map}, {0}};
+const ZpPicture zp_map_pictures[] = {{"map", "svg", has_map, define_map, data_map, "map.gp"},
+                                     {"maps", "svg", has_maps, define_maps, data_map, "maps.gp"},
+                                     {0}};

@@ -1,25 +1,14 @@
 /* Pictures of the states of rest along the voltage: stroke.svg or (isometric) force.svg, charge.svg, zipped_length.svg,
  * shapes.svg. */
 #include <math.h>
-#include <string.h>
 
 #include "io/plot.h"
-
-/* Right edge of the plot area; the legend is to the right of it. */
-#define RIGHT 0.76
 
 /* Curves of shapes.svg, as many as can be told apart. */
 #define SNAPSHOTS 9
 
 /* The kinds of curve; a curve of each kind that a table has is one index of the .dat. */
 enum { STABLE, UNSTABLE, CLOSED_STABLE, CLOSED_UNSTABLE, KINDS };
-
-static const struct {
-  const char *legend, *look;
-} kind_of_curve[KINDS] = {{"stable", "lw 2.5 lc rgb '#0072b2'"},
-                          {"unstable", "lw 1.5 dt 2 lc rgb '#d55e00'"},
-                          {"stable, closed", "lw 2.5 lc rgb '#009e73'"},
-                          {"unstable, closed", "lw 1.5 dt 2 lc rgb '#b8a800'"}};
 
 static const ZpTable *series(const ZpPlot *plot) {
   return plot->single->series;
@@ -84,28 +73,6 @@ static void data_path(const ZpPlot *plot, FILE *file) {
   }
 }
 
-static ZpPlotUnit voltage_unit(const ZpPlot *plot) {
-  return zp_plot_unit(plot->def.drive.voltage, "V");
-}
-
-static void begin(const ZpPlot *plot, FILE *file, ZpPlotUnit voltage) {
-  fprintf(file, "set xrange [0:%.17g]\nset xlabel 'voltage / %s'\n", plot->def.drive.voltage * voltage.factor,
-          voltage.text);
-}
-
-/* The curves of column `column` of NAME.dat. */
-static void plot_path(const ZpPlot *plot, FILE *file, const char *name, int column, ZpPlotUnit unit) {
-  int index = 0;
-  for (int k = 0; k < KINDS; k++) {
-    if (!has_kind(plot, k)) continue;
-    fprintf(file, "%s'%s.dat' index %d using ($1*%g):($%d*%g) with lines %s title \"%s\"",
-            index ? ", \\\n     " : "plot ", name, index, voltage_unit(plot).factor, column, unit.factor,
-            kind_of_curve[k].look, kind_of_curve[k].legend);
-    index++;
-  }
-  fputc('\n', file);
-}
-
 /* A jump from one stable part to another at a voltage. */
 typedef struct Jump {
   double voltage, from, to; /* V; m of the travel, NAN if unknown */
@@ -148,91 +115,46 @@ static Jump jump_at(const ZpPlot *plot, const char *scalar) {
   return jump;
 }
 
-/* A thin arrow with its voltage beside it; a point where it is not known where the jump ends. */
-static void mark_jump(const ZpPlot *plot, FILE *file, int tag, const char *scalar, const char *name,
-                      ZpPlotUnit length) {
+/* NAME_at, NAME_from, NAME_to. */
+static void define_jump(const ZpPlot *plot, FILE *file, const char *name, const char *scalar) {
   const Jump jump = jump_at(plot, scalar);
-  const ZpPlotUnit voltage = voltage_unit(plot);
-  const bool left = jump.voltage > 0.78 * plot->def.drive.voltage, whole = isfinite(jump.to);
-  double at = jump.voltage * voltage.factor, from = jump.from * length.factor, to = jump.to * length.factor;
-  if (!isfinite(at) || !isfinite(from)) return;
-  if (whole)
-    fprintf(file,
-            "set arrow %d from %.17g,%.17g to %.17g,%.17g front head filled size screen 0.012,18 lw 1.2 "
-            "lc rgb '#333333'\n",
-            tag, at, from, at, to);
-  fprintf(file, "set label %d at %.17g,%.17g point pt 7 ps 0.6 lc rgb '#333333' front\n", tag + 20, at, from);
-  fprintf(file, "set label %d '%s %.4g %s' at %.17g,%.17g %s offset char %d,0 front font ',12'\n", tag + 10, name, at,
-          voltage.text, at, whole ? (from + to) / 2 : from, left ? "right" : "left", left ? -1 : 1);
+  const double value[] = {jump.voltage, jump.from, jump.to};
+  static const char *const part[] = {"at", "from", "to"};
+  for (size_t i = 0; i < 3; i++) {
+    char variable[32];
+    snprintf(variable, sizeof variable, "%s_%s", name, part[i]);
+    zp_plot_define(file, variable, value[i]);
+  }
+}
+
+static void define_path(const ZpPlot *plot, FILE *file) {
+  static const char *const kind_name[KINDS] = {"stable", "unstable", "closed_stable", "closed_unstable"};
+  zp_plot_define_key(plot, file, "actuator.kind");
+  zp_plot_define_key(plot, file, "drive.voltage");
+  zp_plot_define_word(file, "travel", travel(plot));
+  fputs("kinds = '", file);
+  for (int k = 0; k < KINDS; k++)
+    if (has_kind(plot, k)) fprintf(file, "%s ", kind_name[k]);
+  fputs("'\n", file);
+  define_jump(plot, file, "pull_in", "pull_in_voltage_V");
+  define_jump(plot, file, "release", "release_voltage_V");
+  zp_plot_define_table(file, series(plot));
 }
 
 static bool has_stroke(const ZpPlot *plot) {
   return is_path(plot) && !is_held(plot) && zp_plot_has(series(plot), travel(plot));
 }
 
-static void script_stroke(const ZpPlot *plot, FILE *file) {
-  const bool opens = strcmp(travel(plot), "opening_m") == 0;
-  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){travel(plot), NULL}, "m");
-  zp_plot_head(plot, file, "stroke", opens ? "Opening at rest against voltage" : "Stroke at rest against voltage",
-               RIGHT);
-  begin(plot, file, voltage_unit(plot));
-  mark_jump(plot, file, 11, "pull_in_voltage_V", "pull-in", length);
-  mark_jump(plot, file, 12, "release_voltage_V", "release", length);
-  fprintf(file, "set ylabel '%s / %s' offset 0.5\nset autoscale y noextend\nset offsets 0, 0, graph 0.05, graph 0.03\n",
-          opens ? "opening" : "stroke", length.text);
-  plot_path(plot, file, "stroke", 2, length);
-}
-
 static bool has_force(const ZpPlot *plot) {
   return is_path(plot) && is_held(plot) && zp_plot_has(series(plot), "force_N");
-}
-
-static void script_force(const ZpPlot *plot, FILE *file) {
-  ZpPlotUnit unit = zp_plot_table_unit(series(plot), (const char *const[]){"force_N", NULL}, "N");
-  zp_plot_head(plot, file, "force", "Force on the held platform against voltage", RIGHT);
-  begin(plot, file, voltage_unit(plot));
-  fprintf(file,
-          "set ylabel 'force / %s' offset 0.5\nset autoscale y noextend\nset offsets 0, 0, graph 0.05, graph 0.03\n",
-          unit.text);
-  plot_path(plot, file, "force", 2, unit);
 }
 
 static bool has_zipped_length(const ZpPlot *plot) {
   return is_path(plot) && plot->def.actuator.kind != ZP_KIND_RIBBON && zp_plot_has(series(plot), "zipped_length_m");
 }
 
-static void script_zipped_length(const ZpPlot *plot, FILE *file) {
-  ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"zipped_length_m", NULL}, "m");
-  const char *title = plot->def.actuator.kind == ZP_KIND_FLANGE
-                          ? "Closed length at rest against voltage"
-                          : "Closed length from the clip, one half, against voltage";
-  zp_plot_head(plot, file, "zipped_length", title, RIGHT);
-  begin(plot, file, voltage_unit(plot));
-  fprintf(file, "set yrange [0:*]\nset ylabel 'zipped length / %s' offset 0.5\nset offsets 0, 0, graph 0.05, 0\n",
-          length.text);
-  plot_path(plot, file, "zipped_length", 3, length);
-}
-
 static bool has_charge(const ZpPlot *plot) {
   return has_zipped_length(plot) && zp_plot_has(series(plot), "charge_C") && zp_plot_has(series(plot), "capacitance_F");
-}
-
-static void script_charge(const ZpPlot *plot, FILE *file) {
-  ZpPlotUnit charge = zp_plot_table_unit(series(plot), (const char *const[]){"charge_C", NULL}, "C");
-  ZpPlotUnit capacitance = zp_plot_table_unit(series(plot), (const char *const[]){"capacitance_F", NULL}, "F");
-  ZpPlotUnit voltage = voltage_unit(plot);
-  char label[32];
-  snprintf(label, sizeof label, "voltage / %s", voltage.text);
-  zp_plot_head(plot, file, "charge", "Charge and capacitance at rest against voltage", RIGHT);
-  begin(plot, file, voltage);
-  fputs("set yrange [0:*]\nset offsets 0, 0, graph 0.05, 0\n", file);
-  zp_plot_upper_panel(file);
-  fprintf(file, "set ylabel 'charge / %s' offset 0.5\n", charge.text);
-  plot_path(plot, file, "charge", 4, charge);
-  zp_plot_lower_panel(file, RIGHT, label);
-  fprintf(file, "unset key\nset ylabel 'capacitance / %s' offset 0.5\n", capacitance.text);
-  plot_path(plot, file, "charge", 5, capacitance);
-  fputs("unset multiplot\n", file);
 }
 
 /* -- shapes --------------------------------------------------------------------------------------- */
@@ -294,35 +216,25 @@ static void data_shapes(const ZpPlot *plot, FILE *file) {
   }
 }
 
-static void script_shapes(const ZpPlot *plot, FILE *file) {
+static void define_shapes(const ZpPlot *plot, FILE *file) {
   const ZpPlotBox box = zp_plot_box(film(plot));
-  const ZpPlotUnit length = zp_plot_box_unit(&box), voltage = voltage_unit(plot);
   size_t chosen[SNAPSHOTS], count = choose(plot, chosen);
-  zp_plot_head_of_shapes(plot, file, "shapes", "Shapes at rest", 0.78);
-  if (!zp_plot_fits_same_scale(&box)) zp_plot_remark(file, "x and y have different scales");
-  fprintf(file,
-          "set key title 'along the path' left font ',12'\n"
-          "set xlabel 'x / %s'\nset ylabel 'y / %s' offset 0.5\nset autoscale noextend\n"
-          "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04\n",
-          length.text, length.text);
-  if (zp_plot_fits_same_scale(&box)) zp_plot_same_scale(file, &box, length, 10);
+  zp_plot_define_key(plot, file, "drive.voltage");
+  zp_plot_define_count(file, "half", zp_plot_is_half(plot));
+  zp_plot_define_box(file, &box);
+  zp_plot_define_array(file, "voltage_at", count);
+  zp_plot_define_array(file, "stable", count);
   for (size_t k = 0; k < count; k++) {
-    bool stable = kind(plot, row_of(plot, chosen[k])) % 2 == 0;
-    fprintf(file,
-            "%s'shapes.dat' index %zu using ($1*%g):($2*%g) with lines lw 2 %slc rgb '#%06x' "
-            "title '%.3g %s%s'",
-            k ? ", \\\n     " : "plot ", k, length.factor, length.factor, stable ? "" : "dt 2 ",
-            zp_plot_shade((double)k / (double)(count - 1)),
-            zp_shapes_get(film(plot), chosen[k]).voltage * voltage.factor, voltage.text, stable ? "" : ", unstable");
+    zp_plot_define(file, zp_plot_entry("voltage_at", k + 1).text, zp_shapes_get(film(plot), chosen[k]).voltage);
+    zp_plot_define_count(file, zp_plot_entry("stable", k + 1).text, kind(plot, row_of(plot, chosen[k])) % 2 == 0);
   }
-  fputc('\n', file);
 }
 
 const ZpPicture zp_path_pictures[] = {
-    {"stroke", "svg", has_stroke, script_stroke, data_path},
-    {"force", "svg", has_force, script_force, data_path},
-    {"zipped_length", "svg", has_zipped_length, script_zipped_length, data_path},
-    {"charge", "svg", has_charge, script_charge, data_path},
-    {"shapes", "svg", has_shapes, script_shapes, data_shapes},
+    {"stroke", "svg", has_stroke, define_path, data_path, "stroke_rest.gp"},
+    {"force", "svg", has_force, define_path, data_path, "force_rest.gp"},
+    {"zipped_length", "svg", has_zipped_length, define_path, data_path, "zipped_length_rest.gp"},
+    {"charge", "svg", has_charge, define_path, data_path, "charge_rest.gp"},
+    {"shapes", "svg", has_shapes, define_shapes, data_shapes, "shapes_rest.gp"},
     {0},
 };

@@ -3,10 +3,8 @@
 
 #include "io/plot.h"
 
-/* Modes drawn, in rows of as many panels. */
-#define MODES  6
-#define ACROSS 3
-#define DOWN   2
+/* Modes drawn. */
+#define MODES 6
 
 static const ZpShapes *film(const ZpPlot *plot) {
   return plot->single->shapes;
@@ -35,39 +33,23 @@ static void data_shape(const ZpPlot *plot, FILE *file) {
   }
 }
 
-static void script_shape(const ZpPlot *plot, FILE *file) {
+static void define_shapes(const ZpPlot *plot, FILE *file) {
   const ZpPlotBox box = zp_plot_box(film(plot));
-  const ZpPlotUnit length = zp_plot_box_unit(&box);
-  const bool pair = film(plot)->ribbons > 1, tall = zp_plot_fits_same_scale(&box);
-  double stroke = zp_result_get(plot->single, "stroke_m");
-  zp_plot_head_of_shapes(plot, file, "shape", "Shape at rest", pair ? 0.82 : 0.96);
-  if (!tall) zp_plot_remark(file, "x and y have different scales");
-  fprintf(file,
-          "set xlabel 'x / %s'\nset ylabel 'y / %s' offset 0.5\nset autoscale noextend\n"
-          "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04\n",
-          length.text, length.text);
-  if (tall) zp_plot_same_scale(file, &box, length, 10);
-  if (isfinite(stroke))
-    fprintf(file, "set label 5 'stroke %.4g %s' at screen %g,0.905 right font ',12' tc rgb '#555555'\n",
-            stroke * length.factor, length.text, 0.985);
-  for (size_t r = 0; r < film(plot)->ribbons; r++)
-    fprintf(file, "%s'shape.dat' index %zu using ($1*%g):($2*%g) with lines lw 2.5 lc rgb '%s' %s",
-            r ? ", \\\n     " : "plot ", r, length.factor, length.factor, zp_plot_colour(r),
-            !pair ? "notitle"
-            : r   ? "title 'lower'"
-                  : "title 'upper'");
-  fputc('\n', file);
+  zp_plot_define_count(file, "half", zp_plot_is_half(plot));
+  zp_plot_define_count(file, "ribbons", film(plot)->ribbons);
+  zp_plot_define_box(file, &box);
+}
+
+static void define_shape(const ZpPlot *plot, FILE *file) {
+  define_shapes(plot, file);
+  zp_plot_define_scalar(plot, file, "stroke_m");
 }
 
 /* -- modes ---------------------------------------------------------------------------------------- */
 
 /* Frames have the number of their mode as time; 0 is the equilibrium itself. */
-static bool is_rest(const ZpPlot *plot, size_t frame) {
-  return zp_shapes_get(film(plot), frame).time == 0;
-}
-
 static bool starts_at_rest(const ZpPlot *plot) {
-  return is_rest(plot, 0);
+  return zp_shapes_get(film(plot), 0).time == 0;
 }
 
 static bool has_modes(const ZpPlot *plot) {
@@ -90,59 +72,16 @@ static void data_modes(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* Edges of panel k on the screen and its title. */
-static void panel(const ZpPlot *plot, FILE *file, size_t k) {
-  const size_t column = k % ACROSS, row = k / ACROSS;
-  const double left = 0.09 + 0.305 * (double)column, top = 0.82 - 0.37 * (double)row;
-  double frequency = zp_table_get(plot->single->series, k, "frequency_Hz");
-  if (k == 1) fputs("unset label\n", file);
-  fprintf(file,
-          "set lmargin at screen %.4g\nset rmargin at screen %.4g\n"
-          "set tmargin at screen %.4g\nset bmargin at screen %.4g\n"
-          "set label 6 '%zu: %.4g Hz' at graph 0.5,1.09 center font ',13'\n",
-          left, left + 0.275, top, top - 0.29, k + 1, frequency);
-}
-
-static void plot_mode(const ZpPlot *plot, FILE *file, size_t k, ZpPlotUnit length) {
-  const bool rest = starts_at_rest(plot);
-  fputs("plot ", file);
-  if (rest)
-    fprintf(file, "'modes.dat' index 0 using ($1*%g):($2*%g) with lines lw 1.5 lc rgb '#999999', \\\n     ",
-            length.factor, length.factor);
-  fprintf(file, "'modes.dat' index %zu using ($1*%g):($2*%g) with lines lw 2 lc rgb '%s'\n", k + rest, length.factor,
-          length.factor, zp_plot_colour(0));
-}
-
-static void script_modes(const ZpPlot *plot, FILE *file) {
-  const ZpPlotBox box = zp_plot_box(film(plot));
-  const ZpPlotUnit length = zp_plot_box_unit(&box);
-  const double edge = 0.04 * (box.right - box.left), bottom = box.bottom - edge, top = box.top + edge;
-  const size_t count = modes(plot);
-  zp_plot_head_of_shapes(plot, file, "modes", "Modes about the loaded equilibrium", 0.96);
-  zp_plot_remark(file, starts_at_rest(plot) ? "grey: at rest; the size of a mode is arbitrary"
-                                            : "the size of a mode is arbitrary");
-  fprintf(file,
-          "unset key\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n"
-          "set xtics font ',11'\nset ytics font ',11'\n",
-          (box.left - edge) * length.factor, (box.right + edge) * length.factor, bottom * length.factor,
-          top * length.factor);
-  zp_plot_same_scale(file, &box, length, 6);
-  fputs("set multiplot\n", file);
-  for (size_t k = 0; k < count; k++) {
-    panel(plot, file, k);
-    fprintf(file, k + ACROSS >= count ? "set xlabel 'x / %s'\nset format x '%%g'\n" : "unset xlabel\nset format x ''\n",
-            length.text);
-    fprintf(file,
-            k % ACROSS == 0 ? "set ylabel 'y / %s' offset 0.5\nset format y '%%g'\n"
-                            : "unset ylabel\nset format y ''\n",
-            length.text);
-    plot_mode(plot, file, k, length);
-  }
-  fputs("unset multiplot\n", file);
+static void define_modes(const ZpPlot *plot, FILE *file) {
+  define_shapes(plot, file);
+  zp_plot_define_count(file, "at_rest", starts_at_rest(plot));
+  zp_plot_define_array(file, "frequency", modes(plot));
+  for (size_t k = 0; k < modes(plot); k++)
+    zp_plot_define(file, zp_plot_entry("frequency", k + 1).text, zp_table_get(plot->single->series, k, "frequency_Hz"));
 }
 
 const ZpPicture zp_rest_pictures[] = {
-    {"shape", "svg", has_shape, script_shape, data_shape},
-    {"modes", "svg", has_modes, script_modes, data_modes},
+    {"shape", "svg", has_shape, define_shape, data_shape, "shape.gp"},
+    {"modes", "svg", has_modes, define_modes, data_modes, "modes.gp"},
     {0},
 };

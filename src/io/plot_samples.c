@@ -9,9 +9,6 @@
 #include "io/sweep.h"
 #include "sample/statistics.h"
 
-/* Right edge of the plot area; the legend is to the right of it. */
-#define RIGHT 0.76
-
 /* Curves of a picture. */
 enum { CURVES = 8 };
 
@@ -55,31 +52,31 @@ static Drawn look(const ZpPlot *plot) {
 }
 
 /* "8 g, pull-in": the values of the lists, and the answer where the study has two. */
-static void name_curve(const ZpPlot *plot, FILE *file, const Drawn *d, const Curve *curve) {
+static void name_curve(const ZpPlot *plot, const Drawn *d, const Curve *curve, char text[256]) {
   size_t keys, used = 0;
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);
-  char text[256] = "", value[64];
+  char value[64];
+  text[0] = 0;
   ZpActuatorDef def;
   if (zp_scenario_def(plot->report->scenario, curve->start, &def, NULL) != ZP_OK) return;
-  for (size_t i = 0; i < keys && used < sizeof text; i++) {
+  for (size_t i = 0; i < keys && used < 256; i++) {
     if (zp_scenario_spread(plot->report->scenario, key[i])) continue;
     zp_value_print(key[i], zp_def_get(&def, key[i]), value, sizeof value);
-    used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", value);
+    used += (size_t)snprintf(text + used, 256 - used, "%s%s", used ? ", " : "", value);
   }
-  if (used < sizeof text)
-    snprintf(text + used, sizeof text - used, "%s%s", used && curve->legend ? ", " : "",
+  if (used < 256)
+    snprintf(text + used, 256 - used, "%s%s", used && curve->legend ? ", " : "",
              curve->legend ? curve->legend
              : used        ? ""
                            : d->axis);
-  zp_plot_text(file, text);
 }
 
-static ZpPlotUnit unit_of(const ZpPlot *plot, const Drawn *d) {
+static double largest_of(const ZpPlot *plot, const Drawn *d) {
   double largest = 0;
   for (size_t k = 0; k < d->curves; k++)
     for (size_t i = 0; i < d->count; i++)
       largest = fmax(largest, fabs(value_of(plot, &d->curve[k], i))); /* fmax leaves out what is not there */
-  return d->unit ? zp_plot_unit(largest, d->unit) : (ZpPlotUnit){.factor = 1};
+  return largest;
 }
 
 /* -- distribution ----------------------------------------------------------------------------------- */
@@ -120,22 +117,18 @@ static void data_distribution(const ZpPlot *plot, FILE *file) {
   free(value);
 }
 
-static void script_distribution(const ZpPlot *plot, FILE *file) {
+static void define_distribution(const ZpPlot *plot, FILE *file) {
   const Drawn d = look(plot);
-  const ZpPlotUnit unit = unit_of(plot, &d);
-  char remark[96];
-  zp_plot_head(plot, file, "distribution", "Distribution over the samples", RIGHT);
-  snprintf(remark, sizeof remark, "%zu samples per curve; those without a value are left out",
-           d.design->count * (d.design->indices ? ZP_BLOCK_FIRST : 1));
-  zp_plot_remark(file, remark);
-  fprintf(file, "set xlabel '%s%s%s'\nset ylabel 'share of the samples below / %%' offset 0.5\nset yrange [0:100]\n",
-          d.axis, d.unit ? " / " : "", unit.text);
+  char name[256];
+  zp_plot_define_text(file, "quantity", d.axis);
+  zp_plot_define_word(file, "si", d.unit ? d.unit : "");
+  zp_plot_define(file, "largest_value", largest_of(plot, &d));
+  zp_plot_define_count(file, "samples", d.design->count * (d.design->indices ? ZP_BLOCK_FIRST : 1));
+  zp_plot_define_array(file, "curve", d.curves);
   for (size_t k = 0; k < d.curves; k++) {
-    fprintf(file, "%s'distribution.dat' index %zu using ($1*%g):2 with lines lw 2 lc rgb '%s' title ",
-            k ? ", \\\n     " : "plot ", k, unit.factor, zp_plot_colour(k));
-    name_curve(plot, file, &d, &d.curve[k]);
+    name_curve(plot, &d, &d.curve[k], name);
+    zp_plot_define_text(file, zp_plot_entry("curve", k + 1).text, name);
   }
-  fputc('\n', file);
 }
 
 /* -- indices ---------------------------------------------------------------------------------------- */
@@ -177,33 +170,23 @@ static void data_indices(const ZpPlot *plot, FILE *file) {
   free(value);
 }
 
-static void script_indices(const ZpPlot *plot, FILE *file) {
+/* The keys from the top: row `keys` down to row 1. */
+static void define_indices(const ZpPlot *plot, FILE *file) {
   const Drawn d = look(plot);
   const int *all;
   int key[KEYS_MOST];
   const size_t keys = drawn_keys(plot, &all, key);
-  char title[128];
-  snprintf(title, sizeof title, "What the scatter of the %s%s%s follows from",
-           d.curve[0].legend ? d.curve[0].legend : "", d.curve[0].legend ? " " : "", d.axis);
-  zp_plot_head(plot, file, "indices", title, RIGHT);
-  fputs(
-      "set lmargin at screen 0.29\nset xlabel 'share of the variance / %'\nset style fill solid noborder\nset ytics (",
-      file);
-  for (size_t k = 0; k < keys; k++) {
-    if (k) fputs(", ", file);
-    zp_plot_text(file, zp_key(key[k])->name);
-    fprintf(file, " %zu", keys - k);
-  }
-  fprintf(file, ") font ',12'\nset yrange [0.4:%zu.6]\nset xrange [*<0:100<*]\n", keys);
-  for (int total = 0; total < 2; total++)
-    fprintf(file, "%s'indices.dat' index %d using (0):1:(0):2:($1+%g):($1+%g) with boxxyerror fc rgb '%s' title '%s'",
-            total ? ", \\\n     " : "plot ", total, total ? -0.38 : 0.02, total ? -0.02 : 0.38,
-            zp_plot_colour((size_t)total), total ? "with interactions" : "by itself");
-  fputc('\n', file);
+  char quantity[128];
+  snprintf(quantity, sizeof quantity, "%s%s%s", d.curve[0].legend ? d.curve[0].legend : "",
+           d.curve[0].legend ? " " : "", d.axis);
+  zp_plot_define_text(file, "quantity", quantity);
+  zp_plot_define_array(file, "key_name", keys);
+  for (size_t k = 0; k < keys; k++)
+    zp_plot_define_text(file, zp_plot_entry("key_name", k + 1).text, zp_key(key[k])->name);
 }
 
 const ZpPicture zp_sample_pictures[] = {
-    {"distribution", "svg", has_distribution, script_distribution, data_distribution},
-    {"indices", "svg", has_indices, script_indices, data_indices},
+    {"distribution", "svg", has_distribution, define_distribution, data_distribution, "distribution.gp"},
+    {"indices", "svg", has_indices, define_indices, data_indices, "indices.gp"},
     {0},
 };

@@ -82,40 +82,28 @@ static void data_tornado(const ZpPlot *plot, FILE *file) {
 }
 
 /* "pull_in_voltage_V" => "pull in voltage" */
-static void write_title(const char *output, FILE *file) {
+static void define_output(FILE *file, size_t k, const char *output) {
   char words[64];
   snprintf(words, sizeof words, "%s", output);
   char *unit = strrchr(words, '_');
   if (unit) *unit = 0;
   for (char *c = words; *c; c++)
     if (*c == '_') *c = ' ';
-  zp_plot_text(file, words);
+  zp_plot_define_text(file, zp_plot_entry("output", k).text, words);
 }
 
-static void script_tornado(const ZpPlot *plot, FILE *file) {
+/* The keys from the top: row `keys` down to row 1. */
+static void define_tornado(const ZpPlot *plot, FILE *file) {
   const Tornado t = tornado(plot);
-  const double high = 0.8 / (double)t.outputs;
-  zp_plot_head(plot, file, "tornado", "What counts: percent of the outputs per percent of a key", 0.775);
-  fputs("set lmargin at screen 0.29\nset xlabel 'change of an output for 1 % of the key / %'\n"
-        "set yzeroaxis lt 1 lw 1 lc rgb '#555555'\nset autoscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
-        "set style fill solid noborder\nset ytics (",
-        file);
-  for (size_t i = 0; i < t.keys; i++) {
-    if (i) fputs(", ", file);
-    zp_plot_text(file, zp_key(t.key[i])->name);
-    fprintf(file, " %zu", t.keys - i);
-  }
-  fprintf(file, ") font ',12'\nset yrange [0.4:%zu.6]\n", t.keys);
-  for (size_t k = 0; k < t.outputs; k++) {
-    double top = 0.4 - high * (double)k;
-    fprintf(file, "%s'tornado.dat' index %zu using (0):1:(0):2:($1+%g):($1+%g) with boxxyerror fc rgb '%s' title ",
-            k ? ", \\\n     " : "plot ", k, top - 0.9 * high, top, zp_plot_colour(k));
-    write_title(t.output[k], file);
-  }
-  fputc('\n', file);
+  zp_plot_define_array(file, "output", t.outputs);
+  for (size_t k = 0; k < t.outputs; k++)
+    define_output(file, k + 1, t.output[k]);
+  zp_plot_define_array(file, "key_name", t.keys);
+  for (size_t i = 0; i < t.keys; i++)
+    zp_plot_define_text(file, zp_plot_entry("key_name", i + 1).text, zp_key(t.key[i])->name);
 }
 
 const ZpPicture zp_sensitivity_pictures[] = {
-    {"tornado", "svg", has_tornado, script_tornado, data_tornado},
-    {NULL, NULL, NULL, NULL, NULL},
+    {"tornado", "svg", has_tornado, define_tornado, data_tornado, "tornado.gp"},
+    {0},
 };

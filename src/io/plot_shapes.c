@@ -57,27 +57,15 @@ static void data_profiles(const ZpPlot *plot, FILE *file) {
   }
 }
 
-static void script_profiles(const ZpPlot *plot, FILE *file) {
+static void define_profiles(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   const ZpPlotBox box = zp_plot_box(shapes);
-  const bool tall = zp_plot_fits_same_scale(&box);
-  ZpPlotUnit length = zp_plot_box_unit(&box);
-  ZpPlotUnit time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
-  zp_plot_head_of_shapes(plot, file, "profiles", shapes->ribbons > 1 ? "Shapes of the ribbons" : "Shapes of the ribbon",
-                         0.82);
-  zp_plot_foot(plot, file, tall ? NULL : "x and y have different scales");
-  fprintf(file,
-          "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#c8d020')\n"
-          "set cblabel 'time / %s' offset 0.5\nset cbrange [%.17g:%.17g]\n"
-          "set colorbox user origin screen 0.85, screen 0.17 size screen 0.025, screen 0.69\n"
-          "set xlabel 'x / %s'\nset ylabel 'y / %s' offset 0.5\n",
-          time.text, time_of(shapes, 0) * time.factor, time_of(shapes, shapes->frames - 1) * time.factor, length.text,
-          length.text);
-  if (tall) fputs("set size ratio -1\n", file);
-  fprintf(file,
-          "set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04\n"
-          "plot 'profiles.dat' using ($1*%g):($2*%g):($3*%g) with lines lw 2 lc palette z notitle\n",
-          length.factor, length.factor, time.factor);
+  zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
+  zp_plot_define_count(file, "half", zp_plot_is_half(plot));
+  zp_plot_define_count(file, "ribbons", shapes->ribbons);
+  zp_plot_define_box(file, &box);
+  zp_plot_define(file, "begin", time_of(shapes, 0));
+  zp_plot_define(file, "end", time_of(shapes, shapes->frames - 1));
 }
 
 /* The node of the lower ribbon at the platform's left end, or the right end of the one ribbon. */
@@ -93,7 +81,6 @@ typedef struct Stage {
   double middle; /* x of the platform's middle (kind ribbon: of the middle of the box) */
   double half;   /* half of the width of all that moves */
   double clamp;  /* x of the left end, from the middle */
-  double unit;   /* a length to size clip, load and margins with */
   size_t frames; /* different ones */
   double delay;  /* of a frame, hundredths of a second, whole */
 } Stage;
@@ -105,7 +92,6 @@ static Stage stage_of(const ZpPlot *plot) {
   if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[load_node(plot)] + plot->def.platform.length / 2;
   s.half = fmax(s.middle - s.box.left, s.box.right - s.middle);
   s.clamp = zp_shapes_get(shapes, 0).x[0] - s.middle;
-  s.unit = 0.1 * s.half;
   s.frames = shapes->frames < FILM_FRAMES ? shapes->frames : FILM_FRAMES;
   s.delay = fmin(fmax(round(FILM_LENGTH / (double)s.frames), 2), 40);
   return s;
@@ -200,160 +186,51 @@ static void put_array(const ZpPlot *plot, FILE *file, const Stage *stage, const 
   fputs("]\n", file);
 }
 
-/* "slowed down 60 times": how the time of the film goes. */
-static void print_pace(const ZpPlot *plot, const Stage *stage, char *text, size_t size) {
-  const ZpShapes *shapes = film(plot);
-  double span = time_of(shapes, shapes->frames - 1) - time_of(shapes, 0);
-  double factor = stage->delay / 100 * (double)(stage->frames - 1) / span;
-  if (is_path(plot))
-    snprintf(text, size, "states of rest one after the other, stable or not");
-  else if (!isfinite(factor))
-    snprintf(text, size, "still picture");
-  else if (factor >= 1)
-    snprintf(text, size, "slow motion, %.3g times slower than real", factor);
-  else
-    snprintf(text, size, "fast motion, %.3g times faster than real", 1 / factor);
-}
-
-static void animation_head(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
-  char pace[96];
-  print_pace(plot, s, pace, sizeof pace);
-  fprintf(file,
-          "# Draw again with: gnuplot animation.gp\n"
-          "if (!exists('out')) out = 'animation.gif'\n"
-          "set encoding utf8\n"
-          "set terminal gif animate delay %g loop 0 size 640,480 noenhanced background '#ffffff'\n"
-          "set output out\nunset key\nset grid lc rgb '#dddddd' lw 1 lt 1\nset border lc rgb '#333333'\n"
-          "set tics nomirror\nset size ratio -1\nset tmargin 5\nset bmargin 5\n"
-          "set xlabel 'x / %s'\nset ylabel 'y / %s'\n"
-          "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\n",
-          s->delay, mm.text, mm.text, -(s->half + 1.8 * s->unit) * mm.factor, (s->half + 1.8 * s->unit) * mm.factor,
-          (s->box.bottom - 3 * s->unit) * mm.factor, (s->box.top + 1.2 * s->unit) * mm.factor);
-  fputs("set label 2 ", file);
-  zp_plot_text(file, plot->subtitle);
-  fprintf(file, " at screen 0.5,0.91 center\nset label 3 '%s' at screen 0.5,0.865 center\n", pace);
-  if (is_path(plot)) return;
-  fputs("set label 4 ", file);
-  zp_plot_text(file, zp_plot_drag_note(plot));
-  fputs(" at screen 0.5,0.025 center font ',10' tc rgb '#555555'\n", file);
-}
-
-/* Clip and holder, which stay where they are, or a wall for the kind ribbon. */
-static void animation_scene(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
-  const double plat = plot->def.platform.length / 2, thick = 0.35 * s->unit;
-  if (film(plot)->ribbons > 1)
-    fprintf(file,
-            "set object 1 rectangle from %.6g,0 to %.6g,%.6g fc rgb '#555555' fs solid noborder\n"
-            "set arrow 1 from 0,%.6g to 0,graph 1 nohead lw 3 lc rgb '#555555'\n",
-            -plat * mm.factor, plat * mm.factor, thick * mm.factor, thick * mm.factor);
-  else
-    fprintf(file, "set object 1 rectangle from %.6g,%.6g to %.6g,%.6g fc rgb '#555555' fs solid noborder\n",
-            (s->clamp - thick) * mm.factor, -s->unit * mm.factor, s->clamp * mm.factor, s->unit * mm.factor);
-}
-
-/* Settings that move with the platform (kind ribbon: the right end): the platform itself, a string and
- * the load on it. h, v: where the load hangs. */
-static void animation_load(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
-  const double u = s->unit * mm.factor, plat = plot->def.platform.length / 2 * mm.factor;
-  const bool pair = film(plot)->ribbons > 1;
+/* What is drawn of the actuator: its ends, its platform and what hangs on it. */
+static void define_stage(const ZpPlot *plot, FILE *file, const Stage *stage) {
   char load[64];
-  if (pair) fputs("  h = 0\n", file);
-  if (!pair) fprintf(file, "  h = end_x[i]*%g - %.6g\n", mm.factor, s->middle * mm.factor);
-  fprintf(file, "  v = end_y[i]*%g\n", mm.factor);
-  if (pair)
-    fprintf(file, "  set object 2 rectangle from %.6g,v-%.6g to %.6g,v fc rgb '#555555' fs solid noborder\n", -plat,
-            0.35 * u, plat);
-  if (is_held(plot)) fputs("  set arrow 2 from h,v to h,graph 0 nohead lw 3 lc rgb '#555555'\n", file);
-  if (is_held(plot) || plot->def.load.mass <= 0) return;
   zp_value_print(zp_key_find("load.mass"), plot->def.load.mass, load, sizeof load);
-  fprintf(file,
-          "  set arrow 2 from h,v to h,v-%.6g nohead lw 2 lc rgb '#555555'\n"
-          "  set object 3 rectangle from h-%.6g,v-%.6g to h+%.6g,v-%.6g fc rgb '#e69f00' fs solid noborder\n"
-          "  set label 5 '%s' at h,v-%.6g center front\n",
-          u, 1.2 * u, 2.6 * u, 1.2 * u, u, load, 1.8 * u);
+  zp_plot_define_text(file, "load", load);
+  zp_plot_define_key(plot, file, "load.mass");
+  zp_plot_define_key(plot, file, "platform.length");
+  zp_plot_define_count(file, "ribbons", film(plot)->ribbons);
+  zp_plot_define_count(file, "held", is_held(plot));
+  zp_plot_define_count(file, "bead", zp_plot_has_bead(plot));
+  zp_plot_define_count(file, "bath", zp_plot_has_liquid(plot) && zp_def_liquid(&plot->def) != ZP_LIQUID_BEAD);
+  zp_plot_define_count(file, "platform_point",
+                       (zp_plot_is_half(plot) ? 2 : 1) * film(plot)->nodes / film(plot)->members - 1);
+  zp_plot_define_box(file, &stage->box);
+  zp_plot_define(file, "middle", stage->middle);
+  zp_plot_define(file, "reach", stage->half);
+  zp_plot_define(file, "clamp", stage->clamp);
 }
 
-static void path_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit mm) {
-  const ZpPlotUnit voltage = zp_plot_unit(plot->def.drive.voltage, "V");
-  if (is_held(plot))
-    fprintf(file, "  caption = sprintf('%%.2f %s', potential[i]*%g)\n", voltage.text, voltage.factor);
-  else
-    fprintf(file, "  caption = sprintf('%%.2f %s    stroke %%.2f %s', potential[i]*%g, stroke[i]*%g)\n", voltage.text,
-            mm.text, voltage.factor, mm.factor);
-  fputs("  set label 1 caption at screen 0.5,0.96 center\n", file);
-}
-
-static void animation_caption(const ZpPlot *plot, FILE *file, ZpPlotUnit time, ZpPlotUnit mm) {
-  if (is_path(plot)) {
-    path_caption(plot, file, mm);
-    return;
-  }
-  fprintf(file, "  caption = sprintf('t = %%.1f %s', now[i]*%g)\n", time.text, time.factor);
-  if (zp_plot_has(plot->single->series, "contraction"))
-    fputs("  if (contraction[i] == contraction[i]) { caption = caption . sprintf('    contraction %.0f %%', "
-          "contraction[i]*100) }\n",
-          file);
-  else if (zp_plot_has(plot->single->series, "stroke_m"))
-    fprintf(file,
-            "  if (stroke[i] == stroke[i]) { caption = caption . sprintf('    stroke %%.2f %s', stroke[i]*%g) }\n",
-            mm.text, mm.factor);
-  if (film(plot)->ribbons > 1) fputs("  caption = caption . sprintf('    %.4g kV', potential[i]/1000)\n", file);
-  fputs("  set label 1 caption at screen 0.5,0.96 center\n", file);
-}
-
-/* A bath is behind everything. */
-static void animation_bath(const ZpPlot *plot, FILE *file) {
-  if (!zp_plot_has_liquid(plot) || zp_def_liquid(&plot->def) == ZP_LIQUID_BEAD) return;
-  fputs("set object 4 rectangle from graph 0,0 to graph 1,1 behind fc rgb '#e2f1fa' fs solid noborder\n"
-        "set label 6 'liquid' at graph 0.02,0.07 front\n",
-        file);
-}
-
-/* Ribbons over their beads. */
-static void plot_frame(const ZpPlot *plot, FILE *file, ZpPlotUnit mm) {
+/* How the film goes. */
+static void define_animation(const ZpPlot *plot, FILE *file) {
+  const Stage stage = stage_of(plot);
   const ZpShapes *shapes = film(plot);
-  const bool bead = zp_plot_has_bead(plot);
-  const char *index = bead ? "2*i-2" : "i-1";
-  if (bead)
-    fprintf(file,
-            "  set key bottom left samplen 1.5\n"
-            "  plot 'animation.dat' index 2*i-1 using ($1*%g):($2*%g):($3*%g) with filledcurves fc rgb '#56b4e9' "
-            "title 'liquid', \\\n    ''",
-            mm.factor, mm.factor, mm.factor);
-  else
-    fputs("  plot 'animation.dat'", file);
-  fprintf(file, " index %s using ($1*%g):($2*%g) with lines lw 2 lc rgb '%s' notitle", index, mm.factor, mm.factor,
-          zp_plot_colour(0));
-  if (shapes->ribbons > 1)
-    fprintf(file,
-            ", \\\n    '' index %s using ($3*%g):($4*%g) with lines lw 2 lc rgb '%s' notitle"
-            ", \\\n    '' index %s every %zu using ($3*%g):($4*%g) with points pt 5 ps 1.5 lc rgb '#555555' notitle",
-            index, mm.factor, mm.factor, zp_plot_colour(1), index,
-            (zp_plot_is_half(plot) ? 2 : 1) * shapes->nodes / shapes->members - 1, mm.factor, mm.factor);
-}
-
-static void script_animation(const ZpPlot *plot, FILE *file) {
-  const Stage s = stage_of(plot);
-  const ZpShapes *shapes = film(plot);
-  ZpPlotUnit mm = zp_plot_unit(s.half, "m"), time = zp_plot_unit(time_of(shapes, shapes->frames - 1), "s");
-  animation_head(plot, file, &s, mm);
-  animation_scene(plot, file, &s, mm);
-  animation_bath(plot, file);
-  put_array(plot, file, &s, "now", CAPTION_TIME);
-  put_array(plot, file, &s, "potential", CAPTION_VOLTAGE);
-  put_array(plot, file, &s, "contraction", CAPTION_CONTRACTION);
-  put_array(plot, file, &s, "stroke", CAPTION_STROKE);
-  put_array(plot, file, &s, "end_x", CAPTION_END_X);
-  put_array(plot, file, &s, "end_y", CAPTION_END_Y);
-  fprintf(file, "do for [k=1:%zu] {\n  i = k > %zu ? %zu : k\n", s.frames + FILM_HOLD, s.frames, s.frames);
-  animation_caption(plot, file, time, mm);
-  animation_load(plot, file, &s, mm);
-  plot_frame(plot, file, mm);
-  fputs("\n}\n", file);
+  const bool path = is_path(plot);
+  zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
+  zp_plot_define_count(file, "path", path);
+  zp_plot_define_count(file, "contracts", !path && zp_plot_has(plot->single->series, "contraction"));
+  zp_plot_define_count(file, "strokes", !path && zp_plot_has(plot->single->series, "stroke_m"));
+  zp_plot_define_key(plot, file, "drive.voltage");
+  zp_plot_define_count(file, "frames", stage.frames);
+  zp_plot_define_count(file, "hold", FILM_HOLD);
+  zp_plot_define(file, "delay", stage.delay);
+  zp_plot_define(file, "begin", time_of(shapes, 0));
+  zp_plot_define(file, "end", time_of(shapes, shapes->frames - 1));
+  define_stage(plot, file, &stage);
+  put_array(plot, file, &stage, "now", CAPTION_TIME);
+  put_array(plot, file, &stage, "potential", CAPTION_VOLTAGE);
+  put_array(plot, file, &stage, "contraction", CAPTION_CONTRACTION);
+  put_array(plot, file, &stage, "stroke", CAPTION_STROKE);
+  put_array(plot, file, &stage, "end_x", CAPTION_END_X);
+  put_array(plot, file, &stage, "end_y", CAPTION_END_Y);
 }
 
 const ZpPicture zp_shape_pictures[] = {
-    {"profiles", "svg", has_shapes, script_profiles, data_profiles},
-    {"animation", "gif", has_animation, script_animation, data_animation},
+    {"profiles", "svg", has_shapes, define_profiles, data_profiles, "profiles.gp"},
+    {"animation", "gif", has_animation, define_animation, data_animation, "animation.gp"},
     {0},
 };

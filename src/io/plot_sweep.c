@@ -15,8 +15,6 @@
 #define LEGEND 10
 #define ROWS   200000
 
-#define RIGHT 0.76
-
 static bool is_sweep(const ZpPlot *plot) {
   return plot->shows == ZP_SHOWS_motion && !plot->single && plot->report->count > 0;
 }
@@ -40,19 +38,9 @@ static bool has_contraction(const ZpPlot *plot) {
   return false;
 }
 
-/* Colour of a run: one of a few that differ much, or a place on a scale from dark to light. */
-static unsigned colour_of(const ZpPlot *plot, size_t run) {
-  unsigned colour = 0;
-  if (plot->report->count <= ZP_COLOURS) {
-    sscanf(zp_plot_colour(run), "#%x", &colour);
-    return colour;
-  }
-  return zp_plot_shade((double)run / (double)(plot->report->count - 1));
-}
-
-/* A block per run: time, value, colour; NaN between them (plot_shapes.c says why). */
+/* A block per run: time, value, number of the run; NaN between them (plot_shapes.c says why). */
 static void data_contraction(const ZpPlot *plot, FILE *file) {
-  fprintf(file, "# time_s %s colour; NaN between runs\n", column(plot));
+  fprintf(file, "# time_s %s run; NaN between runs\n", column(plot));
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = series(plot, run);
     size_t rows = table ? table->rows : 0, step = rows * plot->report->count / ROWS + 1;
@@ -61,23 +49,23 @@ static void data_contraction(const ZpPlot *plot, FILE *file) {
       if (!isfinite(value) || (row % step && row + 1 < rows)) continue;
       zp_plot_put(file, zp_table_get(table, row, "time_s"), ' ');
       zp_plot_put(file, value, ' ');
-      fprintf(file, "%u\n", colour_of(plot, run));
+      fprintf(file, "%zu\n", run);
     }
-    fprintf(file, "NaN NaN %u\n", colour_of(plot, run));
+    fprintf(file, "NaN NaN %zu\n", run);
   }
 }
 
-/* Largest of a column over all runs, in its unit. */
-static ZpPlotUnit common_unit(const ZpPlot *plot, const char *name, const char *unit) {
-  ZpPlotUnit common = zp_plot_unit(0, unit);
-  bool first = true;
+/* Largest of a column over all runs. */
+static double largest_of(const ZpPlot *plot, const char *name) {
+  double largest = 0;
   for (size_t run = 0; run < plot->report->count; run++) {
     if (!zp_plot_has(series(plot, run), name)) continue;
-    ZpPlotUnit own = zp_plot_table_unit(series(plot, run), (const char *const[]){name, NULL}, unit);
-    if (first || own.factor < common.factor) common = own;
-    first = false;
+    for (size_t row = 0; row < series(plot, run)->rows; row++) {
+      const double value = fabs(zp_table_get(series(plot, run), row, name));
+      if (isfinite(value)) largest = fmax(largest, value);
+    }
   }
-  return common;
+  return largest;
 }
 
 /* "8 kV, 21": the values of the list keys of a run, but of the last `without` of them. */
@@ -94,43 +82,37 @@ static void run_name(const ZpPlot *plot, size_t run, size_t without, char *text,
   }
 }
 
-/* The names of the list keys but the last `without` over the legend, each on a line so that it fits. */
-static void legend_title(const ZpPlot *plot, FILE *file, size_t without) {
+/* The names of the list keys but the last `without`, each on a line so that it fits over the legend. */
+static void define_legend(const ZpPlot *plot, FILE *file, size_t without) {
   size_t keys;
   const int *key = zp_scenario_axes(plot->report->scenario, &keys);
-  keys -= without;
-  fputs("set key title \"", file);
-  for (size_t i = 0; i < keys; i++) {
+  fputs("legend = \"", file);
+  for (size_t i = 0; i + without < keys; i++) {
     fputs(i ? ",\\n" : "", file);
     for (const char *c = zp_key(key[i])->name; *c; c++)
       fprintf(file, "%s%c", *c == '_' ? "\\\\" : "", *c);
   }
-  fputs("\" left font ',12'\n", file);
+  fputs("\"\n", file);
 }
 
-/* A legend entry for a curve that is drawn with many others. */
-static void legend_entry(const ZpPlot *plot, FILE *file, size_t run) {
-  char name[256];
-  run_name(plot, run, 0, name, sizeof name);
-  fprintf(file, ", \\\n     NaN with lines lw 2 lc rgb '#%06x' title ", colour_of(plot, run));
-  zp_plot_text(file, name);
-}
-
-static void script_contraction(const ZpPlot *plot, FILE *file) {
+/* All runs are drawn, some of them named. */
+static void define_contraction(const ZpPlot *plot, FILE *file) {
   const size_t count = plot->report->count, named = count < LEGEND ? count : LEGEND;
-  ZpPlotUnit time = common_unit(plot, "time_s", "s");
-  ZpPlotUnit shown = common_unit(plot, "stroke_m", "m");
-  if (!is_ribbon(plot)) shown = (ZpPlotUnit){.factor = 100, .text = "%"};
-  zp_plot_head(plot, file, "contraction", is_ribbon(plot) ? "Stroke over time" : "Contraction over time", RIGHT);
-  zp_plot_foot(plot, file, NULL);
-  legend_title(plot, file, 0);
-  fprintf(file,
-          "set xrange [0:*]\nset xlabel 'time / %s'\nset ylabel '%s / %s' offset 0.5\n"
-          "plot 'contraction.dat' using ($1*%g):($2*%g):3 with lines lw 2 lc rgb variable notitle",
-          time.text, is_ribbon(plot) ? "stroke" : "contraction", shown.text, time.factor, shown.factor);
-  for (size_t i = 0; i < named; i++)
-    legend_entry(plot, file, named > 1 ? i * (count - 1) / (named - 1) : 0);
-  fputc('\n', file);
+  zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
+  zp_plot_define_key(plot, file, "actuator.kind");
+  zp_plot_define(file, "largest_time_s", largest_of(plot, "time_s"));
+  zp_plot_define(file, "largest_stroke_m", largest_of(plot, "stroke_m"));
+  define_legend(plot, file, 0);
+  zp_plot_define_count(file, "runs", count);
+  zp_plot_define_array(file, "run", named);
+  zp_plot_define_array(file, "name", named);
+  for (size_t i = 0; i < named; i++) {
+    const size_t run = named > 1 ? i * (count - 1) / (named - 1) : 0;
+    char name[256];
+    run_name(plot, run, 0, name, sizeof name);
+    zp_plot_define_count(file, zp_plot_entry("run", i + 1).text, run);
+    zp_plot_define_text(file, zp_plot_entry("name", i + 1).text, name);
+  }
 }
 
 int zp_sweep_key(const ZpPlot *plot, size_t back) {
@@ -176,11 +158,6 @@ const ZpAnswer *zp_sweep_answer(const ZpPlot *plot) {
   for (size_t i = 0; i < sizeof answers / sizeof answers[0]; i++)
     if (answers[i].study == plot->study) return &answers[i];
   return NULL;
-}
-
-static double answer(const ZpPlot *plot, size_t run, size_t curve) {
-  const char *name = zp_sweep_answer(plot)->scalar[curve];
-  return name ? zp_result_get(zp_report_result(plot->report, run), name) : (double)NAN;
 }
 
 /* How many runs have the scalar and a number of the list key; none where `name` is NULL. */
@@ -235,20 +212,26 @@ static size_t end_of_curve(const ZpPlot *plot, size_t run) {
   return run;
 }
 
-/* An index per curve. */
-static void data_answer(const ZpPlot *plot, FILE *file) {
-  const ZpAnswer *a = zp_sweep_answer(plot);
+/* An index per curve: the key, then numbers of the summary (`scalar`, ended by NULL). */
+static void put_curves(const ZpPlot *plot, FILE *file, const char *const *scalar) {
   size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
-  fprintf(file, "# %s %s%s%s; an index per curve\n", zp_key(x_key(plot))->name, a->scalar[0], a->scalar[1] ? " " : "",
-          a->scalar[1] ? a->scalar[1] : "");
+  fprintf(file, "# %s", zp_key(x_key(plot))->name);
+  for (size_t i = 0; scalar[i]; i++)
+    fprintf(file, " %s", scalar[i]);
+  fputs("; an index per curve\n", file);
   for (size_t k = 0; k < curves; k++) {
     for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
       zp_plot_put(file, key_value(plot, run), ' ');
-      zp_plot_put(file, answer(plot, run, 0), a->scalar[1] ? ' ' : '\n');
-      if (a->scalar[1]) zp_plot_put(file, answer(plot, run, 1), '\n');
+      for (size_t i = 0; scalar[i]; i++)
+        zp_plot_put(file, zp_result_get(zp_report_result(plot->report, run), scalar[i]), scalar[i + 1] ? ' ' : '\n');
     }
     fputs("\n\n", file);
   }
+}
+
+static void data_answer(const ZpPlot *plot, FILE *file) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  put_curves(plot, file, (const char *const[]){a->scalar[0], a->scalar[1], NULL});
 }
 
 double zp_sweep_factor(int index) {
@@ -258,81 +241,55 @@ double zp_sweep_factor(int index) {
   return scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor;
 }
 
-void zp_sweep_label(FILE *file, int index) {
+void zp_sweep_label(int index, char *label, size_t size) {
   const ZpKey *key = zp_key(index);
-  char label[128];
-  snprintf(label, sizeof label, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
-  zp_plot_text(file, label);
+  snprintf(label, size, *key->shown ? "%s / %s" : "%s", key->name, key->shown);
 }
 
-/* One number along a curve. Of several curves colours tell the curve, marks and dashes the number. */
-static void plot_curve(const ZpPlot *plot, FILE *file, ZpPlotUnit unit, size_t k, size_t number, unsigned colour) {
-  fprintf(file,
-          "'%s.dat' index %zu using ($1*%g):($%zu*%g) with linespoints lw 2 dt %zu pt %d ps 0.8 lc rgb '#%06x' title ",
-          zp_sweep_answer(plot)->picture, k, zp_sweep_factor(x_key(plot)), number + 2, unit.factor, number + 1,
-          number ? 5 : 7, colour);
-}
-
-/* A single curve for each number, which the legend names. */
-static void plot_alone(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
-  const ZpAnswer *a = zp_sweep_answer(plot);
-  bool first = true;
-  for (size_t i = 0; i < 2; i++) {
-    unsigned colour = 0;
-    if (points(plot, i) == 0) continue;
-    sscanf(zp_plot_colour(i), "#%x", &colour);
-    fputs(first ? "plot " : ", \\\n     ", file);
-    plot_curve(plot, file, unit, 0, i, colour);
-    zp_plot_text(file, a->legend[i] ? a->legend[i] : "");
-    first = false;
-  }
-  fputc('\n', file);
-}
-
-/* Curves for each value of the other keys: the legend names them, then the numbers. */
-static void plot_many(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
-  const ZpAnswer *a = zp_sweep_answer(plot);
+/* What the x axis is, which curves there are and what the legend calls them. */
+static void define_curves(const ZpPlot *plot, FILE *file) {
   size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
-  const size_t named = points(plot, 0) ? 0 : 1;
-  for (size_t k = 0; k < curves; k++)
-    for (size_t i = named; i < 2; i++) {
-      char name[256];
-      if (points(plot, i) == 0) continue;
-      run_name(plot, chosen[k], 1, name, sizeof name);
-      fputs(k || i > named ? ", \\\n     " : "plot ", file);
-      plot_curve(plot, file, unit, k, i, zp_plot_shade(curves > 1 ? (double)k / (double)(curves - 1) : 0.3));
-      zp_plot_text(file, i == named ? name : "");
-    }
-  for (size_t i = named; i < 2; i++) {
-    if (!a->legend[i] || points(plot, i) == 0) continue;
-    fprintf(file, ", \\\n     NaN with linespoints lw 2 dt %zu pt %d ps 0.8 lc rgb '#555555' title ", i + 1, i ? 5 : 7);
-    zp_plot_text(file, a->legend[i]);
+  char text[256];
+  zp_sweep_label(x_key(plot), text, sizeof text);
+  zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
+  zp_plot_define_text(file, "x_label", text);
+  zp_plot_define(file, "x_factor", zp_sweep_factor(x_key(plot)));
+  zp_plot_define_count(file, "many", zp_sweep_key(plot, 1) >= 0);
+  define_legend(plot, file, 1);
+  zp_plot_define_array(file, "curve", curves);
+  for (size_t k = 0; k < curves; k++) {
+    run_name(plot, chosen[k], 1, text, sizeof text);
+    zp_plot_define_text(file, zp_plot_entry("curve", k + 1).text, text);
   }
-  fputc('\n', file);
 }
 
-static void script_answer(const ZpPlot *plot, FILE *file) {
-  const ZpAnswer *a = zp_sweep_answer(plot);
-  char more[64];
+/* Largest absolute value of a number of the summary over all runs; 0 of none. */
+static double largest_scalar(const ZpPlot *plot, const char *scalar) {
   double largest = 0;
-  bool many = zp_sweep_key(plot, 1) >= 0;
-  for (size_t i = 0; i < 2 * plot->report->count; i++)
-    largest = fmax(largest, fabs(answer(plot, i / 2, i % 2)));
-  ZpPlotUnit unit = a->unit ? zp_plot_unit(largest, a->unit) : (ZpPlotUnit){.factor = 1};
-  snprintf(more, sizeof more, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
-  zp_plot_head(plot, file, a->picture, a->title, many ? RIGHT : a->scalar[1] ? 0.82 : 0.96);
-  if (plot->shows == ZP_SHOWS_motion)
-    zp_plot_foot(plot, file, more);
-  else
-    zp_plot_remark(file, more);
-  if (many) legend_title(plot, file, 1);
-  fputs("set xlabel ", file);
-  zp_sweep_label(file, x_key(plot));
-  fprintf(file,
-          "\nset ylabel '%s%s%s' offset 0.5\nset autoscale x noextend\nset yrange [0:*]\n"
-          "set offsets graph 0.03, graph 0.03, graph 0.05, 0\n",
-          a->axis, a->unit ? " / " : "", unit.text);
-  (many ? plot_many : plot_alone)(plot, file, unit);
+  for (size_t run = 0; scalar && run < plot->report->count; run++) {
+    const double value = fabs(zp_result_get(zp_report_result(plot->report, run), scalar));
+    if (isfinite(value)) largest = fmax(largest, value);
+  }
+  return largest;
+}
+
+static void define_answer(const ZpPlot *plot, FILE *file) {
+  const ZpAnswer *a = zp_sweep_answer(plot);
+  char counted[96];
+  snprintf(counted, sizeof counted, "%zu of %zu runs %s", points(plot, 0), plot->report->count, a->count);
+  zp_plot_define_text(file, "title", a->title);
+  zp_plot_define_text(file, "quantity", a->axis);
+  zp_plot_define_word(file, "si", a->unit ? a->unit : "");
+  zp_plot_define_text(file, "remark", counted);
+  zp_plot_define_word(file, "data", a->picture);
+  zp_plot_define_count(file, "motion", plot->shows == ZP_SHOWS_motion);
+  zp_plot_define_count(file, "numbers", a->scalar[1] ? 2 : 1);
+  zp_plot_define(file, "largest_value", fmax(largest_scalar(plot, a->scalar[0]), largest_scalar(plot, a->scalar[1])));
+  fprintf(file, "drawn = '%s%s'\n", points(plot, 0) ? "1 " : "", points(plot, 1) ? "2 " : "");
+  zp_plot_define_array(file, "number_name", 2);
+  for (size_t i = 0; i < 2; i++)
+    zp_plot_define_text(file, zp_plot_entry("number_name", i + 1).text, a->legend[i] ? a->legend[i] : "");
+  define_curves(plot, file);
 }
 
 /* -- forces --------------------------------------------------------------------------------------- */
@@ -342,21 +299,8 @@ static bool has_forces(const ZpPlot *plot) {
   return plot->shows == ZP_SHOWS_field && has_answer(plot, plot->study);
 }
 
-static double force(const ZpPlot *plot, size_t run) {
-  return zp_result_get(zp_report_result(plot->report, run), "force_N");
-}
-
-/* An index per curve. */
 static void data_forces(const ZpPlot *plot, FILE *file) {
-  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
-  fprintf(file, "# %s force_N; an index per curve\n", zp_key(x_key(plot))->name);
-  for (size_t k = 0; k < curves; k++) {
-    for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
-      zp_plot_put(file, key_value(plot, run), ' ');
-      zp_plot_put(file, force(plot, run), '\n');
-    }
-    fputs("\n\n", file);
-  }
+  put_curves(plot, file, (const char *const[]){"force_N", NULL});
 }
 
 /* Of many curves the first list key has a line style, the others together a colour. */
@@ -371,40 +315,12 @@ static size_t curves_of_a_style(const ZpPlot *plot, const size_t *chosen, size_t
   return alike;
 }
 
-static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
-  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen), alike = curves_of_a_style(plot, chosen, curves);
-  for (size_t k = 0; k < curves; k++) {
-    char name[256];
-    double shade = alike > 1 ? (double)(k % alike) / (double)(alike - 1) : 0.3;
-    run_name(plot, chosen[k], 1, name, sizeof name);
-    fprintf(file,
-            "%s'forces.dat' index %zu using ($1*%g):($2*%g) with linespoints lw 2 dt %zu pt %d ps 0.6 lc rgb '#%06x' "
-            "title ",
-            k ? ", \\\n     " : "plot ", k, zp_sweep_factor(x_key(plot)), unit.factor, k / alike % 5 + 1,
-            k / alike % 2 ? 6 : 7, zp_plot_shade(shade));
-    zp_plot_text(file, name);
-  }
-  fputc('\n', file);
-}
-
-static void script_forces(const ZpPlot *plot, FILE *file) {
-  size_t keys;
-  double largest = 0;
-  zp_scenario_axes(plot->report->scenario, &keys);
-  for (size_t i = 0; i < plot->report->count; i++)
-    if (isfinite(force(plot, i))) largest = fmax(largest, fabs(force(plot, i)));
-  ZpPlotUnit unit = zp_plot_unit(largest, "N");
-  zp_plot_head(plot, file, "forces",
-               plot->shows == ZP_SHOWS_field ? "Electric force on a ribbon of one half" : "Force on the held platform",
-               keys > 1 ? RIGHT : 0.96);
-  if (keys > 1) legend_title(plot, file, 1);
-  fputs("set xlabel ", file);
-  zp_sweep_label(file, x_key(plot));
-  fprintf(file,
-          "\nset ylabel 'force / %s' offset 0.5\nset xrange [0:*]\nset yrange [*<0:*]\n"
-          "set offsets 0, graph 0.03, graph 0.05, 0\n",
-          unit.text);
-  plot_forces(plot, file, unit);
+static void define_forces(const ZpPlot *plot, FILE *file) {
+  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  zp_plot_define_count(file, "held", plot->shows != ZP_SHOWS_field);
+  zp_plot_define(file, "largest_force_N", largest_scalar(plot, "force_N"));
+  zp_plot_define_count(file, "alike", curves_of_a_style(plot, chosen, curves));
+  define_curves(plot, file);
 }
 
 /* -- bode ------------------------------------------------------------------------------------------ */
@@ -415,58 +331,21 @@ static bool has_bode(const ZpPlot *plot) {
          points_of(plot, "phase_rad") >= 2;
 }
 
-/* An index per curve: frequency, amplitude, phase. */
 static void data_bode(const ZpPlot *plot, FILE *file) {
-  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
-  fputs("# drive.frequency stroke_amplitude_m phase_rad; an index per curve\n", file);
-  for (size_t k = 0; k < curves; k++) {
-    for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
-      zp_plot_put(file, key_value(plot, run), ' ');
-      zp_plot_put(file, zp_result_get(zp_report_result(plot->report, run), "stroke_amplitude_m"), ' ');
-      zp_plot_put(file, zp_result_get(zp_report_result(plot->report, run), "phase_rad"), '\n');
-    }
-    fputs("\n\n", file);
-  }
+  put_curves(plot, file, (const char *const[]){"stroke_amplitude_m", "phase_rad", NULL});
 }
 
-/* One panel: a column of all curves. */
-static void plot_bode(const ZpPlot *plot, FILE *file, const char *column, bool names) {
-  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
-  for (size_t k = 0; k < curves; k++) {
-    char name[256];
-    run_name(plot, chosen[k], 1, name, sizeof name);
-    fprintf(file, "%s'bode.dat' index %zu using 1:(%s) with linespoints lw 2 pt 7 ps 0.8 lc rgb '%s' title ",
-            k ? ", \\\n     " : "plot ", k, column, zp_plot_colour(k));
-    zp_plot_text(file, names ? name : "");
-  }
-  fputc('\n', file);
-}
-
-static void script_bode(const ZpPlot *plot, FILE *file) {
-  char amplitude[64];
-  double largest = 0;
-  for (size_t run = 0; run < plot->report->count; run++)
-    largest = fmax(largest, zp_result_get(zp_report_result(plot->report, run), "stroke_amplitude_m"));
-  ZpPlotUnit length = zp_plot_unit(largest, "m");
-  snprintf(amplitude, sizeof amplitude, "$2*%g", length.factor);
-  zp_plot_head(plot, file, "bode", "Amplitude and phase of the stroke", RIGHT);
-  zp_plot_foot(plot, file, NULL);
-  fputs("set logscale x\nset autoscale x noextend\n", file);
-  zp_plot_upper_panel(file);
-  fprintf(file, "set logscale y\nset ylabel 'amplitude / %s' offset 0.5\n", length.text);
-  plot_bode(plot, file, amplitude, true);
-  zp_plot_lower_panel(file, RIGHT, "frequency / Hz");
-  fputs("unset logscale y\nset ytics 45\nset ylabel 'phase / deg' offset 0.5\n", file);
-  plot_bode(plot, file, "$3*180/pi", false);
-  fputs("unset multiplot\n", file);
+static void define_bode(const ZpPlot *plot, FILE *file) {
+  zp_plot_define(file, "largest_amplitude_m", largest_scalar(plot, "stroke_amplitude_m"));
+  define_curves(plot, file);
 }
 
 const ZpPicture zp_sweep_pictures[] = {
-    {"bode", "svg", has_bode, script_bode, data_bode},
-    {"contraction", "svg", has_contraction, script_contraction, data_contraction},
-    {"forces", "svg", has_forces, script_forces, data_forces},
+    {"bode", "svg", has_bode, define_bode, data_bode, "bode.gp"},
+    {"contraction", "svg", has_contraction, define_contraction, data_contraction, "contraction.gp"},
+    {"forces", "svg", has_forces, define_forces, data_forces, "forces.gp"},
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
-  {#picture, "svg", has_##picture, script_answer, data_answer},
+  {#picture, "svg", has_##picture, define_answer, data_answer, "sweep.gp"},
 #include <zipact/studies.def>
     {0},
 };

@@ -9,11 +9,14 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include <zipact/version.h>
+
 #include "base/fail.h"
 #include "io/atomic.h"
 #include "io/gnuplot.h"
 #include "io/plot.h"
 #include "io/report.h"
+#include "io/template.h"
 #include "io/writers.h"
 
 /* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
@@ -48,15 +51,37 @@ static bool is_complete(const char *path, const char *extension) {
   return got > 0 && memmem(tail, got, end, strlen(end)) != NULL;
 }
 
-static ZpStatus write_text(const ZpDrawing *drawing, const ZpPicture *picture, const char *extension,
-                           void (*write)(const ZpPlot *plot, FILE *file), ZpError *err) {
-  ZpAtomic out;
+static ZpStatus open_file(const ZpDrawing *drawing, const ZpPicture *picture, const char *extension, ZpAtomic *out,
+                          ZpError *err) {
   char name[NAME_SIZE];
   snprintf(name, sizeof name, "%s.%s", picture->name, extension);
-  if (!write) return ZP_OK;
-  ZpStatus status = zp_atomic_open(&out, drawing->folder, name, err);
+  return zp_atomic_open(out, drawing->folder, name, err);
+}
+
+/* Definitions, then the template itself: the script needs no file but its data. */
+static ZpStatus write_script(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
+  const ZpPlot *plot = drawing->plot;
+  ZpAtomic out;
+  ZpStatus status = open_file(drawing, picture, "gp", &out, err);
   if (status != ZP_OK) return status;
-  write(drawing->plot, out.file);
+  if (picture->template) {
+    fprintf(out.file,
+            "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s.gp\n"
+            "if (!exists('out')) out = '%s.%s'\n",
+            picture->name, picture->name, picture->extension);
+    zp_plot_define_text(out.file, "subtitle", plot->subtitle);
+  }
+  picture->define(plot, out.file);
+  if (picture->template) status = zp_template_write(plot->def.output.templates, picture->template, out.file, err);
+  return zp_atomic_finish(&out, status, err);
+}
+
+static ZpStatus write_data(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
+  ZpAtomic out;
+  if (!picture->data) return ZP_OK;
+  ZpStatus status = open_file(drawing, picture, "dat", &out, err);
+  if (status != ZP_OK) return status;
+  picture->data(drawing->plot, out.file);
   return zp_atomic_commit(&out, err);
 }
 
@@ -101,10 +126,20 @@ static bool begin(ZpDrawing *drawing, const ZpPicture *picture, Work *work) {
   return state == ZP_GNUPLOT_RUNS;
 }
 
-static void finish(ZpDrawing *drawing, Work *work, ZpGnuplot end, const char *reason) {
+/* Say which line of which template gnuplot complains of. */
+static void explain(const ZpDrawing *drawing, const Work *work, char *reason, size_t size) {
+  char name[NAME_SIZE];
+  snprintf(name, sizeof name, "%s.gp", work->picture->name);
+  char *script = zp_path_join(drawing->folder, name);
+  if (script) zp_template_complaint(script, reason, size);
+  free(script);
+}
+
+static void finish(ZpDrawing *drawing, Work *work, ZpGnuplot end, char *reason, size_t size) {
   ZpError err;
   char name[NAME_SIZE];
   name_of(work->picture, name);
+  if (end == ZP_GNUPLOT_FAILED) explain(drawing, work, reason, size);
   if (end != ZP_GNUPLOT_DONE || !is_complete(work->out.temporary, work->picture->extension))
     give_up(drawing, work, end, reason);
   else if (zp_atomic_commit(&work->out, &err) != ZP_OK)
@@ -118,7 +153,7 @@ static bool asked_to_stop(const ZpHooks *hooks) {
 /* Wait a little for `busy` pictures and finish those that are done => how many are not. */
 static size_t tend(ZpDrawing *drawing, Work *work, size_t busy) {
   ZpGnuplotChild *child[ZP_GNUPLOT_MOST] = {NULL};
-  char reason[256];
+  char reason[1024];
   for (size_t i = 0; i < busy; i++)
     child[i] = &work[i].child;
   zp_gnuplot_wait(child, busy);
@@ -126,7 +161,7 @@ static size_t tend(ZpDrawing *drawing, Work *work, size_t busy) {
   for (size_t i = busy; i-- > 0;) {
     ZpGnuplot state = zp_gnuplot_look(&work[i].child, stop, reason, sizeof reason);
     if (state == ZP_GNUPLOT_RUNS) continue;
-    finish(drawing, &work[i], state, reason);
+    finish(drawing, &work[i], state, reason, sizeof reason);
     work[i] = work[--busy];
   }
   return busy;
@@ -145,8 +180,8 @@ static ZpStatus remove_picture(const ZpDrawing *drawing, const ZpPicture *pictur
 
 static ZpStatus prepare_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   if (!picture->has(drawing->plot)) return ZP_OK;
-  ZpStatus status = write_text(drawing, picture, "gp", picture->script, err);
-  return status == ZP_OK ? write_text(drawing, picture, "dat", picture->data, err) : status;
+  ZpStatus status = write_script(drawing, picture, err);
+  return status == ZP_OK ? write_data(drawing, picture, err) : status;
 }
 
 /* Add "name value" to the subtitle unless the key is swept: then the legend tells. */
@@ -246,10 +281,10 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 
 /* -- those of a report ----------------------------------------------------------------------------- */
 
-static const ZpPicture *const all[] = {
-    zp_series_pictures,      zp_shape_pictures,  zp_liquid_pictures, zp_sweep_pictures, zp_map_pictures,
-    zp_path_pictures,        zp_member_pictures, zp_rest_pictures,   zp_fit_pictures,   zp_field_pictures,
-    zp_sensitivity_pictures, zp_sample_pictures, zp_many_pictures};
+static const ZpPicture *const all[] = {zp_series_pictures,      zp_shape_pictures,  zp_liquid_pictures,
+                                       zp_sweep_pictures,       zp_map_pictures,    zp_path_pictures,
+                                       zp_rest_pictures,        zp_fit_pictures,    zp_field_pictures,
+                                       zp_sensitivity_pictures, zp_sample_pictures, zp_many_pictures};
 
 enum { TABLES = sizeof all / sizeof all[0] };
 

@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/fail.h"
@@ -276,13 +277,24 @@ static char *resolve_path(const Reader *reader, int key, const char *path) {
   return absolute_path(reader->source, path, (int)strlen(path));
 }
 
-static bool names_file(int key) {
+static bool names_folder(int key) {
+  return strcmp(zp_key(key)->name, "output.templates") == 0;
+}
+
+static bool names_path(int key) {
   const char *name = zp_key(key)->name, *last = strrchr(name, '.');
-  return last && strcmp(last, ".file") == 0;
+  return (last && strcmp(last, ".file") == 0) || names_folder(key);
+}
+
+/* A folder must be there: without it nothing in it would count, and nobody would say so. */
+static ZpStatus check_folder(const Reader *reader, int key, const ZpYamlItem *item, const char *path, ZpError *err) {
+  struct stat there;
+  if (!names_folder(key) || !*path || (stat(path, &there) == 0 && S_ISDIR(there.st_mode))) return ZP_OK;
+  return zp_source_fail(reader->source, item->line, err, "%s: there is no folder %s", zp_key(key)->name, path);
 }
 
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  bool is_path = names_file(key);
+  bool is_path = names_path(key);
   ZpSlot slot = {.value = calloc(1, sizeof(double)),
                  .count = 1,
                  .text = is_path ? resolve_path(reader, key, item->word) : strdup(item->word)};
@@ -291,6 +303,7 @@ static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpErr
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK && zp_def_set_text(&scratch, key, slot.text, &reason) != ZP_OK)
     status = zp_source_fail(reader->source, item->line, err, "%s", reason.message);
+  if (status == ZP_OK) status = check_folder(reader, key, item, slot.text, err);
   if (status != ZP_OK) {
     free(slot.value);
     free(slot.text);

@@ -22,9 +22,8 @@ int zp_sweep_key(const ZpPlot *plot, size_t back);
 /* Value of a key in a run, SI; NAN for auto. */
 double zp_sweep_value(const ZpPlot *plot, size_t run, int key);
 
-/* What a number of the key in SI is to be multiplied with for its usual unit, and "drive.voltage / kV" as a gnuplot
- * string. */
+/* What a number of the key in SI is to be multiplied with for its usual unit, and "drive.voltage / kV". */
 double zp_sweep_factor(int key);
-void zp_sweep_label(FILE *file, int key);
+void zp_sweep_label(int key, char *label, size_t size);
 
 #endif

@@ -8,16 +8,8 @@
 #include "io/atomic.h"
 #include "io/plot.h"
 
-#define RIGHT 0.76
-
 static bool has_run(const ZpPlot *plot, ZpRunId id) {
   return plot->runs->run[id].batch.done > 0;
-}
-
-static void head(FILE *file, const char *name, const char *title, const char *subtitle) {
-  ZpPlot plot = {.report = NULL};
-  snprintf(plot.subtitle, sizeof plot.subtitle, "%s", subtitle);
-  zp_plot_head(&plot, file, name, title, RIGHT);
 }
 
 /* An index of the .dat file: a row of a table each, columns in SI; two empty lines end it. */
@@ -57,18 +49,11 @@ static void data_shapes(const ZpPlot *plot, FILE *file) {
   }
 }
 
-static void script_shapes(const ZpPlot *plot, FILE *file) {
+static void define_shapes(const ZpPlot *plot, FILE *file) {
   (void)plot;
-  head(file, "fig-6", "Shapes at rest under six loads", "100 µm steel, K_S calibrated at 61 g");
-  fputs("set xlabel 'x from the clip / mm'\nset ylabel 'y / mm' offset 0.5\nset xrange [0:46]\nplot ", file);
-  for (int i = 0; i < LOADS; i++)
-    fprintf(file,
-            "'fig-6.dat' index %d using ($1*1e3):($2*1e3) with lines lw 2 lc rgb '%s' title '%g g', \\\n"
-            "     '' index %d every 3 using ($1*1e3):($2*1e3) with points pt 7 ps 0.5 lc rgb '%s' notitle, \\\n     ",
-            2 * i, zp_plot_colour((size_t)i), loads[i], 2 * i + 1, zp_plot_colour((size_t)i));
-  fputs("NaN with lines lw 2 lc rgb '#555555' title 'finite elements', \\\n"
-        "     NaN with points pt 7 ps 0.5 lc rgb '#555555' title 'chain, N = 61'\n",
-        file);
+  zp_plot_define_array(file, "load", LOADS);
+  for (size_t i = 0; i < LOADS; i++)
+    zp_plot_define(file, zp_plot_entry("load", i + 1).text, loads[i]);
 }
 
 /* -- fig. 7: force along a ribbon -------------------------------------------------------------------- */
@@ -85,18 +70,8 @@ static void data_profile(const ZpPlot *plot, FILE *file) {
   put_table(file, plot->runs->run[ZP_RUN_FIG_7_PAPER].batch.result[0]->series, "x_m", "plates_N_per_m");
 }
 
-static void script_profile(const ZpPlot *plot, FILE *file) {
-  const double factor = zp_result_get(plot->runs->run[ZP_RUN_FIG_7].batch.result[0], "paper_factor");
-  head(file, "fig-7", "Electric force along a ribbon", "opening 2 mm, 5 kV, one Bézier curve, no breakdown");
-  fprintf(
-      file,
-      "set xlabel 'x from the clip / mm'\nset ylabel 'force per length / N/m' offset 0.5\n"
-      "set xrange [0:45]\nset yrange [0:*]\n"
-      "plot 'fig-7.dat' index 0 using ($1*1e3):2 with lines lw 5 lc rgb '#56b4e9' title 'field', \\\n"
-      "     '' index 1 using ($1*1e3):2 with lines lw 1.5 dt 2 lc rgb '#000000' title 'plates law', \\\n"
-      "     '' index 2 using ($1*1e3):2 with lines lw 2 lc rgb '#d55e00' title \"the paper's plates\", \\\n"
-      "     '' index 2 using ($1*1e3):($2*%.6g) with lines lw 2 dt 4 lc rgb '#d55e00' title 'the same times %.2f'\n",
-      factor, factor);
+static void define_profile(const ZpPlot *plot, FILE *file) {
+  zp_plot_define(file, "factor", zp_result_get(plot->runs->run[ZP_RUN_FIG_7].batch.result[0], "paper_factor"));
 }
 
 /* -- fig. 8: force against separation ---------------------------------------------------------------- */
@@ -123,22 +98,15 @@ static void data_forces(const ZpPlot *plot, FILE *file) {
   put_forces(file, plot->runs, ZP_RUN_FIG_8_PAPER, 0, all / 2);
 }
 
-static void script_forces(const ZpPlot *plot, FILE *file) {
-  (void)plot;
-  head(file, "fig-8", "Contractile force of a held platform", "6 kV, 50 µm steel");
-  fputs(
-      "set xlabel 'separation / mm'\nset ylabel 'force / N' offset 0.5\nset xrange [0:8]\nset yrange [0:*]\n"
-      "plot 'fig-8.dat' index 0 using ($1*1e3):2 with linespoints lw 2 pt 7 lc rgb '#0072b2' title 'with breakdown', "
-      "\\\n"
-      "     '' index 1 using ($1*1e3):2 with linespoints lw 2 pt 6 lc rgb '#009e73' title 'without', \\\n"
-      "     '' index 2 using ($1*1e3):2 with linespoints lw 2 dt 2 pt 4 lc rgb '#d55e00' title \"the paper's text\"\n",
-      file);
+/* All is in the data. */
+static void define_nothing(const ZpPlot *plot, FILE *file) {
+  (void)plot, (void)file;
 }
 
 static const ZpPicture pictures[] = {
-    {"fig-6", "svg", has_shapes, script_shapes, data_shapes},
-    {"fig-7", "svg", has_profile, script_profile, data_profile},
-    {"fig-8", "svg", has_forces, script_forces, data_forces},
+    {"fig-6", "svg", has_shapes, define_shapes, data_shapes, "fig-6.gp"},
+    {"fig-7", "svg", has_profile, define_profile, data_profile, "fig-7.gp"},
+    {"fig-8", "svg", has_forces, define_nothing, data_forces, "fig-8.gp"},
     {.name = NULL},
 };
 

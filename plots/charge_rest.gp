@@ -1,0 +1,17 @@
+# Charge and capacitance at rest against voltage.
+title = 'Charge and capacitance at rest against voltage'
+load 'along_voltage.gp'
+set yrange [0:*]
+set offsets 0, 0, graph 0.05, 0
+load 'upper_panel.gp'
+factor = scale(largest('charge_C'), 'C')
+set ylabel label('charge', unit(largest('charge_C'), 'C')) offset 0.5
+data = 'charge.dat'; number = 4
+load 'states.gp'
+load 'lower_panel.gp'
+unset key
+factor = scale(largest('capacitance_F'), 'F')
+set ylabel label('capacitance', unit(largest('capacitance_F'), 'F')) offset 0.5
+number = 5
+load 'states.gp'
+unset multiplot

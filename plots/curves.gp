@@ -1,0 +1,9 @@
+# One panel of curves over time. A template sets first
+#   list       columns; those that the table lacks are left out
+#   titles     what the legend calls them
+#   quantity   what the y axis shows, in the SI unit `si`
+#   sized      columns whose largest value says the prefix
+factor = scale(largest(sized), si)
+set ylabel label(quantity, unit(largest(sized), si)) offset 0.5
+plot for [c in present(list)] '../table.csv' using (column('time_s')*time):(column(c)*factor) \
+     with lines lw 2 lc rgb colour(place(c, list)) title word(titles, place(c, list))

@@ -1,0 +1,9 @@
+# Force on the held platform at rest against voltage.
+title = 'Force on the held platform against voltage'
+load 'along_voltage.gp'
+factor = scale(largest('force_N'), 'N')
+set ylabel label('force', unit(largest('force_N'), 'N')) offset 0.5
+set autoscale y noextend
+set offsets 0, 0, graph 0.05, graph 0.03
+data = 'force.dat'; number = 2
+load 'states.gp'

@@ -1,0 +1,42 @@
+# What templates compute with. zipact has defined `columns`, the columns of the table that have numbers, between spaces,
+# and for each column NAME its largest absolute value, largest_NAME, in SI.
+
+# has('stroke_m'): is there such a column to draw? present(LIST): those of the list that there are; place(NAME, LIST):
+# which of the list it is.
+has(c) = strstrt(columns, ' '.c.' ') > 0
+_present(l, n) = n > words(l) ? '' : (has(word(l, n)) ? word(l, n).' ' : '')._present(l, n + 1)
+present(l) = _present(l, 1)
+_place(c, l, n) = n > words(l) ? 0 : word(l, n) eq c ? n : _place(c, l, n + 1)
+place(c, l) = _place(c, l, 1)
+
+# largest('stroke_m opening_m'): the largest absolute value of all of them.
+max(a, b) = a > b ? a : b
+_size(c) = exists('largest_'.c) ? value('largest_'.c) : 0
+_largest(l, n) = n == 0 ? 0 : max(_largest(l, n - 1), _size(word(l, n)))
+largest(l) = _largest(l, words(l))
+
+# unit(0.02, 'm') = 'mm', scale(0.02, 'm') = 1000: the SI prefix with which a number has one to three digits before the
+# point. A share in '%' and a pure number, '', have none; a mass is shown in g.
+_power(x) = x > 0 && x < 1e300 ? floor((log10(x) + 1e-9) / 3) : 0
+power(x) = _power(x) < -5 ? -5 : _power(x) > 4 ? 4 : _power(x)
+prefix(x) = power(x) == 0 ? '' : word('f p n µ m - k M G T', power(x) + 6)
+unit(x, u) = u eq 'kg' ? prefix(x * 1000).'g' : u eq '%' || u eq '' ? u : prefix(x).u
+scale(x, u) = u eq 'kg' ? 1000 * 10.0**(-3 * power(x * 1000)) : u eq '%' ? 100.0 : u eq '' ? 1.0 : 10.0**(-3 * power(x))
+
+# label('stroke', 'mm') = 'stroke / mm', of a pure number 'stroke'.
+label(quantity, u) = u eq '' ? quantity : quantity.' / '.u
+
+# step(range, 6): the distance of tics, 1, 2 or 5 times a power of ten, of which at most 6 fit into the range.
+_ten(x) = 10.0**floor(log10(x))
+_step(x) = _ten(x) * (x / _ten(x) <= 1 ? 1 : x / _ten(x) <= 2 ? 2 : x / _ten(x) <= 5 ? 5 : 10)
+step(range, n) = _step(range / n)
+
+# colour(1) ... colour(8): colours that colour-blind people can tell apart (Okabe and Ito); as numbers, too.
+colour(k) = word('#0072b2 #d55e00 #009e73 #cc79a7 #56b4e9 #e69f00 #000000 #b8a800', (k - 1) % 8 + 1)
+colour_number(k) = word('0x0072b2 0xd55e00 0x009e73 0xcc79a7 0x56b4e9 0xe69f00 0x000000 0xb8a800', (k - 1) % 8 + 1) + 0
+
+# shade(0) ... shade(1): a scale from dark to light.
+_from(p) = p < 1 ? int(4 * p) : 3
+_mix(l, p, k) = floor(word(l, k + 1) + (4 * p - k) * (word(l, k + 2) - word(l, k + 1)) + 0.5)
+shade(p) = 65536 * _mix('68 59 33 94 200', p, _from(p)) + 256 * _mix('1 82 145 201 208', p, _from(p)) \
+         + _mix('84 139 140 98 32', p, _from(p))

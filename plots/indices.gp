@@ -1,0 +1,9 @@
+# Which share of the variance of an answer follows from which key: by itself, and with its interactions.
+title = 'What the scatter of the '.quantity.' follows from'
+right = 0.76
+load 'style.gp'
+load 'of_keys.gp'
+set xlabel 'share of the variance / %'
+set xrange [*<0:100<*]
+plot 'indices.dat' index 0 using (0):1:(0):2:($1+0.02):($1+0.38) with boxxyerror fc rgb colour(1) title 'by itself', \
+     'indices.dat' index 1 using (0):1:(0):2:($1-0.38):($1-0.02) with boxxyerror fc rgb colour(2) title 'with interactions'

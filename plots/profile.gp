@@ -1,0 +1,27 @@
+# Electric force along a ribbon by the plates law and by the solved field, and their ratio.
+title = 'Electric force along a ribbon'
+right = 0.76
+load 'style.gp'
+set datafile separator ','
+set key autotitle columnhead
+set autoscale x noextend
+length = scale(largest('x_m'), 'm')
+both = largest('plates_N_per_m field_N_per_m')
+force = scale(both, 'N/m')
+load 'upper_panel.gp'
+set yrange [0:*]
+set ylabel label('force per length', unit(both, 'N/m')) offset 0.5
+list = 'field_N_per_m plates_N_per_m'.(capped_length_m > 0 ? ' force_N_per_m' : '')
+titles = 'field "plates law" "with breakdown"'
+width(k) = word('4 1.5 2.5', k) + 0
+dash(k) = word('1 2 1', k) + 0
+plot for [k=1:words(list)] '../table.csv' using (column('x_m')*length):(column(word(list, k))*force) with lines \
+     lw width(k) dt dash(k) lc rgb word('#56b4e9 #000000 #d55e00', k) title word(titles, k)
+xlabel = label('x from the clip', unit(largest('x_m'), 'm'))
+load 'lower_panel.gp'
+unset key
+set autoscale y
+set offsets 0, 0, graph 0.08, graph 0.05
+set ylabel 'field / plates' offset 2.2
+plot '../table.csv' using (column('x_m')*length):(column('ratio')*1) with lines lw 2.5 lc rgb '#0072b2' title ''
+unset multiplot

@@ -1,0 +1,17 @@
+# Shapes at rest along the path of states: voltage_at[k] and stable[k] of each.
+title = 'Shapes at rest'.(half ? ', left half' : '')
+right = 0.78
+if (!same_scale) remark = 'x and y have different scales'
+load 'style.gp'
+set key title 'along the path' left font ',12'
+load 'of_shapes.gp'
+set autoscale noextend
+set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
+tics = 10
+if (same_scale) {
+  load 'same_scale.gp'
+}
+voltage = scale(drive_voltage, 'V')
+plot for [k=1:|stable|] 'shapes.dat' index k-1 using ($1*length):($2*length) with lines lw 2 dt 2-stable[k] \
+     lc rgb shade((k - 1.0)/(|stable| - 1)) \
+     title sprintf('%.3g %s%s', voltage_at[k]*voltage, unit(drive_voltage, 'V'), stable[k] ? '' : ', unstable')

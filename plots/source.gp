@@ -1,0 +1,19 @@
+# Voltages and current of a source that is not ideal.
+title = 'Voltages and current of the source over time'
+foot = note
+load 'over_time.gp'
+load 'upper_panel.gp'
+list = 'command_V source_voltage_V voltage_V'
+titles = 'command inner electrodes'
+quantity = 'voltage'
+si = 'V'
+sized = 'command_V'
+load 'curves.gp'
+load 'lower_panel.gp'
+list = 'current_A'
+titles = 'current'
+quantity = 'current'
+si = 'A'
+sized = 'current_A'
+load 'curves.gp'
+unset multiplot

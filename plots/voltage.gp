@@ -1,0 +1,20 @@
+# Voltage of a run over time, where it changes, and the opening.
+title = 'Voltage and opening over time'
+foot = note
+load 'over_time.gp'
+set yrange [*<0:0<*]
+load 'upper_panel.gp'
+list = 'voltage_V'
+titles = 'voltage'
+quantity = 'voltage'
+si = 'V'
+sized = 'voltage_V'
+load 'curves.gp'
+load 'lower_panel.gp'
+list = 'opening_m'
+titles = 'opening'
+quantity = 'opening'
+si = 'm'
+sized = 'opening_m'
+load 'curves.gp'
+unset multiplot

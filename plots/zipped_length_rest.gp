@@ -1,0 +1,10 @@
+# Closed length at rest against voltage.
+title = actuator_kind eq 'flange' ? 'Closed length at rest against voltage' \
+                                  : 'Closed length from the clip, one half, against voltage'
+load 'along_voltage.gp'
+factor = scale(largest('zipped_length_m'), 'm')
+set yrange [0:*]
+set ylabel label('zipped length', unit(largest('zipped_length_m'), 'm')) offset 0.5
+set offsets 0, 0, graph 0.05, 0
+data = 'zipped_length.dat'; number = 3
+load 'states.gp'

@@ -1,0 +1,17 @@
+# The templates of plots/ as C: cmake -D FOLDER=plots -D OUTPUT=templates.c -P scripts/embed-templates.cmake
+file(GLOB files ${FOLDER}/*.gp)
+list(SORT files)
+set(texts)
+set(rows)
+set(number 0)
+foreach(file ${files})
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} bytes HEX)
+  string(REGEX REPLACE "(..)" "0x\\1," bytes "${bytes}")
+  string(REGEX REPLACE "((0x..,){24})" "\\1\n" bytes "${bytes}")
+  string(APPEND texts "static const unsigned char text_${number}[] = {\n${bytes}0};\n")
+  string(APPEND rows "  {\"${name}\", (const char *)text_${number}},\n")
+  math(EXPR number "${number} + 1")
+endforeach()
+file(WRITE ${OUTPUT} "/* Made from plots/ by scripts/embed-templates.cmake. */\n#include \"io/template.h\"\n\n${texts}\n"
+                     "const ZpTemplate zp_templates[] = {\n${rows}  {0},\n};\n")

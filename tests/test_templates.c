@@ -1,0 +1,258 @@
+/* Templates of pictures: those built in are those of plots/, a folder of the user's takes the place of some, a script
+ * needs none of them, and what is wrong in one is said with its file and line. */
+#include <check.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <zipact/io.h>
+
+#include "io/template.h"
+
+static char base[1024], notices[8192];
+
+static void set_up(void) {
+  ck_assert_ptr_nonnull(getcwd(base, sizeof base - 32));
+  strcat(base, "/templates-XXXXXX");
+  ck_assert_ptr_nonnull(mkdtemp(base));
+  notices[0] = 0;
+}
+
+/* Run a command of the shell in `base` => its exit status. */
+static int shell(const char *command) {
+  char line[4096];
+  snprintf(line, sizeof line, "cd '%s' && %s", base, command);
+  const int status = system(line);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+static void tear_down(void) {
+  ck_assert_int_eq(shell("rm -rf \"$PWD\""), 0);
+}
+
+static void note(const char *message) {
+  const size_t used = strlen(notices);
+  snprintf(notices + used, sizeof notices - used, "%s\n", message);
+}
+
+/* "base/name", to be freed. */
+static char *in_base(const char *name) {
+  char *path;
+  ck_assert_int_gt(asprintf(&path, "%s/%s", base, name), 0);
+  return path;
+}
+
+static void put_file(const char *name, const char *text) {
+  char *path = in_base(name);
+  FILE *file = fopen(path, "w");
+  ck_assert_ptr_nonnull(file);
+  fputs(text, file);
+  fclose(file);
+  free(path);
+}
+
+/* The whole text of base/name, to be freed; NULL if there is none. */
+static char *text_of(const char *name) {
+  char *path = in_base(name), *text = NULL;
+  size_t room = 0;
+  FILE *file = fopen(path, "r");
+  if (file && getdelim(&text, &room, 0, file) < 0) ck_abort_msg("%s is empty", path);
+  if (file) fclose(file);
+  free(path);
+  return text;
+}
+
+static bool says(const char *name, const char *words) {
+  char *text = text_of(name);
+  ck_assert_msg(text != NULL, "no %s; %s", name, notices);
+  const bool found = strstr(text, words) != NULL;
+  free(text);
+  return found;
+}
+
+/* Draw one shape at rest into base/out, with the templates of base/mine where `own` says so. */
+static void draw(bool own) {
+  ZpError err = {0};
+  ZpResult *result;
+  ZpActuatorDef def;
+  ZpScenario *scenario = zp_scenario_create();
+  ck_assert_ptr_nonnull(scenario);
+  char *folder = in_base("mine"), *out = in_base("out"), assignment[1200];
+  snprintf(assignment, sizeof assignment, "output.templates=%s", folder);
+  const char *const set[] = {"study=stationary", "mesh.nodes=15", "output.errors=false", assignment};
+  for (size_t i = 0; i < (own ? 4 : 3); i++)
+    ck_assert_msg(zp_scenario_set(scenario, set[i], &err) == ZP_OK, "%s", err.message);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
+  ck_assert_int_eq(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result, &err), ZP_OK);
+  const ZpReport report = {.directory = out, .scenario = scenario, .result = &result, .count = 1};
+  notices[0] = 0;
+  ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
+  zp_result_destroy(result);
+  zp_scenario_destroy(scenario);
+  free(folder);
+  free(out);
+}
+
+/* Write the built-in templates to base/mine. */
+static void write_mine(void) {
+  ZpError err;
+  char *folder = in_base("mine");
+  ck_assert_msg(zp_templates_write(folder, &err) == ZP_OK, "%s", err.message);
+  free(folder);
+}
+
+START_TEST(built_in_are_those_of_the_repository) {
+  write_mine();
+  ck_assert_int_eq(shell("diff -r mine " ZP_SOURCE_DIR "/plots >&2"), 0);
+}
+END_TEST
+
+/* What a user has edited is not written over. */
+START_TEST(files_that_are_there_stay) {
+  ZpError err;
+  write_mine();
+  put_file("mine/bode.gp", "# mine\n");
+  char *folder = in_base("mine");
+  ck_assert_int_eq(zp_templates_write(folder, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "is there already"));
+  ck_assert(says("mine/bode.gp", "# mine"));
+  free(folder);
+}
+END_TEST
+
+START_TEST(an_edited_template_changes_the_picture) {
+  write_mine();
+  draw(false);
+  ck_assert_int_eq(shell("cp out/plots/shape.svg before.svg"), 0);
+  draw(true);
+  ck_assert_int_eq(shell("cmp out/plots/shape.svg before.svg"), 0); /* the same templates, the same picture */
+  ck_assert_int_eq(shell("sed -i \"s/Shape at rest/How it hangs/\" mine/shape.gp"), 0);
+  draw(true);
+  ck_assert_str_eq(notices, "");
+  ck_assert(says("out/plots/shape.svg", "How it hangs") && !says("out/plots/shape.svg", "Shape at rest"));
+  ck_assert(says("before.svg", "Shape at rest"));
+}
+END_TEST
+
+/* One file in the folder is enough, and what all pictures load counts for all. */
+START_TEST(a_shared_template_alone) {
+  ck_assert_int_eq(shell("mkdir mine && sed 's/#dddddd/#12abef/' " ZP_SOURCE_DIR "/plots/style.gp >mine/style.gp"), 0);
+  draw(true);
+  ck_assert_str_eq(notices, "");
+  ck_assert(says("out/plots/shape.svg", "rgb( 18, 171, 239)") && says("out/plots/shape.svg", "Shape at rest"));
+}
+END_TEST
+
+/* A template may load another one that is the user's alone. */
+START_TEST(a_template_of_ones_own) {
+  ck_assert_int_eq(
+      shell("mkdir mine && { echo \"load 'hello.gp'\"; cat " ZP_SOURCE_DIR "/plots/shape.gp; } >mine/shape.gp"), 0);
+  put_file("mine/hello.gp", "set label 77 'hello' at screen 0.5,0.5");
+  draw(true);
+  ck_assert_str_eq(notices, "");
+  ck_assert(says("out/plots/shape.svg", "hello"));
+}
+END_TEST
+
+START_TEST(a_script_needs_no_template) {
+  write_mine();
+  draw(true);
+  ck_assert_int_eq(
+      shell("rm -r mine && cd out/plots && mv shape.svg drawn.svg && gnuplot shape.gp && cmp shape.svg drawn.svg"), 0);
+  ck_assert_int_eq(shell("cd out/plots && gnuplot -e \"out = 'other.svg'\" shape.gp && cmp other.svg drawn.svg"), 0);
+}
+END_TEST
+
+/* Draw with a template that ends in `line`; what is said of it is `words`, with its file and the number of the line. */
+static void check_complaint(const char *line, const char *words) {
+  char command[1024], expected[2048];
+  snprintf(command, sizeof command,
+           "mkdir -p mine && { cat " ZP_SOURCE_DIR
+           "/plots/shape.gp; echo \"%s\"; } >mine/shape.gp && wc -l <mine/shape.gp "
+           ">lines",
+           line);
+  ck_assert_int_eq(shell(command), 0);
+  char *lines = text_of("lines");
+  draw(true);
+  snprintf(expected, sizeof expected, "out/plots/shape.svg was not drawn: template %s/mine/shape.gp, line %d: %s", base,
+           atoi(lines), words);
+  ck_assert_msg(strstr(notices, expected) != NULL, "%s, not %s", notices, expected);
+  free(lines);
+}
+
+START_TEST(errors_name_file_and_line) {
+  check_complaint("set no_such_setting", "Unrecognized option");
+  check_complaint("print stroke_m + nothing_of_that_name", "undefined variable: nothing_of_that_name");
+}
+END_TEST
+
+/* Of what a template loads, too; and behind it the template's own lines count on. */
+START_TEST(errors_in_what_is_loaded) {
+  ck_assert_int_eq(shell("mkdir mine && { cat " ZP_SOURCE_DIR "/plots/style.gp; echo 'print lost'; } >mine/style.gp"),
+                   0);
+  draw(true);
+  ck_assert_ptr_nonnull(strstr(notices, "/mine/style.gp, line "));
+  ck_assert_ptr_nonnull(strstr(notices, ": undefined variable: lost"));
+  ck_assert_ptr_null(strstr(notices, "shape.gp, line"));
+}
+END_TEST
+
+START_TEST(templates_in_a_circle) {
+  ck_assert_int_eq(shell("mkdir mine"), 0);
+  put_file("mine/shape.gp", "load 'shape.gp'\n");
+  draw(true);
+  ck_assert_ptr_nonnull(strstr(notices, "shape.svg was not drawn: "));
+}
+END_TEST
+
+START_TEST(a_folder_that_is_not_there) {
+  ZpError err = {0};
+  ZpScenario *scenario = zp_scenario_create();
+  ck_assert_int_eq(zp_scenario_set(scenario, "output.templates=nowhere/at/all", &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "output.templates: there is no folder "));
+  ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/at/all"));
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* Each picture has its template, and each template loads only what there is. */
+START_TEST(what_templates_load) {
+  for (const ZpTemplate *one = zp_templates; one->name; one++)
+    for (const char *at = one->text; (at = strstr(at, "load '")) != NULL; at++) {
+      char name[64];
+      bool found = false;
+      ck_assert_int_eq(sscanf(at, "load '%63[^']'", name), 1);
+      for (const ZpTemplate *other = zp_templates; other->name && !found; other++)
+        found = strcmp(other->name, name) == 0;
+      ck_assert_msg(found, "%s loads %s", one->name, name);
+    }
+}
+END_TEST
+
+int main(void) {
+  const TTest *const all[] = {built_in_are_those_of_the_repository, files_that_are_there_stay, what_templates_load,
+                              a_folder_that_is_not_there};
+  const TTest *const drawn[] = {an_edited_template_changes_the_picture,
+                                a_shared_template_alone,
+                                a_template_of_ones_own,
+                                a_script_needs_no_template,
+                                errors_name_file_and_line,
+                                errors_in_what_is_loaded,
+                                templates_in_a_circle};
+  Suite *suite = suite_create("templates");
+  TCase *part = tcase_create("files");
+  tcase_add_checked_fixture(part, set_up, tear_down);
+  for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+    tcase_add_test(part, all[i]);
+  const bool has_gnuplot = system("command -v gnuplot >/dev/null") == 0;
+  for (size_t i = 0; has_gnuplot && i < sizeof drawn / sizeof drawn[0]; i++)
+    tcase_add_test(part, drawn[i]);
+  suite_add_tcase(suite, part);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  const int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}
