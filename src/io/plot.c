@@ -150,7 +150,9 @@ size_t zp_plot_frame_at(const ZpShapes *shapes, double part) {
 }
 
 bool zp_plot_is_half(const ZpPlot *plot) {
-  return plot->single->shapes->ribbons > 1 && plot->def.actuator.symmetry == ZP_SYMMETRY_HALF;
+  const ZpActuatorDef *def = &plot->def;
+  return plot->single->shapes->ribbons > 1 && def->actuator.kind == ZP_KIND_ELECTRO_RIBBON &&
+         def->actuator.symmetry == ZP_SYMMETRY_HALF;
 }
 
 void zp_plot_head_of_shapes(const ZpPlot *plot, FILE *file, const char *name, const char *title, double right) {

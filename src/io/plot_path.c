@@ -203,9 +203,9 @@ static bool has_zipped_length(const ZpPlot *plot) {
 
 static void script_zipped_length(const ZpPlot *plot, FILE *file) {
   ZpPlotUnit length = zp_plot_table_unit(series(plot), (const char *const[]){"zipped_length_m", NULL}, "m");
-  const char *title = plot->def.actuator.kind == ZP_KIND_FLANGE
-                          ? "Closed length at rest against voltage"
-                          : "Closed length from the clip, one half, against voltage";
+  const char *title = plot->def.actuator.kind == ZP_KIND_ELECTRO_RIBBON
+                          ? "Closed length from the clip, one half, against voltage"
+                          : "Closed length at rest against voltage";
   zp_plot_head(plot, file, "zipped_length", title, RIGHT);
   begin(plot, file, voltage_unit(plot));
   fprintf(file, "set yrange [0:*]\nset ylabel 'zipped length / %s' offset 0.5\nset offsets 0, 0, graph 0.05, 0\n",

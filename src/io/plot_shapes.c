@@ -80,17 +80,21 @@ static void script_profiles(const ZpPlot *plot, FILE *file) {
           length.factor, length.factor, time.factor);
 }
 
-/* The node of the lower ribbon at the platform's left end, or the right end of the one ribbon. */
+static bool has_platform(const ZpPlot *plot) {
+  return plot->def.actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+}
+
+/* The node of the lower ribbon at the platform's left end, or the right end of the lower or only ribbon. */
 static size_t load_node(const ZpPlot *plot) {
   const ZpShapes *shapes = film(plot);
-  bool whole = shapes->ribbons > 1 && !zp_plot_is_half(plot);
+  bool whole = has_platform(plot) && !zp_plot_is_half(plot);
   return shapes->ribbons * (whole ? shapes->nodes / 2 : shapes->nodes) - 1;
 }
 
 /* The stage of the film: x counts from the middle of what is drawn, m. */
 typedef struct Stage {
   ZpPlotBox box; /* of the shapes */
-  double middle; /* x of the platform's middle (kind ribbon: of the middle of the box) */
+  double middle; /* x of the platform's middle (other kinds: of the middle of the box) */
   double half;   /* half of the width of all that moves */
   double clamp;  /* x of the left end, from the middle */
   double unit;   /* a length to size clip, load and margins with */
@@ -102,7 +106,7 @@ static Stage stage_of(const ZpPlot *plot) {
   const ZpShapes *shapes = film(plot);
   Stage s = {.box = zp_plot_box(shapes)};
   s.middle = (s.box.left + s.box.right) / 2;
-  if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[load_node(plot)] + plot->def.platform.length / 2;
+  if (has_platform(plot)) s.middle = zp_shapes_get(shapes, 0).x[load_node(plot)] + plot->def.platform.length / 2;
   s.half = fmax(s.middle - s.box.left, s.box.right - s.middle);
   s.clamp = zp_shapes_get(shapes, 0).x[0] - s.middle;
   s.unit = 0.1 * s.half;
@@ -238,10 +242,10 @@ static void animation_head(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlo
   fputs(" at screen 0.5,0.025 center font ',10' tc rgb '#555555'\n", file);
 }
 
-/* Clip and holder, which stay where they are, or a wall for the kind ribbon. */
+/* Clip and holder, which stay where they are, or a wall for other kinds. */
 static void animation_scene(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
   const double plat = plot->def.platform.length / 2, thick = 0.35 * s->unit;
-  if (film(plot)->ribbons > 1)
+  if (has_platform(plot))
     fprintf(file,
             "set object 1 rectangle from %.6g,0 to %.6g,%.6g fc rgb '#555555' fs solid noborder\n"
             "set arrow 1 from 0,%.6g to 0,graph 1 nohead lw 3 lc rgb '#555555'\n",
@@ -251,11 +255,11 @@ static void animation_scene(const ZpPlot *plot, FILE *file, const Stage *s, ZpPl
             (s->clamp - thick) * mm.factor, -s->unit * mm.factor, s->clamp * mm.factor, s->unit * mm.factor);
 }
 
-/* Settings that move with the platform (kind ribbon: the right end): the platform itself, a string and
+/* Settings that move with the platform (other kinds: the right end): the platform itself, a string and
  * the load on it. h, v: where the load hangs. */
 static void animation_load(const ZpPlot *plot, FILE *file, const Stage *s, ZpPlotUnit mm) {
   const double u = s->unit * mm.factor, plat = plot->def.platform.length / 2 * mm.factor;
-  const bool pair = film(plot)->ribbons > 1;
+  const bool pair = has_platform(plot);
   char load[64];
   if (pair) fputs("  h = 0\n", file);
   if (!pair) fprintf(file, "  h = end_x[i]*%g - %.6g\n", mm.factor, s->middle * mm.factor);

@@ -1,6 +1,6 @@
 /* Pictures of a sweep: contraction.svg, all runs over time, bode.svg against the frequency of a drive, and what a study
  * asks for against the list key that varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg,
- * factors.svg; forces.svg, a curve for each value of the others. */
+ * factors.svg; forces.svg and torques.svg, a curve for each value of the others. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -335,28 +335,50 @@ static void script_answer(const ZpPlot *plot, FILE *file) {
   (many ? plot_many : plot_alone)(plot, file, unit);
 }
 
-/* -- forces --------------------------------------------------------------------------------------- */
+/* -- what is held --------------------------------------------------------------------------------- */
+
+/* A number of the summary, a curve for each value of the other list keys. */
+typedef struct Held {
+  const char *picture, *scalar, *unit, *axis;
+  bool by_angle; /* against the angle of a fold, not the list key that varies fastest */
+} Held;
+
+static const Held forces = {"forces", "force_N", "N", "force", false};
+static const Held torques = {"torques", "torque_N_m", "N m", "torque", true};
 
 static bool has_forces(const ZpPlot *plot) {
   if (plot->shows == ZP_SHOWS_held_branch) return has_axis(plot) && points_of(plot, "force_N") >= 2;
   return plot->shows == ZP_SHOWS_field && has_answer(plot, plot->study);
 }
 
-static double force(const ZpPlot *plot, size_t run) {
-  return zp_result_get(zp_report_result(plot->report, run), "force_N");
+static bool has_torques(const ZpPlot *plot) {
+  return plot->shows == ZP_SHOWS_held_branch && has_axis(plot) && points_of(plot, torques.scalar) >= 2;
+}
+
+static double number_of(const ZpPlot *plot, size_t run, const char *name) {
+  return zp_result_get(zp_report_result(plot->report, run), name);
 }
 
 /* An index per curve. */
-static void data_forces(const ZpPlot *plot, FILE *file) {
+static void data_held(const ZpPlot *plot, FILE *file, const Held *held) {
   size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
-  fprintf(file, "# %s force_N; an index per curve\n", zp_key(x_key(plot))->name);
+  fprintf(file, "# %s %s; an index per curve\n", held->by_angle ? "angle_rad" : zp_key(x_key(plot))->name,
+          held->scalar);
   for (size_t k = 0; k < curves; k++) {
     for (size_t run = chosen[k]; run < end_of_curve(plot, chosen[k]); run++) {
-      zp_plot_put(file, key_value(plot, run), ' ');
-      zp_plot_put(file, force(plot, run), '\n');
+      zp_plot_put(file, held->by_angle ? number_of(plot, run, "angle_rad") : key_value(plot, run), ' ');
+      zp_plot_put(file, number_of(plot, run, held->scalar), '\n');
     }
     fputs("\n\n", file);
   }
+}
+
+static void data_forces(const ZpPlot *plot, FILE *file) {
+  data_held(plot, file, &forces);
+}
+
+static void data_torques(const ZpPlot *plot, FILE *file) {
+  data_held(plot, file, &torques);
 }
 
 /* Of many curves the first list key has a line style, the others together a colour. */
@@ -371,40 +393,54 @@ static size_t curves_of_a_style(const ZpPlot *plot, const size_t *chosen, size_t
   return alike;
 }
 
-static void plot_forces(const ZpPlot *plot, FILE *file, ZpPlotUnit unit) {
+static void plot_held(const ZpPlot *plot, FILE *file, const Held *held, ZpPlotUnit unit) {
+  static const double degrees = 57.295779513082323; /* in a radian */
   size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen), alike = curves_of_a_style(plot, chosen, curves);
   for (size_t k = 0; k < curves; k++) {
     char name[256];
     double shade = alike > 1 ? (double)(k % alike) / (double)(alike - 1) : 0.3;
     run_name(plot, chosen[k], 1, name, sizeof name);
     fprintf(file,
-            "%s'forces.dat' index %zu using ($1*%g):($2*%g) with linespoints lw 2 dt %zu pt %d ps 0.6 lc rgb '#%06x' "
+            "%s'%s.dat' index %zu using ($1*%g):($2*%g) with linespoints lw 2 dt %zu pt %d ps 0.6 lc rgb '#%06x' "
             "title ",
-            k ? ", \\\n     " : "plot ", k, zp_sweep_factor(x_key(plot)), unit.factor, k / alike % 5 + 1,
-            k / alike % 2 ? 6 : 7, zp_plot_shade(shade));
+            k ? ", \\\n     " : "plot ", held->picture, k, held->by_angle ? degrees : zp_sweep_factor(x_key(plot)),
+            unit.factor, k / alike % 5 + 1, k / alike % 2 ? 6 : 7, zp_plot_shade(shade));
     zp_plot_text(file, name);
   }
   fputc('\n', file);
 }
 
-static void script_forces(const ZpPlot *plot, FILE *file) {
+static void script_held(const ZpPlot *plot, FILE *file, const Held *held, const char *title) {
   size_t keys;
   double largest = 0;
   zp_scenario_axes(plot->report->scenario, &keys);
-  for (size_t i = 0; i < plot->report->count; i++)
-    if (isfinite(force(plot, i))) largest = fmax(largest, fabs(force(plot, i)));
-  ZpPlotUnit unit = zp_plot_unit(largest, "N");
-  zp_plot_head(plot, file, "forces",
-               plot->shows == ZP_SHOWS_field ? "Electric force on a ribbon of one half" : "Force on the held platform",
-               keys > 1 ? RIGHT : 0.96);
+  for (size_t i = 0; i < plot->report->count; i++) {
+    double number = number_of(plot, i, held->scalar);
+    if (isfinite(number)) largest = fmax(largest, fabs(number));
+  }
+  ZpPlotUnit unit = zp_plot_unit(largest, held->unit);
+  zp_plot_head(plot, file, held->picture, title, keys > 1 ? RIGHT : 0.96);
   if (keys > 1) legend_title(plot, file, 1);
   fputs("set xlabel ", file);
-  zp_sweep_label(file, x_key(plot));
+  if (held->by_angle)
+    fputs("'angle / degree'", file);
+  else
+    zp_sweep_label(file, x_key(plot));
   fprintf(file,
-          "\nset ylabel 'force / %s' offset 0.5\nset xrange [0:*]\nset yrange [*<0:*]\n"
+          "\nset ylabel '%s / %s' offset 0.5\nset xrange [0:*]\nset yrange [*<0:*]\n"
           "set offsets 0, graph 0.03, graph 0.05, 0\n",
-          unit.text);
-  plot_forces(plot, file, unit);
+          held->axis, unit.text);
+  plot_held(plot, file, held, unit);
+}
+
+static void script_forces(const ZpPlot *plot, FILE *file) {
+  bool field = plot->shows == ZP_SHOWS_field;
+  const char *held = plot->def.actuator.kind == ZP_KIND_HINGE ? "Force on the held end" : "Force on the held platform";
+  script_held(plot, file, &forces, field ? "Electric force on a ribbon of one half" : held);
+}
+
+static void script_torques(const ZpPlot *plot, FILE *file) {
+  script_held(plot, file, &torques, "Torque of the held fold");
 }
 
 /* -- bode ------------------------------------------------------------------------------------------ */
@@ -465,6 +501,7 @@ const ZpPicture zp_sweep_pictures[] = {
     {"bode", "svg", has_bode, script_bode, data_bode},
     {"contraction", "svg", has_contraction, script_contraction, data_contraction},
     {"forces", "svg", has_forces, script_forces, data_forces},
+    {"torques", "svg", has_torques, script_torques, data_torques},
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
   {#picture, "svg", has_##picture, script_answer, data_answer},
 #include <zipact/studies.def>
