@@ -79,6 +79,57 @@ START_TEST(plate_hangs_on_its_spring) {
 }
 END_TEST
 
+/* A strip that bends, bowed by nature, stands in series with its spring, eq. (30.1): small deflections by a small load
+ * are F L^3 / 3 EI + F L^2 / k + kappa L^2 / 2. Elements half as long leave a quarter of the error. */
+START_TEST(strip_stands_in_series_with_its_spring) {
+  double k = 3e-3, L = 50e-3, b = 100e-6, kappa = _i ? 0.05 : 0, F = 1e-5, off[3];
+  for (int n = 0; n < 3; n++) {
+    ZpActuatorDef def =
+        DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", L}, {"ribbon.thickness", b}, {"ribbon.density", 0},
+            {"ribbon.plane", ZP_PLANE_STRESS}, {"load.mass", 0}, {"load.force", F}, {"hinge.stiffness", k},
+            {"mesh.nodes", 5 * (1 << n) + 1}, {"segment_1.length", L}, {"segment_1.thickness", b},
+            {"segment_1.curvature", kappa}, {"solver.tolerance", 1e-8}, {"drive.voltage", 0});
+    double EI = def.ribbon.young_modulus * def.ribbon.width * b * b * b / 12;
+    double expected = F * L * L * L / (3 * EI) + F * L * L / k + kappa * L * L / 2;
+    off[n] = fabs(answered_value(ZP_STUDY_STATIONARY, &def, "stroke_m") / expected - 1);
+    printf("%d elements: stroke off by %.2e\n", def.mesh.nodes - 1, off[n]);
+  }
+  ck_near(off[0] / off[1], 4, 0.05);
+  ck_near(off[1] / off[2], 4, 0.05);
+}
+END_TEST
+
+/* Derivatives by its keys are those of differences: of the angle at rest, of the held force, of the pull-in. */
+START_TEST(derivatives_are_those_of_differences) {
+  static const struct {
+    ZpStudy study;
+    const char *name, *key;
+    double step;
+  } of[] = {{ZP_STUDY_STATIONARY, "angle_rad", "hinge.stiffness", 1e-6},
+            {ZP_STUDY_STATIONARY, "angle_rad", "hinge.rest_angle", 1e-4},
+            {ZP_STUDY_ISOMETRIC, "force_N", "insulator.thickness", 1e-8},
+            {ZP_STUDY_LIMITS, "pull_in_voltage_V", "hinge.stiffness", 1e-6}};
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.5e-3},
+          {"load.mass", 0.1e-3}, {"hinge.stiffness", 3e-3}, {"hinge.rest_angle", 0.2}, {"mesh.nodes", 31},
+          {"drive.voltage", 8e3}, {"isometric.separation", 5e-3}, {"solver.tolerance", 1e-7});
+  int key = zp_key_find(of[_i].key);
+  double at = zp_def_get(&def, key), value[2];
+  for (int k = 0; k < 2; k++) {
+    ck_assert_int_eq(zp_def_set(&def, key, at + (k ? 1 : -1) * of[_i].step, NULL), ZP_OK);
+    value[k] = answered_value(of[_i].study, &def, of[_i].name);
+  }
+  ck_assert_int_eq(zp_def_set(&def, key, at, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), of[_i].key, NULL), ZP_OK);
+  ZpResult *result = answer_of(of[_i].study, &def);
+  double slope = NAN;
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (strcmp(result->sensitivity[i].output, of[_i].name) == 0) slope = result->sensitivity[i].value;
+  ck_near(slope, (value[1] - value[0]) / (2 * of[_i].step), 1e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Without a spring it hangs straight down: the angle is a right one. */
 START_TEST(free_hinge_hangs_straight_down) {
   ZpActuatorDef def =
@@ -234,6 +285,8 @@ int main(void) {
   tcase_add_test(plates, torque_converges);
   tcase_add_loop_test(plates, plate_hangs_on_its_spring, 0, 3);
   tcase_add_test(plates, free_hinge_hangs_straight_down);
+  tcase_add_loop_test(plates, strip_stands_in_series_with_its_spring, 0, 2);
+  tcase_add_loop_test(plates, derivatives_are_those_of_differences, 0, 4);
   tcase_add_loop_test(plates, swings_as_a_rigid_body, 0, 2);
   tcase_add_test(plates, pull_in_is_that_of_the_wedge);
   suite_add_tcase(suite, plates);

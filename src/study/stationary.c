@@ -64,6 +64,9 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
+  if (zp_is_hinge(&slope->at->model->topology))
+    zp_result_add_sensitivity(result, "angle_rad", slope->key,
+                              found ? zp_slope_of(slope, zp_pose_load, zp_output_angle, NULL) : NAN);
 }
 
 static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
