@@ -35,7 +35,7 @@ set label 3 pace at screen 0.5,0.865 center
 if (!path) set label 4 note at screen 0.5,0.025 center font ',10' tc rgb '#555555'
 
 # holder and clip, which stay where they are, or a wall
-if (ribbons > 1) {
+if (has_platform) {
   set object 1 rectangle from -platform,0 to platform,0.35*u fc rgb '#555555' fs solid noborder
   set arrow 1 from 0,0.35*u to 0,graph 1 nohead lw 3 lc rgb '#555555'
 } else {
@@ -60,9 +60,9 @@ do for [k=1:frames + hold] {
   }
   set label 1 caption at screen 0.5,0.96 center
   # the platform, and the string with the load on it
-  h = ribbons > 1 ? 0 : (end_x[i] - middle)*length
+  h = has_platform ? 0 : (end_x[i] - middle)*length
   v = end_y[i]*length
-  if (ribbons > 1) { set object 2 rectangle from -platform,v-0.35*u to platform,v fc rgb '#555555' fs solid noborder }
+  if (has_platform) { set object 2 rectangle from -platform,v-0.35*u to platform,v fc rgb '#555555' fs solid noborder }
   if (held) { set arrow 2 from h,v to h,graph 0 nohead lw 3 lc rgb '#555555' }
   if (!held && load_mass > 0) {
     set arrow 2 from h,v to h,v-u nohead lw 2 lc rgb '#555555'

@@ -1,6 +1,6 @@
 # Closed length at rest against voltage.
-title = actuator_kind eq 'flange' ? 'Closed length at rest against voltage' \
-                                  : 'Closed length from the clip, one half, against voltage'
+title = actuator_kind eq 'electro_ribbon' ? 'Closed length from the clip, one half, against voltage' \
+                                          : 'Closed length at rest against voltage'
 load 'along_voltage.gp'
 factor = scale(largest('zipped_length_m'), 'm')
 set yrange [0:*]

@@ -41,6 +41,7 @@ PICTURES = {
     "stack.svg": "stack/plots/members.svg",
     "pre-opened.svg": "pre-opened/plots/shapes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
+    "hinge.svg": "hinge-torque/plots/torques.svg",
     "yielding.svg": "yielding/plots/plastic.svg",
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
     "demo.gif": "motion/plots/animation.gif",

@@ -88,6 +88,7 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
   if (strcmp(name, "insulator_field_V_per_m") == 0) return !has_insulators(def);
   for (size_t i = 0; i < sizeof of_two / sizeof of_two[0]; i++)
     if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON && strcmp(name, of_two[i]) == 0) return true;
+  if (strcmp(name, "angle_rad") == 0) return def->actuator.kind != ZP_KIND_HINGE;
   if (strncmp(name, "measured", 8) == 0) return true;                        /* before the first sample */
   if (strncmp(name, "sensed_", 7) == 0) return !isnan(def->sense.frequency); /* before its first reading */
   return strcmp(name, "contraction") == 0;
@@ -245,6 +246,8 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
   if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;
   if (strcmp(key, "load.rest_opening") == 0) def->load.stiffness = 1;
+  if (strncmp(key, "hinge.", 6) == 0) def->actuator.kind = ZP_KIND_HINGE;
+  if (strcmp(key, "hinge.rest_angle") == 0) def->hinge.stiffness = 1;
   if (strcmp(key, "load.change_mass") == 0 && value != 0) def->load.change_time = 1e-5, def->load.mass = fabs(value);
   if (strcmp(key, "load.change_time") == 0 || (strcmp(key, "load.drop_height") == 0 && value > 0))
     def->load.change_mass = 1e-3;
@@ -568,6 +571,10 @@ static const char *const combinations[] = {
     "gravity=1000m/s2 load.mass=1000kg",
     "actuator.kind=ribbon actuator.right_end=clamped initial.state=straight",
     "actuator.kind=flange drive.voltage=1MV",
+    "actuator.kind=hinge drive.voltage=1MV",
+    "actuator.kind=hinge hinge.stiffness=1e4 hinge.rest_angle=170degree drive.voltage=1MV",
+    "actuator.kind=hinge hinge.stiffness=1e-9 hinge.rest_angle=-170degree",
+    "actuator.kind=hinge load.mass=0 gravity=0 initial.state=straight drive.voltage=0",
     "solver.integrator=explicit drive.voltage=1MV",
     "solver.integrator=explicit drive.voltage=1MV contact.model=sequential electro.breakdown_cap=false",
     "solver.integrator=explicit initial.state=straight contact.model=sequential",
@@ -603,6 +610,10 @@ static const struct {
     {"damping.internal=1us solver.integrator=explicit", "damping.internal"},
     {"damping.internal=1us actuator.kind=ribbon solver.integrator=explicit", "damping.internal"},
     {"actuator.kind=flange solver.integrator=explicit", "solver.integrator"},
+    {"actuator.kind=hinge solver.integrator=explicit", "solver.integrator"},
+    {"actuator.kind=hinge ribbon.model=mass_spring", "ribbon.model"},
+    {"hinge.stiffness=1", "hinge.stiffness"},
+    {"actuator.kind=hinge hinge.rest_angle=1", "hinge.rest_angle"},
 };
 
 START_TEST(contradictions_are_refused) {

@@ -41,6 +41,11 @@
 /* One ribbon, 20 mm long, below a flat electrode. */
 #define FLANGE "actuator.kind=flange actuator.right_end=guided load.mass=0 ribbon.length=20mm mesh.nodes=21"
 
+/* A plate on a hinge. */
+#define FOLD                                                                                                           \
+  "study=stationary actuator.kind=hinge ribbon.length=20mm ribbon.thickness=5mm ribbon.young_modulus=1000GPa "         \
+  "load.mass=0 mesh.nodes=11"
+
 /* What the source does is looked at; nothing much moves. */
 #define DRIVEN "study=actuate initial.state=straight mesh.nodes=5 drive.voltage=2kV"
 
@@ -468,6 +473,9 @@ static const Row rows[] = {
      {{BECOMES, "catch_loss_J", 0, 0}}},
     {"load.share", PAIR, "0.5", "0.25", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"gravity", STRIP, "10m/s2", "5m/s2", {{TIMES, "y_m", 0.5, 1e-4}}},
+    /* a stiff plate of little weight on a spring: the angle is small */
+    {"hinge.stiffness", FOLD, "1", "2", {{TIMES, "stroke_m", 0.5, 1e-3}}},
+    {"hinge.rest_angle", FOLD " gravity=0 hinge.stiffness=1", "0.5degree", "1degree", {{TIMES, "angle_rad", 2, 1e-6}}},
     {"mount.tilt", STRIP, "0", "180degree", {{TIMES, "y_m", -1, 1e-9}}},
     /* a discrete cantilever of rods is too soft by 1 / (2 (N - 1)^2) */
     {"mesh.nodes", CANTILEVER, "9", "5", {{TIMES, "y_m", 1, 1e-6}}},

@@ -30,6 +30,11 @@ typedef struct Case {
     "electro.gap_offset", 2e-4                                                                                         \
   }
 
+#define FOLD                                                                                                           \
+  {"actuator.kind", ZP_KIND_HINGE}, {"hinge.stiffness", 1e-4}, {                                                       \
+    "hinge.rest_angle", 0.5                                                                                            \
+  }
+
 static const Case cases[] = {
     {"two ribbons", SET(SOFT), 1e-4, 0, false},
     {"attraction", SET(SOFT), 1e-4, 5e3, false},
@@ -43,6 +48,8 @@ static const Case cases[] = {
     {"particles", SET(SOFT, {"ribbon.model", ZP_RIBBON_MASS_SPRING}), 1e-4, 5e3, false},
     {"flange", SET(SOFT, FLANGE), 1e-4, 1e3, false},
     {"clamped flange", SET(SOFT, FLANGE, {"actuator.right_end", ZP_END_CLAMPED}), 1e-4, 1e3, true},
+    {"fold", SET(SOFT, FOLD), 1e-4, 5e3, false},
+    {"fold, faces in touch", SET(SOFT, FOLD, {"drive.voltage", 10}), 4.5e-7, 5e3, true},
     {"free ribbon", SET({"mesh.nodes", 8}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}), 0,
      0, false},
     {"yielding ribbon",

@@ -19,8 +19,8 @@ static const struct {
 } named[] = {{"mm2/s", "m2/s", -6}, {"cSt", "m2/s", -6}, {"uL", "m3", -9},
              {"mL", "m3", -6},      {"V/us", "V/s", 6},  {"V/ms", "V/s", 3}};
 
-static const char *const others[] = {"m",   "g",   "s",       "V",    "Pa", "N",   "Hz", "V/m", "kg/m3", "m/s2",
-                                     "N/m", "1/m", "N s2/m2", "m2/s", "m3", "V/s", "A",  "ohm", "F",     "ohm m"};
+static const char *const others[] = {"m",   "g",       "s",    "V",  "Pa",  "N", "Hz",  "V/m", "kg/m3", "m/s2",   "N/m",
+                                     "1/m", "N s2/m2", "m2/s", "m3", "V/s", "A", "ohm", "F",   "ohm m", "N m/rad"};
 
 /* (unit with its prefix, unit without) => does it fit? Then its power of ten, too. */
 static bool read_prefix(const char *unit, const char *base, int *exponent) {

@@ -162,17 +162,17 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
                               .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(section.EI, model->l, def->mesh.nodes)
                                                 : K_S,
                               .left_slope = true,
-                              .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1)};
+                              .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1, 0)};
 }
 
 /* Where the faces are level. Particles of mass_spring have no slope: between them faces go straight. */
 static ZpLevelEnds level_faces(const ZpModel *model) {
-  return model->is_rod ? zp_topology_level_ends(&model->topology) : (ZpLevelEnds){0};
+  return model->is_rod ? zp_topology_level_faces(&model->topology) : (ZpLevelEnds){0};
 }
 
 /* Length of platform at each station that it has, m. */
 static double platform_length(const ZpModel *model) {
-  return zp_is_pair(&model->topology) ? model->def.platform.length / 2 : 0;
+  return zp_has_platform(&model->topology) ? model->def.platform.length / 2 : 0;
 }
 
 /* What a layer withstands, as a displacement over eps0; of bare metal anything: the other insulator is the weaker one.
@@ -374,6 +374,23 @@ static void fill_end(ZpModel *model, size_t ribbon, ZpLevelEnd level, Arrays *a)
   *end = (ZpRodEnd){held, next, left, level.right ? left - s : right, -share.across / det};
 }
 
+/* Eq. (8.9) wherever something holds a slope. */
+static void fill_ends(ZpModel *model, Arrays *a) {
+  ZpLevelEnds levels[2];
+  for (size_t ribbon = 0; ribbon < model->s; ribbon++)
+    levels[ribbon] = zp_topology_level_ends(&model->topology, ribbon);
+  for (size_t k = 0; k < ZP_MOST_LEVEL_ENDS; k++)
+    for (size_t ribbon = 0; ribbon < model->s; ribbon++)
+      if (k < levels[ribbon].count) fill_end(model, ribbon, levels[ribbon].of[k], a);
+}
+
+/* Does the joint of node j end its ribbon, which nothing holds there? */
+static bool is_free_end(const ZpModel *model, size_t j) {
+  size_t station = j / model->s;
+  bool end = station == 0 || station + 1 == model->nodes;
+  return end && !zp_topology_holds_slope(&model->topology, station, j % model->s);
+}
+
 /* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
@@ -381,17 +398,22 @@ static void fill_rod(ZpModel *model, Arrays *a) {
   for (size_t j = 0; j < model->count; j++) {
     size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
     Share share = node_share(model, j);
-    a->rod_B[j] = station == last && !zp_topology_holds_slope(t, last) ? 0 : 1 / share.compliance;
+    a->rod_B[j] = is_free_end(model, j) ? 0 : 1 / share.compliance;
     a->rod_k0[j] = natural_curvature(share.turn);
     if (station == last) continue;
     a->rod_l[j] = model->l;
     a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
   }
   model->rod = rod_of(model, a);
-  ZpLevelEnds levels = zp_topology_level_ends(t);
-  for (size_t k = 0; k < levels.count; k++)
-    for (size_t ribbon = 0; ribbon < model->s; ribbon++)
-      fill_end(model, ribbon, levels.of[k], a);
+  fill_ends(model, a);
+}
+
+/* The spring in series with the half element that the joint beside it does not bend. */
+static ZpHingeParams hinge_of(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  Share share = node_share(model, zp_lower(&model->topology, 0));
+  if (!zp_is_hinge(&model->topology) || def->hinge.stiffness == 0) return (ZpHingeParams){0, 0};
+  return (ZpHingeParams){1 / (1 / def->hinge.stiffness + share.compliance), def->hinge.rest_angle - share.turn};
 }
 
 /* Its joints may yield. */
@@ -586,15 +608,15 @@ static void derive(ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const ZpTopology *t = &model->topology;
   model->topology = zp_topology_of(def);
-  bool two = zp_is_pair(t);
+  bool two = zp_is_pair(t), platform = zp_has_platform(t);
   model->s = t->ribbons;
   model->nodes = t->stations;
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = def->actuator.kind != ZP_KIND_RIBBON;
   model->flat = def->actuator.kind == ZP_KIND_FLANGE;
-  model->parts = two ? 2 / (double)t->halves * def->stack.parallel : 1;
-  model->L = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  model->parts = platform ? 2 / (double)t->halves * def->stack.parallel : 1;
+  model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);
   ZpActuatorDef lower = zp_def_lower(def);
   model->ribbon[0] = ribbon_of(def, 1);
@@ -602,6 +624,7 @@ static void derive(ZpModel *model) {
   model->series = series_of(def, &lower);
   find_fall(model);
   model->is_rod = def->ribbon.model == ZP_RIBBON_ROD;
+  model->hinge = hinge_of(model);
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
   model->axial_stiffness = model->is_rod ? EA / model->l : model->spring.K_D;

@@ -49,6 +49,13 @@ typedef struct ZpRibbon {
   ZpCurl curl;   /* across its width */
 } ZpRibbon;
 
+/* The spring of a hinge, between the upper ribbon's direction there and the first element of the lower ribbon, which is
+ * bent by half of itself. Eq. (30.1). */
+typedef struct ZpHingeParams {
+  double stiffness; /* N m/rad; 0: there is no spring */
+  double rest;      /* angle without a moment, positive downwards, rad */
+} ZpHingeParams;
+
 struct ZpModel {
   ZpActuatorDef def;
   ZpTopology topology;
@@ -62,6 +69,7 @@ struct ZpModel {
   ZpRibbon ribbon[2];     /* upper or only one, lower one */
   double axial_stiffness; /* of the stiffest edge, N/m */
   bool is_rod;            /* mechanics: rod, else spring */
+  ZpHingeParams hinge;    /* of two ribbons on one */
   ZpMassSpringParams spring;
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */

@@ -1,20 +1,24 @@
 #include "actuator/topology.h"
 
+#include "def/check.h"
+#include "math/elementary.h"
+
 /* What a joint does to the nodes of its stations. */
 typedef struct Hold {
-  bool unites; /* upper and lower node are one */
-  bool x;      /* held */
-  bool y[2];   /* held: of the upper or only ribbon, of the lower one */
-  bool slope;  /* horizontal */
+  bool unites;   /* upper and lower node are one */
+  bool x;        /* held */
+  bool y[2];     /* held: of the upper or only ribbon, of the lower one */
+  bool slope[2]; /* horizontal */
 } Hold;
 
 static const Hold hold_of[ZP_JOINT_KINDS] = {
-    [ZP_JOINT_CLIP] = {.unites = true, .slope = true},
-    [ZP_JOINT_CLAMP] = {.x = true, .y = {true, true}, .slope = true},
-    [ZP_JOINT_GUIDE] = {.slope = true},
+    [ZP_JOINT_CLIP] = {.unites = true, .slope = {true, true}},
+    [ZP_JOINT_CLAMP] = {.x = true, .y = {true, true}, .slope = {true, true}},
+    [ZP_JOINT_HINGE] = {.unites = true, .x = true, .y = {true, true}, .slope = {true, false}},
+    [ZP_JOINT_GUIDE] = {.slope = {true, true}},
     [ZP_JOINT_FREE] = {0},
-    [ZP_JOINT_PLATFORM] = {.x = true, .y = {true, false}, .slope = true},
-    [ZP_JOINT_LINK] = {.x = true, .slope = true},
+    [ZP_JOINT_PLATFORM] = {.x = true, .y = {true, false}, .slope = {true, true}},
+    [ZP_JOINT_LINK] = {.x = true, .slope = {true, true}},
 };
 
 static void add(ZpTopology *t, ZpJointKind kind, size_t first, size_t last) {
@@ -41,11 +45,21 @@ static void of_two(size_t halves, size_t nodes, ZpTopology *t) {
   if (halves == 2) add(t, ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
 }
 
+/* Two ribbons on a hinge, their right ends free. */
+static void of_hinge(size_t nodes, ZpTopology *t) {
+  t->stations = nodes;
+  add(t, ZP_JOINT_HINGE, 0, 0);
+  add(t, ZP_JOINT_FREE, nodes - 1, nodes - 1);
+  t->platform = t->joint[1];
+}
+
 ZpTopology zp_topology_of(const ZpActuatorDef *def) {
-  bool pair = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON, whole = def->actuator.symmetry == ZP_SYMMETRY_NONE;
+  bool whole = def->actuator.symmetry == ZP_SYMMETRY_NONE;
   size_t nodes = (size_t)def->mesh.nodes;
-  ZpTopology t = {.ribbons = pair ? 2 : 1, .halves = 1};
-  if (pair)
+  ZpTopology t = {.ribbons = zp_def_has_two(def) ? 2 : 1, .halves = 1};
+  if (def->actuator.kind == ZP_KIND_HINGE)
+    of_hinge(nodes, &t);
+  else if (zp_def_has_two(def))
     of_two(whole ? 2 : 1, nodes, &t);
   else
     of_one(def->actuator.right_end, nodes, &t);
@@ -81,24 +95,45 @@ size_t zp_topology_leader(const ZpTopology *t, size_t k) {
   return 2 * (t->ribbons * joint->first + ribbon) + k % 2;
 }
 
-bool zp_topology_holds_slope(const ZpTopology *t, size_t station) {
+bool zp_topology_holds_slope(const ZpTopology *t, size_t station, size_t ribbon) {
   const ZpJoint *joint = joint_at(t, station);
-  return joint && hold_of[joint->kind].slope;
+  return joint && hold_of[joint->kind].slope[ribbon];
 }
 
 static void add_level(size_t element, bool right, ZpLevelEnds *ends) {
   ends->of[ends->count++] = (ZpLevelEnd){element, right};
 }
 
-ZpLevelEnds zp_topology_level_ends(const ZpTopology *t) {
+/* Beside joints that keep ribbons first .. last horizontal. */
+static ZpLevelEnds level_beside(const ZpTopology *t, size_t first, size_t last) {
   ZpLevelEnds ends = {0};
   for (size_t k = 0; k < t->joints; k++) {
     const ZpJoint *joint = &t->joint[k];
-    if (!hold_of[joint->kind].slope) continue;
+    const bool *slope = hold_of[joint->kind].slope;
+    if (!slope[first] || !slope[last]) continue;
     if (joint->first > 0) add_level(joint->first - 1, true, &ends);
     if (joint->last + 1 < t->stations) add_level(joint->last, false, &ends);
   }
   return ends;
+}
+
+ZpLevelEnds zp_topology_level_ends(const ZpTopology *t, size_t ribbon) {
+  return level_beside(t, ribbon, ribbon);
+}
+
+ZpLevelEnds zp_topology_level_faces(const ZpTopology *t) {
+  return level_beside(t, 0, t->ribbons - 1);
+}
+
+/* Direction of the line from node `from` to node `to`, rad. */
+static double direction(const double *x, const double *y, size_t from, size_t to) {
+  return zp_angle(y[to] - y[from], x[to] - x[from]);
+}
+
+double zp_fold_angle(const ZpTopology *t, const double *x, const double *y) {
+  size_t last = t->stations - 1;
+  if (!zp_is_hinge(t)) return NAN;
+  return direction(x, y, zp_upper(t, 0), zp_upper(t, last)) - direction(x, y, zp_lower(t, 0), zp_lower(t, last));
 }
 
 size_t zp_topology_station_image(const ZpTopology *t, size_t station) {

@@ -15,6 +15,7 @@
 typedef enum ZpJointKind {
   ZP_JOINT_CLIP,     /* both nodes are one; horizontal */
   ZP_JOINT_CLAMP,    /* held; horizontal */
+  ZP_JOINT_HINGE,    /* both nodes are one, held; the upper ribbon horizontal, the lower one free to turn */
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
   ZP_JOINT_FREE,     /* free to move and to turn */
   ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
@@ -37,7 +38,8 @@ typedef struct ZpTopology {
   size_t halves;   /* modelled: 1, or 2 from clip to clip; 1 of one ribbon */
   size_t joints;
   ZpJoint joint[ZP_MOST_JOINTS];
-  ZpJoint platform; /* the one that the load hangs on; of one ribbon its right end. Of a half, a half of the platform */
+  ZpJoint platform; /* the one that the load hangs on; of one ribbon and of a hinge the right end. Of a half, a half of
+                       the platform */
 } ZpTopology;
 
 /* (def) => its topology. */
@@ -52,12 +54,13 @@ bool zp_topology_is_held(const ZpTopology *topology, size_t coordinate);
 /* The first coordinate that always is as this one: itself, or one of a node of the same body. */
 size_t zp_topology_leader(const ZpTopology *topology, size_t coordinate);
 
-/* Does what is at this station, if anything, keep the ribbons horizontal? */
-bool zp_topology_holds_slope(const ZpTopology *topology, size_t station);
+/* Does what is at this station, if anything, keep this ribbon horizontal? */
+bool zp_topology_holds_slope(const ZpTopology *topology, size_t station, size_t ribbon);
 
-/* Elements at one station of which something keeps the ribbons horizontal: beside a clip, a clamp, a guide, a platform.
- */
-ZpLevelEnds zp_topology_level_ends(const ZpTopology *topology);
+/* Elements of a ribbon at one station of which something keeps it horizontal: beside a clip, a clamp, a guide, a
+ * platform; and those where the faces are so, because something keeps all ribbons horizontal. */
+ZpLevelEnds zp_topology_level_ends(const ZpTopology *topology, size_t ribbon);
+ZpLevelEnds zp_topology_level_faces(const ZpTopology *topology);
 
 /* The station, or element (by its left station), of the left half that mirrors this one; itself if it is there. */
 size_t zp_topology_station_image(const ZpTopology *topology, size_t station);
@@ -76,6 +79,16 @@ static inline bool zp_is_pair(const ZpTopology *t) {
   return t->ribbons == 2;
 }
 
+/* Two ribbons on a hinge? It is the left end, and their right ends are free. */
+static inline bool zp_is_hinge(const ZpTopology *t) {
+  return t->joint[0].kind == ZP_JOINT_HINGE;
+}
+
+/* Is there a rigid platform between the ribbons? */
+static inline bool zp_has_platform(const ZpTopology *t) {
+  return t->platform.kind == ZP_JOINT_PLATFORM || t->platform.kind == ZP_JOINT_LINK;
+}
+
 /* The nodes that the load hangs on. The platform is rigid: where there are two, one tells of both. */
 static inline size_t zp_load_node(const ZpTopology *t) {
   return zp_lower(t, t->platform.first);
@@ -86,19 +99,28 @@ static inline size_t zp_load_ends(const ZpTopology *t) {
   return t->platform.last - t->platform.first + 1;
 }
 
+/* (x and y of all nodes) => angle between the straight lines from a hinge to both right ends, positive where the lower
+ * one is below, rad; NAN without a hinge. */
+double zp_fold_angle(const ZpTopology *topology, const double *x, const double *y);
+
 /* Elements of a ribbon from its left end to the platform, or to its right end. */
 static inline size_t zp_half_elements(const ZpTopology *t) {
   return t->platform.first;
 }
 
-/* (y of all nodes) => height of the clip or the left end over the lower platform or the right end, m. */
+/* (y of all nodes) => height of the clip, the hinge or the left end over the lower platform or the right end, m. */
 static inline double zp_stroke(const ZpTopology *t, const double *y) {
   return y[zp_lower(t, 0)] - y[zp_load_node(t)];
 }
 
-/* Distance of the platforms' faces, m; NAN for one ribbon. */
+/* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */
 static inline double zp_opening(const ZpTopology *t, const double *y) {
   return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - y[zp_load_node(t)] : NAN;
+}
+
+/* How far the load's nodes are below what is held, the upper platform or the hinge, m. */
+static inline double zp_drop(const ZpTopology *t, const double *y) {
+  return zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y);
 }
 
 #endif

@@ -30,6 +30,9 @@ const char *zp_word_of(const char *key, int choice);
 /* What liquid.model bead asks of other keys, whatever liquid.model is: where it is refused, auto stands for none. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 
+/* Does the actuator have two ribbons that face each other? */
+bool zp_def_has_two(const ZpActuatorDef *def);
+
 /* The keys of the lower ribbon: those of the upper one, but where lower.* says otherwise. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 

@@ -572,12 +572,12 @@ static ZpStatus check_reach(const ZpActuatorDef *def, ZpError *err) {
 
 /* What a controller asks of the actuator and of the drive. */
 static ZpStatus check_plant(const ZpActuatorDef *def, ZpError *err) {
-  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  bool two = zp_def_has_two(def);
   ZpControlSignal signal = def->control.signal;
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "control.kind: requires electrodes; actuator.kind is ribbon");
   if (!two && (signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CONTRACTION))
-    return zp_fail(err, ZP_BAD_INPUT, "control.signal = %s: requires actuator.kind electro_ribbon; use stroke",
+    return zp_fail(err, ZP_BAD_INPUT, "control.signal = %s: requires actuator.kind electro_ribbon or hinge; use stroke",
                    zp_word_of("control.signal", (int)signal));
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -687,10 +687,11 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* What motion asks of a flange. */
-static ZpStatus check_flange_in_motion(const ZpActuatorDef *def, ZpError *err) {
+/* What motion asks of a flange and of a hinge. */
+static ZpStatus check_implicit_in_motion(const ZpActuatorDef *def, ZpError *err) {
   if (def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
-    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = flange: motion requires solver.integrator implicit");
+    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = %s: motion requires solver.integrator implicit",
+                   zp_word_of("actuator.kind", (int)def->actuator.kind));
   if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
     return zp_fail(err, ZP_BAD_INPUT, "contact.model = sequential: motion requires actuator.kind electro_ribbon");
   if (def->electro.surface == ZP_SURFACE_BEZIER)
@@ -703,8 +704,8 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   if (ours != ZP_OK) return ours;
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT, two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
   bool sequential = def->contact.model == ZP_CONTACT_SEQUENTIAL;
-  if (def->actuator.kind == ZP_KIND_FLANGE) {
-    ZpStatus status = check_flange_in_motion(def, err);
+  if (def->actuator.kind == ZP_KIND_FLANGE || def->actuator.kind == ZP_KIND_HINGE) {
+    ZpStatus status = check_implicit_in_motion(def, err);
     if (status != ZP_OK) return status;
   }
   if (two && sequential && implicit)
@@ -725,12 +726,25 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   return zp_check_mass(def, err);
 }
 
-/* Two ribbons touch at the clip, a flange without a gap at its clamp; a flange with a gap only beyond its pull-in. */
+/* Where electrodes touch at rest. */
+static const char *touches_at(const ZpActuatorDef *def) {
+  switch (def->actuator.kind) {
+  case ZP_KIND_ELECTRO_RIBBON:
+    return "clip";
+  case ZP_KIND_HINGE:
+    return "hinge";
+  default:
+    return "clamp (electro.gap_offset = 0 m)";
+  }
+}
+
+/* Two ribbons touch where they are joined, a flange without a gap at its clamp; a flange with a gap only beyond its
+ * pull-in. */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus ours = check_layout(def, err);
   if (ours != ZP_OK) return ours;
   if (def->stack.series > 1) return zp_check_members_voltage(def, voltage, err);
-  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  bool two = zp_def_has_two(def);
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V is more than the source gives, source.voltage_limit = %g V",
                    voltage, def->source.voltage_limit);
@@ -739,7 +753,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, for the electrodes touch at the %s; give an "
                  "insulator or no voltage",
-                 voltage, two ? "clip" : "clamp (electro.gap_offset = 0 m)");
+                 voltage, touches_at(def));
 }
 
 static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
@@ -964,6 +978,23 @@ static ZpStatus check_spring(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+/* The hinge: its keys, and what its two ribbons ask of other keys. */
+static ZpStatus check_hinge(const ZpActuatorDef *def, ZpError *err) {
+  static const Need needs[] = {NEED(ribbon, model, ZP_RIBBON_ROD), NEED(electro, surface, ZP_SURFACE_POLYLINE),
+                               NEED(contact, model, ZP_CONTACT_UNILATERAL)};
+  if (def->actuator.kind == ZP_KIND_HINGE) {
+    if (def->hinge.stiffness == 0 && def->hinge.rest_angle != 0)
+      return zp_fail(err, ZP_BAD_INPUT, "hinge.rest_angle: requires hinge.stiffness above 0 N m/rad");
+    return check_needs(def, "actuator.kind = hinge", needs, sizeof needs / sizeof needs[0],
+                       "actuator.kind electro_ribbon", err);
+  }
+  if (def->hinge.stiffness != 0 || def->hinge.rest_angle != 0)
+    return zp_fail(err, ZP_BAD_INPUT, "hinge.%s: requires actuator.kind hinge, but it is %s",
+                   def->hinge.stiffness != 0 ? "stiffness" : "rest_angle",
+                   zp_word_of("actuator.kind", (int)def->actuator.kind));
+  return ZP_OK;
+}
+
 /* What is asked of the model of the field. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
@@ -980,8 +1011,8 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                               : check_value(&keys[i], zp_def_get(def, i), err);
     if (status != ZP_OK) return status;
   }
-  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
-  if (two && def->platform.length > 0.9 * def->ribbon.length)
+  bool two = zp_def_has_two(def);
+  if (def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->platform.length > 0.9 * def->ribbon.length)
     return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",
                    def->platform.length, 0.9 * def->ribbon.length);
   double offset = def->electro.insulator_offset;
@@ -1001,6 +1032,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
                    def->electro.refresh_period);
   ZpStatus status = zp_check_ribbons(def, err);
   if (status == ZP_OK) status = zp_check_stack(def, err);
+  if (status == ZP_OK) status = check_hinge(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_stop(def, err);
   if (status == ZP_OK) status = check_change(def, err);

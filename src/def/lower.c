@@ -15,6 +15,10 @@ static bool is_given(const ZpActuatorDef *def, int key) {
   return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
 }
 
+bool zp_def_has_two(const ZpActuatorDef *def) {
+  return def->actuator.kind == ZP_KIND_ELECTRO_RIBBON || def->actuator.kind == ZP_KIND_HINGE;
+}
+
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
   ZpActuatorDef lower = *def;
   for (int key = 0; key < zp_key_count(); key++)
@@ -80,16 +84,17 @@ static ZpStatus check_lower(const ZpActuatorDef *def, ZpError *err) {
   const char *given = NULL;
   for (int key = 0; key < zp_key_count() && !given; key++)
     if (is_given(def, key)) given = zp_key(key)->name;
-  if (given && def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: requires actuator.kind electro_ribbon, which has two ribbons", given);
+  if (given && !zp_def_has_two(def))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires actuator.kind electro_ribbon or hinge, which have two ribbons",
+                   given);
   if (given && def->ribbon.model != ZP_RIBBON_ROD)
     return zp_fail(err, ZP_BAD_INPUT, "%s: requires ribbon.model rod", given);
   return isnan(def->electro.insulator_offset) ? ZP_OK : zp_check_like_insulators(def, "electro.insulator_offset", err);
 }
 
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
-  bool two = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
-  double flexible = two ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  bool platform = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_segments(def, "", flexible, err);
   if (def->ribbon.plane == ZP_PLANE_ANTICLASTIC && def->ribbon.model != ZP_RIBBON_ROD)

@@ -185,7 +185,9 @@ size_t zp_plot_frame_at(const ZpShapes *shapes, double part) {
 }
 
 bool zp_plot_is_half(const ZpPlot *plot) {
-  return plot->single->shapes->ribbons > 1 && plot->def.actuator.symmetry == ZP_SYMMETRY_HALF;
+  const ZpActuatorDef *def = &plot->def;
+  return plot->single->shapes->ribbons > 1 && def->actuator.kind == ZP_KIND_ELECTRO_RIBBON &&
+         def->actuator.symmetry == ZP_SYMMETRY_HALF;
 }
 
 const char *zp_plot_drag_note(const ZpPlot *plot) {

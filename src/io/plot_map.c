@@ -23,7 +23,8 @@ typedef struct Grid {
 static void choose_scalar(const ZpPlot *plot, Grid *grid) {
   const ZpAnswer *a = zp_sweep_answer(plot);
   grid->scalar = a ? a->scalar[0] : "force_N"; /* of the held platform, whose curves are another picture */
-  grid->title = a ? a->title : "Force on the held platform";
+  bool fold = plot->def.actuator.kind == ZP_KIND_HINGE;
+  grid->title = a ? a->title : fold ? "Force on the held end" : "Force on the held platform";
   grid->axis = a ? a->axis : "force";
   grid->which = a ? a->legend[0] : NULL;
   grid->unit = a ? a->unit : "N";

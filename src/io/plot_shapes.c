@@ -68,17 +68,21 @@ static void define_profiles(const ZpPlot *plot, FILE *file) {
   zp_plot_define(file, "end", time_of(shapes, shapes->frames - 1));
 }
 
-/* The node of the lower ribbon at the platform's left end, or the right end of the one ribbon. */
+static bool has_platform(const ZpPlot *plot) {
+  return plot->def.actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+}
+
+/* The node of the lower ribbon at the platform's left end, or the right end of the lower or only ribbon. */
 static size_t load_node(const ZpPlot *plot) {
   const ZpShapes *shapes = film(plot);
-  bool whole = shapes->ribbons > 1 && !zp_plot_is_half(plot);
+  bool whole = has_platform(plot) && !zp_plot_is_half(plot);
   return shapes->ribbons * (whole ? shapes->nodes / 2 : shapes->nodes) - 1;
 }
 
 /* The stage of the film: x counts from the middle of what is drawn, m. */
 typedef struct Stage {
   ZpPlotBox box; /* of the shapes */
-  double middle; /* x of the platform's middle (kind ribbon: of the middle of the box) */
+  double middle; /* x of the platform's middle (other kinds: of the middle of the box) */
   double half;   /* half of the width of all that moves */
   double clamp;  /* x of the left end, from the middle */
   size_t frames; /* different ones */
@@ -89,7 +93,7 @@ static Stage stage_of(const ZpPlot *plot) {
   const ZpShapes *shapes = film(plot);
   Stage s = {.box = zp_plot_box(shapes)};
   s.middle = (s.box.left + s.box.right) / 2;
-  if (shapes->ribbons > 1) s.middle = zp_shapes_get(shapes, 0).x[load_node(plot)] + plot->def.platform.length / 2;
+  if (has_platform(plot)) s.middle = zp_shapes_get(shapes, 0).x[load_node(plot)] + plot->def.platform.length / 2;
   s.half = fmax(s.middle - s.box.left, s.box.right - s.middle);
   s.clamp = zp_shapes_get(shapes, 0).x[0] - s.middle;
   s.frames = shapes->frames < FILM_FRAMES ? shapes->frames : FILM_FRAMES;
@@ -194,6 +198,7 @@ static void define_stage(const ZpPlot *plot, FILE *file, const Stage *stage) {
   zp_plot_define_key(plot, file, "load.mass");
   zp_plot_define_key(plot, file, "platform.length");
   zp_plot_define_count(file, "ribbons", film(plot)->ribbons);
+  zp_plot_define_count(file, "has_platform", has_platform(plot));
   zp_plot_define_count(file, "held", is_held(plot));
   zp_plot_define_count(file, "bead", zp_plot_has_bead(plot));
   zp_plot_define_count(file, "bath", zp_plot_has_liquid(plot) && zp_def_liquid(&plot->def) != ZP_LIQUID_BEAD);

@@ -1,6 +1,6 @@
 /* Pictures of a sweep: contraction.svg, all runs over time, bode.svg against the frequency of a drive, and what a study
  * asks for against the list key that varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg,
- * factors.svg; forces.svg, a curve for each value of the others. */
+ * factors.svg; forces.svg and torques.svg, a curve for each value of the others. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -292,15 +292,24 @@ static void define_answer(const ZpPlot *plot, FILE *file) {
   define_curves(plot, file);
 }
 
-/* -- forces --------------------------------------------------------------------------------------- */
+/* -- what is held --------------------------------------------------------------------------------- */
 
 static bool has_forces(const ZpPlot *plot) {
   if (plot->shows == ZP_SHOWS_held_branch) return has_axis(plot) && points_of(plot, "force_N") >= 2;
   return plot->shows == ZP_SHOWS_field && has_answer(plot, plot->study);
 }
 
+static bool has_torques(const ZpPlot *plot) {
+  return plot->shows == ZP_SHOWS_held_branch && has_axis(plot) && points_of(plot, "torque_N_m") >= 2;
+}
+
 static void data_forces(const ZpPlot *plot, FILE *file) {
   put_curves(plot, file, (const char *const[]){"force_N", NULL});
+}
+
+/* Against the angle of the fold, which follows from the list key that varies fastest. */
+static void data_torques(const ZpPlot *plot, FILE *file) {
+  put_curves(plot, file, (const char *const[]){"angle_rad", "torque_N_m", NULL});
 }
 
 /* Of many curves the first list key has a line style, the others together a colour. */
@@ -315,12 +324,21 @@ static size_t curves_of_a_style(const ZpPlot *plot, const size_t *chosen, size_t
   return alike;
 }
 
-static void define_forces(const ZpPlot *plot, FILE *file) {
+static void define_held(const ZpPlot *plot, FILE *file, const char *scalar) {
   size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  zp_plot_define_key(plot, file, "actuator.kind");
   zp_plot_define_count(file, "held", plot->shows != ZP_SHOWS_field);
-  zp_plot_define(file, "largest_force_N", largest_scalar(plot, "force_N"));
+  zp_plot_define(file, "largest_value", largest_scalar(plot, scalar));
   zp_plot_define_count(file, "alike", curves_of_a_style(plot, chosen, curves));
   define_curves(plot, file);
+}
+
+static void define_forces(const ZpPlot *plot, FILE *file) {
+  define_held(plot, file, "force_N");
+}
+
+static void define_torques(const ZpPlot *plot, FILE *file) {
+  define_held(plot, file, "torque_N_m");
 }
 
 /* -- bode ------------------------------------------------------------------------------------------ */
@@ -344,6 +362,7 @@ const ZpPicture zp_sweep_pictures[] = {
     {"bode", "svg", has_bode, define_bode, data_bode, "bode.gp"},
     {"contraction", "svg", has_contraction, define_contraction, data_contraction, "contraction.gp"},
     {"forces", "svg", has_forces, define_forces, data_forces, "forces.gp"},
+    {"torques", "svg", has_torques, define_torques, data_torques, "torques.gp"},
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
   {#picture, "svg", has_##picture, define_answer, data_answer, "sweep.gp"},
 #include <zipact/studies.def>

@@ -27,6 +27,7 @@ static const struct {
     {"F", "a capacitance"},
     {"ohm", "a resistance"},
     {"rad", "an angle"},
+    {"N m/rad", "a torsional stiffness"},
 };
 
 ZpStatus zp_unit_fail_dimension(const char *to, ZpError *err) {

@@ -294,3 +294,8 @@ double zp_output_opening(ZpStatics *s, void *user) {
   (void)user;
   return zp_statics_opening(s);
 }
+
+double zp_output_angle(ZpStatics *s, void *user) {
+  (void)user;
+  return zp_statics_angle(s);
+}

@@ -56,6 +56,7 @@ double zp_slope_of(ZpSlope *slope, ZpPose pose, ZpOutput output, void *user);
 /* Outputs, m; `user` is not looked at. */
 double zp_output_stroke(ZpStatics *statics, void *user);
 double zp_output_opening(ZpStatics *statics, void *user);
+double zp_output_angle(ZpStatics *statics, void *user);
 
 /* At the present point, a limit point of `branch`: the derivative of its parameter there. NAN if there is none: the
  * branch turns where a law has a corner. `null` [n] is the null vector. */

@@ -259,6 +259,10 @@ double zp_statics_opening(const ZpStatics *s) {
   return zp_opening(&s->model->topology, s->q + s->model->stride);
 }
 
+double zp_statics_angle(const ZpStatics *s) {
+  return zp_fold_angle(&s->model->topology, s->q, s->q + s->model->stride);
+}
+
 size_t zp_statics_front(const ZpStatics *s) {
   return s->model->field ? zp_faces_front(&s->model->faces, s->eval.plates.gap) : 0;
 }
@@ -349,7 +353,7 @@ static double holding(const ZpStatics *s) {
 static void hold_platform(ZpStatics *s, double *r) {
   size_t row = zp_statics_platform(s);
   s->reaction = r[row];
-  r[row] = holding(s) * (zp_statics_opening(s) - s->opening);
+  r[row] = holding(s) * (zp_drop(&s->model->topology, s->q + s->model->stride) - s->opening);
 }
 
 /* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
@@ -550,6 +554,14 @@ static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
     q[j - s] = q[j] - d[j - s];
 }
 
+/* Lay two ribbons from their hinge. */
+static void lay_fold(ZpStatics *s) {
+  const ZpModel *model = s->model;
+  for (size_t c = 0; c < 2; c++)
+    for (size_t ribbon = 0; ribbon < model->s; ribbon++)
+      lay(s->moved + c * model->stride, model->s, ribbon, model->count - model->s + ribbon, s->q + c * model->stride);
+}
+
 /* Lay one ribbon from its clamp; what misses a clamped right end is spread along it. */
 static void lay_one(ZpStatics *s) {
   size_t stride = s->model->stride, end = s->model->count - 1;
@@ -606,7 +618,9 @@ static void lay_two(ZpStatics *s) {
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   turn_edges(s, step, fraction);
-  if (zp_is_pair(&s->model->topology))
+  if (zp_is_hinge(&s->model->topology))
+    lay_fold(s);
+  else if (zp_is_pair(&s->model->topology))
     lay_two(s);
   else
     lay_one(s);

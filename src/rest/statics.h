@@ -17,7 +17,7 @@ typedef struct ZpStatics {
   double share;      /* of all weight and natural curvature that acts: 1, less on the way there */
   const double *k0;  /* [stride] natural 2 tan(phi / 2) of joints, of all natural curvature */
   double *k0_now;    /* and of what acts */
-  double opening;    /* at which the lower platform is held, m; NAN: it hangs free */
+  double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
   double held_at;    /* that opening in the end, on the way there, m */
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
@@ -72,8 +72,8 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
  * that ends before, at the pull-in, or the field cannot be solved (zp_statics_trouble). */
 bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
 
-/* Hold the lower platform of two ribbons at `opening` (below 2 L), without load and voltage, ever after; from the
- * straight shape to the equilibrium there. */
+/* Hold the lower platform of two ribbons at `opening` (below 2 L), or the right end of a fold's lower ribbon as far
+ * below its hinge (below L), without load and voltage, ever after; from the straight shape to the equilibrium there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
 
 /* The equation of the lower platform's height. */
@@ -90,9 +90,11 @@ ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *w
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user, ZpNewtonWork *work);
 
 /* The present point: how far the right end of the lower or only ribbon is below the clip or clamp, signed, m; distance
- * of the platforms' faces (NAN for one ribbon); how many stations from the clip on are closed, the clip not counted. */
+ * of the platforms' faces (NAN for one ribbon); angle of a fold, rad (NAN without a hinge); how many stations from the
+ * clip on are closed, the clip not counted. */
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
+double zp_statics_angle(const ZpStatics *statics);
 size_t zp_statics_front(const ZpStatics *statics);
 
 /* Do electrodes without an insulator touch under the present voltage? */

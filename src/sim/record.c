@@ -124,6 +124,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_film_thickness] = film_thickness(model, state);
   row[SIGNAL_wet_length] = wet_length(model, state);
   row[SIGNAL_opening] = zp_opening(t, motion.y);
+  row[SIGNAL_angle] = zp_fold_angle(t, motion.x, motion.y);
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
 

@@ -50,6 +50,7 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "opening_m", "m", at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
+  if (zp_is_hinge(&sim->model->topology)) zp_result_add(result, "angle_rad", "rad", at_end(sim, result, "angle"));
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
@@ -57,8 +58,21 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
  * load.mass. */
 static double work_on_change(ZpSim *sim, const ZpModel *model) {
   const ZpState *state = sim->state;
-  double y = zp_state_motion(model, state).y[zp_load_node(&model->topology)];
-  return -model->parts * zp_state_hung(model, state) * model->fall[1] * (y - state->changed_y);
+  ZpMotion motion = zp_state_motion(model, state);
+  size_t j = zp_load_node(&model->topology);
+  double along = motion.x[j] - state->changed_x, up = motion.y[j] - state->changed_y;
+  return -model->parts * zp_state_hung(model, state) * (model->fall[0] * along + model->fall[1] * up);
+}
+
+/* Of a fold, whose load moves along the ribbons, too; the spring of its hinge is no load. */
+static double work_of_fold(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
+  const ZpActuatorDef *def = &model->def;
+  ZpMotion motion = zp_state_motion(model, sim->state);
+  ZpShape start = zp_shapes_get(result->shapes, 0);
+  size_t j = zp_load_node(&model->topology);
+  double along = motion.x[j] - start.x[j], up = motion.y[j] - start.y[j], weight = def->load.mass * def->gravity;
+  double work = def->load.force * up - weight * (model->fall[0] * along + model->fall[1] * up);
+  return zp_load_share(model) * work + work_on_change(sim, model) - at_end(sim, result, "load_work");
 }
 
 /* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
@@ -80,7 +94,8 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (model->supply.acts && isfinite(limit) && highest > 0)
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (zp_model_info(model).ribbons < 2) return;
-  double work = work_on_load(sim, model, result);
+  bool fold = zp_is_hinge(&model->topology);
+  double work = fold ? work_of_fold(sim, model, result) : work_on_load(sim, model, result);
   zp_result_add(result, "mechanical_work_J", "J", work);
   zp_add_efficiency(result, "efficiency", work, energy);
 }

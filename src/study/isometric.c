@@ -42,10 +42,11 @@ typedef struct Holder {
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
   void *unpowered_state;
-  double unpowered; /* holds the platform without voltage, N, whole actuator */
-  double highest;   /* voltage that the branch has come to, V */
-  double force;     /* at the last state that was passed, N */
-  double leap;      /* the largest change of force in a jump, N */
+  double unpowered;        /* holds the platform without voltage, N, whole actuator; */
+  double unpowered_moment; /* of a fold: its moment about the hinge, N m */
+  double highest;          /* voltage that the branch has come to, V */
+  double force;            /* at the last state that was passed, N */
+  double leap;             /* the largest change of force in a jump, N */
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
@@ -64,6 +65,13 @@ static void carve(void *user, ZpCarver *carver) {
 /* Whole actuator, N. */
 static double force(const Holder *h) {
   return h->model->parts * h->rest.statics.reaction - h->unpowered;
+}
+
+/* Moment about the hinge of what holds the end of a fold, N m. */
+static double moment(const Holder *h) {
+  const ZpStatics *s = &h->rest.statics;
+  const ZpTopology *t = &h->model->topology;
+  return h->model->parts * s->reaction * (s->q[zp_load_node(t)] - s->q[zp_lower(t, 0)]);
 }
 
 static double zipped_length(const Holder *h) {
@@ -234,6 +242,10 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
   zp_result_add(r, "force_N", "N", found ? force(h) : NAN);
   zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
   zp_result_add(r, "opening_m", "m", held ? zp_statics_opening(s) : NAN);
+  if (zp_is_hinge(&h->model->topology)) {
+    zp_result_add(r, "angle_rad", "rad", held ? zp_statics_angle(s) : NAN);
+    zp_result_add(r, "torque_N_m", "N m", found ? moment(h) - h->unpowered_moment : NAN);
+  }
   zp_result_add(r, "zipped_length_m", "m", found ? zipped_length(h) : NAN);
   zp_result_add(r, "charge_C", "C", found ? zp_statics_charge(s) : NAN);
   zp_result_add(r, "capacitance_F", "F", found ? zp_statics_capacitance(s) : NAN);
@@ -344,6 +356,7 @@ static void run(Holder *h) {
   ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
   if (zp_newton_good(info.end)) {
     h->unpowered = h->model->parts * s->reaction;
+    h->unpowered_moment = moment(h);
     h->rest.system.save(s, h->unpowered_state);
     record(h, true, false);
     if (h->model->def.drive.voltage > 0) raise_voltage(h, &info);
@@ -360,15 +373,17 @@ static void run(Holder *h) {
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+  bool hinge = def->actuator.kind == ZP_KIND_HINGE;
+  if (!zp_def_has_two(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon, whose platform it holds",
+                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon or hinge, whose platform or end "
+                   "it holds",
                    zp_word_of("actuator.kind", (int)def->actuator.kind), study);
-  double longest = most * (def->ribbon.length - def->platform.length), separation = def->isometric.separation;
-  if (separation > longest)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "isometric.separation = %g m: out of reach; at most %g (ribbon.length - platform.length) = %g m",
-                   separation, most, longest);
+  double longest = most * (def->ribbon.length - (hinge ? 0 : def->platform.length));
+  if (def->isometric.separation > longest)
+    return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m",
+                   def->isometric.separation, most, hinge ? "ribbon.length" : "(ribbon.length - platform.length)",
+                   longest);
   return ZP_OK;
 }
 

@@ -229,7 +229,7 @@ static double mass_of(const ZpModel *model) {
   double sum = -zp_load_share(model) * model->def.load.mass, platform = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
-  for (size_t i = 0; zp_is_pair(&model->topology) && i < model->s; i++)
+  for (size_t i = 0; zp_has_platform(&model->topology) && i < model->s; i++)
     platform += zp_ribbon_section(model, i).mu * model->def.platform.length;
   return model->parts * sum + model->def.stack.parallel * platform;
 }
@@ -413,7 +413,7 @@ static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
 ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = ribbon: study limits requires electrodes: kind electro_ribbon or flange");
+                   "actuator.kind = ribbon: study limits requires electrodes: kind electro_ribbon, flange or hinge");
   ZpStatus status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }

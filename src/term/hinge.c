@@ -1,0 +1,66 @@
+/* The torsion spring of a hinge turns the first element of the lower ribbon; what clamps the upper one takes its
+ * moment. Eqs. (30.1) and (30.2). The angle is positive where that element points downwards. */
+#include "math/elementary.h"
+#include "term/term.h"
+
+static bool acts(const ZpModel *model) {
+  return model->hinge.stiffness > 0;
+}
+
+/* The first element of the lower ribbon. */
+static size_t edge_of(const ZpModel *model) {
+  return zp_lower(&model->topology, 0);
+}
+
+static double angle_of(const ZpModel *model, const double *q) {
+  const double *x = q, *y = q + model->stride;
+  size_t j = edge_of(model), next = j + model->s;
+  return -zp_angle(y[next] - y[j], x[next] - x[j]);
+}
+
+/* Its mean moment over the span, N m, which closes a fold that is open. As the natural curvature of ribbons its angle
+ * of rest comes with the weight on the way to an equilibrium. */
+static double moment_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e) {
+  const ZpHingeParams *hinge = &model->hinge;
+  double middle = angle_of(model, span->start) - 0.5 * e->rod_step.turn[edge_of(model)];
+  return hinge->stiffness * (middle - span->share * hinge->rest);
+}
+
+/* The rod has found by how much the element turns over the span, and the mean slope of that by its vector: their moment
+ * does exactly the work by which the energy falls. */
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  size_t j = edge_of(model), next = j + model->s;
+  double moment = moment_of(model, span, e), Fx = moment * e->rod_step.gx[j], Fy = moment * e->rod_step.gy[j];
+  double *x = F, *y = F + model->stride;
+  x[next] += Fx;
+  y[next] += Fy;
+  x[j] -= Fx;
+  y[j] -= Fy;
+}
+
+/* Minus the derivative of R by the element's vector, eq. (30.3); at rest both ends of the span move. */
+static void slope_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e, double D[4]) {
+  size_t j = edge_of(model);
+  double both = zp_span_is_still(span) ? 2 : 1, gx = e->rod_step.gx[j], gy = e->rod_step.gy[j];
+  double turn = 0.5 * both * model->hinge.stiffness, bend = 0.5 * both * moment_of(model, span, e);
+  D[0] = turn * gx * gx + 2 * bend * gx * gy;
+  D[1] = D[2] = turn * gx * gy + bend * (gy * gy - gx * gx);
+  D[3] = turn * gy * gy - 2 * bend * gx * gy;
+}
+
+/* The hinge is held: of the element only its right node moves. */
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+  size_t next = edge_of(model) + model->s;
+  double D[4];
+  slope_of(model, span, e, D);
+  for (size_t k = 0; k < 4; k++)
+    zp_assemble_entry(assembly, 2 * next + k / 2, 2 * next + k % 2, D[k], K);
+}
+
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+  (void)e;
+  double turned = angle_of(model, now->end) - model->hinge.rest;
+  sum->spring += 0.5 * model->hinge.stiffness * turned * turned;
+}
+
+const ZpTerm zp_term_hinge = {.name = "hinge", .acts = acts, .force = force, .stiffness = stiffness, .energy = energy};
