@@ -5,8 +5,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 
-static const char prefix[] = "member_";
-enum { WHOLE_PREFIX = sizeof prefix + 1 }; /* with a digit and a point */
+enum { PREFIX = sizeof "member_1." - 1 };
 _Static_assert(offsetof(ZpActuatorDef, member_8) ==
                    offsetof(ZpActuatorDef, member_1) + (ZP_MOST_MEMBERS - 1) * sizeof(((ZpActuatorDef *)0)->member_1),
                "the keys of the members are alike and follow each other");
