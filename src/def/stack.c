@@ -24,7 +24,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   for (int key = 0; key < zp_key_count(); key++) {
     int of = member_of(key);
     double value = of == member ? zp_def_get(def, key) : NAN;
-    if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + WHOLE_PREFIX), value, NULL);
+    if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + PREFIX), value, NULL);
     if (of > 0) zp_def_set(&one, key, NAN, NULL);
   }
   one.stack.series = 1;
