@@ -38,13 +38,13 @@ typedef struct Number {
 } Number;
 
 static const Number numbers[] = {
-    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 40},
-    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 40},
-    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 15},
-    {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 5},
-    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 20},
-    {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 5},
-    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 15},
+    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 20},
+    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 20},
+    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 12},
+    {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 3},
+    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 18},
+    {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 4},
+    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 12},
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate

@@ -11,6 +11,7 @@
 
 #include "base/fail.h"
 #include "fit/fit.h"
+#include "sim/hooks.h"
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };
 
@@ -108,9 +109,8 @@ static void predict_run(ZpFit *fit, const double *z, double *fitted) {
 }
 
 static bool ask(ZpFit *fit) {
-  const ZpHooks *hooks = fit->hooks;
   double fraction = 1 - 1 / (1 + 0.02 * fit->evaluations);
-  if (hooks && hooks->progress && hooks->progress(hooks->user, "fitting", fraction)) fit->stopped = true;
+  if (zp_hooks_stop(fit->hooks, "fitting", fraction)) fit->stopped = true;
   return fit->stopped || fit->status != ZP_OK;
 }
 

@@ -665,8 +665,8 @@ ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def,
 enum { CASES_WITH_SERIES = 20 };
 
 bool zp_scenario_keeps_series(const ZpScenario *s) {
-  ZpActuatorDef def = {.layout = zp_def_layout()};
-  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
+  ZpActuatorDef def;
+  if (zp_scenario_given(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
     return s->plan.count <= CASES_WITH_SERIES;
   return def.output.series == ZP_WHEN_TRUE;
 }
@@ -678,9 +678,9 @@ static bool same_value(double a, double b) {
 /* differs[key] set for every key that has not the same value, or whose auto has not the same meaning, in all Defs. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   for (size_t row = 1; row < s->plan.count; row++) {
-    ZpActuatorDef def = {.layout = zp_def_layout()};
+    ZpActuatorDef def;
     ZpError reason;
-    if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
+    if (zp_scenario_given(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
     for (int i = 0; i < zp_key_count(); i++)
       differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(&def, i));
     differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(&def);
@@ -739,9 +739,9 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
 }
 
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
-  ZpActuatorDef first = {.layout = zp_def_layout()};
+  ZpActuatorDef first;
   ZpError reason;
-  if (resolve(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
+  if (zp_scenario_given(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
   bool *differs = calloc(key_count(), sizeof *differs);
   if (!differs) return zp_fail_memory(err);
   ZpStatus status = compare_defs(s, &first, differs, err);

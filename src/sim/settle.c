@@ -6,6 +6,7 @@
 
 #include "rest/rest.h"
 #include "ribbon/rod_plastic.h"
+#include "sim/hooks.h"
 #include "sim/sim_internal.h"
 #include "solve/relax.h"
 
@@ -35,12 +36,11 @@ static double residual(void *self) {
 static bool stop(void *self, int64_t steps, double left) {
   enum { BETWEEN = 4096 }; /* steps between looks at the caller: about a millisecond */
   Settling *settling = self;
-  const ZpHooks *hooks = settling->hooks;
-  if (!hooks || !hooks->progress || steps % BETWEEN) return false;
+  if (steps % BETWEEN) return false;
   if (steps == 0) settling->first_residual = left;
   double decades = log10(settling->first_residual / settling->tolerance);
   double fraction = decades > 0 ? log10(settling->first_residual / left) / decades : 0;
-  return hooks->progress(hooks->user, "settling", fmin(fmax(fraction, 0), 1));
+  return zp_hooks_stop(settling->hooks, "settling", fmax(fraction, 0));
 }
 
 static ZpOutcome outcome_of(ZpRelaxEnd end) {
@@ -63,8 +63,7 @@ static double rounding_floor(const ZpModel *model) {
 }
 
 static bool stop_hanging(void *hooks) {
-  const ZpHooks *h = hooks;
-  return h && h->progress && h->progress(h->user, "settling", 0);
+  return zp_hooks_stop(hooks, "settling", 0);
 }
 
 /* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "sim/hooks.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
@@ -419,7 +420,7 @@ static bool nothing_recorded(const ZpSim *sim) {
 }
 
 static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
-  return hooks && hooks->progress && hooks->progress(hooks->user, "simulating", fmin(fraction, 1));
+  return zp_hooks_stop(hooks, "simulating", fraction);
 }
 
 static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {

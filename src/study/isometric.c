@@ -42,7 +42,7 @@ typedef struct Holder {
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
   void *unpowered_state;
-  double unpowered;        /* holds the platform without voltage, N, whole actuator; */
+  double unpowered;        /* holds the platform without voltage, N, whole actuator */
   double unpowered_moment; /* of a fold: its moment about the hinge, N m */
   double highest;          /* voltage that the branch has come to, V */
   double force;            /* at the last state that was passed, N */

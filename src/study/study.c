@@ -1,5 +1,6 @@
 /* Which study is run: the table of studies.def. It stands above the studies; none of them includes what is here. */
 #include "base/fail.h"
+#include "sim/hooks.h"
 #include "study/estimate.h"
 #include "study/series.h"
 
@@ -73,8 +74,7 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
 }
 
 bool zp_task_stops(const ZpTask *task, const char *stage, double fraction) {
-  const ZpHooks *hooks = task->hooks;
-  return hooks && hooks->progress && hooks->progress(hooks->user, stage, fmin(fraction, 1));
+  return zp_hooks_stop(task->hooks, stage, fraction);
 }
 
 static bool stops_hanging(void *task) {
