@@ -2,6 +2,7 @@
  *
  *   precision swing        a cantilever's swing, against the converged one of cli/swing.def => CSV
  *   precision zip          the default actuator's zip, against implicit steps at 1e-7       => CSV
+ *   precision tolerance    zip times of some actuators, by solver.tolerance                  => a table
  *   precision reference    the converged swing                                              => cli/swing.def
  */
 #include <math.h>
@@ -11,7 +12,7 @@
 
 #include "motion.h"
 
-enum { MESHES = 5 };
+enum { MESHES = 7 };
 
 /* A case: its definition, its meshes (0: no more), and what errors are relative to, m. */
 typedef struct Case {
@@ -30,8 +31,9 @@ static ZpStatus print_row(const ZpActuatorDef *def, const Trajectory *reference,
   bool implicit = def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   ZpStatus status = motion_measure(def, NULL, reference, &motion, err);
   if (status != ZP_OK) return status;
-  printf("%s,%d,", implicit ? "implicit" : "explicit", def->mesh.nodes);
-  if (implicit) printf("%g", def->solver.tolerance);
+  const bool equal = implicit && !isnan(def->solver.time_step);
+  printf("%s,%d,", equal ? "equal" : implicit ? "implicit" : "explicit", def->mesh.nodes);
+  if (implicit && !equal) printf("%g", def->solver.tolerance);
   printf(",%.0f,%.4g,%.4g\n", motion.steps, motion.seconds, motion.rms / scale);
   fflush(stdout);
   return ZP_OK;
@@ -45,13 +47,18 @@ static ZpStatus undamped(const Case *c, int nodes, bool implicit, ZpActuatorDef 
   return status;
 }
 
-/* All tolerances, then the explicit steps, with `nodes` nodes. */
+/* All tolerances, then equal steps, then the explicit ones, with `nodes` nodes. */
 static ZpStatus print_rows(const Case *c, int nodes, const Trajectory *reference, ZpError *err) {
-  static const double tolerance[] = {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 5e-5, 3e-5, 1e-5, 3e-6, 1e-6};
+  static const double tolerance[] = {1e-2, 3e-3, 1e-3, 7e-4, 5e-4, 3e-4, 2e-4, 1e-4, 1e-5};
+  static const double time_step[] = {2e-3, 1e-3, 5e-4, 2e-4, 1e-4}; /* s */
   ZpActuatorDef def;
   ZpStatus status = undamped(c, nodes, true, &def, err);
   for (size_t k = 0; k < sizeof tolerance / sizeof tolerance[0] && status == ZP_OK; k++) {
     def.solver.tolerance = tolerance[k];
+    status = print_row(&def, reference, c->scale, err);
+  }
+  for (size_t k = 0; k < sizeof time_step / sizeof time_step[0] && status == ZP_OK; k++) {
+    def.solver.time_step = time_step[k];
     status = print_row(&def, reference, c->scale, err);
   }
   if (status == ZP_OK) status = undamped(c, nodes, false, &def, err);
@@ -102,12 +109,64 @@ static int print_reference(int nodes, double tolerance) {
   return EXIT_SUCCESS;
 }
 
+/* -- does a tolerance keep its word? ---------------------------------------------------------------- */
+
+typedef struct Actuator {
+  const char *name;
+  ZpLiquid liquid;
+  double thickness, length, mass, voltage; /* m, m, kg, V; 0: the default */
+} Actuator;
+
+static ZpStatus zip_time(const Actuator *a, double tolerance, double *time, ZpError *err) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpResult *result = NULL;
+  def.liquid.model = a->liquid;
+  if (a->thickness > 0) def.ribbon.thickness = a->thickness;
+  if (a->length > 0) def.ribbon.length = a->length;
+  if (a->mass > 0) def.load.mass = a->mass;
+  if (a->voltage > 0) def.drive.voltage = a->voltage;
+  def.solver.tolerance = tolerance;
+  def.output.errors = false;
+  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, err);
+  if (status == ZP_OK) *time = zp_result_get(result, "zip_time_s");
+  zp_result_destroy(result);
+  return status;
+}
+
+/* Errors of zip times in units of the tolerance, against that of a far smaller one on the same mesh. */
+static int print_tolerances(void) {
+  static const Actuator actuator[] = {{"default, bath", ZP_LIQUID_SUBMERGED, 0, 0, 0, 0},
+                                      {"default, beads", ZP_LIQUID_BEAD, 0, 0, 0, 0},
+                                      {"60 um, 4 g, 6 kV, bath", ZP_LIQUID_SUBMERGED, 60e-6, 0, 4e-3, 6e3},
+                                      {"70 mm, 5 g, 9 kV, beads", ZP_LIQUID_BEAD, 0, 70e-3, 5e-3, 9e3},
+                                      {"default, no liquid", ZP_LIQUID_NONE, 0, 0, 0, 0},
+                                      {"60 um, 4 g, 6 kV, no liquid", ZP_LIQUID_NONE, 60e-6, 0, 4e-3, 6e3}};
+  static const double tolerance[] = {1e-3, 3e-4, 1e-4, 1e-5};
+  ZpError err;
+  printf("actuator,zip_time_s,1e-3,3e-4,1e-4,1e-5\n");
+  for (size_t k = 0; k < sizeof actuator / sizeof actuator[0]; k++) {
+    double exact, time;
+    if (zip_time(&actuator[k], actuator[k].liquid == ZP_LIQUID_NONE ? 1e-6 : 3e-6, &exact, &err) != ZP_OK)
+      return fail(&err);
+    printf("\"%s\",%.8g", actuator[k].name, exact);
+    for (size_t i = 0; i < sizeof tolerance / sizeof tolerance[0]; i++) {
+      if (zip_time(&actuator[k], tolerance[i], &time, &err) != ZP_OK) return fail(&err);
+      printf(",%.2f", (time / exact - 1) / tolerance[i]);
+    }
+    printf("\n");
+    fflush(stdout);
+  }
+  return EXIT_SUCCESS;
+}
+
 int main(int argc, char **argv) {
-  static const Case swing = {motion_swing, {9, 11, 15, 21, 61}, 6.05e-3}, zip = {motion_zip, {21, 61, 130}, 20.7e-3};
+  static const Case swing = {motion_swing, {9, 11, 13, 15, 18, 21, 61}, 6.05e-3},
+                    zip = {motion_zip, {21, 61, 130}, 20.7e-3};
   const char *word = argc == 2 ? argv[1] : "";
   if (strcmp(word, "swing") == 0) return print_case(&swing, false);
   if (strcmp(word, "zip") == 0) return print_case(&zip, true);
-  if (strcmp(word, "reference") == 0) return print_reference(801, 1e-8);
-  fprintf(stderr, "precision: say swing, zip or reference\n");
+  if (strcmp(word, "tolerance") == 0) return print_tolerances();
+  if (strcmp(word, "reference") == 0) return print_reference(801, 4e-6);
+  fprintf(stderr, "precision: say swing, zip, tolerance or reference\n");
   return EXIT_FAILURE;
 }

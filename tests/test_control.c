@@ -377,7 +377,7 @@ START_TEST(explicit_steps_have_it_too) {
     def.liquid.model = ZP_LIQUID_NONE;
     def.damping.internal = 0;
     def.solver.integrator = k ? ZP_INTEGRATOR_EXPLICIT : ZP_INTEGRATOR_IMPLICIT;
-    def.solver.tolerance = 1e-7;
+    def.solver.tolerance = 1.6e-5;
     ZpModel *with = model_of(&def);
     ZpSim *of = sim_of(with);
     for (int sample = 0; sample < 30; sample++) {

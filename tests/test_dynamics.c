@@ -419,8 +419,8 @@ static double swing(double tolerance) {
  * back; what is lost is what Newton's method leaves, which goes with the tolerance. Measured: 2.8e-6 of gravity's with
  * 1e-4 and steps of 2 ms, a twelfth of a period; 2.1e-9 with 1e-6 and 0.23 ms. */
 START_TEST(test_swing_keeps_energy) {
-  ck_below(swing(1e-4), 1e-5);
-  ck_below(swing(1e-6), 1e-6);
+  ck_below(swing(1e-3), 1e-5);
+  ck_below(swing(7e-5), 1e-6);
 }
 END_TEST
 
@@ -501,7 +501,7 @@ END_TEST
 START_TEST(test_frequency_is_that_of_modes) {
   static const double ends[] = {ZP_END_FREE, ZP_END_GUIDED};
   for (size_t k = 0; k < LENGTH_OF(ends); k++) {
-    ZpActuatorDef def = DEF(CANTILEVER, {"load.mass", 2e-3}, {"solver.tolerance", 1e-6});
+    ZpActuatorDef def = DEF(CANTILEVER, {"load.mass", 2e-3}, {"solver.tolerance", 7e-5});
     def.actuator.right_end = (ZpRightEnd)ends[k];
     double mode = first_frequency(&def);
     def.solver.time_step = 1 / mode / 400;
@@ -520,7 +520,7 @@ START_TEST(test_decrement) {
   static const double tau[] = {1e-4, 1e-3};
   for (size_t k = 0; k < LENGTH_OF(tau); k += FULL_OR(1, 2)) {
     ZpActuatorDef def =
-        DEF(CANTILEVER, {"load.mass", 2e-3}, {"gravity", 0}, {"damping.internal", tau[k]}, {"solver.tolerance", 1e-6});
+        DEF(CANTILEVER, {"load.mass", 2e-3}, {"gravity", 0}, {"damping.internal", tau[k]}, {"solver.tolerance", 7e-5});
     double mode = first_frequency(&def), expected = M_PI * 2 * M_PI * mode * tau[k];
     def.solver.time_step = 1 / mode / 400;
     Vibration found = vibrate(&def, mode, 2, 5);
@@ -570,25 +570,43 @@ static void check_zip(const char *name, const Zip *zip) {
          1e3 * zip->time, zip->energy_error, 1e6 * zip->overlap, zip->contact_loss);
   ck_below(zip->energy_error, 1e-5);     /* 3e-6 of mass_spring, whose shear has no energy; 3e-7 with drag, else 3e-8 */
   ck_below(zip->overlap, 0.03 * 260e-6); /* of both insulators, where the platform lands */
-  ck_assert_double_gt(zip->contact_loss, 0.05); /* 0.09 undamped: what bounces on loses it later */
   ck_assert_double_gt(zip->contraction, 0.99);
 }
 
-/* The default actuator: times agree between tolerances and between meshes. Measured: 75.74 ms, with a tolerance of 1e-6
- * 75.89 ms (0.2 %; 0.5 % when faces pushed as they lay at the step's end). */
+/* The default actuator: times agree between tolerances and between meshes. Measured: 75.82 ms, with a tolerance of 1e-4
+ * 75.89 ms (0.1 %; 0.5 % when faces pushed as they lay at the step's end). */
 START_TEST(test_zip_time) {
-  ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5});
+  ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5}, {"solver.tolerance", 1e-3});
   Zip usual = zip(def);
-  check_zip("zip, N = 61", &usual);
-  def.solver.tolerance = 1e-6;
-  Zip fine = zip(def);
-  check_zip("tolerance 1e-6", &fine);
+  check_zip("zip, N = 61, tolerance 1e-3", &usual);
+  ck_assert_double_gt(usual.contact_loss, 0.05); /* with shorter steps the platform has not lost its speed at the end */
   def.solver.tolerance = 1e-4;
+  Zip fine = zip(def);
+  check_zip("tolerance 1e-4", &fine);
+  def.solver.tolerance = 1e-3;
   def.mesh.nodes = 121;
   Zip more = zip(def);
   check_zip("N = 121", &more);
   ck_near(usual.time, fine.time, 2.5e-3);
   ck_near(usual.time, more.time, 1e-2);
+}
+END_TEST
+
+/* Found by users: at a tolerance of 1e-4 zip times were off by 19 (dry), 33 (beads) and 47 tolerances (bath). The error
+ * is at most three, in a liquid for each tolerance; dry ones have a floor of 1e-4, docs/theory.md, section 18. */
+START_TEST(tolerance_keeps_its_word) {
+  static const struct {
+    double liquid, exact;
+  } of[] = {{ZP_LIQUID_NONE, 1e-5}, {ZP_LIQUID_BEAD, 1e-5}, {ZP_LIQUID_SUBMERGED, 1e-5}};
+  ZpActuatorDef def = DEF({"damping.internal", 1e-5}, {"mesh.nodes", 41}, {"liquid.model", of[_i].liquid},
+                          {"medium.kinematic_viscosity", 50e-6}, {"solver.tolerance", of[_i].exact});
+  double exact = zip(def).time;
+  for (double tolerance = 1e-3; tolerance > 0.9e-4; tolerance /= sqrt(10)) {
+    def.solver.tolerance = tolerance;
+    double off = zip(def).time / exact - 1;
+    printf("liquid %g: tolerance %.1e, zip time off by %.2f of it\n", of[_i].liquid, tolerance, off / tolerance);
+    ck_below(fabs(off), 3 * tolerance);
+  }
 }
 END_TEST
 
@@ -623,7 +641,7 @@ START_TEST(test_error_of_a_small_motion) {
     ZpActuatorDef def =
         DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", thickness[k]});
     double usual = zip(def).time;
-    def.solver.tolerance = 1e-7;
+    def.solver.tolerance = 1.6e-5;
     ck_near(usual, zip(def).time, 6e-4);
   }
 }
@@ -633,7 +651,7 @@ END_TEST
  * line: 6.7e-3 late with 20 steps, now 1.1e-3. */
 START_TEST(test_closing_instant_within_a_step) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", 300e-6},
-                          {"solver.tolerance", 1e-7});
+                          {"solver.tolerance", 1.6e-5});
   double fine = zip(def).time;
   def.solver.time_step = 50e-6;
   ck_near(zip(def).time, fine, 2e-3);
@@ -676,7 +694,7 @@ END_TEST
  * gradients, and symplectic Euler with the smallest steps that it needs. Both mechanics. Measured: 77.97 and 77.89 ms
  * (rod), 75.92 and 75.91 ms (mass_spring). */
 START_TEST(test_zip_explicit) {
-  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 0}, {"solver.tolerance", 1e-6},
+  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 0}, {"solver.tolerance", 7e-5},
                           {"ribbon.model", _i ? ZP_RIBBON_MASS_SPRING : ZP_RIBBON_ROD});
   Zip implicit = zip(def);
   check_zip("implicit", &implicit);
@@ -764,7 +782,7 @@ END_TEST
 /* Zipped, the voltage off, damped: it opens to where it hung and stays there, faces never inside each other. Measured:
  * off by 2e-5 of the opening or less during the last half second. */
 START_TEST(test_opens_again) {
-  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 1e-6});
+  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 7e-5});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   double hanging = zp_sim_get(sim, "opening"), overlap = 0, off = 0;
@@ -806,7 +824,7 @@ static double opening_at_rest(const ZpModel *model, double voltage) {
 /* Below pull-in, strongly damped: it comes to rest where statics has it. Measured: within 1.2e-6. */
 START_TEST(test_rests_where_statics_does) {
   ZpActuatorDef def =
-      DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 1e-6}, {"drive.voltage", 3e3});
+      DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 7e-5}, {"drive.voltage", 3e3});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   double expected = opening_at_rest(model, 3e3), hanging = zp_sim_get(sim, "opening");
@@ -859,7 +877,7 @@ START_TEST(test_flange) {
     ZpActuatorDef def =
         DEF({"solver.integrator", ZP_INTEGRATOR_IMPLICIT}, {"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 45e-3},
             {"load.mass", 2e-3}, {"mesh.nodes", 21}, {"damping.internal", 1e-4}, {"drive.voltage", k ? 3e3 : 1e3},
-            {"solver.end_time", 1}, {"solver.tolerance", 1e-5});
+            {"solver.end_time", 1}, {"solver.tolerance", 3e-4});
     ZpResult *result = NULL;
     ZpError err = {ZP_OK, ""};
     ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
@@ -904,6 +922,7 @@ int main(void) {
   tcase_add_test(two, faces_do_not_fall_through_thin_insulators);
   if (!SANITIZED) { /* of code that the others run, too */
     tcase_add_test(two, test_zip_time);
+    tcase_add_loop_test(two, tolerance_keeps_its_word, 0, 3);
     tcase_add_loop_test(two, test_zip_explicit, 0, 2);
     tcase_add_test(two, test_pull_in_in_motion);
     tcase_add_test(two, test_zip_by_field);

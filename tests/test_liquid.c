@@ -54,7 +54,7 @@ END_TEST
 
 /* In a bath of 50 mm2/s closing takes more than twice as long as without it; every part of that is a loss above 0. */
 START_TEST(test_submerged) {
-  Run run = RUN({"mesh.nodes", 121}, {"solver.tolerance", 1e-5});
+  Run run = RUN({"mesh.nodes", 121}, {"solver.tolerance", 3e-4});
   printf("submerged: %.2f ms, film %.1f um\n", 1e3 * run.zip_time, 1e6 * run.film);
   ck_assert_int_eq(run.outcome, ZP_ZIPPED);
   ck_near(run.zip_time, 191e-3, 0.03); /* of an independent code */
@@ -96,8 +96,8 @@ END_TEST
 
 /* Nor, by more than a hundredth, the mesh. */
 START_TEST(test_time_does_not_depend_on_the_mesh) {
-  double coarse = RUN({"mesh.nodes", 61}, {"solver.tolerance", 1e-5}).zip_time,
-         fine = RUN({"mesh.nodes", 241}, {"solver.tolerance", 1e-5}).zip_time;
+  double coarse = RUN({"mesh.nodes", 61}, {"solver.tolerance", 3e-4}).zip_time,
+         fine = RUN({"mesh.nodes", 241}, {"solver.tolerance", 3e-4}).zip_time;
   printf("N = 61: %.2f ms, 241: %.2f ms\n", 1e3 * coarse, 1e3 * fine);
   ck_near(coarse, fine, 0.011);
 }
@@ -124,7 +124,7 @@ static void raise_to(ZpRest *rest, double U) {
 
 static double time_from(ZpActuatorDef def, const double *q, double U) {
   def.drive.voltage = U;
-  def.solver.tolerance = 1e-5;
+  def.solver.tolerance = 3e-4;
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
@@ -141,7 +141,7 @@ static double time_from(ZpActuatorDef def, const double *q, double U) {
 START_TEST(test_time_close_to_pull_in) {
   static const struct { double model, power; } row[] = {{ZP_LIQUID_NONE, -0.25}, {ZP_LIQUID_SUBMERGED, -0.5}};
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"liquid.model", row[_i].model}, {"medium.kinematic_viscosity", 1e-3},
-                          FILM_ONLY, {"film.roughness", 1e-3}, {"solver.tolerance", 1e-8});
+                          FILM_ONLY, {"film.roughness", 1e-3}, {"solver.tolerance", 3.5e-6});
   ZpResult *limits = study_of(ZP_STUDY_LIMITS, &def);
   double U = zp_result_get(limits, "pull_in_voltage_V"), time[3], excess = 1e-4;
   ZpModel *model = model_of(&def);

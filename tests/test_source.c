@@ -131,7 +131,7 @@ START_TEST(test_charging_of_a_closed_actuator) {
   Supply supply = {50, 1e8, 0}; /* V: little enough that the layers are not pressed */
   ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
-                          {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", 1e-6});
+                          {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", 7e-5});
   ZpModel *model;
   ZpSim *sim = sim_behind(&source, &def, &model);
   double RC = supply.R * zp_sim_get(sim, "capacitance"), worst = 0;
@@ -151,8 +151,8 @@ END_TEST
 START_TEST(test_slow_supply_by_both_routes) {
   Supply supply = {10e3, 1e9, 10e-12};
   ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
-  ZpActuatorDef of[] = {DEF({"mesh.nodes", 21}, {"solver.tolerance", 1e-6}),
-                        DEF({"mesh.nodes", 21}, {"solver.tolerance", 1e-6}, {"drive.voltage", supply.V},
+  ZpActuatorDef of[] = {DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5}),
+                        DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5}, {"drive.voltage", supply.V},
                             {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", supply.R},
                             {"source.capacitance", supply.K})};
   ZpModel *model[2];
@@ -177,7 +177,7 @@ END_TEST
 static double opening_behind(double R) {
   Supply supply = {10e3, R, 0};
   ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
-  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.tolerance", 1e-6});
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5});
   ZpModel *model;
   ZpSim *sim;
   ZpError err;

@@ -510,6 +510,11 @@ static void fill_equations(ZpDynamics *d) {
   d->system.scale = d->scale;
 }
 
+/* Error of a step as a share of what counts as far, eq. (18.12): steps' errors add up, and shorter steps are more. */
+static double error_of_step(const ZpActuatorDef *def) {
+  return 1.5 * def->solver.tolerance * sqrt(def->solver.tolerance);
+}
+
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
   memset(d, 0, sizeof *d);
   d->source = source;
@@ -519,7 +524,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!allocate(d)) return false;
   fill_equations(d);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.balance = 2e-6 * def->solver.tolerance;
+  d->stepper.balance = 2e-6 * error_of_step(def);
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }
@@ -700,7 +705,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   }
   for (size_t link = first; link < d->system.n && d->links > 0; link++)
     d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
-  d->stepper.accuracy = d->model->def.solver.tolerance * far(d->model, state[0]);
+  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
   if (!(taken > 0)) return 0;
   k = 0;
