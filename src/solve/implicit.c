@@ -11,9 +11,8 @@ static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
 static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
-static const double fast_share = 0.1; /* of the work that a linear rate foresees, where the Jacobian is new: convergence
-                                       * is mostly quadratic, but not of a film, whose tangent leaves out convection */
-static const double kept_rate = 0.1;  /* corrections that shrink faster show that the Jacobian still holds */
+static const double fast_share = 0.1; /* of the work that a linear rate foresees: convergence is mostly quadratic, but
+                                       * not of a film, whose tangent leaves out convection */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 static const double start_growth = 4, far_below = 1e-3; /* where the error is far below what is allowed, as at first */
 enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
@@ -99,45 +98,33 @@ static double rounding_of(ZpImplicit *s, const double *q, double squares) {
   return DBL_EPSILON * sqrt(all * squares);
 }
 
-/* The Jacobian at the last residual, factored => *rounding, work that the rounding of q makes. */
-static ZpEnd factor(ZpImplicit *s, double h, const double *q, double *rounding) {
+/* f - M a of (18.1) => r, and the Jacobian factored. */
+static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
   const ZpImplicitSystem *system = s->system;
-  double squares = 0;
-  system->tangent(system->self, &s->A);
-  for (size_t i = 0; i < system->n; i++) {
-    double stiffness = *zp_bordered_at(&s->A, i, i) += 2 * system->mass[i] / (h * h);
-    double rounded = rounded_work(s, i, stiffness, s->q[i] - q[i]);
-    squares += rounded * rounded;
-  }
-  *rounding = rounding_of(s, q, squares);
-  return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
-}
-
-/* f - M a of (18.1) => r, and what it leaves. */
-static ZpEnd leave(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
-  const ZpImplicitSystem *system = s->system;
-  double work = 0, turnover = 0;
+  double work = 0, turnover = 0, rounding = 0;
   ZpEnd end = system->residual(system->self, s->q, h, s->r);
   if (end != ZP_END_FOUND) return end;
+  system->tangent(system->self, &s->A);
   for (size_t i = 0; i < system->n; i++) {
     double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
     s->r[i] -= inertia * (moved - h * v[i]);
+    double stiffness = *zp_bordered_at(&s->A, i, i) += inertia;
+    double rounded = rounded_work(s, i, stiffness, moved);
     work += s->r[i] * moved;
     turnover += inertia * moved * moved;
+    rounding += rounded * rounded;
   }
-  imbalance->work = fabs(work + algebraic_work(s, q));
-  imbalance->allowed = s->balance * (s->energy + turnover);
-  return ZP_END_FOUND;
+  work += algebraic_work(s, q);
+  *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + rounding_of(s, q, rounding)};
+  return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 /* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`, 0 of the first?
- * What is left, of the distance and of the imbalance, is foreseen from both; of an imbalance all where the Jacobian is
- * not new, since what is stiff shrinks least then. Far below the accuracy a distance that
+ * What is left, of the distance and of the imbalance, is foreseen from both. Far below the accuracy a distance that
  * does not shrink any more is rounding, but only where energy balances: while faces meet it shrinks as slowly. */
-static bool is_found(double size, double before, bool fresh, Imbalance imbalance) {
+static bool is_found(double size, double before, Imbalance imbalance) {
   if (before == 0) return size == 0;
-  double rate = size / before, left = rate < 0.5 ? 2 * rate : 1;
-  double foreseen = fresh && rate < 0.5 ? fast_share * left : 1;
+  double rate = size / before, left = rate < 0.5 ? 2 * rate : 1, foreseen = rate < 0.5 ? fast_share * left : 1;
   if (foreseen * imbalance.work > imbalance.allowed) return false;
   return left * size < newton_share || (rate > 0.5 && size < rounding_share);
 }
@@ -147,17 +134,13 @@ static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
   return !system->unforeseen || system->unforeseen(system->self, s->q) <= imbalance.allowed;
 }
 
-/* => how it ended, and the iterations that it took. The first Jacobian is kept as long as it shrinks corrections fast
- * and no contact has closed or opened since. */
+/* => how it ended, and the iterations that it took. */
 static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v, int *iterations) {
-  double least = INFINITY, before = 0, rounding = 0;
-  bool holds = false; /* the Jacobian */
+  double least = INFINITY, before = 0;
   Imbalance imbalance;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
-    ZpEnd end = leave(s, h, q, v, &imbalance);
-    if (end == ZP_END_FOUND && !holds) end = factor(s, h, q, &rounding);
+    ZpEnd end = linearise(s, h, q, v, &imbalance);
     if (end != ZP_END_FOUND) return end;
-    imbalance.allowed += rounding;
     zp_bordered_solve(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
@@ -165,9 +148,7 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
     *iterations = k + 1;
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
     if (!isfinite(size) || (k >= PATIENCE && size > least)) return ZP_END_SHORTER;
-    const bool foreseen = is_foreseen(s, imbalance);
-    if (foreseen && is_found(size, before, !holds, imbalance)) return ZP_END_FOUND;
-    holds = foreseen && (before == 0 || size < kept_rate * before);
+    if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;
     least = fmin(least, size);
     before = size;
   }
