@@ -7,6 +7,8 @@
 
 #include "base/fail.h"
 #include "fit/case.h"
+#include "fit/data.h"
+#include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
 
@@ -18,7 +20,7 @@ ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < zp_scenario_count(scenario) && status == ZP_OK; i++) {
     status = zp_scenario_def(scenario, i, &def, err);
-    if (status == ZP_OK) status = zp_data_check(zp_scenario_study(scenario), &def, err);
+    if (status == ZP_OK) status = zp_data_check_files(zp_scenario_study(scenario), &def, err);
   }
   return status;
 }
@@ -82,7 +84,7 @@ ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before,
                      ZpResult **result, ZpError *err) {
   ZpActuatorDef def;
   const bool fresh = index % zp_case_chunk(scenario) == 0;
-  ZpStatus status = zp_scenario_def(scenario, index, &def, err);
+  ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* what runs it checks it */
   if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
   if (before) zp_limits_destroy(before->limits);
   if (before) before->limits = NULL;
