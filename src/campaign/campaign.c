@@ -395,6 +395,28 @@ static ZpStatus get_status(void *user, ZpError *err) {
   return zp_journal_status(((ZpCampaign *)user)->journal, err);
 }
 
+/* -- rows for a thread of its own; `user` is a ZpJournal -------------------------------------------- */
+
+static const ZpResult *get_row_here(void *user, size_t index) {
+  return zp_journal_get(user, index);
+}
+
+static ZpStatus get_status_here(void *user, ZpError *err) {
+  return zp_journal_status(user, err);
+}
+
+static void close_rows(void *user) {
+  zp_journal_close(user);
+}
+
+static bool open_rows(void *user, ZpRows *own) {
+  ZpJournal *reader = zp_journal_reader(((ZpCampaign *)user)->journal);
+  *own = (ZpRows){.get = get_row_here, .status = get_status_here, .user = reader, .close = close_rows};
+  return reader != NULL;
+}
+
+/* -- open and close --------------------------------------------------------------------------------- */
+
 static ZpStatus init_locks(ZpCampaign *c, ZpError *err) {
   pthread_condattr_t attributes;
   bool done = pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
@@ -417,7 +439,7 @@ ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, con
   if (!c) return zp_fail_memory(err);
   c->scenario = scenario;
   c->options = *options;
-  c->rows = (ZpRows){get_row, get_status, c};
+  c->rows = (ZpRows){.get = get_row, .status = get_status, .user = c, .open = open_rows};
   c->study = zp_scenario_study(scenario);
   c->cases = c->state.cases = zp_scenario_count(scenario);
   c->chunk = zp_case_chunk(scenario);
