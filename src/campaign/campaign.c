@@ -30,6 +30,7 @@ enum { PULSE = 100, COMMIT_AFTER = 500 };
 
 /* Rows that wait to be written, at most; cases that another process computes at once, at most. */
 enum { QUEUE = 256, SPAN_MOST = 64 };
+_Static_assert((int)SPAN_MOST >= (int)ZP_CHUNK_MOST, "a span has room for a chunk");
 
 /* What is known of a row. That an earlier process left is of the same case only if its hash says so. */
 typedef enum Mark { MARK_NONE, MARK_OLD_FAILED, MARK_OLD_GOOD, MARK_FAILED, MARK_GOOD } Mark;
@@ -150,7 +151,8 @@ static void fail(ZpCampaign *c, const ZpError *err) {
   atomic_store(&c->stop, true);
 }
 
-/* => the result, NULL where the campaign ends: stopped, or the machine failed. */
+/* => the result, NULL where the campaign ends: stopped, or the machine failed. What ends after it was stopped is left
+ * out, since it may lack estimated errors. */
 static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
   ZpCampaign *c = worker->campaign;
   const ZpHooks hooks = {worker, on_progress, c->options.clock ? read_clock : NULL};
@@ -162,7 +164,7 @@ static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
     fail(c, &err);
     return NULL;
   }
-  if (result->outcome != ZP_INTERRUPTED) return result;
+  if (result->outcome != ZP_INTERRUPTED && !atomic_load(&c->stop)) return result;
   zp_result_destroy(result);
   return NULL;
 }

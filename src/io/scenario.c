@@ -763,9 +763,10 @@ static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bo
 }
 
 static void write_slot(FILE *file, int key, const ZpSlot *slot) {
+  const ZpShownUnit shown = zp_value_unit(key);
   char text[ZP_VALUE_SIZE];
   for (size_t i = 0; i < slot->count; i++) {
-    zp_value_print(key, slot->value[i], text, sizeof text);
+    zp_value_print_in(key, &shown, slot->value[i], text, sizeof text);
     fprintf(file, "%s%s", i ? ", " : "[", text);
   }
   fprintf(file, "]\n");
