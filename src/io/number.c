@@ -58,7 +58,7 @@ typedef struct Scaled {
   Wide X;
   int shift, point; /* 10^(point - 17) is what D counts */
   uint64_t step;
-  bool even, lowest; /* its significand is even; it is a power of two, below which doubles are twice as dense */
+  bool lowest; /* it is a power of two, below which doubles are twice as dense */
 } Scaled;
 
 static uint64_t power_of_5(int k) {
@@ -80,7 +80,7 @@ static bool scale(uint64_t m, int e, int point, Scaled *s) {
   const int shift = -(e + k);
   if (shift < 1 || shift > 64) return false;
   const uint64_t fives = power_of_5(k);
-  *s = (Scaled){(Wide)m * fives, shift, point, fives, m % 2 == 0, m == UINT64_C(1) << (DBL_MANT_DIG - 1)};
+  *s = (Scaled){(Wide)m * fives, shift, point, fives, m == UINT64_C(1) << (DBL_MANT_DIG - 1)};
   return true;
 }
 
@@ -101,12 +101,12 @@ static uint64_t rounded(const Scaled *s, uint64_t unit) {
   return rest > half || (rest == half && down % 2 == 1) ? down + 1 : down;
 }
 
-/* Is this double the nearest to a decimal, D in its units? Of two as near the even one is read. */
+/* Is this double the nearest to a decimal, D in its units? None is as near to two: that would make an odd number of
+ * steps even. */
 static bool reads_back(const Scaled *s, uint64_t D) {
   const Wide C = (Wide)D << s->shift;
   const bool below = C < s->X;
-  const Wide off = (below ? s->X - C : C - s->X) * (below && s->lowest ? 4 : 2);
-  return off < s->step || (off == s->step && s->even);
+  return (below ? s->X - C : C - s->X) * (below && s->lowest ? 4 : 2) < s->step;
 }
 
 /* False where that is too large or too small. */
