@@ -208,6 +208,18 @@ def check_gap(zipact, scratch):
     ok("a gap: the journal has those behind it", rows_so_far(folder) == [0, 2])
 
 
+def check_broken_files(zipact, scratch):
+    """A file that cannot be written is named, whichever thread writes it, and summary.json stays away: it says that all others are complete."""
+    for name in ("table.csv", "results.h5"):
+        for jobs in ("1", "2", "3"):
+            folder = scratch / "broken"
+            shutil.rmtree(folder, ignore_errors=True)
+            (folder / name / "in the way").mkdir(parents=True)
+            done = zipact.run("motion", folder, "--jobs", jobs)
+            ok("%s in the way, %s workers: said" % (name, jobs), done.returncode == 3 and name in done.stderr)
+            ok("%s in the way, %s workers: no summary.json, nothing temporary" % (name, jobs), not list(folder.glob("*summary*")) and not list(folder.glob("*tmp*")))
+
+
 def check_failures(zipact, scratch):
     """A case whose solver fails is a row; the campaign goes on and its status says 1."""
     folder = scratch / "failing"
@@ -267,6 +279,7 @@ def main():
     check_unfinished(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_gap(zipact, scratch)
+    check_broken_files(zipact, scratch)
     check_failures(zipact, scratch)
     os.chdir(scratch)
     check_batch(zipact)
