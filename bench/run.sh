@@ -15,6 +15,7 @@ rows = json.load(sys.stdin)["rows"]
 table = csv.DictWriter(sys.stdout, rows[0].keys(), lineterminator="\n")
 table.writeheader()
 table.writerows(rows)' >bench.csv
+./campaign.py "$build" >campaign.csv
 ./meter.py "$build" >meter.csv
 gnuplot meter.gp
 for motion in swing zip; do

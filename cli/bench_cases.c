@@ -47,7 +47,7 @@ ZpStatus bench_rests(int nodes, Row *row, ZpError *err) {
                      nodes, row, err);
 }
 
-/* Limits, each but one in 16 from the one before. */
+/* Limits, each but one in 8 from the one before: so few cases make short chunks. */
 ZpStatus bench_limits(int nodes, Row *row, ZpError *err) {
   return bench_cases("case of limits",
                      "study: limits\nliquid.model: none\nload.mass: {from: 2 g, to: 12 g, count: 32}\n"

@@ -153,19 +153,23 @@ def check_samples(zipact, scratch):
 
 
 def check_interrupt(zipact, scratch):
-    """Ctrl-C: 130, rows without a gap are reported, the rest is in the journal."""
+    """Ctrl-C: 130, rows without a gap are reported, the rest is in the journal. A case whose estimated errors it came
+    into was a row without them."""
     whole, torn = scratch / "rest-1", scratch / "rest-interrupted"
-    process = subprocess.Popen(zipact.command("rest", torn), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not (torn / "journal.sqlite-wal").exists():
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    ok("interrupted: 130", process.wait() == 130)
-    if (torn / "summary.json").exists():
-        summary = json.loads((torn / "summary.json").read_text())
-        ok("interrupted: the summary says so", summary["outcome"] == "interrupted" and "cases" in summary["message"])
-        ok("interrupted: rows are in the journal", len(summary["rows"]) <= len(rows_of(torn)))
-    ok("interrupted: resumed", zipact.run("rest", torn, "--resume").returncode == 0)
-    ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
+    for after in (0, 0.01, 0.02, 0.04, 0.08):
+        shutil.rmtree(torn, ignore_errors=True)
+        process = subprocess.Popen(zipact.command("rest", torn), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (torn / "journal.sqlite-wal").exists():
+            time.sleep(0.002)
+        time.sleep(after)
+        process.send_signal(signal.SIGINT)
+        ok("interrupted: 130", process.wait() == 130)
+        if (torn / "summary.json").exists():
+            summary = json.loads((torn / "summary.json").read_text())
+            ok("interrupted: the summary says so", summary["outcome"] == "interrupted" and "cases" in summary["message"])
+            ok("interrupted: rows are in the journal", len(summary["rows"]) <= len(rows_of(torn)))
+        ok("interrupted: resumed", zipact.run("rest", torn, "--resume").returncode == 0)
+        ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))
 
 
 def check_unfinished(zipact, scratch):
@@ -202,6 +206,18 @@ def check_gap(zipact, scratch):
     summary = json.loads((folder / "summary.json").read_text())
     ok("a gap: rows before it", len(summary["rows"]) == 1 and summary["message"] == "stopped after 1 of 3 cases")
     ok("a gap: the journal has those behind it", rows_so_far(folder) == [0, 2])
+
+
+def check_broken_files(zipact, scratch):
+    """A file that cannot be written is named, whichever thread writes it, and summary.json stays away: it says that all others are complete."""
+    for name in ("table.csv", "results.h5"):
+        for jobs in ("1", "2", "3"):
+            folder = scratch / "broken"
+            shutil.rmtree(folder, ignore_errors=True)
+            (folder / name / "in the way").mkdir(parents=True)
+            done = zipact.run("motion", folder, "--jobs", jobs)
+            ok("%s in the way, %s workers: said" % (name, jobs), done.returncode == 3 and name in done.stderr)
+            ok("%s in the way, %s workers: no summary.json, nothing temporary" % (name, jobs), not list(folder.glob("*summary*")) and not list(folder.glob("*tmp*")))
 
 
 def check_failures(zipact, scratch):
@@ -263,6 +279,7 @@ def main():
     check_unfinished(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_gap(zipact, scratch)
+    check_broken_files(zipact, scratch)
     check_failures(zipact, scratch)
     os.chdir(scratch)
     check_batch(zipact)

@@ -352,6 +352,61 @@ START_TEST(numbers_read_back) {
 }
 END_TEST
 
+/* The digits and the exponent of what the C library prints with the fewest of 15, 16, 17 digits that read back, zeros
+ * at the end left out; of 0.00123 and 1.23e-03 alike. */
+static void digits_of(const char *text, char *digits, size_t size, int *exponent) {
+  size_t used = 0, point = strcspn(text, ".e");
+  const char *e = strchr(text, 'e'), *end = e ? e : text + strlen(text);
+  *exponent = e ? (int)strtol(e + 1, NULL, 10) : 0;
+  *exponent += (int)point - 1;
+  bool begun = false;
+  for (const char *c = text; c < end; c++) {
+    if (*c == '.') continue;
+    begun |= *c != '0';
+    if (!begun) *exponent -= 1;
+    if (begun && used + 1 < size) digits[used++] = *c;
+  }
+  while (used > 1 && digits[used - 1] == '0')
+    used--;
+  digits[used] = 0;
+}
+
+static void same_as_library(double value) {
+  char text[ZP_NUMBER_SIZE], library[ZP_NUMBER_SIZE], ours[ZP_NUMBER_SIZE], theirs[ZP_NUMBER_SIZE];
+  int digits = 15, our_exponent, their_exponent;
+  do {
+    snprintf(library, sizeof library, "%.*e", digits - 1, value);
+  } while (digits++ < 17 && strtod(library, NULL) != value);
+  zp_number_print(value, text, sizeof text);
+  digits_of(text, ours, sizeof ours, &our_exponent);
+  digits_of(library, theirs, sizeof theirs, &their_exponent);
+  ck_assert_msg(strcmp(ours, theirs) == 0 && our_exponent == their_exponent, "%s, but the C library: %s", text,
+                library);
+}
+
+START_TEST(numbers_are_those_of_the_library) {
+  uint64_t bits = 88172645463325252u;
+  for (int i = 0; i < 1000000; i++) {
+    bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+    const double power = ldexp(1, (int)(bits % 120) - 60), ten = pow(10, (int)(bits % 40) - 20);
+    switch (i % 4) {
+    case 0: /* any digits, sizes 1e-11 .. 1e11 */
+      same_as_library(ldexp((double)(bits >> 11), -53 - 36 + (int)(bits % 73)));
+      break;
+    case 1: /* short decimals */
+      same_as_library((double)(bits >> 44) / pow(10, (double)(bits % 14)));
+      break;
+    case 2: /* about powers of two, where the doubles below are denser; many end in 5, a half of some digit */
+      same_as_library(bits % 3 == 0 ? power : nextafter(power, bits % 3 == 1 ? 0 : INFINITY));
+      same_as_library((double)(bits >> 38) * power);
+      break;
+    default: /* about powers of ten, which 9.99... is rounded to */
+      same_as_library(bits % 3 == 0 ? ten : nextafter(ten, bits % 3 == 1 ? 0 : INFINITY));
+    }
+  }
+}
+END_TEST
+
 START_TEST(single_run_has_all_files) {
   static const char *const name[] = {"scenario.yaml",
                                      "summary.json",
@@ -1124,6 +1179,7 @@ END_TEST
 static Suite *suite_of_report(void) {
   const TTest *const test[] = {numbers_are_short_and_exact,
                                numbers_read_back,
+                               numbers_are_those_of_the_library,
                                single_run_has_all_files,
                                summary_of_a_run,
                                table_of_a_run,

@@ -12,6 +12,8 @@
 
 #include <zipact/io.h>
 
+#include "io/cases.h"
+
 #define LENGTH_OF(array) (sizeof(array) / sizeof(array)[0])
 
 static ZpStatus parse(ZpScenario *s, const char *text, ZpError *err) {
@@ -654,6 +656,59 @@ START_TEST(test_preset_with_list) {
 }
 END_TEST
 
+/* Scenarios whose cases vary in ways that a Def common to all must not hide. */
+static const char *const with_cases[] = {
+    "load.mass: [2 g, 5 g, 9 g]\nribbon.thickness: [40 um, 61.3 um]\n",
+    "preset: paper-code\nmesh.nodes: [21, 61, 130]\nload.mass: [2 g, 5 g]\n",
+    "preset: paper-text\nload.mass: [2 g, 5 g]\nribbon.length: [90 mm, 110 mm]\n",
+    "ribbon.material: steel_301\nribbon.density: [7000 kg/m3, 8000 kg/m3]\nload.mass: [2 g, 5 g]\n",
+    "ribbon.material: steel_301\nmedium.material: silicone_oil_5cst\nsampling.tolerances: materials\n"
+    "sampling.count: 8\n",
+    "sampling.together: load.mass, ribbon.thickness\nload.mass: [2 g, 5 g]\nribbon.thickness: [40 um, 60 um]\n"
+    "ribbon.width: [8 mm, 9 mm, 10 mm]\n",
+    "source.supply: pocket_6kv\nload.mass: normal(8 g, 1 g)\nmesh.nodes: [21, 31]\nsampling.count: 4\n",
+    "lower.ribbon.thickness: [auto, 60 um]\ninsulator.resistivity: [none, 1e13]\nliquid.model: auto\n",
+    "stack.series: [1, 2]\nmember_1.ribbon.thickness: [auto, 40 um]\n",
+};
+
+/* Case `index` as a scenario of its own: the text, and its values in place of lists. */
+static ZpActuatorDef def_by_values(const ZpScenario *s, size_t index, const char *text) {
+  ZpError err;
+  size_t keys;
+  const int *key = zp_scenario_lists(s, &keys);
+  double value[16];
+  ZpScenario *alone = scenario_of(text);
+  ck_assert_uint_le(keys, 16);
+  zp_scenario_values(s, index, value);
+  for (size_t i = 0; i < keys; i++) {
+    char assignment[128], number[32];
+    snprintf(number, sizeof number, "%.17g", value[i]);
+    snprintf(assignment, sizeof assignment, "%s=%s", zp_key(key[i])->name,
+             isnan(value[i]) ? zp_key(key[i])->text : number);
+    ck_assert_msg(zp_scenario_set(alone, assignment, &err) == ZP_OK, "%s", err.message);
+  }
+  ck_assert_int_eq(zp_scenario_set(alone, "sampling.together=\"\"", &err), ZP_OK);
+  ck_assert_uint_eq(zp_scenario_count(alone), 1);
+  ZpActuatorDef def;
+  ck_assert_int_eq(zp_scenario_given(alone, 0, &def, NULL), ZP_OK);
+  zp_scenario_destroy(alone);
+  return def;
+}
+
+/* A case is what its values give without the others, whatever the cases have in common. */
+START_TEST(a_case_is_that_of_its_values) {
+  const char *text = with_cases[_i];
+  ZpScenario *s = scenario_of(text);
+  ck_assert_uint_gt(zp_scenario_count(s), 3);
+  for (size_t k = 0; k < zp_scenario_count(s); k++) {
+    ZpActuatorDef def, alone = def_by_values(s, k, text);
+    ck_assert_int_eq(zp_scenario_given(s, k, &def, NULL), ZP_OK);
+    assert_same_def(&def, &alone);
+  }
+  zp_scenario_destroy(s);
+}
+END_TEST
+
 START_TEST(test_def_errors) {
   ZpScenario *s = scenario_of("preset: paper-text\nmesh.nodes: [61, 41]");
   ZpActuatorDef def;
@@ -1001,6 +1056,7 @@ int main(void) {
   tcase_add_loop_test(scenarios, bad_spread_says_why, 0, LENGTH_OF(bad_spreads));
   tcase_add_loop_test(scenarios, test_ranges, 0, LENGTH_OF(ranges));
   tcase_add_test(scenarios, test_preset_with_list);
+  tcase_add_loop_test(scenarios, a_case_is_that_of_its_values, 0, LENGTH_OF(with_cases));
   tcase_add_test(scenarios, test_def_errors);
   tcase_add_test(scenarios, test_limits);
   tcase_add_test(scenarios, test_long_names);

@@ -117,6 +117,10 @@ typedef struct ZpRows {
   const ZpResult *(*get)(void *user, size_t index); /* result `index`, valid until the next call; never NULL */
   ZpStatus (*status)(void *user, ZpError *err);     /* ZP_MACHINE if one of them could not be read */
   void *user;                                       /* handed to the functions above */
+  /* Another reader of the same rows, for a thread of its own, to be closed by `close`. False if there can be none: then
+   * files are written one after the other, as where this is NULL. */
+  bool (*open)(void *user, struct ZpRows *own);
+  void (*close)(void *user); /* of what `open` gave */
 } ZpRows;
 
 /* What an optimisation found among the cases of its report. */
@@ -141,8 +145,8 @@ typedef struct ZpReport {
   const ZpFolder *folder;     /* `directory`, opened by the caller; NULL: zp_report_write opens and closes it */
   const ZpHooks *hooks;       /* asked while pictures are drawn: true ends that. NULL: nobody is asked */
   const ZpRows *rows;         /* in place of `result`; NULL: there is none */
-  int jobs;                   /* pictures drawn at once, 1 or more; 0: as many as there are processors */
-  const ZpOptimum *optimum;   /* of an optimisation; else NULL */
+  int jobs; /* files written and pictures drawn at once, 1 or more; 0: as many as there are processors */
+  const ZpOptimum *optimum; /* of an optimisation; else NULL */
 } ZpReport;
 
 /* The largest number `scalar` of the rows whose number `where` is 1; NAN if there is none. */

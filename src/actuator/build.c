@@ -74,6 +74,7 @@ static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece 
   double from = 0;
   int count = 0;
   for (int k = 0; k < ZP_PLACES && from < 1; k++) {
+    if (place[k].end == (k > 0 ? place[k - 1].end : 0)) continue; /* a segment without length, as most are */
     double to = fmin(in_edges(model, place[k].end) - (double)station, 1);
     if (to <= from) continue;
     piece[count++] = (Piece){place[k], from, to};

@@ -30,6 +30,7 @@ enum { PULSE = 100, COMMIT_AFTER = 500 };
 
 /* Rows that wait to be written, at most; cases that another process computes at once, at most. */
 enum { QUEUE = 256, SPAN_MOST = 64 };
+_Static_assert((int)SPAN_MOST >= (int)ZP_CHUNK_MOST, "a span has room for a chunk");
 
 /* What is known of a row. That an earlier process left is of the same case only if its hash says so. */
 typedef enum Mark { MARK_NONE, MARK_OLD_FAILED, MARK_OLD_GOOD, MARK_FAILED, MARK_GOOD } Mark;
@@ -150,7 +151,8 @@ static void fail(ZpCampaign *c, const ZpError *err) {
   atomic_store(&c->stop, true);
 }
 
-/* => the result, NULL where the campaign ends: stopped, or the machine failed. */
+/* => the result, NULL where the campaign ends: stopped, or the machine failed. What ends after it was stopped is left
+ * out, since it may lack estimated errors. */
 static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
   ZpCampaign *c = worker->campaign;
   const ZpHooks hooks = {worker, on_progress, c->options.clock ? read_clock : NULL};
@@ -162,7 +164,7 @@ static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
     fail(c, &err);
     return NULL;
   }
-  if (result->outcome != ZP_INTERRUPTED) return result;
+  if (result->outcome != ZP_INTERRUPTED && !atomic_load(&c->stop)) return result;
   zp_result_destroy(result);
   return NULL;
 }
@@ -395,6 +397,28 @@ static ZpStatus get_status(void *user, ZpError *err) {
   return zp_journal_status(((ZpCampaign *)user)->journal, err);
 }
 
+/* -- rows for a thread of its own; `user` is a ZpJournal -------------------------------------------- */
+
+static const ZpResult *get_row_here(void *user, size_t index) {
+  return zp_journal_get(user, index);
+}
+
+static ZpStatus get_status_here(void *user, ZpError *err) {
+  return zp_journal_status(user, err);
+}
+
+static void close_rows(void *user) {
+  zp_journal_close(user);
+}
+
+static bool open_rows(void *user, ZpRows *own) {
+  ZpJournal *reader = zp_journal_reader(((ZpCampaign *)user)->journal);
+  *own = (ZpRows){.get = get_row_here, .status = get_status_here, .user = reader, .close = close_rows};
+  return reader != NULL;
+}
+
+/* -- open and close --------------------------------------------------------------------------------- */
+
 static ZpStatus init_locks(ZpCampaign *c, ZpError *err) {
   pthread_condattr_t attributes;
   bool done = pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
@@ -417,7 +441,7 @@ ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, con
   if (!c) return zp_fail_memory(err);
   c->scenario = scenario;
   c->options = *options;
-  c->rows = (ZpRows){get_row, get_status, c};
+  c->rows = (ZpRows){.get = get_row, .status = get_status, .user = c, .open = open_rows};
   c->study = zp_scenario_study(scenario);
   c->cases = c->state.cases = zp_scenario_count(scenario);
   c->chunk = zp_case_chunk(scenario);

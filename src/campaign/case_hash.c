@@ -55,12 +55,18 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
   return status;
 }
 
-/* Pictures are no part of a result; how cases were chosen is in their values. */
+/* Pictures are no part of a result; how cases were chosen is in their values. Asked of all keys of every case: no names
+ * are compared. */
 static bool is_no_part(const ZpKey *key) {
-  static const char *const of_pictures[] = {"output.plots", "output.templates", "output.animation"};
-  for (size_t i = 0; i < sizeof of_pictures / sizeof of_pictures[0]; i++)
-    if (strcmp(key->name, of_pictures[i]) == 0) return true;
-  return strncmp(key->name, "sampling.", 9) == 0 || strncmp(key->name, "optimize.", 9) == 0;
+#define PART(field)                                                                                                    \
+  { offsetof(ZpActuatorDef, field), sizeof(((ZpActuatorDef *)0)->field) }
+  static const struct {
+    size_t first, size;
+  } no_part[] = {PART(output.plots), PART(output.templates), PART(output.animation), PART(sampling), PART(optimize)};
+#undef PART
+  for (size_t i = 0; i < sizeof no_part / sizeof no_part[0]; i++)
+    if (key->offset >= no_part[i].first && key->offset - no_part[i].first < no_part[i].size) return true;
+  return false;
 }
 
 uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {

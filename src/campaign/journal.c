@@ -126,17 +126,20 @@ static ZpStatus read_names(ZpJournal *journal, ZpError *err) {
   return status;
 }
 
-static ZpStatus prepare(ZpJournal *journal, ZpError *err) {
-  const struct {
-    sqlite3_stmt **statement;
-    const char *sql;
-  } all[] = {{&journal->put, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?)"},
-             {&journal->get, "SELECT outcome, message, result FROM row WHERE number = ?"},
-             {&journal->put_name, "INSERT INTO name VALUES(?, ?, ?, ?, ?)"}};
-  for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-    if (sqlite3_prepare_v3(journal->base, all[i].sql, -1, SQLITE_PREPARE_PERSISTENT, all[i].statement, NULL))
-      return fail_base(journal, err);
-  return ZP_OK;
+static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **statement, ZpError *err) {
+  const int answer = sqlite3_prepare_v3(journal->base, sql, -1, SQLITE_PREPARE_PERSISTENT, statement, NULL);
+  return answer == SQLITE_OK ? ZP_OK : fail_base(journal, err);
+}
+
+static ZpStatus prepare_get(ZpJournal *journal, ZpError *err) {
+  return prepare(journal, "SELECT outcome, message, result FROM row WHERE number = ?", &journal->get, err);
+}
+
+static ZpStatus prepare_all(ZpJournal *journal, ZpError *err) {
+  ZpStatus status = prepare_get(journal, err);
+  if (status == ZP_OK)
+    status = prepare(journal, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?)", &journal->put, err);
+  return status == ZP_OK ? prepare(journal, "INSERT INTO name VALUES(?, ?, ?, ?, ?)", &journal->put_name, err) : status;
 }
 
 static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
@@ -149,7 +152,7 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   if (status == ZP_OK) status = run(journal, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL", err);
   if (status == ZP_OK) status = run(journal, sql, err);
   if (status == ZP_OK) status = read_names(journal, err);
-  return status == ZP_OK ? prepare(journal, err) : status;
+  return status == ZP_OK ? prepare_all(journal, err) : status;
 }
 
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
@@ -162,6 +165,22 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
   zp_journal_close(journal);
   *out = NULL;
   return status;
+}
+
+/* (journal with its path and study) => is it open, for reading? */
+static bool open_reader(ZpJournal *journal) {
+  return sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
+         read_names(journal, NULL) == ZP_OK && prepare_get(journal, NULL) == ZP_OK;
+}
+
+ZpJournal *zp_journal_reader(const ZpJournal *journal) {
+  ZpJournal *reader = journal->open ? NULL : calloc(1, sizeof *reader);
+  if (!reader) return NULL;
+  reader->row.result.study = journal->row.result.study;
+  reader->path = strdup(journal->path);
+  if (reader->path && open_reader(reader)) return reader;
+  zp_journal_close(reader);
+  return NULL;
 }
 
 void zp_journal_close(ZpJournal *journal) {

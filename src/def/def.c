@@ -1001,16 +1001,28 @@ static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK && def->electro.edges ? check_edges(def, err) : status;
 }
 
-ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus ours = check_layout(def, err);
-  if (ours != ZP_OK) return ours;
-  for (int i = 0; i < KEY_COUNT; i++) {
-    bool is_text = keys[i].type == ZP_KEY_TEXT;
-    if (!has_field(&keys[i])) continue;
-    ZpStatus status = is_text ? check_text(&keys[i], (const char *)def + keys[i].offset, err)
-                              : check_value(&keys[i], zp_def_get(def, i), err);
-    if (status != ZP_OK) return status;
+/* Is this a real number in its range? Asked of all keys of every case: what is not is looked at more closely. */
+static bool is_real_in_range(const ZpActuatorDef *def, const ZpKey *key) {
+  double value;
+  if (key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO) return false;
+  memcpy(&value, (const char *)def + key->offset, sizeof value);
+  return value >= key->min && value <= key->max;
+}
+
+static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) {
+    if (!has_field(&keys[i]) || is_real_in_range(def, &keys[i])) continue;
+    status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + keys[i].offset, err)
+                                         : check_value(&keys[i], zp_def_get(def, i), err);
   }
+  return status;
+}
+
+ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus fields = check_layout(def, err);
+  if (fields == ZP_OK) fields = check_fields(def, err);
+  if (fields != ZP_OK) return fields;
   bool two = zp_def_has_two(def);
   if (def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->platform.length > 0.9 * def->ribbon.length)
     return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",

@@ -7,6 +7,8 @@
 
 #include "base/fail.h"
 #include "fit/case.h"
+#include "fit/data.h"
+#include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
 
@@ -18,7 +20,7 @@ ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < zp_scenario_count(scenario) && status == ZP_OK; i++) {
     status = zp_scenario_def(scenario, i, &def, err);
-    if (status == ZP_OK) status = zp_data_check(zp_scenario_study(scenario), &def, err);
+    if (status == ZP_OK) status = zp_data_check_files(zp_scenario_study(scenario), &def, err);
   }
   return status;
 }
@@ -63,11 +65,19 @@ static ZpStatus need_room(const ZpBatch *batch, ZpError *err) {
                  batch->count);
 }
 
+static size_t at_most(size_t length, size_t most) {
+  return length < most ? length : most;
+}
+
+/* The first case of a chunk, from scratch, takes as long as some 14 others. Few cases make 8 chunks, so that as many
+ * processors have work; many make longer ones, but no fewer than 32. */
 size_t zp_case_chunk(const ZpScenario *scenario) {
-  enum { CHUNKS_FEWEST = 8 };
-  if (!zp_study_follows(zp_scenario_study(scenario))) return 1;
-  const size_t length = zp_scenario_count(scenario) / CHUNKS_FEWEST;
-  return length < 1 ? 1 : length < ZP_CHUNK_MOST ? length : ZP_CHUNK_MOST;
+  enum { CHUNKS_OF_FEW = 8, LONGEST_OF_FEW = 16, CHUNKS_OF_MANY = 32 };
+  const size_t cases = zp_scenario_count(scenario);
+  if (!zp_study_follows(zp_scenario_study(scenario)) || cases < CHUNKS_OF_FEW) return 1;
+  const size_t of_few = at_most(cases / CHUNKS_OF_FEW, LONGEST_OF_FEW);
+  const size_t of_many = at_most(cases / CHUNKS_OF_MANY, ZP_CHUNK_MOST);
+  return of_few > of_many ? of_few : of_many;
 }
 
 static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, ZpResult *before, const ZpHooks *hooks,
@@ -82,7 +92,7 @@ ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before,
                      ZpResult **result, ZpError *err) {
   ZpActuatorDef def;
   const bool fresh = index % zp_case_chunk(scenario) == 0;
-  ZpStatus status = zp_scenario_def(scenario, index, &def, err);
+  ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* what runs it checks it */
   if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
   if (before) zp_limits_destroy(before->limits);
   if (before) before->limits = NULL;

@@ -5,7 +5,7 @@
 #include <zipact/io.h>
 
 /* Most cases of a chunk. */
-enum { ZP_CHUNK_MOST = 16 };
+enum { ZP_CHUNK_MOST = 64 };
 
 /* Cases come in chunks of this length: those of a study that follows (zp_study_follows) start from the case before
  * them, but the first of a chunk does not. It depends on the scenario alone, so results do not depend on who runs what.

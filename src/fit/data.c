@@ -3,6 +3,7 @@
 #include <zipact/io.h>
 
 #include "base/fail.h"
+#include "fit/data.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
 #include "io/drive_table.h"
@@ -142,9 +143,13 @@ static const struct {
 #include <zipact/studies.def>
 };
 
+ZpStatus zp_data_check_files(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
+  return with_files[study].check(def, err);
+}
+
 ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_study_check(study, def, err);
-  return status == ZP_OK ? with_files[study].check(def, err) : status;
+  return status == ZP_OK ? zp_data_check_files(study, def, err) : status;
 }
 
 ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,

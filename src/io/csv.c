@@ -47,39 +47,46 @@ static void write_head(FILE *file, const ZpReport *report, const ZpScalarNames *
 }
 
 /* The values of the list keys that make this run different from the others. */
-static ZpStatus write_keys(FILE *file, const ZpReport *report, size_t run, ZpError *err) {
+static void write_keys(FILE *file, const ZpReport *report, size_t run, double *value) {
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
-  ZpActuatorDef def;
-  ZpStatus status = zp_scenario_given(report->scenario, run, &def, err);
-  for (size_t i = 0; i < keys && status == ZP_OK; i++) {
-    double value = zp_def_get(&def, key[i]);
-    const char *word = zp_key_word(key[i], value);
+  zp_scenario_values(report->scenario, run, value);
+  for (size_t i = 0; i < keys; i++) {
+    const char *word = zp_key_word(key[i], value[i]);
     if (word)
       fputs(word, file);
     else
-      put_number(file, value);
+      put_number(file, value[i]);
     fputc(',', file);
   }
-  return status;
+}
+
+static void write_row(FILE *file, const ZpResult *result, const ZpScalarNames *names) {
+  fputs(zp_outcome_name(result->outcome), file);
+  for (size_t i = 0; i < names->count; i++) {
+    fputc(',', file);
+    put_number(file, zp_scalar_at(result, names, i));
+  }
+  fputc('\n', file);
 }
 
 static ZpStatus write_sweep(FILE *file, const ZpReport *report, ZpError *err) {
+  size_t keys;
   ZpScalarNames names;
-  if (!zp_report_scalars(report, false, &names)) return zp_fail_memory(err);
-  ZpStatus status = ZP_OK;
+  zp_scenario_lists(report->scenario, &keys);
+  double *value = calloc(keys + 1, sizeof *value);
+  if (!value || !zp_report_scalars(report, false, &names)) {
+    free(value);
+    return zp_fail_memory(err);
+  }
   write_head(file, report, &names);
-  for (size_t run = 0; run < report->count && status == ZP_OK; run++) {
-    status = write_keys(file, report, run, err);
-    fputs(zp_outcome_name(zp_report_result(report, run)->outcome), file);
-    for (size_t i = 0; i < names.count; i++) {
-      fputc(',', file);
-      put_number(file, zp_result_get(zp_report_result(report, run), names.item[i].name));
-    }
-    fputc('\n', file);
+  for (size_t run = 0; run < report->count; run++) {
+    write_keys(file, report, run, value);
+    write_row(file, zp_report_result(report, run), &names);
   }
   free(names.item);
-  return status;
+  free(value);
+  return ZP_OK;
 }
 
 ZpStatus zp_csv_write(const ZpReport *report, ZpError *err) {

@@ -263,6 +263,7 @@ typedef struct Columns {
   hid_t type, outcomes;
   hid_t *set;    /* [keys + names.count] */
   double *value; /* [keys + names.count][BLOCK] */
+  double *given; /* [keys] of the row that is taken */
   char outcome[BLOCK][OUTCOME_SIZE];
 } Columns;
 
@@ -298,15 +299,14 @@ static void close_columns(const Columns *c) {
 }
 
 /* Row `run` as row `place` of the block. */
-static void take_row(Store *store, Columns *c, size_t run, size_t place) {
-  ZpActuatorDef def;
+static void take_row(Columns *c, size_t run, size_t place) {
   const ZpResult *result = zp_report_result(c->report, run);
   double *value = c->value + place;
-  store->bad = store->bad || zp_scenario_given(c->report->scenario, run, &def, NULL) != ZP_OK;
-  for (size_t i = 0; i < c->keys && !store->bad; i++, value += BLOCK)
-    *value = clean(zp_def_get(&def, c->key[i]));
-  for (size_t i = 0; i < c->names.count && !store->bad; i++, value += BLOCK)
-    *value = clean(zp_result_get(result, c->names.item[i].name));
+  zp_scenario_values(c->report->scenario, run, c->given);
+  for (size_t i = 0; i < c->keys; i++, value += BLOCK)
+    *value = clean(c->given[i]);
+  for (size_t i = 0; i < c->names.count; i++, value += BLOCK)
+    *value = clean(zp_scalar_at(result, &c->names, i));
   memset(c->outcome[place], 0, OUTCOME_SIZE);
   snprintf(c->outcome[place], OUTCOME_SIZE, "%s", zp_outcome_name(result->outcome));
 }
@@ -327,7 +327,7 @@ static void put_columns(Store *store, hid_t group, Columns *c) {
   for (size_t from = 0; from < c->report->count && !store->bad; from += BLOCK) {
     const size_t left = c->report->count - from, rows = left < BLOCK ? left : BLOCK;
     for (size_t i = 0; i < rows; i++)
-      take_row(store, c, from + i, i);
+      take_row(c, from + i, i);
     put_block(store, c, from, rows);
   }
   close_columns(c);
@@ -343,11 +343,13 @@ static void put_table(Store *store, const ZpReport *report) {
     c->key = zp_scenario_lists(report->scenario, &c->keys);
     c->set = calloc(c->keys + c->names.count + 1, sizeof *c->set);
     c->value = calloc((c->keys + c->names.count + 1) * BLOCK, sizeof *c->value);
-    store->bad = store->bad || !c->set || !c->value;
+    c->given = calloc(c->keys + 1, sizeof *c->given);
+    store->bad = store->bad || !c->set || !c->value || !c->given;
     if (!store->bad) put_columns(store, group, c);
     free(c->names.item);
     free(c->set);
     free(c->value);
+    free(c->given);
   }
   free(c);
   H5Gclose(group);

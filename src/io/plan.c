@@ -145,25 +145,34 @@ ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err) {
   return count_cases(plan, slot, err);
 }
 
-size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, ZpAssignment *list) {
+void zp_plan_values(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, double *value) {
   const size_t samples = zp_design_samples(&plan->design), sample = index % samples;
-  size_t used = 0, axis = plan->axes, together = 0;
+  size_t axis = plan->axes, together = 0;
   int dimension = plan->design.dimensions;
   index /= samples;
-  for (size_t i = key_count(); i-- > 0;) { /* backwards: the last list varies fastest */
-    const ZpSlot *s = slot[i];
-    if (s->count == 0 || s->text || zp_key((int)i)->offset == ZP_NO_FIELD) continue;
-    double value = s->value[0];
+  for (size_t v = plan->variations; v-- > 0;) { /* backwards: the last list varies fastest */
+    const int key = plan->varied[v];
+    const ZpSlot *s = slot[key];
     if (s->spread.kind != ZP_DISTRIBUTION_NONE) {
-      value = zp_rounded(zp_quantile(&s->spread, zp_design_share(&plan->design, sample, --dimension)));
-    } else if (s->is_list) {
-      const bool is_axis = axis > 0 && plan->axis[axis - 1] == (int)i;
-      const size_t length = plan->tied[i] ? plan->together : s->count, place = is_axis ? index % length : together;
-      if (is_axis) index /= length, axis--;
-      if (is_axis && plan->tied[i]) together = place;
-      value = s->value[place];
+      value[v] = zp_rounded(zp_quantile(&s->spread, zp_design_share(&plan->design, sample, --dimension)));
+      continue;
     }
-    list[used++] = (ZpAssignment){(int)i, value};
+    const bool is_axis = axis > 0 && plan->axis[axis - 1] == key;
+    const size_t length = plan->tied[key] ? plan->together : s->count, place = is_axis ? index % length : together;
+    if (is_axis) index /= length, axis--;
+    if (is_axis && plan->tied[key]) together = place;
+    value[v] = s->value[place];
+  }
+}
+
+size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, const double *value, ZpAssignment *list) {
+  size_t used = 0, v = plan->variations;
+  for (size_t i = key_count(); i-- > 0;) {
+    const ZpSlot *s = slot[i];
+    const bool is_varied = v > 0 && plan->varied[v - 1] == (int)i;
+    if (is_varied) v--;
+    if (s->count == 0 || s->text || zp_key((int)i)->offset == ZP_NO_FIELD) continue;
+    list[used++] = (ZpAssignment){(int)i, is_varied ? value[v] : s->value[0]};
   }
   return used;
 }

@@ -62,6 +62,12 @@ bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names
   return true;
 }
 
+double zp_scalar_at(const ZpResult *result, const ZpScalarNames *names, size_t index) {
+  const char *name = names->item[index].name;
+  const bool here = index < result->scalars && strcmp(result->scalar[index].name, name) == 0; /* in most results */
+  return here ? result->scalar[index].value : zp_result_get(result, name);
+}
+
 size_t zp_result_numbers(const ZpResult *result) {
   size_t numbers = 0;
   if (result->series) numbers += result->series->rows * result->series->columns;

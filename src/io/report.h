@@ -32,6 +32,9 @@ const ZpResult *zp_report_single(const ZpReport *report);
  * free. False if there is no memory. */
 bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names);
 
+/* Scalar names->item[index] of a result; NAN if it has none of this name. */
+double zp_scalar_at(const ZpResult *result, const ZpScalarNames *names, size_t index);
+
 /* Numbers in the series, shapes and field of a result. */
 size_t zp_result_numbers(const ZpResult *result);
 

@@ -4,7 +4,8 @@
  * whatever the order of calls. A third, below both, has the distributions of materials that sampling.tolerances asks
  * for. Nothing is resolved before a Def is asked for, so it does not matter where `preset` is written. A text is first
  * read into a layer of its own and then exchanged slot by slot with the one that it changes; exchanging again undoes
- * it, so a failure leaves the scenario as it was. Which Defs a scenario stands for is io/plan.h. */
+ * it, so a failure leaves the scenario as it was. Which Defs a scenario stands for is io/plan.h. What they have in
+ * common is resolved once, when keys are given: a case sets what varies. */
 #include <zipact/io.h>
 
 #include <errno.h>
@@ -32,6 +33,8 @@ struct ZpScenario {
   ZpSlot *drawn;       /* [keys] of materials; both win over these. A value is that of its own distribution */
   const ZpSlot **held; /* [keys] the one of these that holds */
   ZpPlan plan;
+  ZpActuatorDef common; /* the first case; others set what varies in it, unless that moves further keys */
+  bool has_common;
   char *name; /* of the file read last, NULL before */
 };
 
@@ -99,6 +102,69 @@ static void hold(ZpScenario *s) {
   draw_materials(s);
 }
 
+/* The texts; nothing else depends on them. */
+static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < key_count() && status == ZP_OK; i++) {
+    const char *text = s->held[i]->text;
+    if (text) status = zp_def_set_text(def, (int)i, text, err);
+  }
+  return status;
+}
+
+/* A case from all that is given. */
+static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
+  ZpAssignment *list = calloc(key_count(), sizeof *list);
+  if (!list) return zp_fail_memory(err);
+  ZpStatus status = zp_def_fill(def, list, zp_plan_assign(&s->plan, s->held, value, list), err);
+  free(list);
+  return status == ZP_OK ? set_texts(s, def, err) : status;
+}
+
+/* A case from what all have in common. Keys are set in the order of zp_plan_assign, so the same one is refused first.
+ */
+static ZpStatus resolve_varied(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  *def = s->common;
+  for (size_t v = s->plan.variations; v-- > 0 && status == ZP_OK;)
+    status = zp_def_set(def, s->plan.varied[v], value[v], err);
+  return status;
+}
+
+/* Keys that vary, of most scenarios; more are rare, and have room made for them. */
+enum { VARIATIONS_USUAL = 16 };
+
+static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+  double usual[VARIATIONS_USUAL], *more = NULL;
+  if (s->plan.variations > VARIATIONS_USUAL) {
+    more = calloc(s->plan.variations, sizeof *more);
+    if (!more) return zp_fail_memory(err);
+  }
+  double *value = more ? more : usual;
+  zp_plan_values(&s->plan, s->held, index, value);
+  const bool shared = s->has_common && def->layout == zp_def_layout();
+  ZpStatus status = shared ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
+  free(more);
+  return status;
+}
+
+/* A key whose value decides what others are where they are not given: a preset has values for certain mesh.nodes. All
+ * other such keys are words, which no list has. */
+static bool moves_others(int key) {
+  const ZpKeyType type = zp_key(key)->type;
+  return type == ZP_KEY_ENUM || type == ZP_KEY_BOOL || strcmp(zp_key(key)->name, "mesh.nodes") == 0;
+}
+
+/* Resolve what the cases have in common. Where the first cannot be resolved, whoever asks for it is told why. */
+static void find_common(ZpScenario *s) {
+  bool moves = false;
+  for (size_t v = 0; v < s->plan.variations; v++)
+    moves |= moves_others(s->plan.varied[v]);
+  s->has_common = false;
+  s->common.layout = zp_def_layout();
+  s->has_common = !moves && resolve(s, 0, &s->common, NULL) == ZP_OK;
+}
+
 ZpScenario *zp_scenario_create(void) {
   ZpScenario *s = calloc(1, sizeof *s);
   if (!s) return NULL;
@@ -108,6 +174,7 @@ ZpScenario *zp_scenario_create(void) {
   s->held = calloc(key_count(), sizeof *s->held);
   if (zp_plan_create(&s->plan) && s->file && s->set && s->drawn && s->held) {
     hold(s);
+    find_common(s);
     return s;
   }
   zp_scenario_destroy(s);
@@ -140,7 +207,10 @@ static ZpStatus merge(ZpScenario *s, const Reader *reader, ZpSlot *layer, ZpErro
   ZpError reason;
   exchange(reader, layer);
   hold(s);
-  if (zp_plan_make(&s->plan, s->held, &reason) == ZP_OK) return ZP_OK;
+  if (zp_plan_make(&s->plan, s->held, &reason) == ZP_OK) {
+    find_common(s);
+    return ZP_OK;
+  }
   exchange(reader, layer);
   hold(s);
   zp_plan_make(&s->plan, s->held, NULL); /* as before */
@@ -613,24 +683,6 @@ ZpStudy zp_scenario_study(const ZpScenario *s) {
   return (ZpStudy)0;
 }
 
-/* The texts; nothing else depends on them. */
-static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < key_count() && status == ZP_OK; i++) {
-    const char *text = s->held[i]->text;
-    if (text) status = zp_def_set_text(def, (int)i, text, err);
-  }
-  return status;
-}
-
-static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
-  ZpAssignment *list = calloc(key_count(), sizeof *list);
-  if (!list) return zp_fail_memory(err);
-  ZpStatus status = zp_def_fill(def, list, zp_plan_assign(&s->plan, s->held, index, list), err);
-  free(list);
-  return status == ZP_OK ? set_texts(s, def, err) : status;
-}
-
 /* Put the file and the row before the message of a Def that is wrong as a whole. */
 static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reason, ZpError *err) {
   char row[64] = "";
@@ -646,19 +698,35 @@ static ZpStatus fail_plan(const ZpScenario *s, ZpError *err) {
   return zp_source_fail(&source, 0, err, "%s", s->plan.problem);
 }
 
+/* (what came of a case) => its status, with file and row before the message. */
+static ZpStatus say_of(const ZpScenario *s, size_t index, ZpStatus status, const ZpError *reason, ZpError *err) {
+  return status == ZP_OK ? ZP_OK : fail_def(s, index, reason, err);
+}
+
+static ZpStatus check_case(const ZpScenario *s, size_t index, ZpError *err) {
+  if (index >= s->plan.count)
+    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->plan.count);
+  return s->plan.problem[0] ? fail_plan(s, err) : ZP_OK;
+}
+
 ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+  ZpError reason;
+  ZpStatus status = check_case(s, index, err);
   def->layout = zp_def_layout();
-  return resolve(s, index, def, err);
+  return status == ZP_OK ? say_of(s, index, resolve(s, index, def, &reason), &reason, err) : status;
+}
+
+void zp_scenario_values(const ZpScenario *s, size_t index, double *value) {
+  zp_plan_values(&s->plan, s->held, index, value);
 }
 
 ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
-  if (index >= s->plan.count)
-    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->plan.count);
   ZpError reason;
-  if (s->plan.problem[0]) return fail_plan(s, err);
-  ZpStatus status = resolve(s, index, def, &reason);
+  ZpStatus status = check_case(s, index, err);
+  if (status != ZP_OK) return status;
+  status = resolve(s, index, def, &reason);
   if (status == ZP_OK) status = zp_study_check(zp_scenario_study(s), def, &reason);
-  return status == ZP_OK ? ZP_OK : fail_def(s, index, &reason, err);
+  return say_of(s, index, status, &reason, err);
 }
 
 /* Sweeps of more cases keep no series unless asked. */
@@ -666,7 +734,8 @@ enum { CASES_WITH_SERIES = 20 };
 
 bool zp_scenario_keeps_series(const ZpScenario *s) {
   ZpActuatorDef def;
-  if (zp_scenario_given(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
+  def.layout = zp_def_layout();
+  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
     return s->plan.count <= CASES_WITH_SERIES;
   return def.output.series == ZP_WHEN_TRUE;
 }
@@ -675,23 +744,29 @@ static bool same_value(double a, double b) {
   return a == b || (isnan(a) && isnan(b));
 }
 
-/* differs[key] set for every key that has not the same value, or whose auto has not the same meaning, in all Defs. */
+/* differs[key] set for every key that has no list and not the same value in both Defs, or whose auto has not the same
+ * meaning. */
+static void compare(const ZpScenario *s, const ZpActuatorDef *first, const ZpActuatorDef *def, bool *differs) {
+  for (int i = 0; i < zp_key_count() && !s->has_common; i++) /* else only keys with lists may */
+    differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(def, i));
+  differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(def);
+}
+
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
+  ZpActuatorDef def = {.layout = zp_def_layout()};
   for (size_t row = 1; row < s->plan.count; row++) {
-    ZpActuatorDef def;
     ZpError reason;
-    if (zp_scenario_given(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
-    for (int i = 0; i < zp_key_count(); i++)
-      differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(&def, i));
-    differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(&def);
+    if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
+    compare(s, first, &def, differs);
   }
   return ZP_OK;
 }
 
 static void write_slot(FILE *file, int key, const ZpSlot *slot) {
+  const ZpShownUnit shown = zp_value_unit(key);
   char text[ZP_VALUE_SIZE];
   for (size_t i = 0; i < slot->count; i++) {
-    zp_value_print(key, slot->value[i], text, sizeof text);
+    zp_value_print_in(key, &shown, slot->value[i], text, sizeof text);
     fprintf(file, "%s%s", i ? ", " : "[", text);
   }
   fprintf(file, "]\n");
@@ -739,9 +814,9 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
 }
 
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
-  ZpActuatorDef first;
+  ZpActuatorDef first = {.layout = zp_def_layout()};
   ZpError reason;
-  if (zp_scenario_given(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
+  if (resolve(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
   bool *differs = calloc(key_count(), sizeof *differs);
   if (!differs) return zp_fail_memory(err);
   ZpStatus status = compare_defs(s, &first, differs, err);

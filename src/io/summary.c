@@ -104,11 +104,14 @@ static json_t *row_of(const void *user, size_t run) {
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
   const ZpResult *result = zp_report_result(report, run);
-  ZpActuatorDef def;
+  double *value = calloc(keys + 1, sizeof *value);
+  if (!value) return NULL;
+  zp_scenario_values(report->scenario, run, value);
   json_t *row = json_object(), *notes = json_array();
-  bool done = zp_scenario_given(report->scenario, run, &def, NULL) == ZP_OK;
+  bool done = row != NULL;
   for (size_t i = 0; i < keys && done; i++)
-    done = zp_json_set(row, zp_key(key[i])->name, zp_json_key(key[i], zp_def_get(&def, key[i])));
+    done = zp_json_set(row, zp_key(key[i])->name, zp_json_key(key[i], value[i]));
+  free(value);
   done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
   done = done && zp_json_set(row, "message", json_string(result->message));
   done = done && set_scalars(row, result);

@@ -292,18 +292,15 @@ static bool print_factor(const ZpKey *key, double factor, double value, char *te
 }
 
 /* "100 mm" for 0.1 m, if this reads back to the same bits. */
-static bool print_shown(int index, double value, char *text, size_t size) {
-  const ZpKey *key = zp_key(index);
+static bool print_shown(const ZpKey *key, const ZpUnitScale *scale, double value, char *text, size_t size) {
   char number[ZP_NUMBER_SIZE];
   Decimal decimal;
-  ZpUnitScale scale;
-  if (*key->shown == 0 || !isfinite(value)) return false;
-  if (zp_unit_scale(key->shown, key->unit, &scale, NULL) != ZP_OK) return false;
-  if (!scale.decimal) return print_factor(key, scale.factor, value, text, size);
+  if (!isfinite(value)) return false;
+  if (!scale->decimal) return print_factor(key, scale->factor, value, text, size);
   zp_number_print(value, number, sizeof number);
   if (!scan_decimal(number, &decimal)) return false;
-  zp_number_print(decimal_value(number, &decimal, -scale.exponent), number, sizeof number);
-  if (!scan_decimal(number, &decimal) || decimal_value(number, &decimal, scale.exponent) != value) return false;
+  zp_number_print(decimal_value(number, &decimal, -scale->exponent), number, sizeof number);
+  if (!scan_decimal(number, &decimal) || decimal_value(number, &decimal, scale->exponent) != value) return false;
   snprintf(text, size, "%s %s", number, key->shown);
   return true;
 }
@@ -316,7 +313,19 @@ static void print_si(const ZpKey *key, double value, char *text, size_t size) {
   snprintf(text, size, "%s%s%s", number, bare ? "" : " ", bare ? "" : key->unit);
 }
 
+ZpShownUnit zp_value_unit(int index) {
+  const ZpKey *key = zp_key(index);
+  ZpShownUnit shown = {false, {0}};
+  shown.known = *key->shown && zp_unit_scale(key->shown, key->unit, &shown.scale, NULL) == ZP_OK;
+  return shown;
+}
+
 void zp_value_print(int index, double value, char *text, size_t size) {
+  const ZpShownUnit shown = isfinite(value) ? zp_value_unit(index) : (ZpShownUnit){false, {0}};
+  zp_value_print_in(index, &shown, value, text, size);
+}
+
+void zp_value_print_in(int index, const ZpShownUnit *shown, double value, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
   if (key->type == ZP_KEY_TEXT)
     snprintf(text, size, "\"%s\"", key->text);
@@ -326,6 +335,6 @@ void zp_value_print(int index, double value, char *text, size_t size) {
     snprintf(text, size, "%s", value >= 0 && value <= key->max ? key->choices[(int)value].word : "?");
   else if (key->type == ZP_KEY_REAL_AUTO && isnan(value))
     snprintf(text, size, "%s", key->text);
-  else if (!print_shown(index, value, text, size))
+  else if (!shown->known || !print_shown(key, &shown->scale, value, text, size))
     print_si(key, value, text, size);
 }

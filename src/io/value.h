@@ -7,6 +7,8 @@
 
 #include <zipact/def.h>
 
+#include "io/units.h"
+
 enum {
   ZP_VALUE_SIZE = 256, /* bytes of the longest value that is read, with the final 0 */
   ZP_RANGE_SIZE = 160  /* enough for zp_value_range */
@@ -25,6 +27,18 @@ bool zp_value_is_bare(int index, const char *text);
 
 /* (key) => "1 um to 5000 um", with " or auto" where that is allowed; the range of a number key. */
 void zp_value_range(int index, char *text, size_t size);
+
+/* The unit in which people write a key. `known`: it has one. */
+typedef struct ZpShownUnit {
+  bool known;
+  ZpUnitScale scale;
+} ZpShownUnit;
+
+/* Look it up, which takes longer than to print a number. */
+ZpShownUnit zp_value_unit(int index);
+
+/* As zp_value_print, with the unit of this key. */
+void zp_value_print_in(int index, const ZpShownUnit *shown, double value, char *text, size_t size);
 
 /* To 12 digits: more than any key needs, and fewer than the rounding of what is computed reaches. */
 double zp_rounded(double value);

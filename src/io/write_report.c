@@ -1,14 +1,38 @@
 /* A report: all files that a study leaves in its folder, written in an order that keeps a promise.
  *
  * summary.json goes first when old results are replaced and comes after all other numbers when new ones are written,
- * so where it stands the numbers are complete. Pictures come last: another program draws them. */
+ * so where it stands the numbers are complete. Pictures come last: another program draws them.
+ *
+ * Three files have all rows of a campaign: they are written by threads of their own, each with its own reader of the
+ * rows, so that neither their bytes nor the memory depend on how many there are. */
 #include <locale.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
 #include "io/report.h"
 #include "io/writers.h"
+
+/* The files that have all rows. */
+enum { TABLE, RESULTS, SUMMARY, FILES };
+
+typedef struct Files {
+  const ZpReport *report;
+  locale_t plain;
+  ZpAtomic summary;    /* under its temporary name */
+  _Atomic size_t next; /* the first file that nobody writes */
+  ZpStatus status[FILES];
+  ZpError err[FILES];
+} Files;
+
+/* Who writes some of them. */
+typedef struct Writer {
+  Files *files;
+  ZpRows own; /* its reader */
+  pthread_t thread;
+} Writer;
 
 static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
   ZpAtomic out;
@@ -23,21 +47,89 @@ static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
   return status;
 }
 
-static ZpStatus write_summary(const ZpReport *report, ZpError *err) {
-  ZpAtomic out;
-  ZpStatus status = zp_atomic_open(&out, report->directory, "summary.json", err);
-  return status == ZP_OK ? zp_atomic_finish(&out, zp_summary_write(report, out.file, err), err) : status;
+/* All but its name, which it gets last. */
+static ZpStatus write_summary(const ZpReport *report, ZpAtomic *summary, ZpError *err) {
+  ZpStatus status = zp_atomic_open(summary, report->directory, "summary.json", err);
+  if (status != ZP_OK) return status;
+  status = zp_summary_write(report, summary->file, err);
+  return status == ZP_OK ? ZP_OK : zp_atomic_finish(summary, status, err);
 }
 
-static ZpStatus write_all(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
+static ZpStatus write_file(Files *files, size_t file, const ZpReport *report, ZpError *err) {
+  if (file == SUMMARY) return write_summary(report, &files->summary, err);
+  return file == TABLE ? zp_csv_write(report, err) : zp_hdf5_write(report, err);
+}
+
+/* Write files that nobody writes yet, up to one that fails. */
+static void write_files(Files *files, const ZpReport *report) {
+  ZpStatus status = ZP_OK;
+  for (size_t file; status == ZP_OK && (file = atomic_fetch_add(&files->next, 1)) < FILES;) {
+    ZpError *err = &files->err[file];
+    status = write_file(files, file, report, err);
+    if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err);
+    files->status[file] = status;
+  }
+}
+
+static void *write_beside(void *user) {
+  Writer *writer = user;
+  ZpReport report = *writer->files->report;
+  const locale_t before = uselocale(writer->files->plain);
+  report.rows = &writer->own;
+  write_files(writer->files, &report);
+  uselocale(before);
+  return NULL;
+}
+
+/* Start writers beside the caller's thread => how many there are. Where there are no more readers or threads, fewer do.
+ */
+static size_t start_writers(Files *files, Writer writer[FILES]) {
+  const ZpReport *report = files->report;
+  const size_t jobs = (size_t)(report->jobs > 0 ? report->jobs : zp_processors()), most = jobs < FILES ? jobs : FILES;
+  size_t started = 0;
+  if (!report->rows || !report->rows->open) return 0;
+  for (; started + 1 < most; started++) {
+    Writer *next = &writer[started];
+    next->files = files;
+    if (!report->rows->open(report->rows->user, &next->own)) break;
+    if (pthread_create(&next->thread, NULL, write_beside, next) == 0) continue;
+    next->own.close(next->own.user);
+    break;
+  }
+  return started;
+}
+
+/* The files that have all rows; summary.json is not yet under its name. What failed first in their order is said. */
+static ZpStatus write_tables(const ZpReport *report, Files *files, ZpError *err) {
+  Writer writer[FILES];
+  const size_t writers = start_writers(files, writer);
+  write_files(files, report);
+  for (size_t i = 0; i < writers; i++) {
+    pthread_join(writer[i].thread, NULL);
+    writer[i].own.close(writer[i].own.user);
+  }
+  for (size_t file = 0; file < FILES; file++)
+    if (files->status[file] != ZP_OK) return zp_fail(err, files->status[file], "%s", files->err[file].message);
+  return ZP_OK;
+}
+
+/* Give summary.json its name if all else was written. */
+static ZpStatus finish_summary(ZpAtomic *summary, ZpStatus status, ZpError *err) {
+  if (status == ZP_OK) return zp_atomic_commit(summary, err);
+  zp_atomic_abandon(summary);
+  return status;
+}
+
+static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)(const char *message), ZpError *err) {
+  Files files = {.report = report, .plain = plain};
   ZpStatus status = zp_remove_file(report->directory, "summary.json", err);
   if (status == ZP_OK) status = write_scenario(report, err);
-  if (status == ZP_OK) status = zp_csv_write(report, err);
-  if (status == ZP_OK) status = zp_hdf5_write(report, err);
+  if (status == ZP_OK) status = write_tables(report, &files, err);
   if (status == ZP_OK) status = zp_vtk_write(report, err);
   if (status == ZP_OK) status = zp_checkpoint_report(report, err);
   if (status == ZP_OK) status = zp_plots_prepare(report, err);
-  if (status == ZP_OK) status = write_summary(report, err);
+  if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err);
+  status = finish_summary(&files.summary, status, err);
   if (status == ZP_OK) zp_plots_write(report, notice);
   return status;
 }
@@ -47,7 +139,7 @@ static ZpStatus write_plainly(const ZpReport *report, void (*notice)(const char 
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) return zp_fail_memory(err);
   locale_t before = uselocale(plain);
-  ZpStatus status = write_all(report, notice, err);
+  ZpStatus status = write_all(report, plain, notice, err);
   uselocale(before);
   freelocale(plain);
   return status;

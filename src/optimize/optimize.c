@@ -214,7 +214,7 @@ static ZpStatus report(ZpOptimization *o, ZpError *err) {
   o->best = calloc(s->problem.evaluations, sizeof *o->best);
   o->cases = zp_scenario_create();
   if (!o->number || !o->best || !o->cases) return zp_fail_memory(err);
-  o->rows = (ZpRows){get_row, get_status, o};
+  o->rows = (ZpRows){.get = get_row, .status = get_status, .user = o};
   o->report = (ZpReport){.scenario = o->cases, .rows = &o->rows, .optimum = &o->optimum};
   for (size_t i = 0; i < s->problem.evaluations; i++)
     if (s->point[i].done) o->number[o->report.count++] = i;

@@ -143,7 +143,7 @@ bool zp_search_evaluate(ZpSearch *s, size_t number, const double *z) {
   const uint64_t hash = zp_case_hash(s->start, &def);
   if (take_row(s, number, hash, point)) return true;
   status = run(s, &def, &result, &err);
-  const bool interrupted = status == ZP_OK && result->outcome == ZP_INTERRUPTED;
+  const bool interrupted = status == ZP_OK && (result->outcome == ZP_INTERRUPTED || atomic_load(&s->stop));
   if (status == ZP_OK && !interrupted) status = put_row(s, number, hash, result, point, &err);
   zp_result_destroy(result);
   if (status != ZP_OK) fail(s, &err);
