@@ -86,7 +86,7 @@ static double parameter(ZpSlow *f) {
 /* An actuator that was closed has opened once it is clear of the limit: motion with resistance does not come back. (Of
  * one that closes this cannot be said, faces overlap for a moment on the way.) */
 static bool has_opened(void *user) {
-  static const double clear = 10;
+  static const double clear = 3;
   const ZpSlow *f = user;
   return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
 }
