@@ -25,6 +25,7 @@ PICTURES = {
     "stress.svg": "stress/plots/stress.svg",
     "sensitivity.svg": "counts/plots/tornado.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
+    "fits.svg": "bench/plots/fits.svg",
     "profile.svg": "profile/plots/profile.svg",
     "field.svg": "profile/plots/field_tip.svg",
     "isometric.svg": "isometric/plots/forces.svg",
