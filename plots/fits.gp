@@ -35,7 +35,7 @@ do for [k=1:panels] {
   rest = size(residual_low[k], residual_high[k])
   rest_factor = weighted ? 1 : scale(rest, si[k])
   set ylabel weighted ? 'residual / σ' : label('residual', unit(rest, si[k])) font ',12' offset 0.5
-  set ytics autofreq
+  if (weighted) { set ytics step(2*max(weighted_most[k], 2.4), 5) } else { set ytics autofreq }
   if (weighted) { set yrange [*<-2.4:2.4<*] } else { set yrange [*:*] }
   set xzeroaxis lt 1 lw 1 lc rgb '#555555'
   residual(measured, computed, sigma) = weighted ? (computed - measured)/sigma : (computed - measured)*rest_factor

@@ -147,6 +147,16 @@ static void define_range(const ZpTable *table, Panel panel, size_t column, const
   zp_plot_define(file, entry(variable, k).text, high);
 }
 
+/* The largest residual over its standard deviation; NaN where there are none. */
+static void define_weighted(const ZpTable *table, Panel panel, size_t k, FILE *file) {
+  double most = NAN;
+  for (size_t row = 0; row < table->rows && has_sigma(table, panel); row++)
+    if (is_of(table, row, panel))
+      most = fmax(most,
+                  fabs(value_at(table, row, panel.measured + RESIDUAL)) / value_at(table, row, panel.measured + SIGMA));
+  zp_plot_define(file, entry("weighted_most", k).text, most);
+}
+
 static void define_panel(const ZpTable *table, Panel panel, size_t k, FILE *file) {
   static const char *const name[] = {"measured", "computed", "residual"};
   define_quantity(&table->column[panel.measured], k, file);
@@ -155,12 +165,13 @@ static void define_panel(const ZpTable *table, Panel panel, size_t k, FILE *file
   define_range(table, panel, panel.x, "x", k, file);
   for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
     define_range(table, panel, panel.measured + i, name[i], k, file);
+  if (k > 0) define_weighted(table, panel, k, file);
 }
 
 static void define_fit(const ZpPlot *plot, FILE *file) {
-  static const char *const array[] = {"quantity",     "si",           "x_factor",      "x_label",      "x_low",
-                                      "x_high",       "measured_low", "measured_high", "computed_low", "computed_high",
-                                      "residual_low", "residual_high"};
+  static const char *const array[] = {
+      "quantity",      "si",           "x_factor",      "x_label",      "x_low",         "x_high",       "measured_low",
+      "measured_high", "computed_low", "computed_high", "residual_low", "residual_high", "weighted_most"};
   const size_t panels = count_panels(plot);
   const ZpTable *table = table_of(plot, 0);
   size_t k = panels > 1;
