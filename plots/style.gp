@@ -1,11 +1,12 @@
 # The look of all pictures: paper, fonts, frame, title and small print. A template sets first
 #   title          what the picture shows
 #   right          right edge of its axes, as a part of the width; the legend is to the right of it
+#   height         of the picture in pixels, where it is not 500
 #   foot, remark   small print on the right and on the left, where there is any
 # and zipact has set `subtitle`: under which load, voltage and so on.
 load 'functions.gp'
 set encoding utf8
-set terminal svg size 800,500 dynamic enhanced font 'Helvetica,14' background '#ffffff'
+set terminal svg size 800,(exists('height') ? height : 500) dynamic enhanced font 'Helvetica,14' background '#ffffff'
 set output out
 set grid lc rgb '#dddddd' lw 1 lt 1
 set border lc rgb '#333333'

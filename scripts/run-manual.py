@@ -2,6 +2,7 @@
 """Runs every command of the manual and renews what the manual shows of it: numbers and pictures.
 
     scripts/run-manual.py [--check] ZIPACT      with --check, says whether the numbers are up to date
+    scripts/run-manual.py --pages               says which pages these are
 
 In the console blocks of PAGES, what stands after "$ " (and "> ", where it continues) is run in one folder beside examples/. The other lines of a block are a choice of what the command prints, found again by their label; "..."
 stands for what is left out. PICTURES are copied from the results.
@@ -25,6 +26,7 @@ PICTURES = {
     "stress.svg": "stress/plots/stress.svg",
     "sensitivity.svg": "counts/plots/tornado.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
+    "fits.svg": "bench/plots/fits.svg",
     "profile.svg": "profile/plots/profile.svg",
     "field.svg": "profile/plots/field_tip.svg",
     "isometric.svg": "isometric/plots/forces.svg",
@@ -75,12 +77,23 @@ def renewed(shown, printed):
         yield found.rstrip()
 
 
+def check_example(command, folder):
+    """An example that is run as it is leaves a summary and a picture; tests/examples.sh relies on that."""
+    found = re.fullmatch(r"zipact run examples/[\w-]+\.yaml -o (out/[a-z-]+)", command)
+    results = pathlib.Path(folder) / found.group(1) if found else None
+    if results and not (results / "summary.json").stat().st_size:
+        sys.exit("%s: no summary" % command)
+    if results and not any(picture.stat().st_size > 1024 for picture in results.glob("plots/*.svg")):
+        sys.exit("%s: no pictures" % command)
+
+
 def block(lines, folder):
     """A console block, run again."""
     text = "\n".join(lines)
     for command, shown in re.findall(r"^\$ (.*(?:\n> .*)*)((?:\n(?!\$ ).*)*)", text, re.M):
         yield "$ " + command
         yield from renewed(shown.splitlines()[1:], run(command.replace("\n> ", "\n"), folder))
+        check_example(command, folder)
 
 
 def page(text, folder):
@@ -97,6 +110,9 @@ def copy_pictures(results):
 
 
 def main():
+    if sys.argv[1:] == ["--pages"]:
+        print(" ".join(PAGES))
+        return
     check = sys.argv[1:2] == ["--check"]
     zipact = pathlib.Path(sys.argv[-1]).resolve()
     os.environ["PATH"] = "%s:%s" % (zipact.parent, os.environ["PATH"])

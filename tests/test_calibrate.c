@@ -1,6 +1,7 @@
 /* Study calibrate: what synthetic data were made with is found again, wrong input is refused with the place where it
  * stands; Table I of the paper; the area between a shape and a reference curve. */
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,7 @@
 
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
+#include <zipact/rest.h>
 
 #include "elastica.h"
 #include "fit/fit.h"
@@ -73,6 +75,15 @@ static void make_data(const char *path, ZpActuatorDef truth, double noise) {
   for (int i = 0; i < 7; i++)
     fprintf(file, "%g, %.12g\n", grams[i], 1e3 * (stroke(truth, grams[i] / 1e3) + (i % 2 ? noise : -noise)));
   ck_assert_int_eq(fclose(file), 0);
+}
+
+/* A scalar of a study. */
+static double scalar_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
+  ZpResult *result;
+  ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, NULL), ZP_OK);
+  double value = zp_result_get(result, name);
+  zp_result_destroy(result);
+  return value;
 }
 
 static void assert_near(double value, double expected, double relative) {
@@ -190,15 +201,6 @@ START_TEST(voltage_data) {
   zp_result_destroy(result);
 }
 END_TEST
-
-/* A scalar of a study. */
-static double scalar_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result;
-  ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, NULL), ZP_OK);
-  double value = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return value;
-}
 
 /* Zip times of an overdamped actuator grow without bound towards its static pull-in: five of them show where it is,
  * though none was measured below 1.1 times that, and though the modulus that they were made with is not known. */
@@ -347,6 +349,134 @@ START_TEST(standard_deviations_weigh) {
 }
 END_TEST
 
+/* -- several kinds of measurement in one fit ------------------------------------------------------- */
+
+/* Stroke or capacitance of the actuator at rest on the branch that hangs. */
+static double at_rest(ZpActuatorDef def, ZpFitKind kind, double mass, double voltage) {
+  ZpModel *model;
+  ZpRest *rest;
+  def.load.mass = mass;
+  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
+  ck_assert(zp_rest_hang(rest, voltage));
+  double value = kind == ZP_FIT_CAPACITANCE ? zp_rest_capacitance(rest)
+                 : kind == ZP_FIT_OPENING   ? zp_rest_opening(rest)
+                                            : zp_rest_stroke(rest);
+  zp_rest_destroy(rest);
+  zp_model_destroy(model);
+  return value;
+}
+
+/* A stroke and a capacitance that contradict each other. By (12.2) the modulus is off by sum(J r) / sum(J J) with
+ * slopes J = (df/dE) / sigma, its standard error is 1 / sqrt(sum(J J)), and what remains is the part of r across J. */
+START_TEST(kinds_weigh_by_their_standard_deviations) {
+  const ZpFitKind kind[] = {ZP_FIT_STROKE, ZP_FIT_CAPACITANCE};
+  const double sigma[] = {2e-6, 1e-14}, off[] = {1, -2}; /* off: in standard deviations */
+  ZpActuatorDef def = calibration("two-kinds-1.csv; two-kinds-2.csv", "ribbon.young_modulus"), stiff = def, soft = def;
+  const double E = def.ribbon.young_modulus, step = 1e-4;
+  double J[2], y[2], JJ = 0, Jr = 0, rr = 0;
+  char text[2][256];
+  stiff.ribbon.young_modulus = E * (1 + step);
+  soft.ribbon.young_modulus = E * (1 - step);
+  for (int i = 0; i < 2; i++) {
+    y[i] = at_rest(def, kind[i], 8e-3, 0) + off[i] * sigma[i];
+    J[i] = (at_rest(stiff, kind[i], 8e-3, 0) - at_rest(soft, kind[i], 8e-3, 0)) / (2 * step * E * sigma[i]);
+    JJ += J[i] * J[i];
+    Jr += J[i] * off[i];
+    rr += off[i] * off[i];
+  }
+  snprintf(text[0], sizeof text[0], "load_g,stroke_mm,sigma_um\n8,%.17g,%g\n", 1e3 * y[0], 1e6 * sigma[0]);
+  snprintf(text[1], sizeof text[1], "voltage_V,load_g,capacitance_pF\n0,8,%.17g\n", 1e12 * y[1]);
+  write_file("two-kinds-1.csv", text[0]);
+  write_file("two-kinds-2.csv", text[1]);
+  set_text(&def, "calibrate.x", "load_g; voltage_V");
+  set_text(&def, "calibrate.y", "capacitance_pF; stroke_mm");
+  set_text(&def, "calibrate.sigma", "capacitance = 0.01 pF");
+  ZpResult *result = fit(&def);
+  const double error = zp_result_get(result, "ribbon.young_modulus_standard_error");
+  assert_near(error, 1 / sqrt(JJ), 1e-3);
+  ck_assert_double_lt(fabs(zp_result_get(result, "ribbon.young_modulus") - E - Jr / JJ), 1e-2 * error);
+  assert_near(zp_result_get(result, "reduced_chi_square"), rr - Jr * Jr / JJ, 1e-3);
+  ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
+  assert_near(zp_table_get(result->series, 0, "measured_stroke_m"), y[0], 1e-12);
+  assert_near(zp_table_get(result->series, 1, "measured_capacitance_F"), y[1], 1e-12);
+  assert_near(zp_table_get(result->series, 1, "sigma_capacitance_F"), sigma[1], 1e-12);
+  ck_assert(isnan(zp_table_get(result->series, 1, "measured_stroke_m")));
+  const double left = zp_table_get(result->series, 1, "residual_capacitance_F");
+  assert_near(zp_result_get(result, "capacitance_residual_rms_F"), fabs(left), 1e-9);
+  assert_near(zp_result_get(result, "capacitance_weighted_rms"), fabs(left) / sigma[1], 1e-9);
+  ck_assert(isnan(zp_result_get(result, "residual_rms_m")));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Normal errors, the same on every machine. */
+static double normal(uint64_t *state) {
+  double u[2];
+  for (int i = 0; i < 2; i++) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    u[i] = ((double)(*state >> 11) + 0.5) / 9007199254740992.0;
+  }
+  return sqrt(-2 * log(u[0])) * cos(8 * atan(1) * u[1]);
+}
+
+/* Is a sum of squares of `freedom` normal numbers within what 999 of 1000 are, by Wilson and Hilferty? */
+static void assert_chi_square(const char *of, double sum, double freedom) {
+  const double mean = 1 - 2 / (9 * freedom), spread = 3.29 * sqrt(2 / (9 * freedom));
+  const double low = freedom * pow(mean - spread, 3), high = freedom * pow(mean + spread, 3);
+  printf("%s: %.1f of %.0f, from %.1f to %.1f\n", of, sum, freedom, low, high);
+  ck_assert_msg(sum > low && sum < high, "%s: %.1f, not from %.1f to %.1f", of, sum, low, high);
+}
+
+/* Strokes and capacitances of one file, openings of another, with noise: over 20 seeds the squares of what remains,
+ * and of what the keys are off by over their standard errors, are those of normal numbers. */
+START_TEST(intervals_hold_over_seeds) {
+  enum { SEEDS = 20, LOADS = 4, VOLTS = 3, ROWS = 2 * LOADS + VOLTS, KEYS = 2 };
+  ZpActuatorDef def = calibration("seed-1.csv; seed-2.csv", "ribbon.young_modulus, medium.permittivity"), truth;
+  set(&def, "mesh.nodes", 9);
+  truth = def;
+  truth.ribbon.young_modulus = 185e9;
+  truth.medium.permittivity = 2.5;
+  double value[ROWS], chi_square = 0, pulls[KEYS] = {0};
+  const double sigma[] = {3e-5, 2e-13, 5e-5};
+  for (int i = 0; i < LOADS; i++) {
+    value[2 * i] = at_rest(truth, ZP_FIT_STROKE, 3e-3 * (i + 1), 0);
+    value[2 * i + 1] = at_rest(truth, ZP_FIT_CAPACITANCE, 3e-3 * (i + 1), 0);
+  }
+  for (int i = 0; i < VOLTS; i++)
+    value[2 * LOADS + i] = at_rest(truth, ZP_FIT_OPENING, 8e-3, 2e3 * i);
+  set_text(&def, "calibrate.x", "load_g; voltage_kV");
+  set_text(&def, "calibrate.y", "stroke_mm; opening_mm; capacitance_pF");
+  set_text(&def, "calibrate.sigma", "capacitance = 0.2 pF; opening = 50 um");
+  for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+    uint64_t state = seed;
+    FILE *file = fopen("seed-1.csv", "w");
+    fprintf(file, "load_g,capacitance_pF,stroke_mm,sigma_stroke_um\n");
+    for (int i = 0; i < LOADS; i++) {
+      const double stroke = value[2 * i] + sigma[0] * normal(&state);
+      fprintf(file, "%d,%.12g,%.12g,%g\n", 3 * (i + 1), 1e12 * (value[2 * i + 1] + sigma[1] * normal(&state)),
+              1e3 * stroke, 1e6 * sigma[0]);
+    }
+    fclose(file);
+    file = fopen("seed-2.csv", "w");
+    fprintf(file, "voltage_kV;opening_mm\n");
+    for (int i = 0; i < VOLTS; i++)
+      fprintf(file, "%d;%.12g\n", 2 * i, 1e3 * (value[2 * LOADS + i] + sigma[2] * normal(&state)));
+    fclose(file);
+    ZpResult *result = fit(&def);
+    chi_square += zp_result_get(result, "reduced_chi_square") * (ROWS - KEYS);
+    const double off[] = {zp_result_get(result, "ribbon.young_modulus") - 185e9,
+                          zp_result_get(result, "medium.permittivity") - 2.5};
+    pulls[0] += pow(off[0] / zp_result_get(result, "ribbon.young_modulus_standard_error"), 2);
+    pulls[1] += pow(off[1] / zp_result_get(result, "medium.permittivity_standard_error"), 2);
+    zp_result_destroy(result);
+  }
+  assert_chi_square("chi-square", chi_square, SEEDS * (ROWS - KEYS));
+  assert_chi_square("modulus over its standard error, squared", pulls[0], SEEDS);
+  assert_chi_square("permittivity over its standard error, squared", pulls[1], SEEDS);
+}
+END_TEST
+
 /* Saved states of the paper's authors at 8 and 61 g, published FE strokes: within 3 %. */
 START_TEST(table_1_of_the_paper) {
   static const struct {
@@ -399,6 +529,44 @@ START_TEST(bad_numbers_of_studies_are_refused) {
 }
 END_TEST
 
+/* A mixed fit says what is missing, in which column. */
+START_TEST(bad_mixtures_are_refused) {
+  ZpActuatorDef def = calibration("kind-1.csv; kind-2.csv", "ribbon.young_modulus"), one;
+  write_file("kind-1.csv", "load_g,stroke_mm,sigma_mm\n8,2,0.1\n");
+  write_file("kind-2.csv", "load_g,frequency_Hz\n8,3\n");
+  refuse(ZP_STUDY_CALIBRATE, &def,
+         "several kinds are weighted by their standard deviations, and frequency has none: add a column "
+         "sigma_frequency_Hz to its file, or give calibrate.sigma = \"frequency = ... Hz\"");
+  set_text(&def, "calibrate.sigma", "frequency = 1 mm");
+  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequency = \"1 mm\": not a frequency");
+  set_text(&def, "calibrate.sigma", "frequency = -1 Hz");
+  refuse(ZP_STUDY_CALIBRATE, &def, "frequency = \"-1 Hz\": needs a number above 0 and its unit, Hz");
+  set_text(&def, "calibrate.sigma", "frequency 1 Hz");
+  refuse(ZP_STUDY_CALIBRATE, &def, "write stroke = 20 um; frequency = 0.1 Hz");
+  set_text(&def, "calibrate.sigma", "frequence = 1 Hz");
+  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequence: takes stroke, opening");
+  set_text(&def, "calibrate.sigma", "frequency = 1 Hz; opening = 1 mm");
+  refuse(ZP_STUDY_CALIBRATE, &def, "opening is not measured");
+  set_text(&def, "calibrate.sigma", "frequency = 1 Hz");
+  set_text(&def, "calibrate.y", "stroke_mm; frequency_Hz; capacitance_pF");
+  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"capacitance_pF\": no such column in any file");
+  set_text(&def, "calibrate.y", "stroke_mm");
+  refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"stroke_mm\": no such column in kind-2.csv");
+  write_file("kind-2.csv", "load_g,stroke_mm\n8,3\n");
+  set_text(&def, "calibrate.sigma", "");
+  refuse(ZP_STUDY_CALIBRATE, &def, "several files are weighted by their standard deviations, and stroke has none");
+  one = calibration("kind-3.csv", "ribbon.young_modulus");
+  set_text(&one, "calibrate.y", "stroke_mm; frequency_Hz");
+  write_file("kind-3.csv", "load_g,stroke_mm,frequency_Hz,sigma_mm\n8,2,3,0.1\n");
+  refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_mm: several columns are measured; name what it belongs to");
+  write_file("kind-3.csv", "load_g,stroke_mm,frequency_Hz,sigma_stroke_g,sigma_frequency_Hz\n8,2,3,0.1,0.1\n");
+  refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_stroke_g: not in a unit of what is measured, m");
+  write_file("kind-3.csv", "load_g,stroke_mm,frequency_mm,sigma_stroke_mm\n8,2,3,0.1\n");
+  set_text(&one, "calibrate.y", "stroke_mm; frequency_mm");
+  refuse(ZP_STUDY_CALIBRATE, &one, "calibrate.y: column frequency_mm: takes stroke, opening");
+}
+END_TEST
+
 START_TEST(bad_input_is_refused) {
   const char *E = "ribbon.young_modulus", *good = "load_g,stroke_mm\n8,2\n9,3\n";
   ZpActuatorDef missing = calibration("no such file.csv", E), nameless = calibration("", E);
@@ -439,7 +607,7 @@ START_TEST(bad_input_is_refused) {
   write_file("good.csv", good);
   ZpActuatorDef several = calibration("good.csv; bad.csv", E), renamed = calibration("good.csv", E), bounded = renamed;
   write_file("bad.csv", "load_g,opening_mm\n8,2\n");
-  refuse(ZP_STUDY_CALIBRATE, &several, "bad.csv: no column stroke_mm, which good.csv has");
+  refuse(ZP_STUDY_CALIBRATE, &several, "several kinds are weighted by their standard deviations, and stroke has none");
   write_file("bad.csv", "load_g,stroke_mm\n8,x\n");
   refuse(ZP_STUDY_CALIBRATE, &several, "bad.csv:2: column stroke_mm");
   set_text(&renamed, "data.columns", "Masse = voltage_kV");
@@ -678,9 +846,9 @@ START_TEST(capacitances_at_rest) {
 }
 END_TEST
 
-/* A ribbon that swings, slowed by drag: the drag is found again from its stroke over time. */
-START_TEST(drag_is_found_from_a_swing) {
-  ZpActuatorDef def = calibration("swing.csv", "damping.drag");
+/* A ribbon that swings, slowed by drag, from straight. */
+static ZpActuatorDef swinging(const char *files, const char *keys) {
+  ZpActuatorDef def = calibration(files, keys);
   def.actuator.kind = ZP_KIND_RIBBON;
   def.actuator.right_end = ZP_END_FREE;
   def.ribbon.length = 0.045;
@@ -689,12 +857,16 @@ START_TEST(drag_is_found_from_a_swing) {
   def.load.share = 1;
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.mesh.nodes = 9;
-  def.damping.drag = 0.03;
+  return def;
+}
+
+/* Its strokes over time. */
+static void write_swing(const char *path, const ZpActuatorDef *def) {
   ZpModel *model;
   ZpSim *sim;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
-  FILE *file = fopen("swing.csv", "w");
+  FILE *file = fopen(path, "w");
   fputs("time_ms,stroke_mm\n", file);
   for (int i = 0; i <= 8; i++) {
     if (i) zp_sim_run(sim, 0.01 * i, false, NULL, NULL);
@@ -703,6 +875,13 @@ START_TEST(drag_is_found_from_a_swing) {
   ck_assert_int_eq(fclose(file), 0);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+}
+
+/* The drag is found again from the stroke over time. */
+START_TEST(drag_is_found_from_a_swing) {
+  ZpActuatorDef def = swinging("swing.csv", "damping.drag");
+  def.damping.drag = 0.03;
+  write_swing("swing.csv", &def);
   def.damping.drag = 0.05;
   ZpResult *result = fit(&def);
   assert_near(zp_result_get(result, "damping.drag"), 0.03, 1e-4);
@@ -711,9 +890,32 @@ START_TEST(drag_is_found_from_a_swing) {
 }
 END_TEST
 
+/* Drag and modulus from two runs in time and strokes at rest, all of one kind: they need no standard deviations. */
+START_TEST(rest_and_motion_in_one_fit) {
+  ZpActuatorDef def = swinging("motion.csv; sag.csv; motion.csv", "damping.drag, ribbon.young_modulus");
+  def.damping.drag = 0.03;
+  write_swing("motion.csv", &def);
+  FILE *file = fopen("sag.csv", "w");
+  fputs("load_g,stroke_mm\n", file);
+  for (int i = 1; i <= 3; i++)
+    fprintf(file, "%d,%.17g\n", i, 1e3 * at_rest(def, ZP_FIT_STROKE, 1e-3 * i, 0));
+  ck_assert_int_eq(fclose(file), 0);
+  def.damping.drag = 0.05;
+  def.ribbon.young_modulus *= 0.9;
+  ZpResult *result = fit(&def);
+  assert_near(zp_result_get(result, "damping.drag"), 0.03, 1e-4);
+  assert_near(zp_result_get(result, "ribbon.young_modulus"), 200e9, 1e-4);
+  ck_assert_uint_eq(result->series->rows, 21);
+  ck_assert_uint_eq(result->series->columns, 5);
+  ck_assert(isnan(zp_table_get(result->series, 10, "time_s")));
+  assert_near(zp_table_get(result->series, 10, "load.mass_kg"), 2e-3, 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("calibrate");
-  TCase *fits = tcase_create("fits"), *areas = tcase_create("areas");
+  TCase *fits = tcase_create("fits"), *kinds = tcase_create("kinds"), *areas = tcase_create("areas");
   tcase_add_test(fits, one_key_is_found);
   tcase_add_test(fits, two_keys_are_found);
   tcase_add_test(fits, standard_error_follows_the_noise);
@@ -735,9 +937,14 @@ int main(void) {
   tcase_add_test(fits, drag_is_found_from_a_swing);
   tcase_add_test(fits, bad_numbers_of_studies_are_refused);
   tcase_add_test(fits, bad_input_is_refused);
+  tcase_add_test(kinds, kinds_weigh_by_their_standard_deviations);
+  tcase_add_test(kinds, intervals_hold_over_seeds);
+  tcase_add_test(kinds, rest_and_motion_in_one_fit);
+  tcase_add_test(kinds, bad_mixtures_are_refused);
   tcase_add_test(areas, area_of_known_curves);
   tcase_add_test(areas, area_error_of_stationary);
   suite_add_tcase(suite, fits);
+  suite_add_tcase(suite, kinds);
   suite_add_tcase(suite, areas);
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);

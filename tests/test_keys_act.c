@@ -764,6 +764,11 @@ static const Row rows[] = {
      "ribbon.width_mm",
      {{BECOMES, "ribbon.width_m", 12.7e-3, 1e-9}, {SAME, "ribbon.young_modulus", 0, 1e-6}}},
     {"calibrate.y", FITTED, "stroke_mm", "stroke_um", {{TIMES, "ribbon.young_modulus", 2, 1e-3}}},
+    {"calibrate.sigma",
+     FITTED,
+     "stroke=1um",
+     "stroke=2um",
+     {{TIMES, "ribbon.young_modulus_standard_error", 2, 1e-6}, {SAME, "ribbon.young_modulus", 0, 1e-6}}},
     {"calibrate.lower", FITTED, "0.2", "0.8", {{TIMES, "ribbon.young_modulus", 1.6, 1e-3}}},
     {"calibrate.upper", FITTED " data.file=stiff.csv", "5", "1.5", {{TIMES, "ribbon.young_modulus", 0.75, 1e-3}}},
 

@@ -24,7 +24,7 @@ typedef struct ZpColumn {
 
 /* A table: rows of `columns` doubles, row after row. NAN stands for a value that does not exist. */
 typedef struct ZpTable {
-  const ZpColumn *column; /* [columns] */
+  const ZpColumn *column; /* [columns] a copy of what it was created with */
   size_t columns;
   size_t rows;     /* filled */
   size_t capacity; /* rows at most */

@@ -58,6 +58,8 @@ same_as_the_command('actuate', ' --set mesh.nodes=21', 'mesh.nodes', single(21))
 data = fullfile(fileparts(mfilename('fullpath')), '..', '..', 'examples');
 fit = fullfile(data, 'calibrate-modulus.yaml');
 same_as_the_command('calibrate', [' "' fit '"'], fit);
+fit = fullfile(data, 'calibrate-bench.yaml');
+same_as_the_command('calibrate', [' "' fit '" --set mesh.nodes=15'], fit, 'mesh.nodes', 15);
 
 % a file, a struct and pairs say the same, in this order
 file = fullfile(scratch(), 'mine.yaml');

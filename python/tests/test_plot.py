@@ -6,7 +6,7 @@ import pytest
 import zipact
 
 pyplot = pytest.importorskip("matplotlib.pyplot")
-from test_studies import CASES  # noqa: E402
+from test_studies import CASES, DATA  # noqa: E402
 
 
 @pytest.fixture(autouse=True)
@@ -22,6 +22,14 @@ def test_draws(study, tmp_path):
     assert axes.lines and result.study in axes.get_title() and "/" in axes.get_ylabel()
     axes.figure.savefig(tmp_path / "picture.svg")
     assert os.path.getsize(tmp_path / "picture.svg") > 5000
+
+
+def test_draws_several_kinds():
+    scenario = os.path.join(DATA, "..", "calibrate-bench.yaml")
+    axes = zipact.read_scenario(scenario).replace(mesh__nodes=15).run("calibrate").plot()
+    kinds = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert kinds == ["stroke", "pull in voltage", "release voltage", "frequency"]
+    assert [len(line.get_xdata()) for line in axes.lines[:4]] == [7, 4, 4, 3]
 
 
 def test_draws_into_given_axes():

@@ -49,6 +49,17 @@ def command(actuator, study, folder):
         return json.loads(done.stdout), list(csv.reader(file))
 
 
+def test_several_kinds_of_measurement_in_one_fit():
+    """The three keys that the files were made with are found within three standard errors."""
+    files = "; ".join(os.path.join(DATA, f"bench-{what}.csv") for what in ("strokes", "limits", "frequencies"))
+    keys = {"ribbon.young_modulus": 188e9, "medium.permittivity": 2.55, "insulator.permittivity": 4.2}
+    fit = zipact.Actuator(liquid__model="none", mesh__nodes=31, data__file=files, calibrate__fit=", ".join(keys))
+    result = fit.replace(calibrate__y="stroke_mm; pull_in_voltage_V; release_voltage_V; frequency_Hz").run("calibrate")
+    for key, value in keys.items():
+        assert abs(result[key] - value) < 3 * result[key + "_standard_error"]
+    assert np.isfinite(result.series["measured_frequency_Hz"]).sum() == 3
+
+
 @pytest.mark.parametrize("study", CASES)
 def test_same_bits_as_the_command(study, tmp_path):
     actuator = zipact.Actuator(mesh__nodes=21, **CASES[study])

@@ -62,7 +62,8 @@ def plain_value(name: str, value: Any) -> Any:
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if name in FILES and isinstance(value, str) and value:
-        value = os.path.abspath(value)
+        paths = value.split(";") if name == "data.file" else [value]  # which may name several
+        value = "; ".join(os.path.abspath(path.strip()) for path in paths)
     return value
 
 

@@ -116,7 +116,23 @@ def profile(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     return ax
 
 
+def residuals(table: "Table", ax: Axes | None) -> Axes:
+    """Of several kinds of measurement, kind by kind, over their standard deviations."""
+    ax = new_axes(ax, "row of data", "residual / standard deviation")
+    for name in (name for name in table if name.startswith("residual_")):
+        kind = name.removeprefix("residual_")
+        label = kind.removesuffix("_" + table.units[name]).replace("_", " ")
+        there = np.flatnonzero(np.isfinite(table[name]))
+        sigma = table["sigma_" + kind] if "sigma_" + kind in table else 1
+        ax.plot(there + 1, (table[name] / sigma)[there], "o", label=label)
+    ax.axhline(0, color=GREY, linewidth=1)
+    ax.legend()
+    return ax
+
+
 def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    if len(table) > 4:
+        return residuals(table, ax)
     x, measured, fitted, _ = table
     (by_x, unit_x), (by_y, unit_y) = (shown_unit(table.units[name], table[name]) for name in (x, measured))
     what = result.actuator["calibrate.y"].rpartition("_")[0] or "measured"

@@ -49,9 +49,11 @@ static Thinned of_shapes(ZpShapes *s) {
 }
 
 ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
-  ZpTable *table = zp_calloc(1, sizeof *table);
+  ZpTable *table = zp_calloc(1, sizeof *table + columns * sizeof *column);
   if (!table) return NULL;
-  *table = (ZpTable){.column = column, .columns = columns, .capacity = capacity, .stride = 1};
+  ZpColumn *own = (ZpColumn *)(table + 1);
+  memcpy(own, column, columns * sizeof *own);
+  *table = (ZpTable){.column = own, .columns = columns, .capacity = capacity, .stride = 1};
   table->value = zp_calloc(capacity, columns * sizeof(double));
   if (table->value) return table;
   zp_free(table);

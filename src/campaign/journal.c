@@ -30,7 +30,7 @@ struct ZpJournal {
   ZpNames names;
   size_t names_written;
   ZpRecord record;
-  ZpRow row; /* what zp_journal_get gives: row `at` */
+  ZpResult row; /* what zp_journal_get gives: row `at` */
   size_t at;
   bool has_row, bad;
 };
@@ -158,7 +158,7 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
   ZpJournal *journal = *out = calloc(1, sizeof *journal);
   ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK) journal->row.result.study = study;
+  if (status == ZP_OK) journal->row.study = study;
   if (status == ZP_OK && !keep) status = replace_old(journal, directory, err);
   if (status == ZP_OK) status = open_base(journal, cases, err);
   if (status == ZP_OK) return ZP_OK;
@@ -268,7 +268,7 @@ ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err) {
 /* False if there is no such row, or it is damaged. */
 static bool read_row(ZpJournal *journal, size_t number) {
   sqlite3_stmt *query = journal->get;
-  ZpResult *result = &journal->row.result;
+  ZpResult *result = &journal->row;
   sqlite3_bind_int64(query, 1, (sqlite3_int64)number);
   bool found = sqlite3_step(query) == SQLITE_ROW;
   if (found) {
@@ -283,12 +283,12 @@ static bool read_row(ZpJournal *journal, size_t number) {
 }
 
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
-  if (journal->has_row && journal->at == number) return &journal->row.result;
+  if (journal->has_row && journal->at == number) return &journal->row;
   journal->at = number;
   journal->has_row = read_row(journal, number);
   if (!journal->has_row) zp_record_clear(&journal->row);
   journal->bad = journal->bad || !journal->has_row;
-  return &journal->row.result;
+  return &journal->row;
 }
 
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err) {

@@ -192,41 +192,40 @@ static void get_sensitivities(Reader *reader, ZpResult *result) {
   }
 }
 
-static bool make_series(Reader *reader, size_t columns, size_t rows, ZpRow *row) {
-  row->column = calloc(columns, sizeof *row->column);
-  for (size_t i = 0; row->column && i < columns && !reader->bad; i++) {
+static bool make_series(Reader *reader, size_t columns, size_t rows, ZpResult *row) {
+  ZpColumn *column = calloc(columns, sizeof *column);
+  for (size_t i = 0; column && i < columns && !reader->bad; i++) {
     const ZpName *name = get_name(reader);
-    if (name) row->column[i] = (ZpColumn){name->name, name->unit, name->help};
+    if (name) column[i] = (ZpColumn){name->name, name->unit, name->help};
   }
-  if (row->column && !reader->bad) row->result.series = zp_table_create(row->column, columns, rows < 2 ? 2 : rows);
-  return row->result.series != NULL;
+  if (column && !reader->bad) row->series = zp_table_create(column, columns, rows < 2 ? 2 : rows);
+  free(column);
+  return row->series != NULL;
 }
 
-static void get_series(Reader *reader, ZpRow *row) {
+static void get_series(Reader *reader, ZpResult *row) {
   const size_t columns = get_count(reader, reader->names->count), rows = columns ? (size_t)get(reader, 4) : 0;
   if (columns == 0 || reader->bad) return;
   reader->bad = reader->left < columns * (4 + 8 * rows) || !make_series(reader, columns, rows, row);
   if (reader->bad) return;
   for (size_t i = 0; i < rows * columns; i++)
-    row->result.series->value[i] = get_real(reader);
-  row->result.series->rows = rows;
+    row->series->value[i] = get_real(reader);
+  row->series->rows = rows;
 }
 
-bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpRow *row) {
+bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpResult *row) {
   Reader reader = {byte, size, names, false};
   zp_record_clear(row);
-  row->result.resolution = get_real(&reader);
-  get_notes(&reader, &row->result);
-  get_scalars(&reader, &row->result);
-  get_sensitivities(&reader, &row->result);
+  row->resolution = get_real(&reader);
+  get_notes(&reader, row);
+  get_scalars(&reader, row);
+  get_sensitivities(&reader, row);
   get_series(&reader, row);
   return !reader.bad && reader.left == 0;
 }
 
-void zp_record_clear(ZpRow *row) {
-  zp_table_destroy(row->result.series);
-  free(row->column);
-  row->result.series = NULL;
-  row->column = NULL;
-  row->result.notes = row->result.scalars = row->result.sensitivities = 0;
+void zp_record_clear(ZpResult *row) {
+  zp_table_destroy(row->series);
+  row->series = NULL;
+  row->notes = row->scalars = row->sensitivities = 0;
 }

@@ -36,18 +36,12 @@ typedef struct ZpRecord {
  * is no memory. */
 bool zp_record_write(ZpRecord *record, ZpNames *names, const ZpResult *result);
 
-/* A result as it was read. */
-typedef struct ZpRow {
-  ZpResult result;
-  ZpColumn *column; /* of its series */
-} ZpRow;
-
-/* Read a record of `size` bytes => numbers, notes, derivatives and series of row->result, whose outcome, message and
- * study are the caller's to set. Its names live as long as `names`; what the row had before is freed. False if the
+/* Read a record of `size` bytes => numbers, notes, derivatives and series of `row`, whose outcome, message and study
+ * are the caller's to set. Its names live as long as `names`; what it had before is freed. False if the
  * bytes are no record, or there is no memory. */
-bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpRow *row);
+bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpResult *row);
 
 /* Free what zp_record_read has made. */
-void zp_record_clear(ZpRow *row);
+void zp_record_clear(ZpResult *row);
 
 #endif

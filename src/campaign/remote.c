@@ -140,49 +140,16 @@ static void get_names(Reader *reader, ZpRemote *remote, ZpNames *names) {
   }
 }
 
-/* Does a kind of series have these columns? Their names are kept once, so they are the same if they are at one place.
- */
-static bool same_columns(const ZpRemote *remote, size_t kind, const ZpTable *table) {
-  if (remote->columns[kind] != table->columns) return false;
-  for (size_t i = 0; i < table->columns; i++)
-    if (remote->column[kind][i].name != table->column[i].name) return false;
-  return true;
-}
-
-/* Keep the columns of a series, or take those that are kept. False if there is no memory. */
-static bool keep_columns(ZpRemote *remote, ZpRow *row) {
-  ZpTable *table = row->result.series;
-  size_t kind = 0;
-  while (table && kind < remote->kinds && !same_columns(remote, kind, table))
-    kind++;
-  if (!table) return true;
-  if (kind == remote->kinds) {
-    ZpColumn **column = realloc(remote->column, (kind + 1) * sizeof(*column));
-    if (column) remote->column = column;
-    size_t *columns = realloc(remote->columns, (kind + 1) * sizeof *columns);
-    if (columns) remote->columns = columns;
-    if (!column || !columns) return false;
-    remote->column[kind] = row->column;
-    remote->columns[kind] = table->columns;
-    remote->kinds++;
-  } else {
-    free(row->column);
-  }
-  row->column = NULL;
-  table->column = remote->column[kind];
-  return true;
-}
-
 /* The next result, new; NULL if it cannot be read. */
-static ZpResult *get_result(Reader *reader, ZpRemote *remote, const ZpNames *names, ZpStudy study) {
+static ZpResult *get_result(Reader *reader, const ZpNames *names, ZpStudy study) {
   const unsigned char *outcome = take(reader, 1);
   const char *message = get_text(reader);
   const size_t size = get_count(reader);
   const unsigned char *record = take(reader, size);
   ZpResult *result = record ? zp_result_create(study) : NULL;
-  ZpRow row = {.result.study = study};
-  if (result && zp_record_read(record, size, names, &row) && keep_columns(remote, &row)) {
-    *result = row.result;
+  ZpResult row = {.study = study};
+  if (result && zp_record_read(record, size, names, &row)) {
+    *result = row;
     result->outcome = (ZpOutcome)*outcome;
     snprintf(result->message, sizeof result->message, "%s", message);
     return result;
@@ -198,7 +165,7 @@ bool zp_remote_read(ZpRemote *remote, const unsigned char *byte, size_t size, Zp
   ZpNames names = {0};
   size_t read = 0;
   get_names(&reader, remote, &names);
-  while (read < count && !reader.bad && (result[read] = get_result(&reader, remote, &names, study)))
+  while (read < count && !reader.bad && (result[read] = get_result(&reader, &names, study)))
     read++;
   free(names.item);
   if (read == count && reader.left == 0) return true;
@@ -209,9 +176,5 @@ bool zp_remote_read(ZpRemote *remote, const unsigned char *byte, size_t size, Zp
 
 void zp_remote_free(ZpRemote *remote) {
   zp_names_free(&remote->names);
-  for (size_t i = 0; i < remote->kinds; i++)
-    free(remote->column[i]);
-  free(remote->column);
-  free(remote->columns);
   *remote = (ZpRemote){0};
 }

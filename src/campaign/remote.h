@@ -4,12 +4,9 @@
 
 #include "campaign/record.h"
 
-/* What results that were read point to: names and columns, each kept once. */
+/* What results that were read point to: names, each kept once. */
 typedef struct ZpRemote {
   ZpNames names;
-  ZpColumn **column; /* [kinds][columns[kind]] of their series */
-  size_t *columns;
-  size_t kinds;
 } ZpRemote;
 
 /* Read what zp_campaign_compute has written => `count` new results of `study`, result [count], the caller's. False if
@@ -17,7 +14,7 @@ typedef struct ZpRemote {
 bool zp_remote_read(ZpRemote *remote, const unsigned char *byte, size_t size, ZpStudy study, size_t count,
                     ZpResult **result);
 
-/* Free names and columns. */
+/* Free the names. */
 void zp_remote_free(ZpRemote *remote);
 
 #endif

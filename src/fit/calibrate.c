@@ -6,35 +6,19 @@
 #include "base/fail.h"
 #include "fit/fit.h"
 
-/* Names for summary.json that are made from those of the keys, and the columns of the table by the key that is x. */
+/* Names for summary.json that are made from those of the keys, and the column of the table where the key is x. */
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-  ZpColumn column[ZP_FIT_KINDS][4];
+  ZpColumn x;
 } Names;
 
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
-#define TABLE(x, unit, help, of, what, computed)                                                                       \
-  {                                                                                                                    \
-    {x, unit, help}, {"measured_" of, of, what " in data.file"}, {"fitted_" of, of, computed},                         \
-        {"residual_" of, of, "fitted minus measured"},                                                                 \
-  }
-#define TABLE_OF_NUMBER(key, unit, of, what, number, none)                                                             \
-  TABLE(key "_" unit, unit, "value set on the bench", of, what, number ", computed with the fitted values; nan: " none)
 #define NAMES(key, unit)                                                                                               \
   {key "_standard_error",                                                                                              \
    {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"},                           \
-   {[ZP_FIT_LENGTH] = TABLE_OF_NUMBER(key, unit, "m", "stroke or opening", "the same", "no equilibrium"),              \
-    [ZP_FIT_CAPACITANCE] = TABLE_OF_NUMBER(key, unit, "F", "capacitance", "the same", "no equilibrium"),               \
-    [ZP_FIT_FORCE] = TABLE_OF_NUMBER(key, unit, "N", "force", "force_N of study isometric", "no equilibrium"),         \
-    [ZP_FIT_TIME] = TABLE_OF_NUMBER(key, unit, "s", "zip time", "zip_time_s of study actuate", "not closed"),          \
-    [ZP_FIT_PULL_IN] =                                                                                                 \
-        TABLE_OF_NUMBER(key, unit, "V", "pull-in voltage", "pull_in_voltage_V of study limits", "no pull-in"),         \
-    [ZP_FIT_RELEASE] =                                                                                                 \
-        TABLE_OF_NUMBER(key, unit, "V", "release voltage", "release_voltage_V of study limits", "no release"),         \
-    [ZP_FIT_FREQUENCY] =                                                                                               \
-        TABLE_OF_NUMBER(key, unit, "Hz", "frequency", "frequency_1_Hz of study modes", "no stable equilibrium")}},
+   {key "_" unit, unit, "value set on the bench"}},
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name, unit)
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
@@ -46,6 +30,47 @@ typedef struct Names {
 #define ZP_OF_SCENARIO(name, type, def, help)                           NAMES(#name, "1")
 static const Names names[] = {
 #include <zipact/keys.def>
+};
+
+static const ZpColumn time_column = {"time_s", "s", "time since the voltage was switched on"};
+
+enum { COLUMNS_ALONE = 3, COLUMNS_OF_KIND = 4 };
+
+/* By kind: names for summary.json of what is left, how the message says it, and the columns of the table, where the
+ * kind is the only one and where there are several. */
+typedef struct OfKind {
+  const char *residual, *shown;
+  double factor;
+  const char *residual_of, *weighted; /* where there are several */
+  ZpColumn alone[COLUMNS_ALONE], several[COLUMNS_OF_KIND];
+} OfKind;
+
+#define COMPUTED(number, none) number ", computed with the fitted values; nan: " none
+#define OF_KIND(kind, of, unit, shown, factor, what, number, none)                                                     \
+  [kind] = {"residual_rms_" unit,                                                                                      \
+            shown,                                                                                                     \
+            factor,                                                                                                    \
+            of "_residual_rms_" unit,                                                                                  \
+            of "_weighted_rms",                                                                                        \
+            {{"measured_" unit, unit, what " in data.file"},                                                           \
+             {"fitted_" unit, unit, COMPUTED(number, none)},                                                           \
+             {"residual_" unit, unit, "fitted minus measured"}},                                                       \
+            {{"measured_" of "_" unit, unit, what " in data.file"},                                                    \
+             {"fitted_" of "_" unit, unit, COMPUTED(number, none)},                                                    \
+             {"residual_" of "_" unit, unit, "fitted minus measured"},                                                 \
+             {"sigma_" of "_" unit, unit, "standard deviation of the measured value"}}}
+static const OfKind of_kind[ZP_FIT_KINDS] = {
+    OF_KIND(ZP_FIT_STROKE, "stroke", "m", "mm", 1e3, "stroke", "the same", "no equilibrium"),
+    OF_KIND(ZP_FIT_OPENING, "opening", "m", "mm", 1e3, "opening", "the same", "no equilibrium"),
+    OF_KIND(ZP_FIT_CAPACITANCE, "capacitance", "F", "pF", 1e12, "capacitance", "the same", "no equilibrium"),
+    OF_KIND(ZP_FIT_FORCE, "force", "N", "mN", 1e3, "force", "force_N of study isometric", "no equilibrium"),
+    OF_KIND(ZP_FIT_TIME, "zip_time", "s", "ms", 1e3, "zip time", "zip_time_s of study actuate", "not closed"),
+    OF_KIND(ZP_FIT_PULL_IN, "pull_in_voltage", "V", "V", 1, "pull-in voltage", "pull_in_voltage_V of study limits",
+            "no pull-in"),
+    OF_KIND(ZP_FIT_RELEASE, "release_voltage", "V", "V", 1, "release voltage", "release_voltage_V of study limits",
+            "no release"),
+    OF_KIND(ZP_FIT_FREQUENCY, "frequency", "Hz", "Hz", 1, "frequency", "frequency_1_Hz of study modes",
+            "no stable equilibrium"),
 };
 
 /* Inverse of J^T J in units of z, by Cholesky; false if the data do not tell the keys apart. */
@@ -114,34 +139,96 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
     zp_result_note(result, "the data cannot distinguish the fitted keys: they have no standard errors");
 }
 
-#define TABLE_OVER_TIME(of, what)                                                                                      \
-  TABLE("time_s", "s", "time since the voltage was switched on", of, what, "the same, computed with the fitted values")
+/* -- the table: what was set, then what was measured and computed, kind by kind ------------------------------------ */
 
-static const ZpColumn length_over_time[4] = TABLE_OVER_TIME("m", "stroke or opening"),
-                      capacitance_over_time[4] = TABLE_OVER_TIME("F", "capacitance");
+/* Of the columns of the table: of each thing that was set, of each kind; NAN where a row has another. */
+typedef struct Columns {
+  size_t count, x_count, width; /* width: columns of one kind */
+  ZpColumn *column;
+  int *x_key;                /* [x_count] */
+  size_t kind[ZP_FIT_KINDS]; /* first column of a kind; 0: none yet */
+} Columns;
 
-static const ZpColumn *columns_of(const ZpFit *fit) {
-  if (fit->x_key >= 0) return names[fit->x_key].column[fit->kind];
-  return fit->kind == ZP_FIT_CAPACITANCE ? capacitance_over_time : length_over_time;
+static size_t place_of_x(const Columns *columns, int key) {
+  size_t place = 0;
+  while (place < columns->x_count && columns->x_key[place] != key)
+    place++;
+  return place;
+}
+
+static void add_x(Columns *columns, int key) {
+  if (place_of_x(columns, key) < columns->x_count) return;
+  columns->x_key[columns->x_count++] = key;
+  columns->column[columns->count++] = key < 0 ? time_column : names[key].x;
+}
+
+static void add_kind(Columns *columns, ZpFitKind kind) {
+  if (columns->kind[kind]) return;
+  columns->kind[kind] = columns->count;
+  for (size_t i = 0; i < columns->width; i++)
+    columns->column[columns->count++] =
+        columns->width == COLUMNS_ALONE ? of_kind[kind].alone[i] : of_kind[kind].several[i];
+}
+
+static bool open_columns(const ZpFit *fit, Columns *columns) {
+  *columns = (Columns){.width = zp_fit_kinds(fit) > 1 ? COLUMNS_OF_KIND : COLUMNS_ALONE};
+  columns->column = calloc(fit->sets + ZP_FIT_KINDS * COLUMNS_OF_KIND, sizeof *columns->column);
+  columns->x_key = calloc(fit->sets, sizeof *columns->x_key);
+  if (!columns->column || !columns->x_key) return false;
+  for (size_t i = 0; i < fit->sets; i++)
+    add_x(columns, fit->set[i].x_key);
+  for (size_t i = 0; i < fit->sets; i++)
+    add_kind(columns, fit->set[i].kind);
+  return true;
+}
+
+static void fill_row(const ZpFit *fit, const Columns *columns, size_t row, const double *fitted, double *value) {
+  const ZpFitSet *of = zp_fit_set_of(fit, row);
+  double *own = value + columns->kind[of->kind];
+  for (size_t c = 0; c < columns->count; c++)
+    value[c] = NAN;
+  value[place_of_x(columns, of->x_key)] = fit->x[row];
+  own[0] = fit->y[row];
+  own[1] = fitted[row];
+  own[2] = fitted[row] - fit->y[row];
+  if (columns->width == COLUMNS_OF_KIND) own[COLUMNS_ALONE] = fit->sigma[row];
 }
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
-  result->series = zp_table_create(columns_of(fit), 4, fit->rows < 2 ? 2 : fit->rows);
-  if (!result->series) return false;
-  for (size_t i = 0; i < fit->rows; i++)
-    zp_table_offer(result->series, (double[]){fit->x[i], fit->y[i], fitted[i], fitted[i] - fit->y[i]});
+  Columns columns;
+  double *value = open_columns(fit, &columns) ? calloc(columns.count, sizeof *value) : NULL;
+  if (value) result->series = zp_table_create(columns.column, columns.count, fit->rows < 2 ? 2 : fit->rows);
+  for (size_t row = 0; result->series && row < fit->rows; row++) {
+    fill_row(fit, &columns, row, fitted, value);
+    zp_table_offer(result->series, value);
+  }
+  free(value);
+  free(columns.column);
+  free(columns.x_key);
+  return result->series != NULL;
+}
+
+/* -- what the summary says ------------------------------------------------------------------------- */
+
+/* The definition of a row with the fitted keys at z, and the voltage under which it is; false if it is none. */
+static bool row_under_voltage(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage) {
+  const ZpFitSet *of = zp_fit_set_of(fit, row);
+  if (of->x_key < 0) {
+    *def = *fit->def;
+    *voltage = fmax(def->drive.voltage, fabs(def->drive.offset));
+    return true;
+  }
+  if (!zp_fit_row(fit, z, row, def, voltage)) return false;
+  if (zp_fit_number[of->kind].number) *voltage = of->kind == ZP_FIT_FREQUENCY ? def->modes.voltage : def->drive.voltage;
   return true;
 }
 
 /* The notes of the model as fitted, at the highest voltage of all rows. */
 static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpError *err) {
   ZpActuatorDef def = *fit->def, row;
-  double highest = fit->x_key < 0 ? fmax(def.drive.voltage, fabs(def.drive.offset)) : -1, voltage;
-  for (size_t i = 0; i < fit->rows && fit->x_key >= 0; i++) {
-    if (!zp_fit_row(fit, z, i, &row, &voltage)) continue;
-    if (zp_fit_number[fit->kind].number)
-      voltage = fit->kind == ZP_FIT_FREQUENCY ? row.modes.voltage : row.drive.voltage;
-    if (voltage <= highest) continue;
+  double highest = -1, voltage;
+  for (size_t i = 0; i < fit->rows; i++) {
+    if (!row_under_voltage(fit, z, i, &row, &voltage) || voltage <= highest) continue;
     highest = voltage;
     def = row;
   }
@@ -152,23 +239,12 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   return ZP_OK;
 }
 
-/* By kind: name of what is left, and how the message says it. */
-static const struct {
-  const char *residual, *shown;
-  double factor;
-} of_kind[ZP_FIT_KINDS] = {
-    [ZP_FIT_LENGTH] = {"residual_rms_m", "mm", 1e3},   [ZP_FIT_CAPACITANCE] = {"residual_rms_F", "pF", 1e12},
-    [ZP_FIT_FORCE] = {"residual_rms_N", "mN", 1e3},    [ZP_FIT_TIME] = {"residual_rms_s", "ms", 1e3},
-    [ZP_FIT_PULL_IN] = {"residual_rms_V", "V", 1},     [ZP_FIT_RELEASE] = {"residual_rms_V", "V", 1},
-    [ZP_FIT_FREQUENCY] = {"residual_rms_Hz", "Hz", 1},
-};
-
-/* The static pull-in of the model as fitted, of the last row: zip times just above it show where it is. */
-static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result) {
+/* The static pull-in of the model as fitted, of the last row of zip times: they show where it is, just above it. */
+static ZpStatus note_pull_in(const ZpFit *fit, const ZpFitSet *of, const double *z, ZpResult *result) {
   ZpActuatorDef def;
   ZpResult *limits = NULL;
   double voltage;
-  zp_fit_row(fit, z, fit->rows - 1, &def, &voltage);
+  zp_fit_row(fit, z, of->first + of->rows - 1, &def, &voltage);
   def.output.errors = false;
   ZpStatus status = zp_study_run(ZP_STUDY_LIMITS, &def, NULL, NULL, &limits, NULL);
   zp_result_add(result, "pull_in_voltage_V", "V", limits ? zp_result_get(limits, "pull_in_voltage_V") : NAN);
@@ -176,32 +252,79 @@ static ZpStatus note_pull_in(const ZpFit *fit, const double *z, ZpResult *result
   return status == ZP_MACHINE ? status : ZP_OK;
 }
 
+/* The last set of a kind; NULL if there is none. */
+static const ZpFitSet *last_set(const ZpFit *fit, ZpFitKind kind) {
+  const ZpFitSet *last = NULL;
+  for (size_t i = 0; i < fit->sets; i++)
+    if (fit->set[i].kind == kind) last = &fit->set[i];
+  return last;
+}
+
+/* Root mean squares of the residuals of a kind, as they are and over their standard deviations. */
+typedef struct Rms {
+  double plain, weighted;
+} Rms;
+
+static Rms rms_of(const ZpFit *fit, const double *fitted, ZpFitKind kind) {
+  Rms sum = {0, 0};
+  size_t rows = 0;
+  for (size_t i = 0; i < fit->rows; i++) {
+    if (zp_fit_set_of(fit, i)->kind != kind) continue;
+    sum.plain += (fitted[i] - fit->y[i]) * (fitted[i] - fit->y[i]);
+    sum.weighted += zp_fit_residual(fit, fitted, i) * zp_fit_residual(fit, fitted, i);
+    rows++;
+  }
+  const bool all = isfinite(sum.plain) && isfinite(sum.weighted);
+  return all ? (Rms){sqrt(sum.plain / (double)rows), sqrt(sum.weighted / (double)rows)} : (Rms){NAN, NAN};
+}
+
+static void report_residuals(const ZpFit *fit, const double *fitted, ZpResult *result) {
+  const bool alone = zp_fit_kinds(fit) == 1;
+  for (int k = 0; k < ZP_FIT_KINDS; k++) {
+    const ZpFitKind kind = (ZpFitKind)k;
+    if (!last_set(fit, kind)) continue;
+    const Rms rms = rms_of(fit, fitted, kind);
+    const char *name = alone ? of_kind[kind].residual : of_kind[kind].residual_of;
+    zp_result_add(result, name, zp_fit_number[kind].unit, rms.plain);
+    if (!alone) zp_result_add(result, of_kind[kind].weighted, "1", rms.weighted);
+  }
+}
+
+/* "9 rows fitted, residual 0.00221 mm rms", or of several kinds over their standard deviations. */
+static void say(const ZpFit *fit, const double *fitted, const char *bound, double square, ZpResult *result) {
+  const char *done = fit->n > 0 ? "fitted" : "compared", *at = bound ? "; at its bound: " : "";
+  const ZpFitKind kind = fit->set[0].kind;
+  if (zp_fit_kinds(fit) == 1)
+    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms%s%s", fit->rows, done,
+             of_kind[kind].factor * rms_of(fit, fitted, kind).plain, of_kind[kind].shown, at, bound ? bound : "");
+  else
+    snprintf(result->message, sizeof result->message,
+             "%zu rows of %zu kinds %s, residual %.3g standard deviations rms%s%s", fit->rows, zp_fit_kinds(fit), done,
+             sqrt(square / (double)fit->rows), at, bound ? bound : "");
+}
+
 static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult *result, ZpError *err) {
-  double z[ZP_FIT_MOST] = {0}, square = 0, weighted = 0;
+  double z[ZP_FIT_MOST] = {0}, square = 0; /* of weighted residuals */
   for (int k = 0; k < fit->n; k++)
     z[k] = fmin(fmax(1, fit->lower[k]), fit->upper[k]);
   if (!zp_fit_solve(fit, z, fitted) && fit->status != ZP_OK) return fit->status;
-  for (size_t i = 0; i < fit->rows; i++) {
-    square += (fitted[i] - fit->y[i]) * (fitted[i] - fit->y[i]);
-    weighted += zp_fit_residual(fit, fitted, i) * zp_fit_residual(fit, fitted, i);
-  }
+  for (size_t i = 0; i < fit->rows; i++)
+    square += zp_fit_residual(fit, fitted, i) * zp_fit_residual(fit, fitted, i);
   const char *bound = key_at_bound(fit, z);
   bool good = isfinite(square) && !fit->stopped;
   bool has_J = good && zp_fit_jacobian(fit, z, J);
   if (fit->status != ZP_OK) return fit->status;
   result->outcome = good ? (bound ? ZP_AT_BOUND : ZP_CONVERGED) : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-  double rms = isfinite(square) ? sqrt(square / (double)fit->rows) : NAN;
   if (good)
-    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms%s%s", fit->rows,
-             fit->n > 0 ? "fitted" : "compared", of_kind[fit->kind].factor * rms, of_kind[fit->kind].shown,
-             bound ? "; at its bound: " : "", bound ? bound : "");
+    say(fit, fitted, bound, square, result);
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "the model gives no value for some rows within the bounds");
-  report_keys(fit, z, has_J ? J : NULL, weighted, result);
+  report_keys(fit, z, has_J ? J : NULL, square, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
-  if (good && fit->kind == ZP_FIT_TIME && note_pull_in(fit, z, result) != ZP_OK) return zp_fail_memory(err);
-  zp_result_add(result, of_kind[fit->kind].residual, zp_fit_number[fit->kind].unit, rms);
+  const ZpFitSet *times = last_set(fit, ZP_FIT_TIME);
+  if (good && times && note_pull_in(fit, times, z, result) != ZP_OK) return zp_fail_memory(err);
+  report_residuals(fit, fitted, result);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);

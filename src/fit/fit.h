@@ -9,9 +9,10 @@ enum {
   ZP_FIT_OTHERS = 8 /* further columns that set keys */
 };
 
-/* What is measured, at rest or over time: a stroke or an opening, a capacitance; or a number of a study. */
+/* What is measured, at rest or over time: a stroke, an opening, a capacitance; or a number of a study. */
 typedef enum ZpFitKind {
-  ZP_FIT_LENGTH,
+  ZP_FIT_STROKE,
+  ZP_FIT_OPENING,
   ZP_FIT_CAPACITANCE,
   ZP_FIT_FORCE,
   ZP_FIT_TIME,
@@ -21,15 +22,25 @@ typedef enum ZpFitKind {
   ZP_FIT_KINDS
 } ZpFitKind;
 
-/* Of a kind that is a number of a study: what its column is called, its unit, study and number. */
+/* Of a kind: what its column is called, its unit; where it is a number of a study, that study and number. */
 typedef struct ZpFitNumber {
   const char *column, *unit;
   ZpStudy study;
   const char *number; /* NULL: the kind is no number of a study */
-  bool has_slopes;    /* sensitivity.by differentiates it */
+  bool has_slopes;    /* derivatives by keys are known at rest */
 } ZpFitNumber;
 
 extern const ZpFitNumber zp_fit_number[ZP_FIT_KINDS];
+
+/* One measured column of one file: rows of one kind, against one thing that was set. */
+typedef struct ZpFitSet {
+  ZpFitKind kind;
+  int x_key;  /* what is set; -1: x is time, s */
+  int others; /* further columns whose header is a key: set for their row, too */
+  int other_key[ZP_FIT_OTHERS];
+  double *other[ZP_FIT_OTHERS]; /* [rows] SI */
+  size_t first, rows;           /* of the rows of the fit */
+} ZpFitSet;
 
 typedef struct ZpFit {
   const ZpActuatorDef *def;
@@ -38,14 +49,9 @@ typedef struct ZpFit {
   int key[ZP_FIT_MOST];
   double start[ZP_FIT_MOST];
   double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
-  int x_key;                                     /* what is set; -1: x is time, s */
-  int others;                                    /* further columns whose header is a key: set for their row, too */
-  int other_key[ZP_FIT_OTHERS];
-  double *other[ZP_FIT_OTHERS]; /* [rows] SI */
-  ZpFitKind kind;
-  bool opening; /* of the lengths the opening is measured, else the stroke */
-  size_t rows;
-  double *x, *y; /* [rows] SI */
+  ZpFitSet *set;                                 /* [sets] */
+  size_t sets, rows;
+  double *x, *y; /* [rows] SI, set after set */
   double *sigma; /* [rows] standard deviations of y; NULL: not given, all alike */
   int evaluations;
   bool stopped;    /* the progress hook asked for it */
@@ -57,11 +63,21 @@ typedef struct ZpFit {
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err);
 void zp_fit_close(ZpFit *fit);
 
+/* Read the files of measurements into the sets and rows of `fit`, whose keys are known. */
+ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err);
+
+/* Whether a key is a real number, which may be fitted and set by a column. */
+bool zp_fit_takes(int key);
+
+/* The set to which a row belongs; how many kinds there are. */
+const ZpFitSet *zp_fit_set_of(const ZpFit *fit, size_t row);
+size_t zp_fit_kinds(const ZpFit *fit);
+
 /* The definition of row `row` with the fitted keys at z, and the voltage that the row sets, 0 if none. False if a
  * value is out of its key's range. */
 bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage);
 
-/* What the model gives for row `row`, SI, where rows are not one run; NAN where it finds none. */
+/* What the model gives for row `row`, SI, which is not one of a run; NAN where it finds none. */
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
 
 /* Find the z [n] that fit best and the fitted values [rows] there. False if there is no memory or no fit. */

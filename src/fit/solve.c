@@ -18,15 +18,15 @@ enum { POLISH_MOST = 30, HALVINGS = 12 };
 /* Relative step of the finite differences: far above what Newton leaves, small against the curvature. */
 static const double difference = 1e-4;
 
-static double measure(ZpFit *fit, const ZpModel *model, double voltage) {
+static double measure(ZpFit *fit, ZpFitKind kind, const ZpModel *model, double voltage) {
   ZpRest *rest;
   double value = NAN;
   if (zp_rest_create(model, &rest, fit->err) != ZP_OK)
     fit->status = ZP_MACHINE;
   else if (zp_rest_hang(rest, voltage))
-    value = fit->kind == ZP_FIT_CAPACITANCE ? zp_rest_capacitance(rest)
-            : fit->opening                  ? zp_rest_opening(rest)
-                                            : zp_rest_stroke(rest);
+    value = kind == ZP_FIT_CAPACITANCE ? zp_rest_capacitance(rest)
+            : kind == ZP_FIT_OPENING   ? zp_rest_opening(rest)
+                                       : zp_rest_stroke(rest);
   zp_rest_destroy(rest);
   return value;
 }
@@ -48,30 +48,32 @@ static ZpModel *build(ZpFit *fit, const ZpActuatorDef *def) {
 
 bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage) {
   int drive = zp_key_find("drive.voltage");
-  bool set = set_fitted(fit, z, def) && zp_def_set(def, fit->x_key, fit->x[row], NULL) == ZP_OK;
-  *voltage = fit->x_key == drive ? fit->x[row] : 0;
-  for (int k = 0; k < fit->others && set; k++) {
-    set = zp_def_set(def, fit->other_key[k], fit->other[k][row], NULL) == ZP_OK;
-    if (fit->other_key[k] == drive) *voltage = fit->other[k][row];
+  const ZpFitSet *of = zp_fit_set_of(fit, row);
+  bool set = set_fitted(fit, z, def) && zp_def_set(def, of->x_key, fit->x[row], NULL) == ZP_OK;
+  *voltage = of->x_key == drive ? fit->x[row] : 0;
+  for (int k = 0; k < of->others && set; k++) {
+    const double value = of->other[k][row - of->first];
+    set = zp_def_set(def, of->other_key[k], value, NULL) == ZP_OK;
+    if (of->other_key[k] == drive) *voltage = value;
   }
   return set;
 }
 
 /* The study whose number is measured; NULL where it cannot be run. */
-static ZpResult *run_study(ZpFit *fit, ZpActuatorDef *def) {
+static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   ZpResult *result = NULL;
   def->output.samples = 10; /* only the numbers are asked for */
   def->output.shapes = 2;
   def->output.errors = false;
-  ZpStatus status = zp_study_run(zp_fit_number[fit->kind].study, def, NULL, NULL, &result, NULL);
+  ZpStatus status = zp_study_run(zp_fit_number[kind].study, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   return result;
 }
 
 /* Its number, SI; NAN where it finds none. */
-static double predict_number(ZpFit *fit, ZpActuatorDef *def) {
-  ZpResult *result = run_study(fit, def);
-  double value = result ? zp_result_get(result, zp_fit_number[fit->kind].number) : NAN;
+static double predict_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
+  ZpResult *result = run_study(fit, kind, def);
+  double value = result ? zp_result_get(result, zp_fit_number[kind].number) : NAN;
   zp_result_destroy(result);
   return value;
 }
@@ -79,20 +81,17 @@ static double predict_number(ZpFit *fit, ZpActuatorDef *def) {
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
   double voltage;
+  const ZpFitKind kind = zp_fit_set_of(fit, row)->kind;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
-  if (set && zp_fit_number[fit->kind].number) return predict_number(fit, &def);
+  if (set && zp_fit_number[kind].number) return predict_number(fit, kind, &def);
   ZpModel *model = set ? build(fit, &def) : NULL;
-  double value = model ? measure(fit, model, voltage) : NAN;
+  double value = model ? measure(fit, kind, model, voltage) : NAN;
   zp_model_destroy(model);
   return value;
 }
 
-static const char *signal_of(const ZpFit *fit) {
-  return fit->kind == ZP_FIT_CAPACITANCE ? "capacitance" : fit->opening ? "opening" : "stroke";
-}
-
-/* One run in time through all rows; NAN from where the solver fails. */
-static void predict_run(ZpFit *fit, const double *z, double *fitted) {
+/* One run in time through all rows of a set => fitted [its rows]; NAN from where the solver fails. */
+static void predict_run(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
   ZpActuatorDef def;
   bool set = set_fitted(fit, z, &def), runs;
   ZpModel *model = set ? build(fit, &def) : NULL;
@@ -100,9 +99,10 @@ static void predict_run(ZpFit *fit, const double *z, double *fitted) {
   ZpStatus status = model ? zp_sim_create(model, NULL, &sim, NULL) : ZP_BAD_INPUT;
   runs = status == ZP_OK;
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
-  for (size_t i = 0; i < fit->rows; i++) {
-    if (runs && fit->x[i] > 0) runs = zp_outcome_good(zp_sim_run(sim, fit->x[i], false, fit->hooks, NULL));
-    fitted[i] = runs ? zp_sim_get(sim, signal_of(fit)) : (double)NAN;
+  for (size_t i = 0; i < of->rows; i++) {
+    const double time = fit->x[of->first + i];
+    if (runs && time > 0) runs = zp_outcome_good(zp_sim_run(sim, time, false, fit->hooks, NULL));
+    fitted[i] = runs ? zp_sim_get(sim, zp_fit_number[of->kind].column) : (double)NAN;
   }
   zp_sim_destroy(sim);
   zp_model_destroy(model);
@@ -114,15 +114,23 @@ static bool ask(ZpFit *fit) {
   return fit->stopped || fit->status != ZP_OK;
 }
 
+/* What the model gives at z for the rows of a set => fitted [its rows]; false if one of them is not there. */
+static bool predict_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
+  bool all = true;
+  if (of->x_key < 0 && !ask(fit)) predict_run(fit, of, z, fitted);
+  for (size_t i = 0; i < of->rows; i++) {
+    if (of->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, of->first + i);
+    all &= isfinite(fitted[i]) != 0;
+  }
+  return all;
+}
+
 /* Fitted values at z; false if one of them is not there. */
 static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
   bool all = true;
   fit->evaluations++;
-  if (fit->x_key < 0 && !ask(fit)) predict_run(fit, z, fitted);
-  for (size_t i = 0; i < fit->rows; i++) {
-    if (fit->x_key >= 0 || fit->stopped) fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, i);
-    all &= isfinite(fitted[i]) != 0;
-  }
+  for (size_t i = 0; i < fit->sets; i++)
+    all &= predict_set(fit, &fit->set[i], z, fitted + fit->set[i].first);
   return all;
 }
 
@@ -134,14 +142,24 @@ double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row) {
   return (fitted[row] - fit->y[row]) * weight(fit, row);
 }
 
-/* Sum of squares; a row that is not there counts as twice the largest measured value. */
-static double squares(const ZpFit *fit, const double *fitted) {
-  double sum = 0, largest = 0;
-  for (size_t i = 0; i < fit->rows; i++)
+/* The largest measured value of a set. */
+static double largest_of(const ZpFit *fit, const ZpFitSet *of) {
+  double largest = 0;
+  for (size_t i = of->first; i < of->first + of->rows; i++)
     largest = fmax(largest, fabs(fit->y[i]));
-  for (size_t i = 0; i < fit->rows; i++) {
-    double r = isfinite(fitted[i]) ? zp_fit_residual(fit, fitted, i) : 2 * largest * weight(fit, i);
-    sum += r * r;
+  return largest;
+}
+
+/* Sum of squares; a row that is not there counts as twice the largest measured value of its set. */
+static double squares(const ZpFit *fit, const double *fitted) {
+  double sum = 0;
+  for (size_t k = 0; k < fit->sets; k++) {
+    const ZpFitSet *of = &fit->set[k];
+    const double largest = largest_of(fit, of);
+    for (size_t i = of->first; i < of->first + of->rows; i++) {
+      double r = isfinite(fitted[i]) ? zp_fit_residual(fit, fitted, i) : 2 * largest * weight(fit, i);
+      sum += r * r;
+    }
   }
   return sum;
 }
@@ -163,7 +181,9 @@ static double objective(unsigned n, const double *z, double *gradient, void *use
 
 /* As near as Gauss-Newton starts from: with exact derivatives that costs one evaluation a step. */
 static double near_enough(const ZpFit *fit) {
-  return fit->x_key < 0 ? 1e-3 : 3e-2;
+  for (size_t i = 0; i < fit->sets; i++)
+    if (fit->set[i].x_key < 0) return 1e-3;
+  return 3e-2;
 }
 
 static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
@@ -184,7 +204,7 @@ static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
 /* Derivatives of a stroke or an opening by the values of the fitted keys => row [n]. */
-static bool slopes_of_rest(ZpFit *fit, const ZpActuatorDef *def, double voltage, double *row) {
+static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def, double voltage, double *row) {
   ZpModel *model = build(fit, def);
   ZpRest *rest = NULL;
   if (model && zp_rest_create(model, &rest, fit->err) != ZP_OK) fit->status = ZP_MACHINE;
@@ -193,7 +213,7 @@ static bool slopes_of_rest(ZpFit *fit, const ZpActuatorDef *def, double voltage,
     double stroke, opening;
     ZpStatus status = zp_rest_sensitivity(rest, fit->key[k], &stroke, &opening, NULL);
     if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
-    row[k] = fit->opening ? opening : stroke;
+    row[k] = kind == ZP_FIT_OPENING ? opening : stroke;
     good = status == ZP_OK && isfinite(row[k]);
   }
   zp_rest_destroy(rest);
@@ -209,13 +229,13 @@ static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
 }
 
 /* The same of the number of a study. */
-static bool slopes_of_number(ZpFit *fit, ZpActuatorDef *def, double *row) {
+static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *row) {
   int found = 0;
   name_keys(fit, def);
-  ZpResult *result = run_study(fit, def);
+  ZpResult *result = run_study(fit, kind, def);
   for (size_t i = 0; result && i < result->sensitivities && found < fit->n; i++) {
     const ZpSensitivity *s = &result->sensitivity[i];
-    if (strcmp(s->output, zp_fit_number[fit->kind].number) == 0) row[found++] = s->value;
+    if (strcmp(s->output, zp_fit_number[kind].number) == 0) row[found++] = s->value;
   }
   zp_result_destroy(result);
   for (int k = 0; k < found; k++)
@@ -223,34 +243,39 @@ static bool slopes_of_number(ZpFit *fit, ZpActuatorDef *def, double *row) {
   return found == fit->n;
 }
 
-/* Exact, where the derivatives of the rows by all these keys are known. */
-static bool differentiate(ZpFit *fit, const double *z, double *J) {
-  bool is_number = zp_fit_number[fit->kind].number != NULL;
-  bool good = fit->x_key >= 0 && (fit->kind == ZP_FIT_LENGTH || zp_fit_number[fit->kind].has_slopes);
-  fit->evaluations += good;
-  for (size_t i = 0; i < fit->rows && good; i++) {
+/* Whether the derivatives of the rows of a set are known at rest. */
+static bool has_slopes(const ZpFitSet *of) {
+  return of->x_key >= 0 && zp_fit_number[of->kind].has_slopes;
+}
+
+/* Exact, where the derivatives of the rows by all these keys are known => rows of J of this set. */
+static bool differentiate(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
+  bool is_number = zp_fit_number[of->kind].number != NULL, good = has_slopes(of);
+  for (size_t i = 0; i < of->rows && good; i++) {
     ZpActuatorDef def;
     double voltage, *row = J + i * (size_t)fit->n;
-    good = !ask(fit) && zp_fit_row(fit, z, i, &def, &voltage);
-    good = good && (is_number ? slopes_of_number(fit, &def, row) : slopes_of_rest(fit, &def, voltage, row));
+    good = !ask(fit) && zp_fit_row(fit, z, of->first + i, &def, &voltage);
+    good = good &&
+           (is_number ? slopes_of_number(fit, of->kind, &def, row) : slopes_of_rest(fit, of->kind, &def, voltage, row));
     for (int k = 0; k < fit->n && good; k++)
       row[k] *= fit->start[k];
   }
   return good;
 }
 
-static bool difference_all(ZpFit *fit, const double *z, double *J) {
-  double *up = calloc(2 * fit->rows, sizeof *up), *down = up ? up + fit->rows : NULL;
+/* By differences => rows of J of this set. */
+static bool difference_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
+  double *up = calloc(2 * of->rows, sizeof *up), *down = up ? up + of->rows : NULL;
   bool good = up != NULL;
   for (int k = 0; k < fit->n && good; k++) {
     double at[ZP_FIT_MOST];
     memcpy(at, z, sizeof at);
     double high = fmin(z[k] * (1 + difference), fit->upper[k]), low = fmax(z[k] * (1 - difference), fit->lower[k]);
     at[k] = high;
-    good = predict_all(fit, at, up);
+    good = predict_set(fit, of, at, up);
     at[k] = low;
-    good = good && predict_all(fit, at, down) && high > low;
-    for (size_t i = 0; i < fit->rows && good; i++)
+    good = good && predict_set(fit, of, at, down) && high > low;
+    for (size_t i = 0; i < of->rows && good; i++)
       J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
   }
   free(up);
@@ -258,11 +283,20 @@ static bool difference_all(ZpFit *fit, const double *z, double *J) {
 }
 
 bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
-  if (!differentiate(fit, z, J) && !difference_all(fit, z, J)) return false;
-  for (size_t i = 0; i < fit->rows; i++)
+  bool exact = false, differenced = false, good = true;
+  for (size_t i = 0; i < fit->sets && good; i++) {
+    const ZpFitSet *of = &fit->set[i];
+    double *rows = J + of->first * (size_t)fit->n;
+    exact = exact || has_slopes(of);
+    if (differentiate(fit, of, z, rows)) continue;
+    differenced = true;
+    good = difference_set(fit, of, z, rows);
+  }
+  fit->evaluations += exact + (differenced ? 2 * fit->n : 0);
+  for (size_t i = 0; i < fit->rows && good; i++)
     for (int k = 0; k < fit->n; k++)
       J[i * (size_t)fit->n + (size_t)k] *= weight(fit, i);
-  return true;
+  return good;
 }
 
 /* Solve A x = b, n at most ZP_FIT_MOST, by elimination with pivoting; false if A is singular. */

@@ -20,26 +20,19 @@ enum { LARGEST_FILE = 1 << 24 };
 enum { LONGEST_NAME = 200, LONGEST_NUMBER = 64 };
 
 void zp_data_destroy(ZpData *data) {
-  for (size_t i = 0; i < data->owns; i++)
-    free(data->owned[i]);
-  free(data->owned);
-  free(data->paths);
+  free(data->text);
   free(data->cell);
   free(data->line);
-  free(data->file);
   *data = (ZpData){0};
 }
 
-/* Take over a text, which is freed if there is no memory. */
-static ZpStatus own(ZpData *data, char *text, ZpError *err) {
-  char **more = text ? realloc(data->owned, (data->owns + 1) * sizeof *more) : NULL;
-  if (!more) {
-    free(text);
-    return zp_fail_memory(err);
-  }
-  data->owned = more;
-  data->owned[data->owns++] = text;
-  return ZP_OK;
+void zp_data_files_destroy(ZpDataFiles *files) {
+  for (size_t i = 0; i < files->count; i++)
+    zp_data_destroy(&files->file[i]);
+  free(files->file);
+  free(files->paths);
+  free(files->renamed);
+  *files = (ZpDataFiles){0};
 }
 
 static ZpStatus read_text(const char *key, const char *path, char **text, ZpError *err) {
@@ -190,8 +183,7 @@ static ZpStatus cut(ZpData *data, char *text, ZpError *err) {
   ZpStatus status = ZP_OK;
   int number = 0;
   data->line = calloc(lines, sizeof *data->line);
-  data->file = calloc(lines, sizeof *data->file);
-  if (!data->line || !data->file) return zp_fail_memory(err);
+  if (!data->line) return zp_fail_memory(err);
   for (char *next; start && status == ZP_OK; start = next) {
     next = take_end(start);
     number++;
@@ -207,18 +199,9 @@ static ZpStatus cut(ZpData *data, char *text, ZpError *err) {
 }
 
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
-  *data = (ZpData){.key = key, .path = path, .files = 1};
-  char *text = NULL;
-  data->paths = calloc(1, sizeof *data->paths);
-  if (!data->paths) return zp_fail_memory(err);
-  data->paths[0] = path;
-  ZpStatus status = read_text(key, path, &text, err);
-  if (status != ZP_OK) {
-    free(text);
-    return status;
-  }
-  status = own(data, text, err);
-  return status == ZP_OK ? cut(data, text, err) : status;
+  *data = (ZpData){.key = key, .path = path};
+  ZpStatus status = read_text(key, path, &data->text, err);
+  return status == ZP_OK ? cut(data, data->text, err) : status;
 }
 
 /* -- names ------------------------------------------------------------------------------------------- */
@@ -243,8 +226,20 @@ int zp_data_column(const ZpData *data, const char *name) {
   return find_column(data, plain);
 }
 
+/* -- several files ----------------------------------------------------------------------------------- */
+
+static ZpStatus fail_renaming(const ZpDataFiles *files, const char *theirs, ZpError *err) {
+  char names[LONGEST_NAME] = "";
+  for (size_t i = 0; i < files->file->columns; i++) {
+    const size_t used = strlen(names);
+    snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", files->file->cell[i]);
+  }
+  return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.80s: no such column in %s%.200s, which has %s", theirs,
+                 files->count > 1 ? "any file; the first is " : "", files->file->path, names);
+}
+
 /* "Gewicht = load_g": `part` is cut in place and outlives the data. */
-static ZpStatus rename_column(ZpData *data, char *part, ZpError *err) {
+static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err) {
   char *equals = strchr(part, '=');
   if (!equals)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -252,94 +247,36 @@ static ZpStatus rename_column(ZpData *data, char *part, ZpError *err) {
   *equals = 0;
   char *theirs = trim(part), *ours = trim(equals + 1);
   plain_name(theirs);
-  const int column = find_column(data, theirs);
-  if (column >= 0) data->cell[column] = ours;
-  if (column >= 0 || find_column(data, ours) >= 0) return ZP_OK;
-  char names[LONGEST_NAME] = "";
-  for (size_t i = 0; i < data->columns; i++) {
-    const size_t used = strlen(names);
-    snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", data->cell[i]);
+  bool found = false;
+  for (size_t i = 0; i < files->count; i++) {
+    const int column = find_column(&files->file[i], theirs);
+    found = found || column >= 0 || find_column(&files->file[i], ours) >= 0;
+    if (column >= 0) files->file[i].cell[column] = ours;
   }
-  return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.80s: no such column in %.200s, which has %s", theirs, data->path,
-                 names);
+  return found ? ZP_OK : fail_renaming(files, theirs, err);
 }
 
-static ZpStatus rename_columns(ZpData *data, const char *renamed, ZpError *err) {
-  char *rest = strdup(renamed);
-  ZpStatus status = own(data, rest, err);
-  for (char *part = status == ZP_OK ? strsep(&rest, ";") : NULL; part && status == ZP_OK; part = strsep(&rest, ";"))
-    if (*trim(part)) status = rename_column(data, part, err);
+static ZpStatus rename_columns(ZpDataFiles *files, const char *renamed, ZpError *err) {
+  char *rest = files->renamed = strdup(renamed);
+  ZpStatus status = rest ? ZP_OK : zp_fail_memory(err);
+  for (char *part = rest ? strsep(&rest, ";") : NULL; part && status == ZP_OK; part = strsep(&rest, ";"))
+    if (*trim(part)) status = rename_column(files, part, err);
   return status;
 }
 
-/* -- several files ----------------------------------------------------------------------------------- */
-
-/* Room for the rows, texts and paths of two. */
-static bool grow(ZpData *data, const ZpData *more) {
-  const size_t rows = 1 + data->rows + more->rows;
-  char **cell = realloc(data->cell, rows * (data->columns + 1) * sizeof *cell);
-  if (cell) data->cell = cell;
-  int *line = realloc(data->line, rows * sizeof *line);
-  if (line) data->line = line;
-  size_t *file = realloc(data->file, rows * sizeof *file);
-  if (file) data->file = file;
-  char **owned = realloc(data->owned, (data->owns + more->owns) * sizeof *owned);
-  if (owned) data->owned = owned;
-  const char **paths = realloc(data->paths, (data->files + 1) * sizeof *paths);
-  if (paths) data->paths = paths;
-  return cell && line && file && owned && paths;
-}
-
-/* Append the rows of `more`, which gives its texts away. */
-static ZpStatus append(ZpData *data, ZpData *more, ZpError *err) {
-  if (!grow(data, more)) return zp_fail_memory(err);
-  for (size_t c = 0; c < data->columns; c++) {
-    const int column = find_column(more, data->cell[c]);
-    if (column < 0)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: %.200s: no column %.60s, which %.120s has", data->key, more->path,
-                     data->cell[c], data->path);
-    for (size_t i = 1; i <= more->rows; i++)
-      data->cell[(data->rows + i) * data->columns + c] = more->cell[i * more->columns + (size_t)column];
-  }
-  for (size_t i = 1; i <= more->rows; i++) {
-    data->line[data->rows + i] = more->line[i];
-    data->file[data->rows + i] = data->files;
-  }
-  memcpy(data->owned + data->owns, more->owned, more->owns * sizeof *more->owned);
-  data->owns += more->owns;
-  more->owns = 0;
-  data->paths[data->files++] = more->path;
-  data->rows += more->rows;
-  data->separator = ';'; /* a decimal comma may be in any of them */
-  return ZP_OK;
-}
-
-static ZpStatus read_one(const char *key, const char *path, const char *renamed, ZpData *data, ZpError *err) {
-  ZpStatus status = zp_data_read(key, path, data, err);
-  return status == ZP_OK ? rename_columns(data, renamed, err) : status;
-}
-
-ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpData *data, ZpError *err) {
-  char *rest = strdup(paths), *list = rest;
-  *data = (ZpData){0};
-  ZpStatus status = rest ? read_one(key, trim(strsep(&rest, ";")), renamed, data, err) : zp_fail_memory(err);
-  while (rest && status == ZP_OK) {
-    ZpData more;
-    status = read_one(key, trim(strsep(&rest, ";")), renamed, &more, err);
-    if (status == ZP_OK) status = append(data, &more, err);
-    zp_data_destroy(&more);
-  }
-  if (status == ZP_OK) return own(data, list, err);
-  zp_data_destroy(data);
-  free(list);
-  return status;
+ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpDataFiles *files, ZpError *err) {
+  *files = (ZpDataFiles){.paths = strdup(paths), .file = calloc(count_char(paths, ';') + 1, sizeof(ZpData))};
+  if (!files->paths || !files->file) return zp_fail_memory(err);
+  ZpStatus status = ZP_OK;
+  for (char *rest = files->paths; rest && status == ZP_OK;)
+    status = zp_data_read(key, trim(strsep(&rest, ";")), &files->file[files->count++], err);
+  return status == ZP_OK ? rename_columns(files, renamed, err) : status;
 }
 
 /* -- numbers ----------------------------------------------------------------------------------------- */
 
-const char *zp_data_place(const ZpData *data, size_t row, int *line) {
-  *line = data->line[row + 1];
-  return data->paths[data->file[row + 1]];
+int zp_data_line(const ZpData *data, size_t row) {
+  return data->line[row + 1];
 }
 
 /* A copy with a decimal point; false if it is no decimal. */
@@ -352,8 +289,7 @@ static bool plain_decimal(const char *text, char separator, char copy[LONGEST_NU
 
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err) {
   const char *text = data->cell[(row + 1) * data->columns + column];
-  int line;
-  ZpSource source = {.name = zp_data_place(data, row, &line)};
+  ZpSource source = {.name = data->path};
   char copy[LONGEST_NUMBER], *end = NULL;
   *value = NAN;
   locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
@@ -361,8 +297,8 @@ ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *v
   if (plain_decimal(text, data->separator, copy)) *value = strtod_l(copy, &end, c_locale);
   freelocale(c_locale);
   if (end && end > copy && *end == 0 && isfinite(*value)) return ZP_OK;
-  return zp_source_fail(&source, line, err, "column %.60s: \"%.60s\": text in a number column", data->cell[column],
-                        text);
+  return zp_source_fail(&source, zp_data_line(data, row), err, "column %.60s: \"%.60s\": text in a number column",
+                        data->cell[column], text);
 }
 
 bool zp_data_unit(const char *name, const char *stem, const char *unit, double *factor, double *divisor) {

@@ -11,33 +11,36 @@
  * are separated by semicolons, tabs or commas, whichever the row of names has; where it is no comma, numbers may have a
  * decimal comma. Cells may be quoted. A name "Load (g)" or "Load [g]" becomes "Load_g". */
 typedef struct ZpData {
-  const char *key;  /* that names the files, for messages */
-  const char *path; /* of the first */
+  const char *key;  /* that names the file, for messages */
+  const char *path; /* the file */
   size_t columns, rows;
-  char separator; /* of the file read last */
-  char **cell;    /* [1 + rows][columns]; row 0 has the names */
-  int *line;      /* [1 + rows] from 1, in its file */
-  size_t *file;   /* [1 + rows] which file it is of */
-  char **owned;   /* [owns] texts into which cells and paths point */
-  size_t owns;
-  const char **paths; /* [files] */
-  size_t files;
+  char separator;
+  char **cell; /* [1 + rows][columns]; row 0 has the names */
+  int *line;   /* [1 + rows] from 1 */
+  char *text;  /* into which cells point */
 } ZpData;
+
+/* Several of them. */
+typedef struct ZpDataFiles {
+  ZpData *file; /* [count] */
+  size_t count;
+  char *paths, *renamed; /* texts into which paths and names point */
+} ZpDataFiles;
 
 /* (key that names the file, its path; both must outlive the data) => data, to be destroyed whatever the status. */
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err);
-
-/* The same of files whose paths are separated by semicolons: rows of one after those of the other. All must have the
- * columns of the first, in any order and format. `renamed`, of key data.columns: "their name = our name; ..." in each
- * of them. */
-ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpData *data, ZpError *err);
 void zp_data_destroy(ZpData *data);
+
+/* The same of files whose paths are separated by semicolons. `renamed`, of key data.columns: "their name = our name;
+ * ..."; each renames a column in all files that have it. To be destroyed whatever the status. */
+ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpDataFiles *files, ZpError *err);
+void zp_data_files_destroy(ZpDataFiles *files);
 
 /* Place of the column called `name`, in any form that a file may have; -1 if there is none. */
 int zp_data_column(const ZpData *data, const char *name);
 
-/* The file in which a row (from 0) stands, and its line there. */
-const char *zp_data_place(const ZpData *data, size_t row, int *line);
+/* The line of a row (from 0) in its file. */
+int zp_data_line(const ZpData *data, size_t row);
 
 /* The number in a row (from 0) of a column. ZP_BAD_INPUT if there is text. */
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err);

@@ -1,0 +1,499 @@
+/* CSV files => what keys are fitted to: each measured column of each file is a set of rows. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/fail.h"
+#include "fit/fit.h"
+#include "io/data.h"
+#include "io/number.h"
+#include "io/range.h"
+#include "io/units.h"
+
+enum { NAMES_MOST = 16 };
+
+/* Columns that a key names: "stroke_mm; frequency_Hz". */
+typedef struct Names {
+  const char *key;
+  char text[ZP_TEXT_SIZE];
+  const char *name[NAMES_MOST];
+  int count;
+  bool used[NAMES_MOST];
+} Names;
+
+/* A file and which of its columns were set and measured. */
+typedef struct Measured {
+  const ZpData *data;
+  int x, y[NAMES_MOST], columns;
+} Measured;
+
+typedef struct Reading {
+  ZpFit *fit;
+  ZpDataFiles files;
+  Measured *measured; /* [files.count] */
+  size_t sets;        /* of all files */
+  Names x, y;
+  double sigma[ZP_FIT_KINDS]; /* of calibrate.sigma, SI; NAN: not given */
+  ZpError *err;
+} Reading;
+
+/* -- which columns --------------------------------------------------------------------------------- */
+
+static ZpStatus split_names(Names *names, const char *key, const char *text, ZpError *err) {
+  *names = (Names){.key = key};
+  memcpy(names->text, text, sizeof names->text);
+  char *rest = names->text;
+  for (char *part = strsep(&rest, ";"); part; part = strsep(&rest, ";")) {
+    part = zp_trim(part);
+    if (!*part) continue;
+    if (names->count == NAMES_MOST)
+      return zp_fail(err, ZP_BAD_INPUT, "%s: names more than %d columns", key, NAMES_MOST);
+    names->name[names->count++] = part;
+  }
+  return ZP_OK;
+}
+
+/* The columns of a file that have one of these names => columns [how many]. Without names: the one at `place`. */
+static int find_columns(const ZpData *data, Names *names, int place, int *columns) {
+  int found = 0;
+  if (names->count == 0 && place < (int)data->columns) columns[found++] = place;
+  for (int i = 0; i < names->count; i++) {
+    const int column = zp_data_column(data, names->name[i]);
+    if (column < 0) continue;
+    names->used[i] = true;
+    columns[found++] = column;
+  }
+  return found;
+}
+
+static ZpStatus fail_column(const Names *names, const char *name, const char *path, ZpError *err) {
+  return zp_fail(err, ZP_BAD_INPUT, "%s = \"%.60s\": no such column in %.200s", names->key, name, path);
+}
+
+/* A name that no file has is misspelt. */
+static ZpStatus check_names(const Reading *r, const Names *names) {
+  for (int i = 0; i < names->count; i++)
+    if (!names->used[i])
+      return fail_column(names, names->name[i], r->files.count > 1 ? "any file" : r->files.file->path, r->err);
+  return ZP_OK;
+}
+
+/* Columns of every file; of the names of calibrate.x each file has the first that it knows. */
+static ZpStatus find_measured(Reading *r) {
+  ZpFit *fit = r->fit;
+  for (size_t i = 0; i < r->files.count; i++) {
+    const ZpData *data = &r->files.file[i];
+    Measured *measured = &r->measured[i];
+    int x[NAMES_MOST];
+    measured->data = data;
+    if (find_columns(data, &r->x, 0, x) == 0) return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
+    measured->x = x[0];
+    measured->columns = find_columns(data, &r->y, 1, measured->y);
+    if (measured->columns == 0) return fail_column(&r->y, fit->def->calibrate.y, data->path, r->err);
+    if (data->rows == 0) return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: 0 rows of data", data->path);
+    fit->rows += data->rows * (size_t)measured->columns;
+    r->sets += (size_t)measured->columns;
+  }
+  ZpStatus status = check_names(r, &r->x);
+  return status == ZP_OK ? check_names(r, &r->y) : status;
+}
+
+static bool is_measured(const Measured *measured, int column) {
+  for (int i = 0; i < measured->columns; i++)
+    if (measured->y[i] == column) return true;
+  return false;
+}
+
+/* -- what was set ---------------------------------------------------------------------------------- */
+
+/* The key that a column header stands for and the unit, -1 if none. */
+static int key_of_header(const ZpFit *fit, const char *name, double *factor, double *divisor) {
+  if (zp_data_unit(name, "force", "N", factor, divisor) && fit->def->gravity > 0) { /* the weight of a load */
+    *divisor *= fit->def->gravity;
+    return zp_key_find("load.mass");
+  }
+  if (zp_data_unit(name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
+  if (zp_data_unit(name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
+  for (int i = 0; i < zp_key_count(); i++)
+    if (zp_fit_takes(i) && zp_data_unit(name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
+  return -1;
+}
+
+/* A column of numbers that set `key` (any number, if -1) => values [rows], SI. */
+static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, int key, double factor, double divisor,
+                            double *values, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < data->rows && status == ZP_OK; i++) {
+    ZpActuatorDef scratch = *fit->def;
+    status = zp_data_number(data, i, (size_t)column, &values[i], err);
+    values[i] = values[i] * factor / divisor;
+    if (status == ZP_OK && key >= 0) status = zp_def_set(&scratch, key, values[i], err);
+  }
+  return status;
+}
+
+/* A key that a column sets cannot be fitted as well, nor set by another column. */
+static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const char *column, ZpError *err) {
+  bool twice = set->others > 0 && set->x_key == key;
+  for (int i = 0; i + 1 < set->others; i++)
+    twice |= set->other_key[i] == key;
+  if (twice)
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", column,
+                   zp_key(key)->name);
+  for (int i = 0; i < fit->n; i++)
+    if (fit->key[i] == key)
+      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is given by column %.60s and cannot be fitted",
+                     zp_key(key)->name, column);
+  return ZP_OK;
+}
+
+/* Times of one run must rise from 0 on. */
+static ZpStatus check_times(const double *time, const ZpData *data, ZpError *err) {
+  for (size_t i = 0; i < data->rows; i++)
+    if (!(time[i] >= (i ? time[i - 1] : 0)))
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must not be negative and must not decrease", data->path,
+                     zp_data_line(data, i));
+  return ZP_OK;
+}
+
+static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
+  double factor, divisor, *x = fit->x + set->first;
+  const char *name = data->cell[column];
+  bool is_time = zp_data_unit(name, "time", "s", &factor, &divisor);
+  set->x_key = is_time ? -1 : key_of_header(fit, name, &factor, &divisor);
+  if (!is_time && set->x_key < 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "calibrate.x: column %.60s: is not time, load, force, voltage or a numeric key, with its unit",
+                   name);
+  ZpStatus status = check_set(fit, set, set->x_key, name, err);
+  if (status == ZP_OK) status = read_column(fit, data, column, set->x_key, factor, divisor, x, err);
+  return status == ZP_OK && is_time ? check_times(x, data, err) : status;
+}
+
+/* All other columns whose header is a key. */
+static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured, int x, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  const ZpData *data = measured->data;
+  for (int column = 0; column < (int)data->columns && status == ZP_OK; column++) {
+    double factor, divisor;
+    const char *name = data->cell[column];
+    const bool known = column == x || column == measured->x || is_measured(measured, column);
+    int key = known ? -1 : key_of_header(fit, name, &factor, &divisor);
+    if (key < 0) continue;
+    if (set->x_key < 0)
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "%.200s: column %.60s: rows over time belong to one run, in which no key can change", data->path,
+                     name);
+    if (set->others == ZP_FIT_OTHERS)
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns set keys", data->path, ZP_FIT_OTHERS);
+    set->other_key[set->others] = key;
+    set->other[set->others] = calloc(data->rows, sizeof(double));
+    if (!set->other[set->others++]) return zp_fail_memory(err);
+    status = check_set(fit, set, key, name, err);
+    if (status == ZP_OK)
+      status = read_column(fit, data, column, key, factor, divisor, set->other[set->others - 1], err);
+  }
+  return status;
+}
+
+/* -- are the rows possible ------------------------------------------------------------------------- */
+
+/* One run in time, through all rows. */
+static ZpStatus check_run(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = zp_def_check_motion(def, err);
+  if (status != ZP_OK) return status;
+  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
+}
+
+/* Rows must be possible ones: numbers of a study as the study says, others in their voltage. */
+static ZpStatus check_row(ZpFitKind kind, const ZpActuatorDef *def, double voltage, ZpError *reason) {
+  if (!zp_fit_number[kind].number) return zp_def_check_voltage(def, voltage, reason);
+  return zp_study_check(zp_fit_number[kind].study, def, reason);
+}
+
+/* Study limits looks for pull-in and release up to drive.voltage. */
+static ZpStatus check_limit(ZpFitKind kind, const ZpActuatorDef *def, double measured, ZpError *reason) {
+  bool is_limit = kind == ZP_FIT_PULL_IN || kind == ZP_FIT_RELEASE;
+  if (!is_limit || measured < def->drive.voltage) return ZP_OK;
+  return zp_fail(reason, ZP_BAD_INPUT,
+                 "a %s of %g V was measured; the model looks for it below drive.voltage = %g V: raise drive.voltage",
+                 kind == ZP_FIT_PULL_IN ? "pull-in voltage" : "release voltage", measured, def->drive.voltage);
+}
+
+static ZpStatus check_rows(const ZpFit *fit, const ZpFitSet *set, const ZpData *data, ZpError *err) {
+  double start[ZP_FIT_MOST], voltage;
+  for (int k = 0; k < ZP_FIT_MOST; k++)
+    start[k] = 1;
+  if (set->x_key < 0) return check_run(fit->def, err);
+  for (size_t i = 0; i < set->rows; i++) {
+    ZpActuatorDef def;
+    ZpError reason = {ZP_OK, ""};
+    if (!zp_fit_row(fit, start, set->first + i, &def, &voltage)) continue; /* read_column has said it */
+    if (check_row(set->kind, &def, voltage, &reason) == ZP_OK &&
+        check_limit(set->kind, &def, fit->y[set->first + i], &reason) == ZP_OK)
+      continue;
+    return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, zp_data_line(data, i), reason.message);
+  }
+  return ZP_OK;
+}
+
+/* -- standard deviations --------------------------------------------------------------------------- */
+
+/* "20 um" => SI; a bare number is SI. */
+static ZpStatus read_sigma_value(const char *text, const char *unit, double *value, ZpError *err) {
+  char number[64] = "";
+  ZpUnitScale scale = {.decimal = true};
+  const size_t length = strspn(text, "+-.0123456789eE");
+  if (length < sizeof number) memcpy(number, text, length);
+  const char *given = text + length + strspn(text + length, " \t");
+  if (!zp_number_read(number, value) || !(*value > 0) || !isfinite(*value))
+    return zp_fail(err, ZP_BAD_INPUT, "needs a number above 0 and its unit, %s", unit);
+  ZpStatus status = *given ? zp_unit_scale(given, unit, &scale, err) : ZP_OK;
+  if (status == ZP_OK)
+    *value = !scale.decimal       ? *value * scale.factor
+             : scale.exponent < 0 ? *value / pow(10, -scale.exponent)
+                                  : *value * pow(10, scale.exponent);
+  return status;
+}
+
+static int kind_called(const char *name) {
+  int kind = 0;
+  while (kind < ZP_FIT_KINDS && strcmp(zp_fit_number[kind].column, name) != 0)
+    kind++;
+  return kind;
+}
+
+/* "stroke = 20 um", in place. */
+static ZpStatus read_sigma_of(Reading *r, char *part) {
+  char *equals = strchr(part, '=');
+  ZpError reason;
+  if (!equals)
+    return zp_fail(r->err, ZP_BAD_INPUT, "calibrate.sigma: \"%.80s\": write stroke = 20 um; frequency = 0.1 Hz", part);
+  *equals = 0;
+  const char *name = zp_trim(part), *text = zp_trim(equals + 1);
+  const int kind = kind_called(name);
+  if (kind == ZP_FIT_KINDS)
+    return zp_fail(r->err, ZP_BAD_INPUT,
+                   "calibrate.sigma: %.60s: takes stroke, opening, capacitance, force, zip_time, pull_in_voltage, "
+                   "release_voltage or frequency",
+                   name);
+  ZpStatus status = read_sigma_value(text, zp_fit_number[kind].unit, &r->sigma[kind], &reason);
+  if (status == ZP_OK) return ZP_OK;
+  return zp_fail(r->err, status, "calibrate.sigma: %s = \"%.60s\": %.200s", name, text, reason.message);
+}
+
+static ZpStatus read_sigma_key(Reading *r) {
+  char list[ZP_TEXT_SIZE], *rest = list;
+  ZpStatus status = ZP_OK;
+  memcpy(list, r->fit->def->calibrate.sigma, sizeof list);
+  for (int kind = 0; kind < ZP_FIT_KINDS; kind++)
+    r->sigma[kind] = NAN;
+  for (char *part = strsep(&rest, ";"); part && status == ZP_OK; part = strsep(&rest, ";"))
+    if (part[strspn(part, " \t")]) status = read_sigma_of(r, part);
+  return status;
+}
+
+/* Does a column have the standard deviations of a kind by its name: "sigma_stroke_mm"? */
+static bool is_sigma_of(const char *name, int kind) {
+  const char *stem = zp_fit_number[kind].column;
+  const size_t length = strlen(stem);
+  if (strncasecmp(name, "sigma_", 6) != 0 || strncasecmp(name + 6, stem, length) != 0) return false;
+  return name[6 + length] == 0 || name[6 + length] == '_';
+}
+
+static bool is_sigma_of_any(const char *name) {
+  for (int kind = 0; kind < ZP_FIT_KINDS; kind++)
+    if (is_sigma_of(name, kind)) return true;
+  return false;
+}
+
+/* The column with the standard deviations of a kind; -1 if there is none: "sigma_stroke_mm", or "sigma_mm". */
+static int find_sigma(const ZpData *data, ZpFitKind kind) {
+  int plain = -1;
+  for (int column = (int)data->columns - 1; column >= 0; column--) {
+    const char *name = data->cell[column];
+    if (is_sigma_of(name, (int)kind)) return column;
+    if (strncasecmp(name, "sigma", 5) == 0 && !is_sigma_of_any(name)) plain = column;
+  }
+  return plain;
+}
+
+/* The unit in the name of such a column; false if it is none of what is measured. */
+static bool find_sigma_unit(const char *name, ZpFitKind kind, double *factor, double *divisor) {
+  const size_t length = strlen(zp_fit_number[kind].column);
+  const bool named = is_sigma_of(name, (int)kind);
+  if (named) name += 6 + length; /* "_mm" */
+  return zp_data_unit(name, named ? "" : "sigma", zp_fit_number[kind].unit, factor, divisor);
+}
+
+static ZpStatus read_sigma_column(const ZpFitSet *set, const ZpData *data, int column, double *sigma, ZpError *err) {
+  const char *name = data->cell[column], *unit = zp_fit_number[set->kind].unit;
+  double factor, divisor;
+  if (!find_sigma_unit(name, set->kind, &factor, &divisor))
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: not in a unit of what is measured, %s", name, unit);
+  for (size_t i = 0; i < set->rows; i++) {
+    ZpStatus status = zp_data_number(data, i, (size_t)column, &sigma[i], err);
+    if (status != ZP_OK) return status;
+    sigma[i] = sigma[i] * factor / divisor;
+    if (!(sigma[i] > 0))
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: column %.60s: a standard deviation must be above 0", data->path,
+                     zp_data_line(data, i), name);
+  }
+  return ZP_OK;
+}
+
+/* Of a column of the file, else of calibrate.sigma, else NAN. */
+static ZpStatus read_sigma(Reading *r, const ZpFitSet *set, const Measured *measured) {
+  const ZpData *data = measured->data;
+  double *sigma = r->fit->sigma + set->first;
+  const int column = find_sigma(data, set->kind);
+  if (column >= 0 && measured->columns > 1 && !is_sigma_of(data->cell[column], (int)set->kind))
+    return zp_fail(r->err, ZP_BAD_INPUT,
+                   "%.200s: column %.60s: several columns are measured; name what it belongs to, as in sigma_%s_%s",
+                   data->path, data->cell[column], zp_fit_number[set->kind].column, zp_fit_number[set->kind].unit);
+  if (column >= 0) return read_sigma_column(set, data, column, sigma, r->err);
+  for (size_t i = 0; i < set->rows; i++)
+    sigma[i] = r->sigma[set->kind];
+  return ZP_OK;
+}
+
+/* Either all rows have a standard deviation, or none has one and all are of one kind: nothing else says how many
+ * millimetres weigh as much as a volt. */
+static ZpStatus check_sigmas(Reading *r) {
+  ZpFit *fit = r->fit;
+  size_t missing = 0;
+  const ZpFitSet *without = NULL;
+  for (size_t i = 0; i < fit->sets; i++)
+    if (isnan(fit->sigma[fit->set[i].first])) {
+      without = without ? without : &fit->set[i];
+      missing++;
+    }
+  if (missing == 0) return ZP_OK;
+  if (missing == fit->sets && zp_fit_kinds(fit) == 1) {
+    free(fit->sigma);
+    fit->sigma = NULL;
+    return ZP_OK;
+  }
+  const ZpFitNumber *of = &zp_fit_number[without->kind];
+  return zp_fail(r->err, ZP_BAD_INPUT,
+                 "data.file: measurements of %s are weighted by their standard deviations, and %s has none: add a "
+                 "column sigma_%s_%s to its file, or give calibrate.sigma = \"%s = ... %s\"",
+                 zp_fit_kinds(fit) > 1 ? "several kinds" : "several files", of->column, of->column, of->unit,
+                 of->column, of->unit);
+}
+
+/* calibrate.sigma of what is not measured is misspelt or left over. */
+static ZpStatus check_sigma_key(const Reading *r) {
+  for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
+    bool measured = isnan(r->sigma[kind]);
+    for (size_t i = 0; i < r->fit->sets; i++)
+      measured = measured || (int)r->fit->set[i].kind == kind;
+    if (!measured)
+      return zp_fail(r->err, ZP_BAD_INPUT, "calibrate.sigma: %s is not measured: calibrate.y names no such column",
+                     zp_fit_number[kind].column);
+  }
+  return ZP_OK;
+}
+
+/* -- what was measured ----------------------------------------------------------------------------- */
+
+/* Whether a kind can be measured against what was set: over time only what a run shows; a weight is no force. */
+static bool is_possible(const ZpFitSet *set, ZpFitKind kind) {
+  if (set->x_key < 0) return !zp_fit_number[kind].number;
+  return kind != ZP_FIT_FORCE || set->x_key != zp_key_find("load.mass");
+}
+
+/* The kind of a column by its name, and the unit; false if it is none. */
+static bool find_kind(ZpFitSet *set, const char *name, double *factor, double *divisor) {
+  for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
+    const ZpFitNumber *of = &zp_fit_number[kind];
+    set->kind = (ZpFitKind)kind;
+    if (is_possible(set, set->kind) && zp_data_unit(name, of->column, of->unit, factor, divisor)) return true;
+  }
+  return false;
+}
+
+static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
+  double factor, divisor;
+  const char *name = data->cell[column];
+  if (!find_kind(set, name, &factor, &divisor))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "calibrate.y: column %.60s: takes stroke, opening or capacitance with its unit; against a key, not "
+                   "over time, also zip_time, pull_in_voltage, release_voltage or frequency; against a key that is not "
+                   "the load, also force",
+                   name);
+  if (set->kind == ZP_FIT_OPENING && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
+  return read_column(fit, data, column, -1, factor, divisor, fit->y + set->first, err);
+}
+
+static bool is_length(const char *name) {
+  double factor, divisor;
+  return zp_data_unit(name, "stroke", "m", &factor, &divisor) || zp_data_unit(name, "opening", "m", &factor, &divisor);
+}
+
+static bool is_force(const char *name) {
+  double factor, divisor;
+  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor);
+}
+
+static ZpStatus read_set(Reading *r, ZpFitSet *set, const Measured *measured, int y) {
+  const ZpData *data = measured->data;
+  int x = measured->x;
+  if (is_length(data->cell[x]) && is_force(data->cell[y])) {
+    int stroke = x; /* the model takes a force and gives a stroke, whichever of them was set on the bench */
+    x = y;
+    y = stroke;
+  }
+  ZpStatus status = read_x(r->fit, set, data, x, r->err);
+  if (status == ZP_OK) status = read_others(r->fit, set, measured, x, r->err);
+  if (status == ZP_OK) status = read_y(r->fit, set, data, y, r->err);
+  if (status == ZP_OK) status = read_sigma(r, set, measured);
+  return status == ZP_OK ? check_rows(r->fit, set, data, r->err) : status;
+}
+
+static ZpStatus read_sets(Reading *r) {
+  ZpFit *fit = r->fit;
+  size_t row = 0;
+  ZpStatus status = ZP_OK;
+  if (fit->rows < (size_t)fit->n)
+    return zp_fail(r->err, ZP_BAD_INPUT, "data.file: %zu rows of data, fewer than the %d keys of calibrate.fit",
+                   fit->rows, fit->n);
+  fit->set = calloc(r->sets, sizeof *fit->set);
+  fit->x = calloc(fit->rows, sizeof *fit->x);
+  fit->y = calloc(fit->rows, sizeof *fit->y);
+  fit->sigma = calloc(fit->rows, sizeof *fit->sigma);
+  if (!fit->set || !fit->x || !fit->y || !fit->sigma) return zp_fail_memory(r->err);
+  for (size_t i = 0; i < r->files.count; i++)
+    for (int c = 0; c < r->measured[i].columns && status == ZP_OK; c++) {
+      ZpFitSet *set = &fit->set[fit->sets++];
+      set->first = row;
+      set->rows = r->measured[i].data->rows;
+      row += set->rows;
+      status = read_set(r, set, &r->measured[i], r->measured[i].y[c]);
+    }
+  if (status == ZP_OK) status = check_sigma_key(r);
+  return status == ZP_OK ? check_sigmas(r) : status;
+}
+
+static ZpStatus read_files(Reading *r) {
+  const ZpActuatorDef *def = r->fit->def;
+  ZpStatus status = zp_data_read_all("data.file", def->data.file, def->data.columns, &r->files, r->err);
+  if (status == ZP_OK) status = read_sigma_key(r);
+  if (status == ZP_OK) status = split_names(&r->x, "calibrate.x", def->calibrate.x, r->err);
+  if (status == ZP_OK) status = split_names(&r->y, "calibrate.y", def->calibrate.y, r->err);
+  if (status != ZP_OK) return status;
+  r->measured = calloc(r->files.count, sizeof *r->measured);
+  return r->measured ? ZP_OK : zp_fail_memory(r->err);
+}
+
+ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err) {
+  Reading reading = {.fit = fit, .err = err};
+  ZpStatus status = read_files(&reading);
+  if (status == ZP_OK) status = find_measured(&reading);
+  if (status == ZP_OK) status = read_sets(&reading);
+  free(reading.measured);
+  zp_data_files_destroy(&reading.files);
+  return status;
+}
