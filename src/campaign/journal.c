@@ -176,7 +176,7 @@ static bool open_reader(ZpJournal *journal) {
 ZpJournal *zp_journal_reader(const ZpJournal *journal) {
   ZpJournal *reader = journal->open ? NULL : calloc(1, sizeof *reader);
   if (!reader) return NULL;
-  reader->row.result.study = journal->row.result.study;
+  reader->row.study = journal->row.study;
   reader->path = strdup(journal->path);
   if (reader->path && open_reader(reader)) return reader;
   zp_journal_close(reader);
