@@ -2,6 +2,9 @@
  * on a spring, and their energy. docs/theory.md, section 31. */
 #include "check_util.h"
 
+#include "actuator/model.h"
+#include "rest/antagonists.h"
+
 static const double pi = 3.14159265358979323846;
 
 #define BOTH                                                                                                           \
@@ -68,6 +71,42 @@ START_TEST(stiffness_is_the_slope_of_the_force) {
   less.load.force = -force;
   double moved = last_of(ZP_STUDY_EQUILIBRIUM, &more, "opening_m") - last_of(ZP_STUDY_EQUILIBRIUM, &less, "opening_m");
   ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m"), 2 * force / moved, 1e-5);
+}
+END_TEST
+
+/* The largest of so many. */
+static double largest_of(const double *r, size_t n) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = fmax(most, fabs(r[i]));
+  return most;
+}
+
+/* What the branch is told of the voltage is how the forces go with it, of both. */
+START_TEST(voltage_moves_the_residual) {
+  static const double little = 1e-2; /* V */
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"stack.voltage_ratio", 0.6});
+  ZpModel *model = model_of(&def);
+  ZpAntagonists both;
+  ck_assert(zp_antagonists_open(&both, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_antagonists_hang(&both).end));
+  ck_assert(zp_newton_good(zp_antagonists_settle(&both, 1500).end));
+  const ZpBranchSystem *system = &both.system;
+  size_t n = system->at_rest.n;
+  double *up = calloc(3 * n, sizeof *up), *down = up + n, *by = down + n;
+  system->at_rest.residual(&both, by, NULL);
+  system->sensitivity(&both, by);
+  system->set(&both, 1500 + little);
+  system->at_rest.residual(&both, up, NULL);
+  system->set(&both, 1500 - little);
+  system->at_rest.residual(&both, down, NULL);
+  double most = largest_of(by, n);
+  for (size_t i = 0; i < n; i++)
+    up[i] = (up[i] - down[i]) / (2 * little) - by[i];
+  ck_below(largest_of(up, n) / most, 1e-4);
+  free(up);
+  zp_antagonists_close(&both);
+  zp_model_destroy(model);
 }
 END_TEST
 
@@ -260,6 +299,7 @@ int main(void) {
   tcase_add_test(rest, equal_ones_rest_in_the_middle);
   tcase_add_test(rest, small_stiffness_is_that_of_beams);
   tcase_add_test(rest, stiffness_is_the_slope_of_the_force);
+  tcase_add_test(rest, voltage_moves_the_residual);
   tcase_add_test(rest, forces_of_each_alone_balance);
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
   tcase_add_test(rest, upside_down_they_change_places);

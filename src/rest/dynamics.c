@@ -170,7 +170,7 @@ static size_t first_link(const ZpDynamics *d) {
 }
 
 /* Eq. (29.2): each pulls the platform below it up and that above it down, and both are where the other is; of
- * antagonists, eq. (29.4), it opens both. */
+ * antagonists, eq. (31.3), it opens both. */
 static void add_links(const ZpDynamics *d, const double *q1, double *f) {
   size_t link = first_link(d);
   for (const ZpDynamics *m = d->below; m; m = m->below, link++) {
