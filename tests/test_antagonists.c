@@ -185,6 +185,21 @@ START_TEST(middle_is_lost_where_both_slopes_vanish) {
 }
 END_TEST
 
+/* The upper one closes at the highest voltage of all states of rest on the way there. */
+START_TEST(one_closes_where_the_way_is_highest) {
+  ZpActuatorDef def =
+      DEF(BOTH, {"mesh.nodes", 121}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
+  ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  double closing = zp_result_get(result, "closing_voltage_V"), highest = 0;
+  ck_assert_double_gt(closing, zp_result_get(result, "pull_in_voltage_V"));
+  for (size_t row = 0; zp_table_get(result->series, row, "opening_m") > 0.2e-3; row++)
+    highest = fmax(highest, zp_table_get(result->series, row, "voltage_V"));
+  ck_assert_double_ge(closing, highest);
+  ck_near(closing, highest, 1e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Upside down both change their places. */
 START_TEST(upside_down_they_change_places) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.7e-3}), turned = def;
@@ -302,6 +317,7 @@ int main(void) {
   tcase_add_test(rest, voltage_moves_the_residual);
   tcase_add_test(rest, forces_of_each_alone_balance);
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
+  tcase_add_test(rest, one_closes_where_the_way_is_highest);
   tcase_add_test(rest, upside_down_they_change_places);
   tcase_add_test(rest, constant_voltage_is_that_ratio);
   tcase_add_test(rest, what_antagonists_lack_is_said);

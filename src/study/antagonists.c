@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "rest/antagonists.h"
+#include "rest/closing.h"
 #include "solve/fold.h"
 #include "study/notes.h"
 
@@ -37,7 +38,11 @@ typedef struct Follower {
   bool was_stable; /* at the last point */
   bool crossed;    /* the branch ends where another one crosses it */
   double crest;    /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
+  double highest;  /* of the voltage on the way, V, */
+  double before;   /* and until the last step */
   double pull_in;  /* V; NAN: there is none */
+  double closing;  /* V; NAN: neither has closed */
+  double start[2]; /* openings without voltage, m */
   ZpMargins margins;
   double *x, *y, *stress, *gap, *line_force, *field; /* the shape of both */
 } Follower;
@@ -161,8 +166,13 @@ static ZpStatus run(const ZpTask *task, size_t rows, size_t frames, void (*find)
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
-  Follower f = {
-      .model = model, .task = task, .result = result, .crest = NAN, .pull_in = NAN, .margins = zp_margins_none()};
+  Follower f = {.model = model,
+                .task = task,
+                .result = result,
+                .crest = NAN,
+                .pull_in = NAN,
+                .closing = NAN,
+                .margins = zp_margins_none()};
   if (open_follower(&f, rows, frames))
     find(&f);
   else
@@ -188,15 +198,38 @@ ZpStatus zp_opposed_stationary(const ZpTask *task, ZpResult *result, ZpError *er
 
 /* -- equilibrium ------------------------------------------------------------------------------------ */
 
+/* Where the voltage was highest before it began to fall, V; NAN: it does not fall. */
+static double crest_of(Follower *f, double last, bool rose) {
+  if (!(f->both.branch.direction_m < 0)) return NAN;
+  return rose ? zp_branch_limit(&f->both.branch) : last;
+}
+
 /* A limit point is a crest of the voltage. The load pulls in at the first one from which the branch goes down by more
  * than the ripple of a mesh => pull_in. */
-static void look_for_crest(Follower *f) {
-  double voltage = upper(f)->U;
-  bool falls = f->both.branch.direction_m < 0;
+static void look_for_crest(Follower *f, double last, bool rose) {
+  double voltage = upper(f)->U, crest = crest_of(f, last, rose);
+  f->highest = fmax(f->highest, fmax(voltage, crest));
   if (!isnan(f->pull_in)) return;
-  if (isnan(f->crest) && falls) f->crest = zp_branch_limit(&f->both.branch);
+  if (isnan(f->crest)) f->crest = crest;
   if (voltage > f->crest) f->crest = NAN;
   if (voltage < (1 - ZP_FOLD_RIPPLE) * f->crest) f->pull_in = f->crest;
+}
+
+/* How far the nearer of both is from counting as closed, m. */
+static double left_to_close(Follower *f) {
+  double left[2];
+  for (int which = 0; which < 2; which++) {
+    const ZpStatics *s = &f->both.of[which].statics;
+    left[which] = zp_statics_opening(s) - zp_closing_limit(s, f->start[which]);
+  }
+  return fmin(left[0], left[1]);
+}
+
+/* As the voltage rises slowly one has closed once it is as high as it was anywhere on the way to there => closing. */
+static void look_for_closing(Follower *f, double last, double was_left) {
+  double left = left_to_close(f), share = was_left / (was_left - left);
+  if (!isnan(f->closing) || left > 0 || !(was_left > 0)) return;
+  f->closing = fmax(f->before, last + share * (upper(f)->U - last));
 }
 
 static bool is_beyond_top(void *user) {
@@ -222,12 +255,16 @@ static void end_at_crossing(Follower *f) {
 
 /* One step along the branch. => has it come to its end? */
 static bool advance(Follower *f) {
+  double last = upper(f)->U, left = left_to_close(f);
+  bool rose = f->both.branch.direction_m > 0;
+  f->before = f->highest;
   if (!zp_branch_advance(&f->both.branch)) {
     end_at_crossing(f);
     return true;
   }
   if (upper(f)->U < 0) return true;
-  look_for_crest(f);
+  look_for_crest(f, last, rose);
+  look_for_closing(f, last, left);
   bool top = is_beyond_top(f);
   if (top) arrive(f);
   record(f);
@@ -243,6 +280,9 @@ static void describe(Follower *f) {
              r->outcome == ZP_BRANCH_LOST ? "; the branch could not be followed to its end" : "");
   else
     snprintf(r->message, sizeof r->message, "%s at %.4g V", how, f->pull_in);
+  size_t used = strlen(r->message);
+  if (!isnan(f->closing))
+    snprintf(r->message + used, sizeof r->message - used, ", one of both closes at %.4g V", f->closing);
   if (f->crossed)
     zp_result_note(
         r,
@@ -253,6 +293,8 @@ static void describe(Follower *f) {
 
 static void follow(Follower *f) {
   f->result->outcome = ZP_FOLLOWED;
+  f->start[0] = zp_statics_opening(upper(f));
+  f->start[1] = zp_statics_opening(lower(f));
   record(f);
   bool ends = f->model->def.drive.voltage == 0 || !zp_antagonists_follow(&f->both);
   for (int k = 0; k < MOST_POINTS && !ends; k++)
@@ -275,8 +317,10 @@ static void find_equilibria(Follower *f) {
   ZpResult *r = f->result;
   const size_t first = r->scalars;
   zp_result_add(r, "pull_in_voltage_V", "V", NAN);
+  zp_result_add(r, "closing_voltage_V", "V", NAN);
   find_branch(f);
   r->scalar[first].value = f->pull_in;
+  r->scalar[first + 1].value = f->closing;
   zp_result_add(r, "points", "count", f->points);
   zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
   zp_margins_join(&f->margins, zp_margins_at_clip(f->model->below, lower(f)->U));
