@@ -276,6 +276,18 @@ START_TEST(energy_of_a_zip_against_the_other) {
 }
 END_TEST
 
+/* Without weight either one closes in the same way, with the load and the other one behind it. */
+START_TEST(either_one_may_close) {
+  ZpActuatorDef upper = DEF(BOTH, {"gravity", 0}, {"load.mass", 0.5e-3}, {"drive.voltage", 10e3},
+                            {"stack.voltage_ratio", 0.2}, {"solver.end_time", 2}),
+                lower = upper;
+  lower.drive.voltage = 2e3;
+  lower.stack.voltage_ratio = 5;
+  ck_near(answered_value(ZP_STUDY_ACTUATE, &lower, "member_2_zip_time_s"),
+          answered_value(ZP_STUDY_ACTUATE, &upper, "member_1_zip_time_s"), 1e-6);
+}
+END_TEST
+
 /* -- what is refused ------------------------------------------------------------------------------- */
 
 START_TEST(what_antagonists_lack_is_said) {
@@ -325,6 +337,7 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, at_rest_they_stay, 0, 2);
   tcase_add_test(motion, load_swings_on_both);
+  tcase_add_test(motion, either_one_may_close);
   tcase_add_loop_test(motion, energy_of_a_zip_against_the_other, 0, 3);
   suite_add_tcase(suite, motion);
   return run_suite(suite);
