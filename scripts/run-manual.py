@@ -41,6 +41,7 @@ PICTURES = {
     "hold.svg": "hold/plots/interface.svg",
     "meter.svg": "meter/plots/sense.svg",
     "stack.svg": "stack/plots/members.svg",
+    "antagonists.svg": "antagonists/plots/shapes.svg",
     "pre-opened.svg": "pre-opened/plots/shapes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
     "hinge.svg": "hinge-torque/plots/torques.svg",

@@ -241,7 +241,11 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->platform.length = 0;
   }
   if (strncmp(key, "member_", 7) == 0) def->stack.series = 8;
-  if (strcmp(key, "stack.link_mass") == 0) def->stack.series = 2;
+  bool opposed = strcmp(key, "stack.distance") == 0;
+  if (strcmp(key, "stack.voltage_ratio") == 0 || strcmp(key, "stack.lower_voltage") == 0)
+    opposed = true, def->stack.distance = 0.05;
+  if (strcmp(key, "stack.link_mass") == 0 || opposed) def->stack.series = 2;
+  if (strcmp(key, "stack.distance") == 0) def->ribbon.length = fmin(fmax(value + def->platform.length, 0.1), 10);
   if (strncmp(key, "member_", 7) == 0 && strstr(key, "insulator.thickness") && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
   if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;

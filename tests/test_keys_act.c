@@ -30,6 +30,11 @@
 #define EIGHT        SLIGHT " stack.series=8"
 #define EIGHT_CLOSED UNCAPPED " stack.series=8"
 
+/* Two at one load in the middle, looked at before anything moves. */
+#define OPPOSED                                                                                                        \
+  "study=actuate gravity=0 stack.series=2 stack.distance=10mm mesh.nodes=21 drive.voltage=2kV solver.end_time=1ns "    \
+  "liquid.model=none"
+
 /* Frequencies of a strip in no gravity. */
 #define TUNED                                                                                                          \
   "study=modes actuator.kind=ribbon actuator.right_end=guided gravity=0 load.mass=0 ribbon.length=20mm mesh.nodes=21"
@@ -431,6 +436,14 @@ static const Row rows[] = {
     {"stack.series", PAIR, "1", "2", {{TIMES, "opening_m", 2, 1e-9}}},
     {"stack.parallel", SLIGHT, "1", "2", {{TIMES, "opening_m", 0.5, 1e-4}}},
     {"stack.link_mass", SLIGHT " stack.series=2", "0", "0.1mg", {{TIMES, "opening_m", 1.5, 1e-4}}},
+    /* without weight both open alike; the half voltage of both is a quarter of the energy */
+    {"stack.distance",
+     "study=stationary gravity=0 stack.series=2 mesh.nodes=21",
+     "10mm",
+     "20mm",
+     {{TIMES, "opening_m", 2, 1e-9}}},
+    {"stack.voltage_ratio", OPPOSED, "0", "1", {{TIMES, "charge_C", 2, 1e-9}}},
+    {"stack.lower_voltage", OPPOSED, "2kV", "1kV", {{TIMES, "charge_C", 0.75, 1e-9}}},
     {"member_1.ribbon.thickness", EIGHT, "50um", "100um", {{TIMES, "opening_m", (7 + 1.0 / 8) / 8, 1e-4}}},
     {"member_1.ribbon.young_modulus", EIGHT, "200GPa", "100GPa", {{TIMES, "opening_m", 9.0 / 8, 1e-4}}},
     {"member_1.insulator.thickness", EIGHT_CLOSED, "130um", "65um", {{TIMES, "capacitance_F", 9.0 / 8, 1e-6}}},

@@ -758,13 +758,19 @@ static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *tabl
   for (int member = def->stack.series; member >= 1; member--) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpModel *model;
-    ZpStatus status = create_one(&one, table, member > 1, &model, err);
+    bool opposed = zp_def_opposed(def), follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
+    ZpStatus status = create_one(&one, follows ? table : NULL, member > 1 && !opposed, &model, err);
     if (status != ZP_OK) {
       zp_model_destroy(below);
       return status;
     }
     model->below = below;
-    if (below) model->carried = mass_from_here(below);
+    if (opposed) {
+      model->distance = def->stack.distance;
+      model->bias = zp_def_lower_voltage(def, 0);
+      model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
+    }
+    if (below && !opposed) model->carried = mass_from_here(below);
     below = model;
   }
   ZpStatus status = below ? check_carried(below, err) : ZP_OK;

@@ -109,6 +109,8 @@ struct ZpModel {
   void *memory;         /* the block that holds the arrays */
   ZpModel *below;       /* of a series: the member that hangs on this one's lower platform; NULL: none */
   double carried;       /* mass of all members and loads below, kg, of the whole actuator */
+  double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
+  double ratio, bias;   /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
 };
 
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
@@ -202,9 +204,19 @@ static inline double zp_load_pull(const ZpModel *model) {
   return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);
 }
 
-/* The lowest member of a series, on which the load hangs. */
+/* Two that pull at one load from opposite sides? */
+static inline bool zp_is_opposed(const ZpModel *model) {
+  return model->distance > 0;
+}
+
+/* Voltage of the lower antagonist where the upper one has `voltage`, V. */
+static inline double zp_opposed_voltage(const ZpModel *model, double voltage) {
+  return model->ratio * voltage + model->bias;
+}
+
+/* The member of a series on which the load hangs: the lowest one, of antagonists the upper one. */
 static inline const ZpModel *zp_lowest(const ZpModel *model) {
-  while (model->below)
+  while (model->below && !zp_is_opposed(model))
     model = model->below;
   return model;
 }
@@ -219,7 +231,7 @@ static inline size_t zp_members(const ZpModel *model) {
 
 /* Is it a member of a series? */
 static inline bool zp_in_series(const ZpModel *model) {
-  return model->below || model->topology.platform.kind == ZP_JOINT_LINK;
+  return model->below || model->topology.platform.kind == ZP_JOINT_LINK || zp_is_opposed(model);
 }
 
 /* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (29.1). */

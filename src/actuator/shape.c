@@ -92,3 +92,8 @@ ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
 ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
   return model->s == 2 ? fields_at(model, voltage, 0, 0) : zp_margins_none();
 }
+
+void zp_shape_turn_over(const ZpModel *model, double *y) {
+  for (size_t j = 0; j < model->count; j++)
+    y[j] = -model->distance - y[j];
+}

@@ -26,6 +26,9 @@ bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i);
 /* A shape whose time, voltage, positions and, with electrodes, gaps are known => the rest of it, in `room`. */
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape);
 
+/* Heights of the lower one of two antagonists, in its own frame upside down => as they are below the upper one. */
+void zp_shape_turn_over(const ZpModel *model, double *y);
+
 /* The worst that materials see; places are lengths along the ribbon from the clip or clamp. */
 typedef struct ZpMargins {
   double insulator, insulator_place; /* V/m, m; NAN: there is no insulator between electrodes */

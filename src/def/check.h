@@ -37,8 +37,14 @@ bool zp_def_has_two(const ZpActuatorDef *def);
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 
 /* Member 1 .. stack.series of a series, alone: as the others, but where member_K.* says otherwise. The last one carries
- * load.mass and load.force, the others a link. */
+ * load.mass and load.force, the others a link; of antagonists the first one carries them, and the last one is upside
+ * down. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
+
+/* Are the two members of a series antagonists, between mounts at stack.distance? Voltage of the lower one where the
+ * upper one has `voltage`, V. */
+bool zp_def_opposed(const ZpActuatorDef *def);
+double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
 
 /* What a stack asks of other keys; may all members of a series have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);

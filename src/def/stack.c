@@ -18,6 +18,25 @@ static int member_of(int key) {
   return is_in ? 1 + (int)((offset - first.first) / first.size) : 0;
 }
 
+bool zp_def_opposed(const ZpActuatorDef *def) {
+  return !isnan(def->stack.distance);
+}
+
+double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage) {
+  return isnan(def->stack.lower_voltage) ? def->stack.voltage_ratio * voltage : def->stack.lower_voltage;
+}
+
+/* The lower one of two antagonists as it is turned upside down: gravity points from its platform to its mount, and the
+ * load is the other's. */
+static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
+  double upside_down = zp_key(zp_key_find("mount.tilt"))->max;
+  one->mount.tilt = fabs(def->mount.tilt) < 0.5 * upside_down ? upside_down : 0;
+  one->load.mass = one->load.force = 0;
+  one->drive.offset *= def->stack.voltage_ratio;
+  one->drive.voltage = zp_def_lower_voltage(def, def->drive.voltage);
+  if (!isnan(def->stack.lower_voltage)) one->drive.waveform = ZP_WAVEFORM_STEP;
+}
+
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def;
   bool last = member == def->stack.series;
@@ -29,6 +48,12 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   }
   one.stack.series = 1;
   one.stack.link_mass = 0;
+  one.stack.distance = one.stack.lower_voltage = NAN;
+  one.stack.voltage_ratio = 1;
+  if (zp_def_opposed(def)) {
+    if (last) turn_over(def, &one);
+    return one;
+  }
   if (!last) one.load.mass = def->stack.link_mass;
   if (!last) one.load.force = 0;
   return one;
@@ -47,6 +72,39 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "stack.link_mass = %g kg: requires stack.series of at least 2",
                    def->stack.link_mass);
   return ZP_OK;
+}
+
+/* Each of two antagonists opens at most to its length. */
+static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
+  static const double part = 0.98; /* at which study isometric holds a platform at most */
+  double most = 2 * part * (def->ribbon.length - def->platform.length);
+  if (def->stack.distance <= most) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "stack.distance = %g m: two ribbons of ribbon.length = %g m with their platforms span at most %g m",
+                 def->stack.distance, def->ribbon.length, most);
+}
+
+/* What the keys of antagonists ask of others. */
+static ZpStatus check_opposed(const ZpActuatorDef *def, ZpError *err) {
+  bool opposed = zp_def_opposed(def), bias = !isnan(def->stack.lower_voltage), alike = def->stack.voltage_ratio == 1;
+  const struct {
+    bool given;
+    const char *says;
+  } wrong[] = {
+      {!opposed && bias, "stack.lower_voltage: requires stack.distance, of antagonists"},
+      {!opposed && !alike, "stack.voltage_ratio: requires stack.distance, of antagonists"},
+      {opposed && def->stack.series != 2, "stack.distance: requires stack.series 2, the two antagonists"},
+      {opposed && bias && !alike, "stack.lower_voltage: give it or stack.voltage_ratio, not both"},
+      {opposed && def->stack.link_mass > 0, "stack.link_mass: requires stack.distance none; what both antagonists move "
+                                            "is load.mass"},
+      {opposed && !alike && def->drive.waveform == ZP_WAVEFORM_TABLE,
+       "stack.voltage_ratio: requires a drive.waveform other than table"},
+      {opposed && def->initial.state == ZP_INITIAL_STRAIGHT,
+       "stack.distance: requires initial.state equilibrium; ribbons that are all straight do not reach the load"},
+  };
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
+    if (wrong[k].given) return zp_fail(err, ZP_BAD_INPUT, "%s", wrong[k].says);
+  return opposed ? check_distance(def, err) : ZP_OK;
 }
 
 /* What is not known of a series. */
@@ -93,6 +151,7 @@ ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
                    def->stack.series > 1 ? "series" : "parallel",
                    def->stack.series > 1 ? def->stack.series : def->stack.parallel);
   ZpStatus status = check_members(def, err);
+  if (status == ZP_OK) status = check_opposed(def, err);
   return status == ZP_OK && def->stack.series > 1 ? check_series(def, err) : status;
 }
 
@@ -101,7 +160,8 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
   for (int member = 1; member <= def->stack.series && status == ZP_OK; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
-    status = zp_def_check_voltage(&one, voltage, &reason);
+    bool turned = zp_def_opposed(def) && member == 2;
+    status = zp_def_check_voltage(&one, turned ? zp_def_lower_voltage(def, voltage) : voltage, &reason);
     if (status != ZP_OK) zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
   }
   return status;

@@ -141,17 +141,27 @@ static void force_of_one(ZpDynamics *d, const double *q1, double h, double *f) {
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
 }
 
-/* Platforms that a link joins: equations of the height of the lower one above it, and of the upper one below. */
+/* Platforms that a link joins: equations of the height of the lower one above it, and of the one below: the upper one,
+ * or of an antagonist, which is upside down, its lower one. The former height plus `sign` times the latter is
+ * `height`. */
 typedef struct Joined {
   size_t above, below;
+  double sign, height;
 } Joined;
+
+/* Which platform of the member below does a link join? */
+static size_t node_joined(const ZpModel *below) {
+  const ZpTopology *t = &below->topology;
+  return zp_is_opposed(below) ? zp_lower(t, t->platform.first) : zp_upper(t, t->platform.first);
+}
 
 /* By the link that member m hangs on. */
 static Joined joined_by(const ZpDynamics *m) {
-  const ZpTopology *above = &m->above->model->topology, *below = &m->model->topology;
+  const ZpTopology *above = &m->above->model->topology;
   int lower = m->above->assembly.equation[2 * zp_lower(above, above->platform.first) + 1];
-  int upper = m->assembly.equation[2 * zp_upper(below, below->platform.first) + 1];
-  return (Joined){m->above->at + (size_t)lower, m->at + (size_t)upper};
+  int other = m->assembly.equation[2 * node_joined(m->model) + 1];
+  return (Joined){m->above->at + (size_t)lower, m->at + (size_t)other, zp_is_opposed(m->model) ? 1 : -1,
+                  -m->model->distance};
 }
 
 /* Where the forces of links begin among the unknowns. */
@@ -159,14 +169,15 @@ static size_t first_link(const ZpDynamics *d) {
   return d->system.n - d->links;
 }
 
-/* Eq. (29.2): each pulls the platform below it up and that above it down, and both are where the other is. */
+/* Eq. (29.2): each pulls the platform below it up and that above it down, and both are where the other is; of
+ * antagonists, eq. (31.3), it opens both. */
 static void add_links(const ZpDynamics *d, const double *q1, double *f) {
   size_t link = first_link(d);
   for (const ZpDynamics *m = d->below; m; m = m->below, link++) {
     Joined joined = joined_by(m);
-    f[joined.below] += q1[link];
+    f[joined.below] -= joined.sign * q1[link];
     f[joined.above] -= q1[link];
-    f[link] = q1[joined.below] - q1[joined.above];
+    f[link] = joined.height - joined.sign * q1[joined.below] - q1[joined.above];
   }
 }
 
@@ -215,7 +226,7 @@ static void border_of_links(const ZpDynamics *d, ZpBordered *J) {
   memset(J->D, 0, J->border * J->border * sizeof *J->D);
   for (const ZpDynamics *m = d->below; m; m = m->below, link++) {
     Joined joined = joined_by(m);
-    *zp_bordered_at(J, joined.below, link) = *zp_bordered_at(J, link, joined.below) = -1;
+    *zp_bordered_at(J, joined.below, link) = *zp_bordered_at(J, link, joined.below) = joined.sign;
     *zp_bordered_at(J, joined.above, link) = *zp_bordered_at(J, link, joined.above) = 1;
   }
 }
@@ -235,12 +246,25 @@ static bool is_platform(const ZpDynamics *d, size_t i) {
   return i >= platform->first && i <= platform->last;
 }
 
-/* Mass of a neighbour's platform, its upper or its lower one, which a link joins to that of a member, kg; of none 0. */
-static double mass_joined(const ZpDynamics *neighbour, bool upper) {
-  if (!neighbour) return 0;
-  const ZpTopology *t = &neighbour->model->topology;
-  size_t i = t->platform.first;
-  return neighbour->model->mass[upper ? zp_upper(t, i) : zp_lower(t, i)];
+/* Mass of the platform above that the link of a member joins to its own, kg; of none 0. */
+static double mass_joined_above(const ZpDynamics *d) {
+  if (!d->above) return 0;
+  const ZpTopology *t = &d->above->model->topology;
+  return d->above->model->mass[zp_lower(t, t->platform.first)];
+}
+
+/* And below. */
+static double mass_joined_below(const ZpDynamics *d) {
+  return d->below ? d->below->model->mass[node_joined(d->below->model)] : 0;
+}
+
+/* What moves with the upper platform of a member, and with its lower one, kg. */
+static double mass_with_upper(const ZpDynamics *d) {
+  return zp_is_opposed(d->model) ? 0 : mass_joined_above(d);
+}
+
+static double mass_with_lower(const ZpDynamics *d) {
+  return d->added + mass_joined_below(d) + (zp_is_opposed(d->model) ? mass_joined_above(d) : 0);
 }
 
 /* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. Both ends
@@ -257,10 +281,10 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
   Pair pair = {zp_is_pair(t) ? equation[2 * upper + 1] : -1, equation[2 * lower + 1], 1, 0};
   if (pair.lower < 0) return pair;
-  double below = d->model->mass[lower] + (is_platform(d, i) ? d->added + mass_joined(d->below, true) : 0);
+  double below = d->model->mass[lower] + (is_platform(d, i) ? mass_with_lower(d) : 0);
   pair.reduced = below;
   if (pair.upper < 0) return pair;
-  double above = d->model->mass[upper] + (is_platform(d, i) ? mass_joined(d->above, false) : 0), both = above + below;
+  double above = d->model->mass[upper] + (is_platform(d, i) ? mass_with_upper(d) : 0), both = above + below;
   pair.upper_share = above / both;
   pair.reduced = above * below / both;
   return pair;
@@ -361,10 +385,10 @@ static double pushed(const ZpDynamics *d, bool *any) {
 
 /* All faces of one member that meet; its platforms move as those that links join to them do, before and after. */
 static void damp_one(ZpDynamics *top, ZpDynamics *m) {
-  if (m->above) top->v[joined_by(m).below] = top->v[joined_by(m).above];
+  if (m->above) top->v[joined_by(m).below] = -joined_by(m).sign * top->v[joined_by(m).above];
   for (size_t i = 1; i < m->model->nodes; i++)
     if (meets(m, i)) damp(m, i);
-  if (m->above) top->v[joined_by(m).above] = top->v[joined_by(m).below];
+  if (m->above) top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
 }
 
 /* The damper between faces that overlap at the step's end, and what is too fast for the step, which impacts make => the

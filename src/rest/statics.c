@@ -615,6 +615,12 @@ static void lay_two(ZpStatics *s) {
     spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
 }
 
+void zp_statics_put_platform(ZpStatics *s, double height) {
+  const ZpTopology *t = &s->model->topology;
+  double *y = s->q + s->model->stride;
+  spread(t, (Loop){t->platform.first, 0}, y[zp_load_node(t)] - height, y);
+}
+
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   turn_edges(s, step, fraction);

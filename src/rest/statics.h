@@ -76,6 +76,9 @@ bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
  * below its hinge (below L), without load and voltage, ever after; from the straight shape to the equilibrium there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
 
+/* Put the lower platform of a half at a height; what it moves is spread along the ribbons. */
+void zp_statics_put_platform(ZpStatics *statics, double height);
+
 /* The equation of the lower platform's height. */
 size_t zp_statics_platform(const ZpStatics *statics);
 

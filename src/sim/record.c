@@ -285,15 +285,21 @@ static const unsigned char of_series[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
                                                       [SIGNAL_insulator_field] = LARGEST,
                                                       [SIGNAL_max_stress] = LARGEST};
 
+/* Antagonists have one load: its place, and how the upper one is, are told of the upper one. */
+static bool is_of_upper(size_t signal) {
+  return signal == SIGNAL_stroke || signal == SIGNAL_opening || signal == SIGNAL_end_velocity ||
+         signal == SIGNAL_zipped_length;
+}
+
 /* The row of a member joins that of those above it. */
-static void join_row(double *row, const double *other) {
+static void join_row(bool opposed, double *row, const double *other) {
   for (size_t k = 0; k < SIGNAL_COUNT; k++) {
     double values[] = {[SUM] = row[k] + other[k],
                        [FIRST] = row[k],
                        [LAST] = other[k],
                        [LARGEST] = fmax(row[k], other[k]),
                        [LEAST] = fmin(row[k], other[k])};
-    row[k] = values[of_series[k]];
+    row[k] = values[opposed && is_of_upper(k) ? FIRST : of_series[k]];
   }
 }
 
@@ -301,13 +307,14 @@ static void join_row(double *row, const double *other) {
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
   if (!sim->below) return;
+  const bool opposed = zp_is_opposed(sim->model);
   double *row = sim->row, *opening = row + SIGNAL_COUNT, whole = sim->state->opening0;
   *opening++ = row[SIGNAL_opening];
   for (ZpSim *m = sim->below; m; m = m->below) {
     fill_own_row(m, what);
     *opening++ = m->row[SIGNAL_opening];
-    whole += m->state->opening0;
-    join_row(row, m->row);
+    if (!opposed) whole += m->state->opening0;
+    join_row(opposed, row, m->row);
     if (what & MARGINS) zp_margins_join(&sim->now, m->now);
   }
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;
@@ -427,6 +434,7 @@ ZpShape zp_sim_shape(ZpSim *sim) {
     ZpShape one = shape_of(m);
     put_member(model, &one, member, room);
   }
+  if (zp_is_opposed(model)) zp_shape_turn_over(sim->below->model, room[1] + model->count);
   shape.x = room[0];
   shape.y = room[1];
   shape.stress = room[2];

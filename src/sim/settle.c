@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "rest/antagonists.h"
 #include "rest/rest.h"
 #include "ribbon/rod_plastic.h"
 #include "sim/hooks.h"
@@ -130,7 +131,7 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   double *q = sim->relax_work;
   bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
-  if (goes_on) return true;
+  if (goes_on || zp_is_opposed(model)) return true;                 /* antagonists come to rest together */
   /* of one straight ribbon neither a start nor a reference is needed */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
@@ -145,4 +146,27 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);
   return true;
+}
+
+/* One of two antagonists, where they have come to rest. */
+static void start_antagonist(ZpSim *sim, const ZpStatics *rest) {
+  sim->state->opening0 = zp_statics_opening(rest);
+  start_at(sim, rest->q);
+}
+
+bool zp_sim_settle_antagonists(ZpSim *sim, const ZpHooks *hooks) {
+  ZpAntagonists both;
+  bool opened = zp_antagonists_open(&both, sim->model, NULL, NULL);
+  if (opened) {
+    zp_antagonists_watch(&both, stop_hanging, (void *)hooks);
+    ZpNewtonInfo info = zp_antagonists_hang(&both);
+    bool stopped = zp_antagonists_stopped(&both);
+    sim->settle_steps = info.iterations;
+    sim->settle_residual = info.residual;
+    if (!zp_newton_good(info.end)) sim->settled = stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+    start_antagonist(sim, &both.of[0].statics);
+    start_antagonist(sim->below, &both.of[1].statics);
+  }
+  zp_antagonists_close(&both);
+  return opened;
 }

@@ -138,7 +138,8 @@ static void hang_below(const ZpSim *above, ZpSim *sim) {
     y[j] += fall;
 }
 
-/* The members below, each at rest on the one above. False if there is no memory. */
+/* The members below, each at rest on the one above; antagonists at rest against each other. False if there is no
+ * memory. */
 static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   size_t members = zp_members(sim->model), k = 0;
   sim->states = zp_calloc(members, sizeof(ZpState *));
@@ -148,11 +149,11 @@ static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   for (ZpSim *above = sim; above->model->below; above = above->below) {
     above->below = create_one(above->model->below, false, hooks);
     if (!above->below) return false;
-    hang_below(above, above->below);
+    if (!zp_is_opposed(sim->model)) hang_below(above, above->below);
     sim->states[k++] = above->below->state;
     if (above->below->settled != ZP_REACHED_END) sim->settled = above->below->settled;
   }
-  return true;
+  return !zp_is_opposed(sim->model) || zp_sim_settle_antagonists(sim, hooks);
 }
 
 /* What a simulation starts with. */
@@ -287,7 +288,10 @@ static bool has_closed(const ZpModel *model, const ZpState *state) {
   return state->zip.platform || zp_state_motion(model, state).vy[zp_load_node(&model->topology)] <= 0;
 }
 
+/* Of a series all have; of antagonists one does. */
 static bool closed(const ZpSim *sim) {
+  if (zp_is_opposed(sim->model))
+    return has_closed(sim->model, sim->state) || has_closed(sim->below->model, sim->below->state);
   for (const ZpSim *m = sim; m; m = m->below)
     if (!has_closed(m->model, m->state)) return false;
   return true;
@@ -575,6 +579,7 @@ double zp_sim_starved_time(const ZpSim *sim) {
 
 double zp_sim_zip_time(const ZpSim *sim) {
   double last = sim->state->zip_time;
+  if (zp_is_opposed(sim->model)) return fmin(last, sim->below->state->zip_time);
   for (const ZpSim *m = sim->below; m; m = m->below)
     last = m->state->zip_time > last || isnan(m->state->zip_time) ? m->state->zip_time : last;
   return last;

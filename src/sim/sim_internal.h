@@ -114,6 +114,9 @@ struct ZpSim {
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
+/* The same of antagonists, which are at rest against each other. */
+bool zp_sim_settle_antagonists(ZpSim *sim, const ZpHooks *hooks);
+
 /* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 

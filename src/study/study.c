@@ -1,6 +1,8 @@
 /* Which study is run: the table of studies.def. It stands above the studies; none of them includes what is here. */
 #include "base/fail.h"
+#include "def/check.h"
 #include "sim/hooks.h"
+#include "study/antagonists.h"
 #include "study/estimate.h"
 #include "study/series.h"
 
@@ -37,12 +39,18 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
-/* What fills the result of a study of this definition; NULL: it does not know actuators in series. */
+/* What fills the result of a study of this definition; NULL: it does not know actuators in series, or
+ * antagonists. */
 static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
   static const ZpStudyRun in_series[ZpStudy_COUNT] = {
 #define ZP_IN_SERIES(enumerator, run) [enumerator] = run,
 #include <zipact/studies.def>
   };
+  static const ZpStudyRun opposed[ZpStudy_COUNT] = {
+#define ZP_OPPOSED(enumerator, run) [enumerator] = run,
+#include <zipact/studies.def>
+  };
+  if (zp_def_opposed(def)) return opposed[study];
   return def->stack.series > 1 ? in_series[study] : table[study].run;
 }
 
@@ -62,6 +70,10 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (status != ZP_OK) return status;
   if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
+  if (!run_of(study, def) && zp_def_opposed(def))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "stack.distance = %g m: study %s does not know antagonists; stationary, equilibrium and actuate do",
+                   def->stack.distance, table[study].word);
   if (!run_of(study, def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; use stack.series 1",
                    def->stack.series, table[study].word);

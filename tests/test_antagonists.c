@@ -1,0 +1,344 @@
+/* Two actuators that pull at one load: at rest against beams, symmetry and each of them alone; in motion against a mass
+ * on a spring, and their energy. docs/theory.md, section 31. */
+#include "check_util.h"
+
+#include "actuator/model.h"
+#include "rest/antagonists.h"
+
+static const double pi = 3.14159265358979323846;
+
+#define BOTH                                                                                                           \
+  {"stack.series", 2}, {"stack.distance", 20e-3}, {                                                                    \
+    "mesh.nodes", 31                                                                                                   \
+  }
+
+/* A number in the last row of a study's table. */
+static double last_of(ZpStudy study, const ZpActuatorDef *def, const char *column) {
+  ZpResult *result = answer_of(study, def);
+  double value = zp_table_get(result->series, result->series->rows - 1, column);
+  zp_result_destroy(result);
+  return value;
+}
+
+/* -- at rest --------------------------------------------------------------------------------------- */
+
+/* Two that are alike are at rest in the middle at any voltage that both have, and move neither way; the capacitance is
+ * that of both. */
+START_TEST(equal_ones_rest_in_the_middle) {
+  ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"load.mass", 1e-3}, {"drive.voltage", 2e3});
+  ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  size_t rows = result->series->rows;
+  ck_assert_uint_ge(rows, 5);
+  for (size_t row = 0; row < rows; row++) {
+    ck_near(zp_table_get(result->series, row, "opening_m"), 10e-3, 1e-9);
+    ck_near(zp_table_get(result->series, row, "lower_opening_m"), 10e-3, 1e-9);
+    ck_assert_double_eq(zp_table_get(result->series, row, "stable"), 1);
+  }
+  ZpActuatorDef one = def;
+  one.stack.series = 1;
+  one.stack.distance = NAN;
+  one.isometric.separation = 10e-3;
+  ck_near(zp_table_get(result->series, rows - 1, "capacitance_F"),
+          2 * answered_value(ZP_STUDY_ISOMETRIC, &one, "capacitance_F"), 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Beams that hardly bend: each half of an actuator is two of them in a row, so both actuators hold the load by
+ * 24 EI / L^3, which its weight deflects by m g over that. Eq. (31.4). */
+START_TEST(small_stiffness_is_that_of_beams) {
+  ZpActuatorDef def = DEF({"stack.series", 2}, {"stack.distance", 0.4e-3}, {"ribbon.density", 0},
+                          {"insulator.density", 0}, {"insulator.young_modulus", 0}, {"load.mass", 0.01e-3});
+  const double nu = def.ribbon.poisson_ratio, b = def.ribbon.thickness,
+               L = 0.5 * (def.ribbon.length - def.platform.length);
+  double EI = def.ribbon.young_modulus / (1 - nu * nu) * def.ribbon.width * b * b * b / 12;
+  double stiffness = 24 * EI / (L * L * L), sag = def.load.mass * def.gravity / stiffness;
+  ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
+  ck_near(zp_result_get(result, "stiffness_N_per_m"), stiffness, 1e-3);
+  ck_near(zp_result_get(result, "opening_m") - 0.2e-3, sag, 1e-3);
+  ck_near(zp_result_get(result, "opening_m") + zp_result_get(result, "lower_opening_m"), 0.4e-3, 1e-9);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* The stiffness at a voltage is what a small force deflects the load by. */
+START_TEST(stiffness_is_the_slope_of_the_force) {
+  static const double force = 1e-6; /* N */
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 1.5e3}, {"stack.voltage_ratio", 0.6},
+                          {"solver.tolerance", 1e-6}),
+                more = def, less = def;
+  more.load.force = force;
+  less.load.force = -force;
+  double moved = last_of(ZP_STUDY_EQUILIBRIUM, &more, "opening_m") - last_of(ZP_STUDY_EQUILIBRIUM, &less, "opening_m");
+  ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m"), 2 * force / moved, 1e-5);
+}
+END_TEST
+
+/* The largest of so many. */
+static double largest_of(const double *r, size_t n) {
+  double most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = fmax(most, fabs(r[i]));
+  return most;
+}
+
+/* What the branch is told of the voltage is how the forces go with it, of both. */
+START_TEST(voltage_moves_the_residual) {
+  static const double little = 1e-2; /* V */
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"stack.voltage_ratio", 0.6});
+  ZpModel *model = model_of(&def);
+  ZpAntagonists both;
+  ck_assert(zp_antagonists_open(&both, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_antagonists_hang(&both).end));
+  ck_assert(zp_newton_good(zp_antagonists_settle(&both, 1500).end));
+  const ZpBranchSystem *system = &both.system;
+  size_t n = system->at_rest.n;
+  double *up = calloc(3 * n, sizeof *up), *down = up + n, *by = down + n;
+  system->at_rest.residual(&both, by, NULL);
+  system->sensitivity(&both, by);
+  system->set(&both, 1500 + little);
+  system->at_rest.residual(&both, up, NULL);
+  system->set(&both, 1500 - little);
+  system->at_rest.residual(&both, down, NULL);
+  double most = largest_of(by, n);
+  for (size_t i = 0; i < n; i++)
+    up[i] = (up[i] - down[i]) / (2 * little) - by[i];
+  ck_below(largest_of(up, n) / most, 1e-4);
+  free(up);
+  zp_antagonists_close(&both);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* -- each of them alone ---------------------------------------------------------------------------- */
+
+/* One of two antagonists alone; upside down if it is the lower one. */
+static ZpActuatorDef alone(const ZpActuatorDef *both, bool lower) {
+  ZpActuatorDef one = *both;
+  one.stack.series = 1;
+  one.stack.distance = one.stack.lower_voltage = NAN;
+  one.stack.voltage_ratio = 1;
+  if (lower && !isnan(both->member_2.ribbon.thickness)) one.ribbon.thickness = both->member_2.ribbon.thickness;
+  one.member_2.ribbon.thickness = NAN;
+  one.mount.tilt = lower ? pi : 0;
+  one.load.mass = 0;
+  return one;
+}
+
+/* The force that holds it open as far without voltage, N, found by trying. */
+static double pull_without_voltage(ZpActuatorDef one, double opening) {
+  double force[2] = {0.02, 0.05}, off[2];
+  for (int k = 0; k < 60; k++) {
+    one.load.force = force[k > 0];
+    double found = answered_value(ZP_STUDY_STATIONARY, &one, "opening_m") - opening;
+    if (k > 0 && fabs(found) < 1e-9 * opening) return force[1];
+    off[k > 0] = found;
+    if (k == 0) continue;
+    double next = force[1] - off[1] * (force[1] - force[0]) / (off[1] - off[0]);
+    force[0] = force[1];
+    off[0] = off[1];
+    force[1] = next;
+  }
+  ck_abort_msg("no force holds an opening of %g m", opening);
+  return NAN;
+}
+
+/* And at a voltage: what study isometric adds. */
+static double pull_of(ZpActuatorDef one, double opening, double voltage) {
+  double without = pull_without_voltage(one, opening);
+  one.isometric.separation = opening;
+  one.drive.voltage = voltage;
+  return without + answered_value(ZP_STUDY_ISOMETRIC, &one, "force_N");
+}
+
+/* Where the load is, one pulls as the other does and the load weighs: F1(x) = F2(d - x) + m g, with each force from
+ * that one alone, by studies that know no antagonists. Unlike ones, with their own weight. Eq. (31.2). */
+START_TEST(forces_of_each_alone_balance) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 2e3}, {"stack.voltage_ratio", 0.7},
+                          {"member_2.ribbon.thickness", 60e-6});
+  ZpActuatorDef upper = alone(&def, false), lower = alone(&def, true);
+  ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  size_t last = result->series->rows - 1;
+  double x = zp_table_get(result->series, last, "opening_m"), y = zp_table_get(result->series, last, "lower_opening_m");
+  ck_near(zp_table_get(result->series, last, "lower_voltage_V"), 1.4e3, 1e-9);
+  ck_near(x + y, 20e-3, 1e-9);
+  ck_near(pull_of(upper, x, 2e3) - pull_of(lower, y, 1.4e3), def.load.mass * def.gravity, 1e-5);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Half the difference of the force of one alone over a small way, N/m. */
+static double slope_of(const ZpActuatorDef *one, double opening, double voltage) {
+  static const double way = 20e-6; /* m */
+  return (pull_of(*one, opening + way, voltage) - pull_of(*one, opening - way, voltage)) / (2 * way);
+}
+
+/* In the middle the stiffness is the sum of both, less what the field takes: twice that of one alone, with the other
+ * sign below and above the voltage at which the middle is lost. Eq. (31.5). */
+START_TEST(middle_is_lost_where_both_slopes_vanish) {
+  ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"load.mass", 1e-3}, {"drive.voltage", 2e3}), one = alone(&def, false);
+  ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m"), 2 * slope_of(&one, 10e-3, 2e3), 1e-4);
+  def.drive.voltage = 6e3;
+  double lost = answered_value(ZP_STUDY_EQUILIBRIUM, &def, "pull_in_voltage_V");
+  ck_assert_double_gt(slope_of(&one, 10e-3, 0.999 * lost), 0);
+  ck_assert_double_lt(slope_of(&one, 10e-3, 1.001 * lost), 0);
+}
+END_TEST
+
+/* The upper one closes at the highest voltage of all states of rest on the way there. */
+START_TEST(one_closes_where_the_way_is_highest) {
+  ZpActuatorDef def =
+      DEF(BOTH, {"mesh.nodes", 121}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
+  ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  double closing = zp_result_get(result, "closing_voltage_V"), highest = 0;
+  ck_assert_double_gt(closing, zp_result_get(result, "pull_in_voltage_V"));
+  for (size_t row = 0; zp_table_get(result->series, row, "opening_m") > 0.2e-3; row++)
+    highest = fmax(highest, zp_table_get(result->series, row, "voltage_V"));
+  ck_assert_double_ge(closing, highest);
+  ck_near(closing, highest, 1e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Upside down both change their places. */
+START_TEST(upside_down_they_change_places) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.7e-3}), turned = def;
+  turned.mount.tilt = pi;
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
+          answered_value(ZP_STUDY_STATIONARY, &turned, "lower_opening_m"), 1e-9);
+}
+END_TEST
+
+/* A constant voltage of the lower one is as good as a ratio that makes it. */
+START_TEST(constant_voltage_is_that_ratio) {
+  ZpActuatorDef ratio = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 2e3}, {"stack.voltage_ratio", 0.5}),
+                constant = ratio;
+  constant.stack.voltage_ratio = 1;
+  constant.stack.lower_voltage = 1e3;
+  ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &constant, "opening_m"), last_of(ZP_STUDY_EQUILIBRIUM, &ratio, "opening_m"),
+          1e-7);
+  constant.stack.lower_voltage = 5e3;
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &constant);
+  ck_assert_int_eq(result->outcome, ZP_NOT_SETTLED);
+  ck_assert_msg(strstr(result->message, "stack.lower_voltage"), "%s", result->message);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- in motion ------------------------------------------------------------------------------------- */
+
+/* Without voltage what is at rest stays. */
+START_TEST(at_rest_they_stay) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 0}, {"solver.end_time", 0.2},
+                          {"liquid.model", _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE});
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_near(zp_result_get(result, "opening_m"), zp_result_get(result, "start_opening_m"), 1e-6);
+  ck_near(zp_result_get(result, "start_opening_m"), answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A heavy load between light ribbons is a mass on the spring of both: a small voltage of one makes it swing, and after
+ * half a period it has gone twice as far as at rest. */
+START_TEST(load_swings_on_both) {
+  ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"ribbon.density", 1}, {"insulator.density", 0}, {"load.mass", 1},
+                          {"drive.voltage", 300}, {"stack.voltage_ratio", 0}, {"solver.tolerance", 1e-7});
+  double stiffness = last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m");
+  double moved = last_of(ZP_STUDY_EQUILIBRIUM, &def, "opening_m") - 10e-3;
+  def.solver.end_time = pi * sqrt(def.load.mass / stiffness);
+  ck_near(answered_value(ZP_STUDY_ACTUATE, &def, "opening_m") - 10e-3, 2 * moved, 5e-3);
+}
+END_TEST
+
+/* What both sources give is stored or lost while the upper one closes against the lower one, dry, in a bath and with
+ * beads; openings sum up to the distance, and platforms are where the load is. */
+START_TEST(energy_of_a_zip_against_the_other) {
+  static const int liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 10e3}, {"stack.voltage_ratio", 0.2},
+                          {"liquid.model", liquid[_i]}, {"solver.end_time", 2}, {"bead.volume", 1e-6});
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  const ZpShapes *film = result->shapes;
+  size_t count = film->ribbons * film->nodes / film->members;
+  ck_assert_int_eq(result->outcome, ZP_ZIPPED);
+  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  ck_assert_double_eq(zp_result_get(result, "zip_time_s"), zp_result_get(result, "member_1_zip_time_s"));
+  for (size_t row = 0; row < result->series->rows; row++) {
+    double upper = zp_table_get(result->series, row, "member_1_opening_m");
+    double lower = zp_table_get(result->series, row, "member_2_opening_m");
+    ck_assert_double_eq_tol(upper + lower, 20e-3, 1e-11);
+    ck_assert_double_eq(zp_table_get(result->series, row, "opening_m"), upper);
+  }
+  for (size_t frame = 0; frame < film->frames; frame++) {
+    ZpShape shape = zp_shapes_get(film, frame);
+    ck_assert_double_eq_tol(shape.y[2 * count - 1], shape.y[count - 1], 1e-11);
+  }
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Without weight either one closes in the same way, with the load and the other one behind it. */
+START_TEST(either_one_may_close) {
+  ZpActuatorDef upper = DEF(BOTH, {"gravity", 0}, {"load.mass", 0.5e-3}, {"drive.voltage", 10e3},
+                            {"stack.voltage_ratio", 0.2}, {"solver.end_time", 2}),
+                lower = upper;
+  lower.drive.voltage = 2e3;
+  lower.stack.voltage_ratio = 5;
+  ck_near(answered_value(ZP_STUDY_ACTUATE, &lower, "member_2_zip_time_s"),
+          answered_value(ZP_STUDY_ACTUATE, &upper, "member_1_zip_time_s"), 1e-6);
+}
+END_TEST
+
+/* -- what is refused ------------------------------------------------------------------------------- */
+
+START_TEST(what_antagonists_lack_is_said) {
+  static const struct {
+    Setting set[3];
+    ZpStudy study;
+    const char *says;
+  } refused[] = {
+      {{{"stack.distance", 0.02}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.series 2"},
+      {{{"stack.lower_voltage", 1e3}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
+      {{{"stack.voltage_ratio", 0.5}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
+      {{{"stack.series", 2}, {"stack.distance", 0.2}}, ZP_STUDY_STATIONARY, "span at most"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_LIMITS, "study limits"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_MODES, "study modes"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}, {"stack.link_mass", 1e-3}}, ZP_STUDY_ACTUATE, "load.mass"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}, {"initial.state", ZP_INITIAL_STRAIGHT}},
+       ZP_STUDY_ACTUATE,
+       "initial.state equilibrium"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}, {"load.stiffness", 1}}, ZP_STUDY_ACTUATE, "load"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}},
+       ZP_STUDY_ACTUATE,
+       "rod"}};
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    size_t count = refused[k].set[2].key ? 3 : 2;
+    ZpActuatorDef def = def_with(refused[k].set, count);
+    ck_refused_by(refused[k].study, &def, refused[k].says);
+  }
+  ZpActuatorDef both = DEF(BOTH, {"stack.lower_voltage", 1e3}, {"stack.voltage_ratio", 0.5});
+  ck_refused_by(ZP_STUDY_ACTUATE, &both, "not both");
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("antagonists");
+  TCase *rest = tcase_create("rest");
+  tcase_add_test(rest, equal_ones_rest_in_the_middle);
+  tcase_add_test(rest, small_stiffness_is_that_of_beams);
+  tcase_add_test(rest, stiffness_is_the_slope_of_the_force);
+  tcase_add_test(rest, voltage_moves_the_residual);
+  tcase_add_test(rest, forces_of_each_alone_balance);
+  tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
+  tcase_add_test(rest, one_closes_where_the_way_is_highest);
+  tcase_add_test(rest, upside_down_they_change_places);
+  tcase_add_test(rest, constant_voltage_is_that_ratio);
+  tcase_add_test(rest, what_antagonists_lack_is_said);
+  suite_add_tcase(suite, rest);
+  TCase *motion = tcase_create("motion");
+  tcase_add_loop_test(motion, at_rest_they_stay, 0, 2);
+  tcase_add_test(motion, load_swings_on_both);
+  tcase_add_test(motion, either_one_may_close);
+  tcase_add_loop_test(motion, energy_of_a_zip_against_the_other, 0, 3);
+  suite_add_tcase(suite, motion);
+  return run_suite(suite);
+}
