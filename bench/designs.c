@@ -6,7 +6,7 @@
  *                                        the curve, agree to PART (1e-3)?
  *   designs errors [COUNT [SEED]]        the estimated errors of limits, stationary, modes and isometric beside the
  *                                        true ones, which a mesh of 481 nodes shows
- *   designs times [COUNT [SEED]]         that of the zip time beside the one that 121 nodes and a tolerance of 7e-5
+ *   designs times [COUNT [SEED]]         that of the zip time beside the one that 121 nodes and a tolerance of 3e-5
  *                                        show; designs of more than 61 nodes are left out
  *   designs liquid [COUNT [SEED [FIRST]]]   zips in a bath or with beads of oil, of 0.5 to 5000 mm2/s, at 2 to 15 kV:
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
@@ -382,7 +382,7 @@ static ZpActuatorDef refined(ZpStudy which, const ZpActuatorDef *def) {
   ZpActuatorDef fine = *def;
   fine.output.errors = false;
   fine.mesh.nodes = which == ZP_STUDY_ACTUATE ? 121 : 481;
-  if (which == ZP_STUDY_ACTUATE) fine.solver.tolerance = 7e-5;
+  if (which == ZP_STUDY_ACTUATE) fine.solver.tolerance = 3e-5;
   return fine;
 }
 

@@ -166,7 +166,8 @@ def check_interrupt(zipact, scratch):
         ok("interrupted: 130", process.wait() == 130)
         if (torn / "summary.json").exists():
             summary = json.loads((torn / "summary.json").read_text())
-            ok("interrupted: the summary says so", summary["outcome"] == "interrupted" and "cases" in summary["message"])
+            done = len(summary["rows"]) == 600  # the signal may come when only files are left to be written
+            ok("interrupted: the summary says so", done or summary["outcome"] == "interrupted" and "cases" in summary["message"])
             ok("interrupted: rows are in the journal", len(summary["rows"]) <= len(rows_of(torn)))
         ok("interrupted: resumed", zipact.run("rest", torn, "--resume").returncode == 0)
         ok("interrupted: the bytes of an uninterrupted run", results(torn) == results(whole))

@@ -13,8 +13,8 @@ typedef struct ZpJournal ZpJournal;
  * rows that its campaign has not computed yet. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
 
-/* Another reader of the rows that are on the disk, for a thread of its own; nothing can be put through it. NULL if there
- * are rows that are not there yet, or it cannot be opened. */
+/* Another reader of the rows that are on the disk, for a thread of its own; nothing can be put through it. NULL if
+ * there are rows that are not there yet, or it cannot be opened. */
 ZpJournal *zp_journal_reader(const ZpJournal *journal);
 
 /* Commit, and close; NULL is allowed. */

@@ -39,7 +39,8 @@ void zp_plan_free(ZpPlan *plan);
 /* Make the plan of what is given for each key, slot [keys]. ZP_BAD_INPUT where there are too many values or cases. */
 ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err);
 
-/* The values that case `index`, below plan->count, gives the keys that vary => value [variations], as in plan->varied. */
+/* The values that case `index`, below plan->count, gives the keys that vary => value [variations], as in plan->varied.
+ */
 void zp_plan_values(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, double *value);
 
 /* The values of all keys that are given, with `value` for those that vary => how many, most of them per key. */
