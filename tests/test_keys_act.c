@@ -735,7 +735,7 @@ static const Row rows[] = {
      {{LESS, "steps", 0.1, 0}, {TIMES, "stroke_m", 1, 1e-2}}},
     {"solver.end_time", SWING, "2ms", "4ms", {{TIMES, "simulated_time_s", 2, 1e-12}}},
     /* the local error is of third order */
-    {"solver.tolerance", SWING, "1e-4", "1e-6", {{TIMES, "steps", 10, 0.25}}},
+    {"solver.tolerance", SWING, "1e-5", "1e-6", {{TIMES, "steps", 3.16, 0.1}}},
     {"solver.time_step", SWING " solver.end_time=2ms", "20us", "10us", {{TIMES, "steps", 2, 2e-2}}},
     {"solver.stop_when_zipped",
      HANGING " drive.voltage=10kV solver.end_time=0.2s",

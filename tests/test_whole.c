@@ -144,7 +144,8 @@ static void check_signal(Both both, const char *column, double scale, bool alway
 
 /* Rounding grows from bounce to bounce, and a velocity turns round in each, so after closing only positions are
  * compared, and not as closely. */
-static void check_motion(const ZpActuatorDef *def) {
+static void check_motion(ZpActuatorDef def) {
+  def.solver.tolerance = 1e-3; /* rounding grows with the number of steps */
   static const char *const by_largest[] = {"time_s",         "voltage_V",     "stroke_m",
                                            "opening_m",      "contraction",   "force_N",
                                            "charge_C",       "capacitance_F", "end_velocity_m_per_s",
@@ -152,7 +153,7 @@ static void check_motion(const ZpActuatorDef *def) {
   static const char *const energy[] = {
       "electric_work_J", "load_work_J", "kinetic_energy_J", "axial_energy_J", "bending_energy_J", "gravity_energy_J",
       "field_energy_J",  "drag_loss_J", "internal_loss_J",  "contact_loss_J", "charging_loss_J",  "energy_imbalance_J"};
-  Both both = run_both(ZP_STUDY_ACTUATE, *def);
+  Both both = run_both(ZP_STUDY_ACTUATE, def);
   ck_assert_uint_eq(both.half->series->rows, both.whole->series->rows);
   CHECK_SCALARS(both, "zip_time_s", "steps", "newton_iterations", "max_stress_Pa");
   for (size_t k = 0; k < LENGTH_OF(by_largest); k++)
@@ -166,7 +167,7 @@ static void check_motion(const ZpActuatorDef *def) {
 
 START_TEST(motion_is_that_of_the_half) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_HALF, meshes[_i]);
-  check_motion(&def);
+  check_motion(def);
 }
 END_TEST
 
@@ -178,7 +179,7 @@ START_TEST(motion_of_others_is_that_of_the_half) {
       DEF({"mesh.nodes", 31}, {"segment_1.length", 7e-3}, {"segment_1.curvature", 2}, {"segment_1.thickness", 100e-6},
           {"drive.waveform", ZP_WAVEFORM_SINE}, {"solver.end_time", 0.1}),
   };
-  check_motion(&def[_i]);
+  check_motion(def[_i]);
 }
 END_TEST
 
