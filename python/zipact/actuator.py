@@ -63,7 +63,7 @@ def plain_value(name: str, value: Any) -> Any:
         value = os.fspath(value)
     if name in FILES and isinstance(value, str) and value:
         paths = value.split(";") if name == "data.file" else [value]  # which may name several
-        value = "; ".join(os.path.abspath(path.strip()) for path in paths)
+        value = "; ".join(os.path.abspath(path.strip(" ")) for path in paths)
     return value
 
 
