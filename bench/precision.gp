@@ -3,7 +3,7 @@ set datafile separator comma
 set terminal svg size 640,480 font "sans-serif,13" background rgb "white"
 set output motion.".svg"
 if (motion eq "swing") {
-  array N = [9, 11, 15, 21, 61]
+  array N = [9, 11, 13, 15, 18, 21, 61]
   set title "A cantilever's swing, 0.1 s, against the converged one"
   set ylabel "rms of the distance / swing, %"
 } else {
@@ -21,5 +21,7 @@ set bmargin |N| + 4
 pick(steps, nodes) = sprintf("<awk -F, '$1 == \"%s\" && $2 == %d' %s.csv", steps, nodes, motion)
 plot for [k = 1:|N|] pick("implicit", N[k]) using 5:(100 * $6) with linespoints linecolor k pointtype 7 pointsize 0.6 \
        title sprintf("implicit, %d nodes", N[k]), \
+     for [k = |N|:|N|] pick("equal", N[k]) using 5:(100 * $6) with points linecolor k pointtype 6 pointsize 1 \
+       title sprintf("equal steps, %d nodes", N[k]), \
      for [k = 1:|N|] pick("explicit", N[k]) using 5:(100 * $6) with points linecolor k pointtype 4 pointsize 1.3 \
        title sprintf("explicit, %d nodes", N[k])

@@ -55,9 +55,10 @@ ZpStatus bench_limits(int nodes, Row *row, ZpError *err) {
                      nodes, row, err);
 }
 
-/* Zips from hanging, without liquid. */
+/* Zips from hanging, without liquid, their times to 0.1 %. */
 ZpStatus bench_zips(int nodes, Row *row, ZpError *err) {
   return bench_cases("case of actuate, dry",
-                     "study: actuate\nliquid.model: none\ndrive.voltage: {from: 7 kV, to: 10 kV, count: 6}", nodes, row,
-                     err);
+                     "study: actuate\nliquid.model: none\nsolver.tolerance: 1e-3\n"
+                     "drive.voltage: {from: 7 kV, to: 10 kV, count: 6}",
+                     nodes, row, err);
 }
