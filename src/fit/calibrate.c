@@ -172,7 +172,7 @@ static void add_kind(Columns *columns, ZpFitKind kind) {
 
 static bool open_columns(const ZpFit *fit, Columns *columns) {
   *columns = (Columns){.width = zp_fit_kinds(fit) > 1 ? COLUMNS_OF_KIND : COLUMNS_ALONE};
-  columns->column = calloc(fit->sets + ZP_FIT_KINDS * COLUMNS_OF_KIND, sizeof *columns->column);
+  columns->column = calloc(fit->sets + (size_t)ZP_FIT_KINDS * COLUMNS_OF_KIND, sizeof *columns->column);
   columns->x_key = calloc(fit->sets, sizeof *columns->x_key);
   if (!columns->column || !columns->x_key) return false;
   for (size_t i = 0; i < fit->sets; i++)
