@@ -1,6 +1,6 @@
 # Error against CPU time, from swing.csv or zip.csv:  gnuplot -e "motion='swing'" precision.gp
 set datafile separator comma
-set terminal svg size 640,480 font "sans-serif,13" background rgb "white"
+set terminal svg size 640,560 font "sans-serif,13" background rgb "white"
 set output motion.".svg"
 if (motion eq "swing") {
   array N = [9, 11, 13, 15, 18, 21, 61]
@@ -17,7 +17,7 @@ set format "10^{%L}"
 set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
 set grid
 set key below maxrows 5 samplen 2
-set bmargin |N| + 4
+set bmargin |N| + 6
 pick(steps, nodes) = sprintf("<awk -F, '$1 == \"%s\" && $2 == %d' %s.csv", steps, nodes, motion)
 plot for [k = 1:|N|] pick("implicit", N[k]) using 5:(100 * $6) with linespoints linecolor k pointtype 7 pointsize 0.6 \
        title sprintf("implicit, %d nodes", N[k]), \
