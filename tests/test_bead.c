@@ -451,7 +451,7 @@ START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
          1e3 * fine, 1e3 * rough, 1e3 * mesh, 1e3 * exact);
   ck_near(rough, fine, 0.015);
   ck_near(mesh, time, 0.011);
-  ck_near(exact, time, 3e-3);
+  ck_near(exact, time, 3e-4);
 }
 END_TEST
 

@@ -148,13 +148,12 @@ static void set(void *self, double voltage) {
 
 static void by_voltage(void *self, double *r_m) {
   ZpAntagonists *both = self;
-  double unit = zp_opposed_voltage(member(both, UPPER)->model, 1) - zp_opposed_voltage(member(both, UPPER)->model, 0);
   memset(r_m, 0, both->system.at_rest.n * sizeof *r_m);
   for (int which = UPPER; which <= LOWER; which++) {
     double *own = both->of[which].branch.newton.r;
     both->of[which].system.sensitivity(member(both, which), own);
     for (size_t i = 0; i < own_count(both, which); i++)
-      own[i] *= which == UPPER ? 1 : unit;
+      own[i] *= which == UPPER ? 1 : member(both, UPPER)->model->ratio;
     add(both, which, own, r_m);
   }
 }

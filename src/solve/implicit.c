@@ -302,7 +302,7 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
     accept(s, h, q, v, history);
     const bool starts = error < far_below;
     double ease = iterations <= EASY ? (starts ? start_growth : fastest_growth) : iterations <= HARD ? 1 : 0.8;
-    if (growth > 1 && !starts) growth = sqrt(growth);
+    if (growth > 1 && !starts) growth = sqrt(growth); /* all of it makes lengths swing about their mean */
     if (!cut || growth < 1) history->next = h * fmin(growth, ease);
     return h;
   }

@@ -45,7 +45,7 @@ static ZpActuatorDef coarser(ZpActuatorDef def, bool moves) {
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
-  if (moves) def.solver.tolerance *= 4; /* of second order */
+  if (moves) def.solver.tolerance *= 4; /* a tolerance goes with the square of the steps, eq. (18.12) */
   if (moves) def.solver.time_step *= 2; /* NAN, auto, stays */
   return def;
 }
