@@ -29,7 +29,8 @@ ZpStatus motion_measure(const ZpActuatorDef *def, const ZpDriveTable *table, con
 /* Height and velocity at the times of a trajectory of `rows` rows => row. */
 ZpStatus motion_record(const ZpActuatorDef *def, size_t rows, double interval, double (*row)[2], ZpError *err);
 
-/* A cantilever of 45 mm x 12.7 mm x 100 um steel, 2 g at its tip, released straight, for 0.1 s: one swing of 6.05 mm. */
+/* A cantilever of 45 mm x 12.7 mm x 100 um steel, 2 g at its tip, released straight, for 0.1 s: one swing of 6.05 mm.
+ */
 ZpStatus motion_swing(int nodes, bool implicit, ZpActuatorDef *def, ZpError *err);
 
 /* Its converged trajectory (bench/run.sh makes swing.def), and what errors of it are relative to, m. */

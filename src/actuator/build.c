@@ -57,7 +57,7 @@ static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
 
 /* A piece of an edge: from `from` to `to`, in edge lengths. */
 typedef struct Piece {
-  ZpPlace place;
+  const ZpPlace *place;
   double from, to;
 } Piece;
 
@@ -77,7 +77,7 @@ static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece 
     if (place[k].end == (k > 0 ? place[k - 1].end : 0)) continue; /* a segment without length, as most are */
     double to = fmin(in_edges(model, place[k].end) - (double)station, 1);
     if (to <= from) continue;
-    piece[count++] = (Piece){place[k], from, to};
+    piece[count++] = (Piece){&place[k], from, to};
     from = to;
   }
   return count;
@@ -98,9 +98,9 @@ static Share share_of(const ZpModel *model, size_t ribbon, size_t station, bool 
   for (int k = 0; k < count; k++) {
     double middle = 0.5 * (piece[k].from + piece[k].to);
     double part = (piece[k].to - piece[k].from) * (right ? middle : 1 - middle) * model->l;
-    share.compliance += part / piece[k].place.section.EI;
-    share.turn += part * piece[k].place.curvature;
-    share.mass += part * piece[k].place.section.mu;
+    share.compliance += part / piece[k].place->section.EI;
+    share.turn += part * piece[k].place->curvature;
+    share.mass += part * piece[k].place->section.mu;
   }
   return share;
 }
@@ -132,10 +132,10 @@ static LevelShare level_share(const ZpModel *model, size_t ribbon, ZpLevelEnd le
     double from = right ? 1 - piece[k].to : piece[k].from, to = right ? 1 - piece[k].from : piece[k].to;
     double near = 1 - from, far = 1 - to, own = (near * near * near - far * far * far) * (model->l / 3);
     double both = (to * to * (3 - 2 * to) - from * from * (3 - 2 * from)) * (model->l / 12);
-    share.compliance += own / piece[k].place.section.EI;
-    share.across += both / piece[k].place.section.EI;
-    share.turn += (own + both) * piece[k].place.curvature;
-    share.both_turns += both * piece[k].place.curvature;
+    share.compliance += own / piece[k].place->section.EI;
+    share.across += both / piece[k].place->section.EI;
+    share.turn += (own + both) * piece[k].place->curvature;
+    share.both_turns += both * piece[k].place->curvature;
   }
   return share;
 }
@@ -146,7 +146,7 @@ static double edge_compliance(const ZpModel *model, size_t ribbon, size_t statio
   double sum = 0;
   int count = pieces_of(model, ribbon, station, piece);
   for (int k = 0; k < count; k++)
-    sum += (piece[k].to - piece[k].from) * model->l / piece[k].place.section.EA;
+    sum += (piece[k].to - piece[k].from) * model->l / piece[k].place->section.EA;
   return sum;
 }
 
@@ -438,8 +438,8 @@ static void fill_stress_of(const ZpModel *model, size_t j, Arrays *a) {
     for (int k = 0; k < count; k++) {
       bool near = i < station ? piece[k].to > 0.5 : piece[k].from < 0.5;
       if (!near) continue;
-      a->per_moment[j] = fmax(a->per_moment[j], piece[k].place.section.per_moment);
-      a->per_force[j] = fmax(a->per_force[j], piece[k].place.section.per_force);
+      a->per_moment[j] = fmax(a->per_moment[j], piece[k].place->section.per_moment);
+      a->per_force[j] = fmax(a->per_force[j], piece[k].place->section.per_force);
     }
   }
 }
@@ -465,9 +465,9 @@ static double frequency_bound(const ZpModel *model) {
     int count = pieces_of(model, j % model->s, j / model->s, piece);
     double EA = 0, EI = 0, mu = INFINITY;
     for (int k = 0; k < count; k++) {
-      EA = fmax(EA, piece[k].place.section.EA);
-      EI = fmax(EI, piece[k].place.section.EI);
-      mu = fmin(mu, piece[k].place.section.mu);
+      EA = fmax(EA, piece[k].place->section.EA);
+      EI = fmax(EI, piece[k].place->section.EI);
+      mu = fmin(mu, piece[k].place->section.mu);
     }
     stiffest = fmax(stiffest, edge_stiffness(model, EA, EI) / (mu * model->l));
   }

@@ -534,9 +534,12 @@ static void fill_equations(ZpDynamics *d) {
   d->system.scale = d->scale;
 }
 
-/* Error of a step as a share of what counts as far, eq. (18.12): steps' errors add up, and shorter steps are more. */
+/* Error of a step as a share of what counts as far, eq. (18.12): steps' errors add up, and shorter steps are more.
+ * Of a finer tolerance the balance of energy would be below what the rounding of positions makes: no step converges. */
 static double error_of_step(const ZpActuatorDef *def) {
-  return 1.5 * def->solver.tolerance * sqrt(def->solver.tolerance);
+  static const double finest = 1e-7;
+  double tolerance = fmax(def->solver.tolerance, finest);
+  return 1.5 * tolerance * sqrt(tolerance);
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
