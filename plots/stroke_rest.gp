@@ -1,9 +1,11 @@
-# Opening at rest, or the stroke of a kind that has none, against voltage, with pull-in and release.
+# Opening at rest, or the stroke of a kind that has none, against voltage, with pull-in, closing and release.
 what = travel eq 'opening_m' ? 'opening' : 'stroke'
 title = travel eq 'opening_m' ? 'Opening at rest against voltage' : 'Stroke at rest against voltage'
 load 'along_voltage.gp'
 factor = scale(largest(travel), 'm')
 tag = 11; name = 'pull-in'; at = pull_in_at; from = pull_in_from; to = pull_in_to
+load 'jump.gp'
+tag = 13; name = 'closing'; at = closing_at; from = closing_from; to = closing_to
 load 'jump.gp'
 tag = 12; name = 'release'; at = release_at; from = release_from; to = release_to
 load 'jump.gp'

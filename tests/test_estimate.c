@@ -16,7 +16,7 @@ static bool has(const ZpResult *result, const char *name) {
 }
 
 /* A cantilever that bends little under its own weight sags by q L^4 / (8 EI) (1 + 1 / (3 n^3)) with n elements, by what
- * weight the clamped one hands on: twice as long elements add seven times that second term, of which (21.1) takes 0.7.
+ * weight the clamped one hands on: twice as long elements add seven times that second term, of which (21.1) takes 0.8.
  */
 START_TEST(cantilever_in_closed_form) {
   static const int nodes[] = {21, 41, 61};
@@ -25,7 +25,7 @@ START_TEST(cantilever_in_closed_form) {
                           {"gravity", 1e-3}, {"load.mass", 0}, {"ribbon.length", 50e-3}, {"mesh.nodes", nodes[_i]});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
   double cube = pow(n, 3), exact = zp_result_get(result, "stroke_m") / (1 + 1 / (3 * cube));
-  ck_near(zp_result_get(result, "stroke_error_m"), 0.7 * 7 * exact / (3 * cube), 1e-3);
+  ck_near(zp_result_get(result, "stroke_error_m"), 0.8 * 7 * exact / (3 * cube), 1e-3);
   ck_assert(!has(result, "opening_error_m"));
   zp_result_destroy(result);
 }
@@ -38,18 +38,19 @@ typedef struct Number {
 } Number;
 
 static const Number numbers[] = {
-    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 20},
-    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 20},
+    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 25},
+    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 25},
     {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 12},
     {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 3},
-    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 18},
+    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 28},
     {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 4},
     {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 12},
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
- * covers the error. Measured: 2 (opening) to 4 times as large; of the held force, whose error depends on where
- * among the nodes the front is, 15 times; of limits 10 to 17 times, of the zip time 10 times. */
+ * covers the error. Measured: 2.5 (opening) to 4 times as large; of the held force, whose error depends on where
+ * among the nodes the front is, 24 times; of limits 10 to 21 times, of the zip time 9 times. The factors of (21.1) are
+ * what most random designs need. */
 START_TEST(estimate_covers_the_error) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});
@@ -93,7 +94,6 @@ START_TEST(estimates_leave_the_numbers_alone) {
 }
 END_TEST
 
-/* Without a coarser mesh, or a number on it, an estimate is missing; the paper's chain has none. */
 /* Three meshes that all miss where the ribbon turns at the clip agree, and all are wrong: of 14 um aluminium under 1 kg
  * by 26 times what they differ by. Elements may be as long as (9.5). */
 START_TEST(unresolved_bending_has_no_estimate) {
@@ -112,6 +112,7 @@ START_TEST(unresolved_bending_has_no_estimate) {
 }
 END_TEST
 
+/* Without a coarser mesh, or a number on it, an estimate is missing; the paper's chain has none. */
 START_TEST(estimate_may_be_missing) {
   ZpActuatorDef coarse = DEF({"output.errors", 1}, {"mesh.nodes", 6}),
                 chain = DEF({"output.errors", 1}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}),

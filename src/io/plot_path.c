@@ -78,11 +78,18 @@ typedef struct Jump {
   double voltage, from, to; /* V; m of the travel, NAN if unknown */
 } Jump;
 
-/* Travel at the limit point nearest to a voltage: where stability changes. */
-static double travel_at_limit(const ZpPlot *plot, double voltage) {
-  double least = INFINITY, found = NAN;
+/* Does stability change behind a row: `rising`, does it end there as the curve is followed from hanging? */
+static bool is_limit(const ZpPlot *plot, size_t row, bool rising) {
+  if (!goes_on(plot, row) || kind(plot, row) == kind(plot, row + 1)) return false;
+  return !rising || kind(plot, row) % 2 == 0;
+}
+
+/* Travel at the limit point nearest to a voltage; NAN where none is near. */
+static double travel_at_limit(const ZpPlot *plot, double voltage, bool rising) {
+  static const double near = 0.02; /* of the voltage: rows are no closer */
+  double least = near * voltage, found = NAN;
   for (size_t row = 0; row < series(plot)->rows; row++) {
-    if (!goes_on(plot, row) || kind(plot, row) == kind(plot, row + 1)) continue;
+    if (!is_limit(plot, row, rising)) continue;
     for (size_t i = row; i <= row + 1; i++) {
       double distance = fabs(get(plot, i, "voltage_V") - voltage);
       if (distance >= least) continue;
@@ -107,17 +114,30 @@ static double stable_travel(const ZpPlot *plot, double voltage, double from) {
   return found;
 }
 
-static Jump jump_at(const ZpPlot *plot, const char *scalar) {
+static Jump jump_at(const ZpPlot *plot, const char *scalar, bool rising) {
   Jump jump = {.voltage = zp_result_get(plot->single, scalar), .from = NAN, .to = NAN};
   if (isnan(jump.voltage)) return jump;
-  jump.from = travel_at_limit(plot, jump.voltage);
+  jump.from = travel_at_limit(plot, jump.voltage, rising);
   jump.to = stable_travel(plot, jump.voltage, jump.from);
   return jump;
 }
 
+/* The jump at the first limit point: one that does not close the actuator ends at a state close by. */
+static Jump pull_in(const ZpPlot *plot) {
+  static const double same = 1e-6;
+  Jump jump = jump_at(plot, "pull_in_voltage_V", true);
+  if (zp_result_get(plot->single, "closing_voltage_V") > (1 + same) * jump.voltage) jump.to = NAN;
+  return jump;
+}
+
+/* The jump that closes it, where that is another one. */
+static Jump closing(const ZpPlot *plot) {
+  Jump jump = {NAN, NAN, NAN};
+  return isnan(pull_in(plot).to) ? jump_at(plot, "closing_voltage_V", true) : jump;
+}
+
 /* NAME_at, NAME_from, NAME_to. */
-static void define_jump(const ZpPlot *plot, FILE *file, const char *name, const char *scalar) {
-  const Jump jump = jump_at(plot, scalar);
+static void define_jump(FILE *file, const char *name, Jump jump) {
   const double value[] = {jump.voltage, jump.from, jump.to};
   static const char *const part[] = {"at", "from", "to"};
   for (size_t i = 0; i < 3; i++) {
@@ -136,8 +156,9 @@ static void define_path(const ZpPlot *plot, FILE *file) {
   for (int k = 0; k < KINDS; k++)
     if (has_kind(plot, k)) fprintf(file, "%s ", kind_name[k]);
   fputs("'\n", file);
-  define_jump(plot, file, "pull_in", "pull_in_voltage_V");
-  define_jump(plot, file, "release", "release_voltage_V");
+  define_jump(file, "pull_in", pull_in(plot));
+  define_jump(file, "closing", closing(plot));
+  define_jump(file, "release", jump_at(plot, "release_voltage_V", false));
   zp_plot_define_table(file, series(plot));
 }
 

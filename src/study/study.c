@@ -98,18 +98,55 @@ void zp_task_watches(const ZpTask *task, ZpStatics *statics) {
   statics->caller = (void *)task;
 }
 
+static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResult **result, ZpError *err) {
+  *result = zp_result_create(study);
+  if (!*result) return zp_fail_memory(err);
+  ZpStatus status = run(task, *result, err);
+  if (status == ZP_OK) return ZP_OK;
+  zp_result_destroy(*result);
+  *result = NULL;
+  return status;
+}
+
+/* Has a branch been lost where elements are longer than what bends? */
+static bool is_too_coarse(const ZpResult *result) {
+  return result->outcome == ZP_BRANCH_LOST && result->resolution < 1;
+}
+
+/* Solve on the mesh that is asked for; where that is too coarse on one with half as long elements, and once more =>
+ * the result, and the mesh that it is of in `def`. */
+static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpActuatorDef *def, ZpResult **result,
+                               ZpError *err) {
+  enum { MOST = 2 };
+  ZpStatus status = solve(run, study, task, result, err);
+  for (int k = 0; k < MOST && status == ZP_OK && is_too_coarse(*result); k++) {
+    zp_result_destroy(*result);
+    def->mesh.nodes = 2 * def->mesh.nodes - 1;
+    const ZpTask finer = {def, task->input, task->hooks};
+    status = solve(run, study, &finer, result, err);
+    if (status == ZP_OK)
+      zp_result_note(*result,
+                     "solved with %d nodes: with mesh.nodes = %d elements are longer than the length over which the "
+                     "ribbon bends, and the branch of equilibria was lost there",
+                     def->mesh.nodes, task->def->mesh.nodes);
+  }
+  return status;
+}
+
 ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
                       ZpResult **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_study_check(study, def, err);
   if (status != ZP_OK) return status;
-  ZpResult *result = zp_result_create(study);
-  if (!result) return zp_fail_memory(err);
-  bool moves = table[study].files == FILES_course;
-  const ZpTask task = {def, input ? *input : (ZpStudyInput){0}, hooks};
+  ZpResult *result;
+  ZpActuatorDef solved = *def;
+  const ZpStudyInput files = input ? *input : (ZpStudyInput){0};
+  const ZpTask asked = {def, files, hooks}, task = {&solved, files, hooks};
   ZpStudyRun run = run_of(study, def);
-  status = run(&task, result, err);
-  if (status == ZP_OK) status = zp_estimate_errors(&task, run, moves, result, err);
+  status = solve_resolved(run, study, &asked, &solved, &result, err);
+  if (status != ZP_OK) return status;
+  bool moves = table[study].files == FILES_course;
+  status = zp_estimate_errors(&task, run, moves, result, err);
   if (status == ZP_OK)
     *out = result;
   else
