@@ -1,6 +1,6 @@
 #!/bin/sh
 # Looks at the manual as a reader would: all links of the Markdown and of the HTML arrive; in Chromium, wide and narrow,
-# nothing is cut off, formulas and pictures have a size, nothing comes from elsewhere.
+# nothing is cut off, formulas and pictures have a size, nothing comes from elsewhere; light and dark, words stand out.
 # Needs `make docs`, chromium (scripts/deps.sh --browser) and python3.
 #   check-docs.sh HTML [SHOTS]      with SHOTS, screenshots of the pages go to that folder
 set -eu
@@ -24,12 +24,25 @@ import json, sys
 print("<body style='margin:0'><pre id=found>nothing</pre><iframe id=frame height=900></iframe><script>const pages = %s;" %
       json.dumps(open(sys.argv[1]).read().split()))
 print(r"""
+// Contrast of text by WCAG: 3 is its least for large text; Doxygen's own pages are left out.
+const light = color => color.match(/[\d.]+/g).slice(0, 3).map(v => v / 255)
+  .map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4).reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+function contrast(view, e) {
+  const ink = light(view.getComputedStyle(e).color), paper = e => view.getComputedStyle(e).backgroundColor;
+  let behind = e;
+  while (behind.parentElement && /, 0\)$/.test(paper(behind))) behind = behind.parentElement;
+  const below = light(/, 0\)$/.test(paper(behind)) ? "rgb(255, 255, 255)" : paper(behind));
+  return (Math.max(ink, below) + 0.05) / (Math.min(ink, below) + 0.05);
+}
 function look(view) {
+  const ours = !/\/api\//.test(view.location.pathname);
   const bad = [], wide = view.document.documentElement.clientWidth;
   const scrolls = e => e && (/auto|scroll/.test(view.getComputedStyle(e).overflowX) || scrolls(e.parentElement));
   for (const e of view.document.querySelectorAll("body *")) {
     const box = e.getBoundingClientRect(), what = e.tagName + " " + e.textContent.trim().slice(0, 40);
     if (box.width && box.right > wide + 1 && !scrolls(e)) bad.push("cut off: " + what);
+    if (ours && box.width && [...e.childNodes].some(n => n.nodeType === 3 && n.data.trim()) && contrast(view, e) < 3)
+      bad.push("hard to read: " + what);
     if (e.tagName === "IMG" && e.complete && !e.naturalWidth) bad.push("no picture: " + e.src);
     if (e.tagName === "math" && (box.width < 3 || box.height < 8)) bad.push("no size: " + what);
     if (e.tagName === "merror" || e.classList.contains("math")) bad.push("formula not rendered: " + what);
@@ -56,8 +69,11 @@ python3 -u -m http.server --bind 127.0.0.1 --directory "$scratch/root" 0 >"$scra
 server=$!
 until port=$(sed -n 's/.* port \([0-9]*\) .*/\1/p' "$scratch/log") && [ -n "$port" ]; do sleep 0.1; done
 
-browser --window-size=1400,1000 --virtual-time-budget=120000 --dump-dom "http://127.0.0.1:$port/look.html" >"$scratch/dom"
-python3 - "$scratch/dom" <<'PYTHON' || failed=1
+see() { # see OPTION...: all pages
+  browser "$@" --window-size=1400,1000 --virtual-time-budget=120000 --dump-dom "http://127.0.0.1:$port/look.html" >"$scratch/dom"
+  python3 "$scratch/judge.py" "$scratch/dom" || failed=1
+}
+cat >"$scratch/judge.py" <<'PYTHON'
 import html, json, re, sys
 found = re.search(r'<pre id="found">(.*?)</pre>', open(sys.argv[1], encoding="utf-8").read(), re.S)
 if not found or found.group(1) == "nothing":
@@ -66,6 +82,8 @@ found = json.loads(html.unescape(found.group(1)))
 print(*found["bad"], "pages: %d looked at, %d faults" % (found["looked"], len(found["bad"])), sep="\n")
 sys.exit(1 if found["bad"] or not found["looked"] else 0)
 PYTHON
+see
+see --blink-settings=preferredColorScheme=0 # dark
 
 [ -z "$shots" ] || mkdir -p "$shots"
 for width in ${shots:+1280 390}; do
