@@ -833,7 +833,7 @@ static const Row rows[] = {
      "false",
      "true",
      {{BECOMES, "stroke_error_m",
-       7850 * 12.7e-3 * 50e-6 * 1e-3 * CUBE(50e-3) * 50e-3 / (8 * EI) * 0.7 * 7 / (3 * CUBE(20)), 1e-3},
+       7850 * 12.7e-3 * 50e-6 * 1e-3 * CUBE(50e-3) * 50e-3 / (8 * EI) * 0.8 * 7 / (3 * CUBE(20)), 1e-3},
       {SAME, "stroke_m", 0, 0}}},
 };
 
