@@ -13,12 +13,17 @@ import {View} from './view.js';
 const $ = (id) => document.getElementById(id);
 const highest = 1e3 * scenario.sliders[0].max; // V, to which the states of rest are followed
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
-const module = new WebAssembly.Module(wasm);
+
+/** The page begins in short tasks: between two, the browser answers the person. */
+const breath = () => new Promise((done) => setTimeout(done));
+
+const module = await WebAssembly.compile(wasm); // in another thread
 const core = new Core(module); // of the scenario; what is computed from it, engines do
 const live = new Live(module);
 const volts = Array.from({length: 11}, (_, k) => highest * (k + 1.2) / 11.2); // of the design chart
 const chart = new Chart(module, 'limits', 'max_load_kg', volts, () => view.showChart());
 const view = new View(core, live, highest, chart);
+await view.makePlots(breath);
 
 // -- messages
 
@@ -295,6 +300,7 @@ $('copy').addEventListener('click', ({target}) => copy(target, $('command').text
 
 // -- beginning: the scenario of the address; where that is refused, the page's own beside the refusal
 
+await breath();
 take(scenario.beginning);
 live.restart(scenario.beginning, 0);
 if (apply(given.values)) {

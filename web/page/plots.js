@@ -60,7 +60,7 @@ class Plot {
     this.place = place;
     this.#data = scales.map(() => [0, 1]);
     this.#plot = new uPlot({
-      ...this.#size(),
+      ...this.#size({width: 0, height: 0}), // until the observer knows it: to ask the page here would lay it out once a plot
       legend: {show: false},
       cursor: {show: false},
       padding: [8, 18, 0, 0],
@@ -69,11 +69,11 @@ class Plot {
       axes: scales.map((name) => ({...axes[name], scale: name})),
       hooks: {draw: [paint]},
     }, this.#data, place);
-    new ResizeObserver(() => this.#plot.setSize(this.#size())).observe(place);
+    new ResizeObserver(([{contentRect}]) => this.#plot.setSize(this.#size(contentRect))).observe(place);
   }
 
-  #size() {
-    return {width: Math.max(this.place.clientWidth, 200), height: Math.max(this.place.clientHeight, 60)};
+  #size({width, height}) {
+    return {width: Math.max(width, 200), height: Math.max(height, 60)};
   }
 
   update() {

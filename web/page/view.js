@@ -1,7 +1,6 @@
 // What is seen of the actuator: picture, numbers, plots; now, and what the two studies say of the whole scenario.
 import {digits, fixed, pretty, Tiles} from './numbers.js';
 import {Picture} from './picture.js';
-import {chartPlot, currentPlot, liquidPlot, profilePlot, timePlot, voltagePlot} from './plots.js';
 
 const tiles = {
   voltage: {label: 'Voltage', unit: 'kV', title: 'between the electrodes, now'},
@@ -49,7 +48,7 @@ export class View {
   #liquid = {length: 1, film: new Float64Array(2), pressure: new Float64Array(2)};
   #notes = [];
   #notice = null;
-  #plots;
+  #plots = [];
   #next = 0; // plot to draw
 
   /** `highest`: voltage to which the states of rest are followed, V; `chart`: {volts, y, fresh} of the design chart. */
@@ -62,14 +61,24 @@ export class View {
     this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
     this.#current = {trace: live.trace};
     this.#chart = {volts: chart.volts, y: chart.y, fresh: (k) => chart.fresh(k), voltage: 0, mass: 0};
-    this.#plots = [
-      timePlot($('plot-time'), this.#time),
-      voltagePlot($('plot-voltage'), this.#rest),
-      chartPlot($('plot-chart'), this.#chart),
-      profilePlot($('plot-profile'), this.#profile),
-      currentPlot($('plot-current'), this.#current),
-      liquidPlot($('plot-liquid'), this.#liquid),
+  }
+
+  /** One plot a task: each draws its axes at once. Their library takes a task of its own to begin. */
+  async makePlots(breath) {
+    await breath();
+    const plots = await import('./plots.js');
+    const all = [
+      [plots.timePlot, 'time', this.#time],
+      [plots.voltagePlot, 'voltage', this.#rest],
+      [plots.chartPlot, 'chart', this.#chart],
+      [plots.profilePlot, 'profile', this.#profile],
+      [plots.currentPlot, 'current', this.#current],
+      [plots.liquidPlot, 'liquid', this.#liquid],
     ];
+    for (const [make, place, data] of all) {
+      await breath();
+      this.#plots.push(make($(`plot-${place}`), data));
+    }
   }
 
   /** `words`: what holds for the page as long as it is open. */
