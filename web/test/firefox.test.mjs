@@ -74,7 +74,7 @@ test('the page in Firefox: it zips, the chart and the tour work', {skip: !exists
     const until = async (expression) => {
       for (const end = Date.now() + 60e3; !(await run(expression)); await wait(100)) assert.ok(Date.now() < end, expression);
     };
-    await until("Number(document.getElementById('n-contraction').textContent) > 99");
+    await until("Number(document.getElementById('n-contraction')?.textContent) > 99");
     await until("/^pulls in at /.test(document.getElementById('voltage-note').textContent)");
     await until("/up to \\d/.test(document.getElementById('plot-chart').getAttribute('aria-label'))");
     assert.equal(await run("document.getElementById('alert').hidden"), true);
