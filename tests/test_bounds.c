@@ -211,6 +211,17 @@ static void make_controller(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "setpoint.duty") == 0) def->setpoint.waveform = ZP_WAVEFORM_SQUARE;
 }
 
+/* A platform that turns, long enough for the load to hang there. */
+static void make_platform_turn(ZpActuatorDef *def, const char *key, double value) {
+  bool offset = strcmp(key, "load.offset") == 0;
+  if (value == 0 || !(offset || strcmp(key, "platform.rotates") == 0)) return;
+  def->actuator.symmetry = ZP_SYMMETRY_NONE;
+  def->liquid.model = ZP_LIQUID_NONE;
+  def->platform.rotates = true;
+  def->platform.electrode = false;
+  if (offset) def->platform.length = 2 * fabs(value), def->ribbon.length = 10;
+}
+
 /* What keys ask of one another, so that one of them can stand at its bound. */
 static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
@@ -256,6 +267,7 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "load.change_time") == 0 || (strcmp(key, "load.drop_height") == 0 && value > 0))
     def->load.change_mass = 1e-3;
   if (strcmp(key, "load.drop_height") == 0 && value > 0) def->load.change_time = 1e-5;
+  make_platform_turn(def, key, value);
   if (strcmp(key, "load.stop_stiffness") == 0) def->load.stop_opening = 1e-3;
   if (strcmp(key, "insulator.thickness") == 0 && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "contact.complete_margin") == 0 && value > 0) def->mesh.nodes = (int)value + 2;

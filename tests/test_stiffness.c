@@ -35,6 +35,11 @@ typedef struct Case {
     "hinge.rest_angle", 0.5                                                                                            \
   }
 
+#define TURNS                                                                                                          \
+  {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"platform.rotates", 1}, {                                                  \
+    "platform.electrode", 0                                                                                            \
+  }
+
 static const Case cases[] = {
     {"two ribbons", SET(SOFT), 1e-4, 0, false},
     {"attraction", SET(SOFT), 1e-4, 5e3, false},
@@ -45,6 +50,8 @@ static const Case cases[] = {
     {"whole actuator", SET(SOFT, {"actuator.symmetry", ZP_SYMMETRY_NONE}), 1e-4, 5e3, false},
     {"whole actuator, faces in touch", SET(SOFT, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"drive.voltage", 10}),
      4.5e-7, 5e3, true},
+    {"platform that turns", SET(SOFT, TURNS, {"load.offset", 2e-3}), 1e-4, 5e3, false},
+    {"platform that turns, faces in touch", SET(SOFT, TURNS, {"drive.voltage", 10}), 4.5e-7, 5e3, true},
     {"particles", SET(SOFT, {"ribbon.model", ZP_RIBBON_MASS_SPRING}), 1e-4, 5e3, false},
     {"flange", SET(SOFT, FLANGE), 1e-4, 1e3, false},
     {"clamped flange", SET(SOFT, FLANGE, {"actuator.right_end", ZP_END_CLAMPED}), 1e-4, 1e3, true},

@@ -20,8 +20,10 @@ static size_t number(const ZpTopology *t, ZpAssembly *a) {
   return (size_t)next;
 }
 
-/* Two halves have the platform's coordinates in common, as far as they are not held. */
+/* Two halves have the platform's coordinates in common, as far as they are not held. With a platform that turns they
+ * are not alike, and the whole is one part. */
 static ZpParts parts_of(const ZpTopology *t, const int *equation) {
+  if (zp_platform_turns(t)) return (ZpParts){0};
   ZpParts parts = {.more = t->halves - 1};
   size_t first = 2 * zp_upper(t, t->platform.first), end = 2 * zp_upper(t, t->platform.first + 1);
   for (size_t k = first; parts.more && k < end; k++)

@@ -261,7 +261,8 @@ static double node_mass(const ZpModel *model, size_t j) {
   const ZpTopology *t = &model->topology;
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
-  return ribbon_mass(model, j) + (carries ? zp_end_share(model) * model->def.load.mass : 0);
+  double part = carries ? zp_load_part(model, station) : 0;
+  return ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
 }
 
 /* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
@@ -345,7 +346,8 @@ static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
                        .k0 = a->rod_k0,
                        .curl = {model->ribbon[0].curl, model->ribbon[1].curl},
                        .rigid = platform->first,
-                       .rigid_end = platform->last};
+                       .rigid_end = platform->last,
+                       .lower_turns = zp_platform_turns(&model->topology)};
 }
 
 /* Without bending, for the axial springs of mass_spring over an implicit step. */
@@ -392,6 +394,15 @@ static bool is_free_end(const ZpModel *model, size_t j) {
   return end && !zp_topology_holds_slope(&model->topology, station, j % model->s);
 }
 
+/* A platform that turns does not bend: its one edge stretches as the ribbon on it does, eq. (19.3). */
+static void fill_platform(const ZpModel *model, Arrays *a) {
+  const ZpTopology *t = &model->topology;
+  size_t j = zp_lower(t, t->platform.first);
+  if (!zp_platform_turns(t)) return;
+  a->rod_l[j] = model->def.platform.length;
+  a->rod_S[j] = zp_ribbon_section(model, 1).EA / model->def.platform.length;
+}
+
 /* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a free end does not bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
@@ -405,6 +416,7 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     a->rod_l[j] = model->l;
     a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
   }
+  fill_platform(model, a);
   model->rod = rod_of(model, a);
   fill_ends(model, a);
 }

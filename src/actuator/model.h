@@ -193,6 +193,22 @@ static inline double zp_end_share(const ZpModel *model) {
   return model->def.load.share / model->def.stack.parallel;
 }
 
+/* How much more than that the platform's end at a station carries of a load that hangs off the centre, eq. (19.4). */
+static inline double zp_load_part(const ZpModel *model, size_t station) {
+  const ZpTopology *t = &model->topology;
+  if (model->def.load.offset == 0) return 1;
+  return 1 + (station == t->platform.last ? 2 : -2) * model->def.load.offset / model->def.platform.length;
+}
+
+/* (one coordinate of all nodes) => that of the point that the load hangs on. */
+static inline double zp_load_at(const ZpModel *model, const double *q) {
+  const ZpTopology *t = &model->topology;
+  double sum = 0;
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    sum += zp_load_part(model, i) * q[zp_lower(t, i)];
+  return sum / (double)zp_load_ends(t);
+}
+
 /* And the modelled part: load.share at each end. */
 static inline double zp_load_share(const ZpModel *model) {
   return (double)zp_load_ends(&model->topology) * zp_end_share(model);

@@ -6,19 +6,21 @@
 /* What a joint does to the nodes of its stations. */
 typedef struct Hold {
   bool unites;   /* upper and lower node are one */
-  bool x;        /* held */
-  bool y[2];     /* held: of the upper or only ribbon, of the lower one */
+  bool x[2];     /* held: of the upper or only ribbon, of the lower one */
+  bool y[2];     /* the same */
   bool slope[2]; /* horizontal */
+  bool turns;    /* coordinates that are not held are free: only the length between them is kept */
 } Hold;
 
 static const Hold hold_of[ZP_JOINT_KINDS] = {
     [ZP_JOINT_CLIP] = {.unites = true, .slope = {true, true}},
-    [ZP_JOINT_CLAMP] = {.x = true, .y = {true, true}, .slope = {true, true}},
-    [ZP_JOINT_HINGE] = {.unites = true, .x = true, .y = {true, true}, .slope = {true, false}},
+    [ZP_JOINT_CLAMP] = {.x = {true, true}, .y = {true, true}, .slope = {true, true}},
+    [ZP_JOINT_HINGE] = {.unites = true, .x = {true, true}, .y = {true, true}, .slope = {true, false}},
     [ZP_JOINT_GUIDE] = {.slope = {true, true}},
     [ZP_JOINT_FREE] = {0},
-    [ZP_JOINT_PLATFORM] = {.x = true, .y = {true, false}, .slope = {true, true}},
-    [ZP_JOINT_LINK] = {.x = true, .slope = {true, true}},
+    [ZP_JOINT_PLATFORM] = {.x = {true, true}, .y = {true, false}, .slope = {true, true}},
+    [ZP_JOINT_TURNING] = {.x = {true, false}, .y = {true, false}, .slope = {true, false}, .turns = true},
+    [ZP_JOINT_LINK] = {.x = {true, true}, .slope = {true, true}},
 };
 
 static void add(ZpTopology *t, ZpJointKind kind, size_t first, size_t last) {
@@ -36,11 +38,11 @@ static void of_one(ZpRightEnd end, size_t nodes, ZpTopology *t) {
 }
 
 /* Two ribbons from the left clip to the platform and, if there are two halves, on to the right clip. */
-static void of_two(size_t halves, size_t nodes, ZpTopology *t) {
+static void of_two(size_t halves, ZpJointKind platform, size_t nodes, ZpTopology *t) {
   t->halves = halves;
   t->stations = halves * nodes;
   add(t, ZP_JOINT_CLIP, 0, 0);
-  add(t, ZP_JOINT_PLATFORM, nodes - 1, nodes + halves - 2);
+  add(t, platform, nodes - 1, nodes + halves - 2);
   t->platform = t->joint[1];
   if (halves == 2) add(t, ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
 }
@@ -60,7 +62,7 @@ ZpTopology zp_topology_of(const ZpActuatorDef *def) {
   if (def->actuator.kind == ZP_KIND_HINGE)
     of_hinge(nodes, &t);
   else if (zp_def_has_two(def))
-    of_two(whole ? 2 : 1, nodes, &t);
+    of_two(whole ? 2 : 1, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes, &t);
   else
     of_one(def->actuator.right_end, nodes, &t);
   t.nodes = t.ribbons * t.stations;
@@ -84,13 +86,13 @@ bool zp_topology_is_held(const ZpTopology *t, size_t k) {
   const ZpJoint *joint = joint_at(t, k / 2 / t->ribbons);
   if (!joint) return false;
   const Hold *hold = &hold_of[joint->kind];
-  bool is_y = k % 2 == 1;
-  return is_y ? hold->y[k / 2 % t->ribbons] : hold->x;
+  const bool *held = k % 2 == 1 ? hold->y : hold->x;
+  return held[k / 2 % t->ribbons];
 }
 
 size_t zp_topology_leader(const ZpTopology *t, size_t k) {
   const ZpJoint *joint = joint_at(t, k / 2 / t->ribbons);
-  if (!joint) return k;
+  if (!joint || hold_of[joint->kind].turns) return k;
   size_t ribbon = hold_of[joint->kind].unites ? 0 : k / 2 % t->ribbons;
   return 2 * (t->ribbons * joint->first + ribbon) + k % 2;
 }
@@ -130,8 +132,9 @@ static double direction(const double *x, const double *y, size_t from, size_t to
   return zp_angle(y[to] - y[from], x[to] - x[from]);
 }
 
-double zp_fold_angle(const ZpTopology *t, const double *x, const double *y) {
+double zp_topology_angle(const ZpTopology *t, const double *x, const double *y) {
   size_t last = t->stations - 1;
+  if (zp_platform_turns(t)) return direction(x, y, zp_lower(t, t->platform.first), zp_lower(t, t->platform.last));
   if (!zp_is_hinge(t)) return NAN;
   return direction(x, y, zp_upper(t, 0), zp_upper(t, last)) - direction(x, y, zp_lower(t, 0), zp_lower(t, last));
 }

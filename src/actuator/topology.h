@@ -19,7 +19,9 @@ typedef enum ZpJointKind {
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
   ZP_JOINT_FREE,     /* free to move and to turn */
   ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
-  ZP_JOINT_LINK,     /* the same, but the upper one slides, too, with the lower one of the actuator above */
+  ZP_JOINT_TURNING,  /* rigid; the upper one is held and horizontal, the lower one moves and turns in the plane */
+  ZP_JOINT_LINK,     /* the same as ZP_JOINT_PLATFORM, but the upper one slides, too, with the lower one of the actuator
+                        above */
   ZP_JOINT_KINDS
 } ZpJointKind;
 
@@ -84,12 +86,22 @@ static inline bool zp_is_hinge(const ZpTopology *t) {
   return t->joint[0].kind == ZP_JOINT_HINGE;
 }
 
-/* Is there a rigid platform between the ribbons? */
-static inline bool zp_has_platform(const ZpTopology *t) {
-  return t->platform.kind == ZP_JOINT_PLATFORM || t->platform.kind == ZP_JOINT_LINK;
+/* May the lower platform turn? Then its two ends are nodes of their own. */
+static inline bool zp_platform_turns(const ZpTopology *t) {
+  return t->platform.kind == ZP_JOINT_TURNING;
 }
 
-/* The nodes that the load hangs on. The platform is rigid: where there are two, one tells of both. */
+/* Is there a rigid platform between the ribbons? */
+static inline bool zp_has_platform(const ZpTopology *t) {
+  return t->platform.kind == ZP_JOINT_PLATFORM || t->platform.kind == ZP_JOINT_LINK || zp_platform_turns(t);
+}
+
+/* Is there an angle to tell of: of a fold, or of a platform that turns? */
+static inline bool zp_has_angle(const ZpTopology *t) {
+  return zp_is_hinge(t) || zp_platform_turns(t);
+}
+
+/* The nodes that the load hangs on. Where there are two and the platform does not turn, one tells of both. */
 static inline size_t zp_load_node(const ZpTopology *t) {
   return zp_lower(t, t->platform.first);
 }
@@ -99,9 +111,14 @@ static inline size_t zp_load_ends(const ZpTopology *t) {
   return t->platform.last - t->platform.first + 1;
 }
 
-/* (x and y of all nodes) => angle between the straight lines from a hinge to both right ends, positive where the lower
- * one is below, rad; NAN without a hinge. */
-double zp_fold_angle(const ZpTopology *topology, const double *x, const double *y);
+/* (one coordinate of all nodes) => that of the middle of the lower platform, or of the right end. */
+static inline double zp_platform_middle(const ZpTopology *t, const double *q) {
+  return 0.5 * (q[zp_lower(t, t->platform.first)] + q[zp_lower(t, t->platform.last)]);
+}
+
+/* (x and y of all nodes) => rad: with a hinge the angle between the straight lines from it to both right ends, positive
+ * where the lower one is below; of a platform that turns its own, anticlockwise; NAN without either. */
+double zp_topology_angle(const ZpTopology *topology, const double *x, const double *y);
 
 /* Elements of a ribbon from its left end to the platform, or to its right end. */
 static inline size_t zp_half_elements(const ZpTopology *t) {
@@ -110,12 +127,12 @@ static inline size_t zp_half_elements(const ZpTopology *t) {
 
 /* (y of all nodes) => height of the clip, the hinge or the left end over the lower platform or the right end, m. */
 static inline double zp_stroke(const ZpTopology *t, const double *y) {
-  return y[zp_lower(t, 0)] - y[zp_load_node(t)];
+  return y[zp_lower(t, 0)] - zp_platform_middle(t, y);
 }
 
 /* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */
 static inline double zp_opening(const ZpTopology *t, const double *y) {
-  return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - y[zp_load_node(t)] : NAN;
+  return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - zp_platform_middle(t, y) : NAN;
 }
 
 /* How far the load's nodes are below what is held, the upper platform or the hinge, m. */

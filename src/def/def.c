@@ -963,6 +963,38 @@ static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
       def->mount.tilt * 180 / half_turn);
 }
 
+/* A platform that turns: what it asks of other keys, whose laws take it as level. */
+static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
+  const struct {
+    bool acts;
+    const char *needed;
+  } refused[] = {{def->actuator.symmetry != ZP_SYMMETRY_NONE, "actuator.symmetry none"},
+                 {def->platform.length == 0, "platform.length above 0 m"},
+                 {def->platform.electrode, "platform.electrode false"},
+                 {zp_def_liquid(def) != ZP_LIQUID_NONE, "liquid.model none"},
+                 {def->ribbon.plane == ZP_PLANE_ANTICLASTIC, "ribbon.plane strain or stress"},
+                 {def->ribbon.plasticity, "ribbon.plasticity false"},
+                 {def->load.stiffness > 0, "load.stiffness 0 N/m"},
+                 {!isnan(def->load.stop_opening), "load.stop_opening none"},
+                 {def->load.change_mass != 0, "load.change_mass 0 kg"}};
+  for (size_t k = 0; def->platform.rotates && k < sizeof refused / sizeof refused[0]; k++)
+    if (refused[k].acts) return zp_fail(err, ZP_BAD_INPUT, "platform.rotates: requires %s", refused[k].needed);
+  return ZP_OK;
+}
+
+/* Where the load hangs. */
+static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
+  double most = def->platform.length / 2, offset = def->load.offset;
+  if (offset == 0) return ZP_OK;
+  if (!def->platform.rotates)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "load.offset = %g m: requires platform.rotates true; a platform that is kept horizontal moves the "
+                   "same wherever its load hangs",
+                   offset);
+  if (fabs(offset) <= most) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "load.offset = %g m: beyond the platform, allowed %g to %g m", offset, -most, most);
+}
+
 /* The spring beside the load. */
 static ZpStatus check_spring(const ZpActuatorDef *def, ZpError *err) {
   bool given = !isnan(def->load.rest_opening);
@@ -1045,6 +1077,8 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_check_ribbons(def, err);
   if (status == ZP_OK) status = zp_check_stack(def, err);
   if (status == ZP_OK) status = check_hinge(def, err);
+  if (status == ZP_OK) status = check_rotates(def, err);
+  if (status == ZP_OK) status = check_offset(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_stop(def, err);
   if (status == ZP_OK) status = check_change(def, err);

@@ -221,7 +221,15 @@ static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along
   s->Fy[2 * i + 1] = closing;
 }
 
+/* Between the ends of a platform there is no element: what the kernels over all elements have sampled there has no
+ * length, and none to change. */
+static void leave_out_platform(const ZpPlatesParams *p, double *of) {
+  for (size_t i = p->platform; i < p->platform_end; i++)
+    of[i] = 0;
+}
+
 static void act_all(const ZpPlatesParams *p, ZpPlatesStep *s) {
+  leave_out_platform(p, s->P);
   size_t last = p->nodes - 1;
   act(p, s, 0, 0.5 * s->P[0], s->A[0]);
   for (size_t i = 1; i < last; i++)
@@ -232,6 +240,8 @@ static void act_all(const ZpPlatesParams *p, ZpPlatesStep *s) {
 static void stations(const ZpPlatesParams *p, ZpPlatesStep *s) {
   size_t last = p->nodes - 1;
   act_all(p, s);
+  leave_out_platform(p, s->along0);
+  leave_out_platform(p, s->along1);
   s->own[0] = s->own_A[0];
   for (size_t i = 1; i < last; i++)
     s->own[i] = s->own_A[i] + s->own_B[i - 1];

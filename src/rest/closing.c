@@ -3,24 +3,30 @@
 #include <math.h>
 #include <string.h>
 
-static size_t last_to_close(const ZpModel *model) {
+/* Stations of which the mean gap says it: both ends of a platform, or twice the one station. */
+typedef struct LastToClose {
+  size_t station[2];
+} LastToClose;
+
+static LastToClose last_to_close(const ZpModel *model) {
   const ZpJoint *end = &model->topology.platform;
-  return end->kind == ZP_JOINT_CLAMP ? end->first / 2 : end->first;
+  if (end->kind == ZP_JOINT_CLAMP) return (LastToClose){{end->first / 2, end->first / 2}};
+  return (LastToClose){{end->first, end->last}};
 }
 
 double zp_closing_gap(void *self, double *row) {
   const ZpStatics *s = self;
   const ZpModel *model = s->model;
   const ZpTopology *t = &model->topology;
-  size_t station = last_to_close(model);
-  if (row) {
-    int lower = s->assembly.equation[2 * zp_lower(t, station) + 1],
-        upper = s->assembly.equation[2 * zp_upper(t, station) + 1];
-    memset(row, 0, s->assembly.n * sizeof *row);
-    if (lower >= 0) row[lower] -= 1;
-    if (zp_is_pair(t) && upper >= 0) row[upper] += 1;
+  LastToClose last = last_to_close(model);
+  if (row) memset(row, 0, s->assembly.n * sizeof *row);
+  for (size_t k = 0; row && k < 2; k++) {
+    int lower = s->assembly.equation[2 * zp_lower(t, last.station[k]) + 1],
+        upper = s->assembly.equation[2 * zp_upper(t, last.station[k]) + 1];
+    if (lower >= 0) row[lower] -= 0.5;
+    if (zp_is_pair(t) && upper >= 0) row[upper] += 0.5;
   }
-  return s->eval.plates.gap[station];
+  return 0.5 * (s->eval.plates.gap[last.station[0]] + s->eval.plates.gap[last.station[1]]);
 }
 
 double zp_closing_limit(const ZpStatics *s, double hanging) {

@@ -268,7 +268,7 @@ static double mass_with_lower(const ZpDynamics *d) {
 }
 
 /* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. Both ends
- * of a platform are alike: one tells of both. */
+ * of a platform that does not turn are alike: one tells of both. */
 typedef struct Pair {
   int upper, lower;
   double upper_share; /* of the pair's mass */
@@ -353,10 +353,11 @@ static double kinetic_energy(const ZpDynamics *d) {
   return sum / 2;
 }
 
-/* The damper takes relative velocity from station i, of a platform from its first one. */
+/* The damper takes relative velocity from station i, of a platform that does not turn from its first one. */
 static void damp(ZpDynamics *d, size_t i) {
   const ZpJoint *platform = &d->model->topology.platform;
-  if (i > platform->first && i <= platform->last) return;
+  bool again = i > platform->first && i <= platform->last && !zp_platform_turns(&d->model->topology);
+  if (again) return;
   Pair pair = pair_of(d, i);
   if (pair.lower < 0) return;
   double apart = (pair.upper >= 0 ? d->v[pair.upper] : 0) - d->v[pair.lower];
@@ -713,10 +714,10 @@ static void book_impacts(ZpDynamics *d, ZpState *state) {
 /* Where a step has ended, and the work of the load input. */
 static void arrive(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
-  const double *hangs = zp_state_q(model, state) + model->stride + zp_load_node(&model->topology);
-  double before = *hangs, hung = mean_load(d);
+  const double *y = zp_state_q(model, state) + model->stride;
+  double before = zp_load_at(model, y), hung = mean_load(d);
   store(d, state);
-  state->load_work += hung * (before - *hangs);
+  state->load_work += hung * (before - zp_load_at(model, y));
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, d->eval.plates.gap);
 }
 

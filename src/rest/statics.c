@@ -260,7 +260,7 @@ double zp_statics_opening(const ZpStatics *s) {
 }
 
 double zp_statics_angle(const ZpStatics *s) {
-  return zp_fold_angle(&s->model->topology, s->q, s->q + s->model->stride);
+  return zp_topology_angle(&s->model->topology, s->q, s->q + s->model->stride);
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
@@ -597,22 +597,42 @@ static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
   }
 }
 
-/* Lay two ribbons; the lower platform keeps its x and, where two halves meet there, gets the mean of their y. */
-static void lay_two(ZpStatics *s) {
+/* A platform that turns lies where its edge says, half of what misses spread along each loop. */
+static void lay_platform(ZpStatics *s, const Loop loops[2]) {
   const ZpTopology *t = &s->model->topology;
-  const Loop loops[2] = {{t->platform.first, 0}, {t->platform.last, t->stations - 1}};
-  const size_t halves = t->halves > 1 ? 2 : 1;
+  size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
+  for (size_t c = 0; c < 2; c++) {
+    double *q = s->q + c * s->model->stride, missed = q[right] - q[left] - s->moved[c * s->model->stride + left];
+    spread(t, loops[0], -0.5 * missed, q);
+    spread(t, loops[1], 0.5 * missed, q);
+  }
+}
+
+/* A platform that does not turn keeps its x and, where two halves meet there, gets the mean of their y. */
+static void lay_level_platform(ZpStatics *s, const Loop loops[2]) {
+  const ZpTopology *t = &s->model->topology;
   double *x = s->q, *y = x + s->model->stride, sum = 0;
-  for (size_t h = 0; h < halves; h++) {
+  for (size_t h = 0; h < t->halves; h++) {
     size_t upper = zp_upper(t, loops[h].platform), lower = zp_lower(t, loops[h].platform);
-    lay_loop(t, loops[h], s->moved, x);
-    lay_loop(t, loops[h], s->moved + s->model->stride, y);
     spread(t, loops[h], x[lower] - x[upper], x);
     sum += y[lower];
   }
-  double mean = sum / (double)halves;
-  for (size_t h = 0; halves > 1 && h < halves; h++)
+  double mean = sum / (double)t->halves;
+  for (size_t h = 0; t->halves > 1 && h < t->halves; h++)
     spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
+}
+
+/* Lay two ribbons from the upper platform. */
+static void lay_two(ZpStatics *s) {
+  const ZpTopology *t = &s->model->topology;
+  const Loop loops[2] = {{t->platform.first, 0}, {t->platform.last, t->stations - 1}};
+  for (size_t h = 0; h < t->halves; h++)
+    for (size_t c = 0; c < 2; c++)
+      lay_loop(t, loops[h], s->moved + c * s->model->stride, s->q + c * s->model->stride);
+  if (zp_platform_turns(t))
+    lay_platform(s, loops);
+  else
+    lay_level_platform(s, loops);
 }
 
 void zp_statics_put_platform(ZpStatics *s, double height) {

@@ -66,6 +66,7 @@ static void hold_slopes(const ZpRodParams *p, const ZpRodEval *e) {
     e->uy[j] = e->inverse[j] = 0;
   }
   for (size_t j = p->ribbons * p->rigid; j < p->ribbons * p->rigid_end; j++) {
+    if (!zp_rod_is_rigid(p, j)) continue;
     e->dpx[j] = e->ux[j] = 1;
     e->dpy[j] = e->uy[j] = e->inverse[j] = e->T[j] = 0;
   }

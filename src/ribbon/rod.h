@@ -7,6 +7,7 @@
 #ifndef ZP_RIBBON_ROD_H
 #define ZP_RIBBON_ROD_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/memory.h"
@@ -30,6 +31,7 @@ typedef struct ZpRodParams {
   const double *B;         /* [stride] bending stiffness of joints, EI over their length of rod, N m */
   const double *k0;        /* [stride] natural curvature k of joints */
   size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
+  bool lower_turns;        /* but that of the second ribbon: there it is an edge as others, which turns and stretches */
   size_t ends;
   ZpRodEnd end[ZP_ROD_MOST_ENDS];
   ZpCurl curl[2];           /* of each ribbon, which then is of one section and not bent by nature */
@@ -48,6 +50,11 @@ typedef struct ZpRodEval {
 } ZpRodEval;
 
 void zp_rod_carve(const ZpRodParams *params, ZpRodEval *eval, ZpCarver *carver);
+
+/* Is edge j, between the stations rigid and rigid_end, rigid and horizontal? */
+static inline bool zp_rod_is_rigid(const ZpRodParams *p, size_t j) {
+  return !(p->lower_turns && j % p->ribbons == 1);
+}
 
 /* tan(phi / 2) of a joint => its discrete curvature. */
 static inline double zp_rod_curvature(double half) {

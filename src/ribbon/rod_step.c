@@ -91,7 +91,7 @@ static void hold_slopes(const ZpRodParams *p, const ZpRodStep *s) {
   for (size_t j = edge_count(p); j < edge_count(p) + p->ribbons; j++)
     s->turn[j] = s->gx[j] = s->gy[j] = 0;
   for (size_t j = p->ribbons * p->rigid; j < p->ribbons * p->rigid_end; j++)
-    s->turn[j] = s->gx[j] = s->gy[j] = s->tx[j] = s->ty[j] = 0;
+    if (zp_rod_is_rigid(p, j)) s->turn[j] = s->gx[j] = s->gy[j] = s->tx[j] = s->ty[j] = 0;
 }
 
 ZP_INLINE void mean_joints(const ZpRodParams *p, size_t padded, const ZpRodEval *e0, const ZpRodEval *e1,

@@ -93,8 +93,8 @@ static void stress_between(const ZpStressParams *params, const double *x, const 
 
 void zp_stress(const ZpStressParams *params, const double *x, const double *y, const double *strain, double *stress) {
   const ZpRodParams *p = &params->rod;
-  bool whole = p->rigid == p->rigid_end;
   for (size_t r = 0; r < p->ribbons; r++) {
+    bool whole = p->rigid == p->rigid_end || !zp_rod_is_rigid(p, r);
     size_t last = (p->nodes - 1) * p->ribbons + r;
     stress_between(params, x, y, strain, r, whole ? last : p->rigid * p->ribbons + r, stress);
     if (!whole) stress_between(params, x, y, strain, p->rigid_end * p->ribbons + r, last, stress);

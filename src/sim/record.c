@@ -119,12 +119,12 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   ZpMotion motion = zp_state_motion(model, state);
   const ZpTopology *t = &model->topology;
   row[SIGNAL_stroke] = zp_stroke(t, motion.y);
-  row[SIGNAL_end_velocity] = motion.vy[zp_load_node(t)];
+  row[SIGNAL_end_velocity] = zp_platform_middle(t, motion.vy);
   row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
   row[SIGNAL_film_thickness] = film_thickness(model, state);
   row[SIGNAL_wet_length] = wet_length(model, state);
   row[SIGNAL_opening] = zp_opening(t, motion.y);
-  row[SIGNAL_angle] = zp_fold_angle(t, motion.x, motion.y);
+  row[SIGNAL_angle] = zp_topology_angle(t, motion.x, motion.y);
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
 

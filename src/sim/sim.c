@@ -285,7 +285,7 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
 static bool has_closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin || model->has_film) return true;
-  return state->zip.platform || zp_state_motion(model, state).vy[zp_load_node(&model->topology)] <= 0;
+  return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
 }
 
 /* Of a series all have; of antagonists one does. */

@@ -50,7 +50,7 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "opening_m", "m", at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
-  if (zp_is_hinge(&sim->model->topology)) zp_result_add(result, "angle_rad", "rad", at_end(sim, result, "angle"));
+  if (zp_has_angle(&sim->model->topology)) zp_result_add(result, "angle_rad", "rad", at_end(sim, result, "angle"));
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
@@ -64,15 +64,15 @@ static double work_on_change(ZpSim *sim, const ZpModel *model) {
   return -model->parts * zp_state_hung(model, state) * (model->fall[0] * along + model->fall[1] * up);
 }
 
-/* Of a fold, whose load moves along the ribbons, too; the spring of its hinge is no load. */
-static double work_of_fold(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
+/* Of a load that does not only rise: of a fold, whose spring is no load, and of a platform that turns. */
+static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   const ZpActuatorDef *def = &model->def;
   ZpMotion motion = zp_state_motion(model, sim->state);
   ZpShape start = zp_shapes_get(result->shapes, 0);
-  size_t j = zp_load_node(&model->topology);
-  double along = motion.x[j] - start.x[j], up = motion.y[j] - start.y[j], weight = def->load.mass * def->gravity;
+  double along = zp_load_at(model, motion.x) - zp_load_at(model, start.x),
+         up = zp_load_at(model, motion.y) - zp_load_at(model, start.y), weight = def->load.mass * def->gravity;
   double work = def->load.force * up - weight * (model->fall[0] * along + model->fall[1] * up);
-  return zp_load_share(model) * work + work_on_change(sim, model) - at_end(sim, result, "load_work");
+  return model->parts * zp_load_share(model) * work + work_on_change(sim, model) - at_end(sim, result, "load_work");
 }
 
 /* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
@@ -94,8 +94,8 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (model->supply.acts && isfinite(limit) && highest > 0)
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (zp_model_info(model).ribbons < 2) return;
-  bool fold = zp_is_hinge(&model->topology);
-  double work = fold ? work_of_fold(sim, model, result) : work_on_load(sim, model, result);
+  bool turns = zp_has_angle(&model->topology);
+  double work = turns ? work_along_path(sim, model, result) : work_on_load(sim, model, result);
   zp_result_add(result, "mechanical_work_J", "J", work);
   zp_add_efficiency(result, "efficiency", work, energy);
 }

@@ -82,7 +82,7 @@ static void take_mark(Cycles *c) {
   for (int k = 0; k < ZP_BEADS; k++)
     oldest.slow[k] = model->has_bead ? c->sim->state->bead[k].outside / model->bead.volume : 0;
   oldest.slow[ZP_BEADS] = model->leaks ? zp_sim_get(c->sim, "interface_voltage") / c->highest : 0;
-  oldest.rate = zp_state_motion(model, c->sim->state).vy[zp_load_node(&model->topology)];
+  oldest.rate = zp_platform_middle(&model->topology, zp_state_motion(model, c->sim->state).vy);
   c->mark[0] = oldest;
 }
 

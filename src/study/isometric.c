@@ -379,6 +379,9 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err
                    "actuator.kind = %s: study %s requires actuator.kind electro_ribbon or hinge, whose platform or end "
                    "it holds",
                    zp_word_of("actuator.kind", (int)def->actuator.kind), study);
+  if (def->platform.rotates)
+    return zp_fail(err, ZP_BAD_INPUT, "platform.rotates: study %s requires false, since it holds the platform level",
+                   study);
   double longest = most * (def->ribbon.length - (hinge ? 0 : def->platform.length));
   if (def->isometric.separation > longest)
     return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m",

@@ -64,7 +64,7 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
-  if (zp_is_hinge(&slope->at->model->topology))
+  if (zp_has_angle(&slope->at->model->topology))
     zp_result_add_sensitivity(result, "angle_rad", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_angle, NULL) : NAN);
 }
@@ -78,7 +78,7 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
   snprintf(result->message, sizeof result->message, "%s", s->stopped ? "interrupted" : words_of(info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
   if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
-  if (zp_is_hinge(&s->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (zp_has_angle(&s->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
   ZpShape shape = zp_statics_shape(s, 0, &rest->shape_room);

@@ -13,8 +13,9 @@ static void add_load(const ZpModel *model, double hung, double down, double *F) 
   const ZpTopology *t = &model->topology;
   double ends = (double)zp_load_ends(t);
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
-    F[zp_lower(t, i)] += hung * model->fall[0] / ends;
-    F[model->stride + zp_lower(t, i)] += (hung * model->fall[1] - down) / ends;
+    double part = zp_load_part(model, i) / ends;
+    F[zp_lower(t, i)] += part * (hung * model->fall[0]);
+    F[model->stride + zp_lower(t, i)] += part * (hung * model->fall[1] - down);
   }
 }
 
@@ -41,10 +42,9 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
     double along = x[j] - zp_straight_x(model, j / model->s);
     sum->gravity -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
   }
-  size_t load = zp_load_node(&model->topology);
-  sum->gravity += constant_of(model) * y[load];
-  sum->gravity -=
-      now->hung * (model->fall[0] * (x[load] - now->hung_at[0]) + model->fall[1] * (y[load] - now->hung_at[1]));
+  sum->gravity += constant_of(model) * zp_load_at(model, y);
+  sum->gravity -= now->hung * (model->fall[0] * (zp_load_at(model, x) - now->hung_at[0]) +
+                               model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
 }
 
 const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};

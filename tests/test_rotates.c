@@ -1,0 +1,196 @@
+/* A platform that may turn under a load off its centre, section 19 of docs/theory.md: the tilt of a small load in
+ * closed form, mirror images, what a load in the middle does, energy in motion under voltage, and what is refused. */
+#include "check_util.h"
+
+/* The largest of a whole actuator whose platform turns. */
+#define TURNS                                                                                                          \
+  {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"platform.rotates", 1}, {"platform.electrode", 0}, {                       \
+    "liquid.model", ZP_LIQUID_NONE                                                                                     \
+  }
+
+static ZpActuatorDef turning(int nodes, double offset) {
+  return DEF(TURNS, {"mesh.nodes", nodes}, {"load.offset", offset}, {"output.errors", false});
+}
+
+static double angle_of(ZpActuatorDef def) {
+  return answered_value(ZP_STUDY_STATIONARY, &def, "angle_rad");
+}
+
+/* Eq. (19.5). */
+static double small_tilt(const ZpActuatorDef *def) {
+  double b = def->ribbon.thickness, nu = def->ribbon.poisson_ratio, a = def->platform.length;
+  double EI = def->ribbon.young_modulus * def->ribbon.width * b * b * b / 12 / (1 - nu * nu);
+  double L = 0.5 * (def->ribbon.length - a), stiffness = EI / (L * L * L) * (5 * L * L + 6 * L * a + 3 * a * a);
+  return -(def->load.mass * def->gravity + def->load.force) * def->load.offset / stiffness;
+}
+
+/* So little weight that nothing bends far; of second order in the length of elements, whatever the platform's length.
+ */
+START_TEST(small_tilt_is_that_of_its_closed_form) {
+  static const double lengths[] = {2e-3, 10e-3, 40e-3};
+  double off[3];
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef def = turning(10 * (1 << k) + 1, 0.4 * lengths[_i]);
+    def.platform.length = lengths[_i];
+    def.gravity = 1e-4, def.load.force = 2e-7;
+    off[k] = angle_of(def) / small_tilt(&def) - 1;
+  }
+  ck_below(fabs(off[2]), 1e-3);
+  ck_near(off[0] / off[1], 4, 0.03);
+  ck_near(off[1] / off[2], 4, 0.03);
+}
+END_TEST
+
+/* One node of the one and its image of the other, right clip to left clip. */
+static void check_mirrored(const ZpTable *one, const ZpTable *other, double width) {
+  for (size_t i = 0; i < one->rows; i++) {
+    size_t image = one->rows - 1 - i;
+    double straight = zp_table_get(one, i, "y_m") - zp_table_get(other, image, "y_m"),
+           sideways = zp_table_get(one, i, "x_m") + zp_table_get(other, image, "x_m") - width;
+    ck_below(fabs(straight), 1e-11);
+    ck_below(fabs(sideways), 1e-11);
+  }
+}
+
+/* With the load on the other side, or in the middle, the state is the mirror image. */
+START_TEST(offset_on_the_other_side_is_a_mirror_image) {
+  double offset = _i ? 3e-3 : 0;
+  ZpActuatorDef right = turning(21, offset), left = turning(21, -offset);
+  ZpResult *one = study_of(ZP_STUDY_STATIONARY, &right), *other = study_of(ZP_STUDY_STATIONARY, &left);
+  check_mirrored(one->series, other->series, right.ribbon.length);
+  if (_i) ck_below(zp_result_get(one, "angle_rad"), -0.02);
+  ck_near(zp_result_get(one, "opening_m"), zp_result_get(other, "opening_m"), 1e-10);
+  zp_result_destroy(one);
+  zp_result_destroy(other);
+}
+END_TEST
+
+/* Under a load in the middle it hangs as a platform that is guided does, up to the second order of its joints. */
+START_TEST(load_in_the_middle_does_not_tilt) {
+  double off[3];
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef def = turning(10 * (1 << k) + 1, 0);
+    double free_to_turn = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
+    ck_below(fabs(angle_of(def)), 1e-10);
+    def.platform.rotates = false;
+    off[k] = free_to_turn / answered_value(ZP_STUDY_STATIONARY, &def, "opening_m") - 1;
+  }
+  ck_below(fabs(off[2]), 1e-3);
+  ck_near(off[0] / off[1], 4, 0.15);
+  ck_near(off[1] / off[2], 4, 0.15);
+}
+END_TEST
+
+/* Every mesh's platform keeps its length but for what the ribbon on it stretches, and the load its lever. */
+START_TEST(platform_keeps_its_length) {
+  ZpActuatorDef def = turning(21, 4e-3);
+  ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
+  const ZpTable *t = result->series;
+  double dx = zp_table_get(t, 21, "x_m") - zp_table_get(t, 20, "x_m"),
+         dy = zp_table_get(t, 21, "y_m") - zp_table_get(t, 20, "y_m");
+  ck_near(sqrt(dx * dx + dy * dy), def.platform.length, 1e-6);
+  ck_near(atan2(dy, dx), zp_result_get(result, "angle_rad"), 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Largest imbalance of a run over the largest kinetic energy. */
+static double imbalance_of(const ZpActuatorDef *def) {
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, def);
+  double imbalance = 0, kinetic = 0;
+  for (size_t row = 0; row < result->series->rows; row++) {
+    imbalance = fmax(imbalance, fabs(zp_table_get(result->series, row, "energy_imbalance_J")));
+    kinetic = fmax(kinetic, zp_table_get(result->series, row, "kinetic_energy_J"));
+  }
+  zp_result_destroy(result);
+  return imbalance / kinetic;
+}
+
+/* The platform falls, turns and moves sideways; under voltage one half zips before the other. */
+START_TEST(energy_balances) {
+  ZpActuatorDef def[] = {
+      DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"drive.voltage", 0}, {"damping.internal", 0},
+          {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.end_time", 0.1}),
+      DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"mount.tilt", 0.5}, {"solver.end_time", 0.05}),
+      DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"electro.edges", 1}, {"drive.voltage", 8e3}),
+  };
+  ck_below(imbalance_of(&def[_i]), 1e-8);
+}
+END_TEST
+
+/* What hangs at rest stays at rest: the laws of the motion are those of rest. */
+START_TEST(rest_stays_at_rest) {
+  ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"drive.voltage", 0});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_sim_run(sim, 0.02, false, NULL, &info), ZP_REACHED_END);
+  ck_near(zp_sim_get(sim, "angle"), angle_of(def), 1e-6);
+  ck_below(zp_sim_get(sim, "kinetic_energy"), 1e-15);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Of ribbons without mass, whose platform swings against its tilt on the masses at its ends: eqs. (19.4) and (19.5). */
+START_TEST(frequency_of_the_tilt) {
+  static const double half_turn = 3.14159265358979323846;
+  ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 81}, {"ribbon.density", 1}, {"gravity", 0}, {"output.errors", false});
+  ZpActuatorDef weighed = def;
+  weighed.gravity = 1, weighed.load.offset = 1e-3;
+  double a = def.platform.length, stiffness = -def.load.mass * 1e-3 / small_tilt(&weighed);
+  double expected = sqrt(stiffness / (def.load.mass * a * a / 4)) / (2 * half_turn), nearest = INFINITY;
+  ZpResult *result = study_of(ZP_STUDY_MODES, &def);
+  for (size_t k = 0; k < 4; k++)
+    nearest = fmin(nearest, fabs(zp_table_get(result->series, k, "frequency_Hz") / expected - 1));
+  ck_below(nearest, 2e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- what is refused ---------------------------------------------------------------------------------- */
+
+START_TEST(what_takes_the_platform_as_level_is_refused) {
+  static const struct {
+    Setting setting;
+    const char *words;
+  } refused[] = {
+      {{"actuator.symmetry", ZP_SYMMETRY_HALF}, "platform.rotates: requires actuator.symmetry none"},
+      {{"platform.length", 0}, "platform.rotates: requires platform.length above 0 m"},
+      {{"platform.electrode", 1}, "platform.rotates: requires platform.electrode false"},
+      {{"liquid.model", ZP_LIQUID_SUBMERGED}, "platform.rotates: requires liquid.model none"},
+      {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates: requires ribbon.plane strain or stress"},
+      {{"ribbon.plasticity", 1}, "platform.rotates: requires ribbon.plasticity false"},
+      {{"load.stop_opening", 5e-3}, "platform.rotates: requires load.stop_opening none"},
+      {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: beyond the platform, allowed -0.005 to 0.005 m"},
+      {{"platform.rotates", 0}, "load.offset = 0.001 m: requires platform.rotates true"},
+  };
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 1e-3}, refused[k].setting);
+    ck_refused(&def, refused[k].words);
+  }
+  ZpActuatorDef def = turning(21, 0);
+  def.load.stiffness = 1, def.load.rest_opening = 1e-3;
+  ck_refused(&def, "platform.rotates: requires load.stiffness 0 N/m");
+  def.load.stiffness = 0, def.load.rest_opening = NAN;
+  def.load.change_mass = 1e-3, def.load.change_time = 1e-3;
+  ck_refused(&def, "platform.rotates: requires load.change_mass 0 kg");
+  ZpActuatorDef held = turning(21, 0);
+  ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates: study isometric requires false");
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("rotates");
+  TCase *c = tcase_create("rotates");
+  tcase_add_loop_test(c, small_tilt_is_that_of_its_closed_form, 0, 3);
+  tcase_add_loop_test(c, offset_on_the_other_side_is_a_mirror_image, 0, 2);
+  tcase_add_test(c, load_in_the_middle_does_not_tilt);
+  tcase_add_test(c, platform_keeps_its_length);
+  tcase_add_loop_test(c, energy_balances, 0, 3);
+  tcase_add_test(c, rest_stays_at_rest);
+  tcase_add_test(c, frequency_of_the_tilt);
+  tcase_add_test(c, what_takes_the_platform_as_level_is_refused);
+  suite_add_tcase(suite, c);
+  return run_suite(suite);
+}
