@@ -2,7 +2,7 @@
  * closed form, mirror images, what a load in the middle does, energy in motion under voltage, and what is refused. */
 #include "check_util.h"
 
-/* The largest of a whole actuator whose platform turns. */
+/* A whole actuator whose platform turns. */
 #define TURNS                                                                                                          \
   {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"platform.rotates", 1}, {"platform.electrode", 0}, {                       \
     "liquid.model", ZP_LIQUID_NONE                                                                                     \
