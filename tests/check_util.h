@@ -75,6 +75,12 @@ static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
 }
 #define DEF(...) def_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
 
+/* A whole actuator whose platform turns. */
+#define TURNS                                                                                                          \
+  {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"platform.rotates", 1}, {                                                  \
+    "platform.electrode", 0                                                                                            \
+  }
+
 /* What a study of a Def that is in order finds. */
 static inline ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
   ZpResult *result = NULL;

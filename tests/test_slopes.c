@@ -73,7 +73,6 @@ START_TEST(strokes_change_as_differences_say) {
   check_differences(ZP_STUDY_STATIONARY, &whole, by, 1e-3, 1e-6);
   ZpActuatorDef turning = whole;
   turning.platform.rotates = true, turning.platform.electrode = false;
-  turning.liquid.model = ZP_LIQUID_NONE;
   turning.load.offset = 1e-3;
   check_differences(ZP_STUDY_STATIONARY, &turning, "load.offset, ribbon.length, load.mass, platform.length", 1e-3,
                     1e-6);

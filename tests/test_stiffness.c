@@ -35,11 +35,6 @@ typedef struct Case {
     "hinge.rest_angle", 0.5                                                                                            \
   }
 
-#define TURNS                                                                                                          \
-  {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"platform.rotates", 1}, {                                                  \
-    "platform.electrode", 0                                                                                            \
-  }
-
 static const Case cases[] = {
     {"two ribbons", SET(SOFT), 1e-4, 0, false},
     {"attraction", SET(SOFT), 1e-4, 5e3, false},

@@ -193,7 +193,7 @@ static inline double zp_end_share(const ZpModel *model) {
   return model->def.load.share / model->def.stack.parallel;
 }
 
-/* How much more than that the platform's end at a station carries of a load that hangs off the centre, eq. (19.4). */
+/* Factor on that for the platform's end at a station: 1, or by (19.4) of a load that hangs off the centre. */
 static inline double zp_load_part(const ZpModel *model, size_t station) {
   const ZpTopology *t = &model->topology;
   if (model->def.load.offset == 0) return 1;

@@ -19,9 +19,8 @@ typedef enum ZpJointKind {
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
   ZP_JOINT_FREE,     /* free to move and to turn */
   ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
+  ZP_JOINT_LINK,     /* the same, but the upper one slides, too, with the lower one of the actuator above */
   ZP_JOINT_TURNING,  /* rigid; the upper one is held and horizontal, the lower one moves and turns in the plane */
-  ZP_JOINT_LINK,     /* the same as ZP_JOINT_PLATFORM, but the upper one slides, too, with the lower one of the actuator
-                        above */
   ZP_JOINT_KINDS
 } ZpJointKind;
 
