@@ -357,6 +357,8 @@ START_TEST(test_key_nearest) {
       {"Gravity", "gravity"},
       {"damping.drag", "damping.drag"},
       {"load.weight", "load.mass"},
+      {"medium.viscosity", "medium.kinematic_viscosity"},
+      {"ribbon.young", "ribbon.young_modulus"},
       {"electro.breakdowncap", "electro.breakdown_cap"},
   };
   for (size_t i = 0; i < LENGTH_OF(pairs); i++)

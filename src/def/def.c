@@ -153,6 +153,23 @@ int zp_word_distance(const char *a, const char *b) {
   return row[len];
 }
 
+/* The first key of the group that `name` begins with and whose last word has that of `name` in it, or NULL. */
+static const char *first_with(const char *name, const char *word) {
+  const char *dot = strchr(name, '.');
+  for (int i = 0; dot && i < KEY_COUNT; i++)
+    if (strncmp(keys[i].name, name, (size_t)(dot - name) + 1) == 0 && strstr(strrchr(keys[i].name, '.') + 1, word))
+      return keys[i].name;
+  return NULL;
+}
+
+/* A name that no other resembles may be short for one (medium.viscosity); else its group's main key is the likelier one
+ * (load.mass for load.weight). */
+static const char *first_of_group(const char *name) {
+  const char *dot = strrchr(name, '.');
+  const char *first = dot && dot[1] ? first_with(name, dot + 1) : NULL;
+  return first ? first : first_with(name, "");
+}
+
 const char *zp_key_nearest(const char *name) {
   const char *nearest = keys[0].name;
   int least = 1000;
@@ -166,7 +183,9 @@ const char *zp_key_nearest(const char *name) {
       nearest = keys[i].name;
     }
   }
-  return nearest;
+  bool alike = 4 * least <= (int)strlen(name);
+  const char *first = alike ? NULL : first_of_group(name);
+  return first ? first : nearest;
 }
 
 int zp_key_choice(int index, const char *word) {
