@@ -12,7 +12,9 @@
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
  *                                        the studies
  *   designs ramp [COUNT [SEED]]          do `limits` and a slow ramp of the voltage in time close and open the actuator
- *                                        at the same voltages to 1 %, with 61 nodes or more? Status 1 if one does not
+ *                                        at the same voltages to 1 %, with 61 nodes or more, or where the mesh is too
+ *                                        coarse to 1 % beyond what half the elements' length changes? Status 1 if one
+ *                                        does not
  */
 #include <zipact/zipact.h>
 
@@ -548,14 +550,22 @@ static bool run_ramp(ZpActuatorDef def, double closing, double release, double f
   return good;
 }
 
-static bool is_off(double limit, double by_time) {
+static bool is_off(double limit, double by_time, double beside) {
   static const double part = 0.01;
-  return !isnan(limit) && !(fabs(by_time / limit - 1) <= part);
+  return !isnan(limit) && !(fabs(by_time / limit - 1) <= part + beside);
+}
+
+/* By how much elements half as long change the closing voltage, relative: on a mesh that is too coarse a front may be
+ * held between two nodes, where inertia carries it on or not. */
+static double of_the_mesh(ZpActuatorDef def, double closing) {
+  def.mesh.nodes = 2 * def.mesh.nodes - 1;
+  double fine = answer_of(ZP_STUDY_LIMITS, &def).voltage[1];
+  return isnan(fine) ? 0 : fabs(fine / closing - 1);
 }
 
 /* => how many designs close or open on a ramp elsewhere than `limits` says */
 static int check_ramp(int designs, uint64_t state) {
-  int off = 0, looked = 0, released = 0;
+  int off = 0, looked = 0, released = 0, coarse = 0;
   for (int i = 0; i < designs; i++) {
     ZpActuatorDef def = design(&state);
     if (def.mesh.nodes < 61) def.mesh.nodes = 61;
@@ -566,7 +576,12 @@ static int check_ramp(int designs, uint64_t state) {
     bool ran = run_ramp(def, closing, release, found);
     looked++;
     released += !isnan(release);
-    if (ran && !is_off(closing, found[0]) && !is_off(release, found[1])) continue;
+    bool opens = ran && !is_off(release, found[1], 0), closes = ran && !is_off(closing, found[0], 0);
+    if (opens && closes) continue;
+    if (opens && !is_off(closing, found[0], of_the_mesh(def, closing))) {
+      coarse++;
+      continue;
+    }
     off++;
     printf("design %d:", i);
     print_design(&def);
@@ -574,8 +589,10 @@ static int check_ramp(int designs, uint64_t state) {
            found[1]);
     fflush(stdout);
   }
-  printf("ramp: %d of %d designs that close agree to 1 %%, %d of them with a release\n", looked - off, looked,
-         released);
+  printf(
+      "ramp: %d of %d designs that close agree, %d of them with a release; of %d the closing voltage differs by more "
+      "than 1 %%, as it does from that of twice as many elements\n",
+      looked - off, looked, released, coarse);
   return off;
 }
 

@@ -114,12 +114,13 @@ typedef struct ToyMarch {
 
 static void open_toy(ToyMarch *f, Toy *t, bool symmetric) {
   ZpCarver carver = {NULL, 0};
+  const ZpBandForm form = {.bandwidth = 1, .symmetric = symmetric};
   *f = (ToyMarch){.system = toy_system(t)};
   for (int pass = 0; pass < 2; pass++) {
     if (pass) f->memory = zp_calloc(1, carver.used);
     carver = (ZpCarver){f->memory, 0};
-    zp_newton_carve(&f->newton, EQUATIONS, 1, symmetric, &carver);
-    zp_march_carve(&f->march, &f->system, 1, symmetric, &f->newton, &carver);
+    zp_newton_carve(&f->newton, EQUATIONS, form, &carver);
+    zp_march_carve(&f->march, &f->system, form, &f->newton, &carver);
   }
   f->march.fold.tolerance = 1e-12;
 }

@@ -311,12 +311,6 @@ void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double va
   add(a, row, column, value, K);
 }
 
-void zp_assemble_cross(const ZpAssembly *a, size_t c, size_t k, bool of_coordinate, double value, ZpBand *K) {
-  int own = a->own_equation[c], other = a->equation[k];
-  if (other < 0) return;
-  *zp_band_at(K, (size_t)(of_coordinate ? other : own), (size_t)(of_coordinate ? own : other)) += value;
-}
-
 void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
   int row = a->equation[2 * a->s * station + 1], column = a->equation[2 * (a->s * station + a->s - 1) + 1];
   if (row >= 0) *zp_band_at(K, (size_t)row, (size_t)row) += upper;

@@ -46,10 +46,8 @@ void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand 
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
 
-/* K += value at one place: in the row of a coordinate and the column of another; in that of an own unknown c and the
- * column of coordinate k, or, `of_coordinate`, the other way round. Of a matrix that keeps both triangles. */
+/* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);
-void zp_assemble_cross(const ZpAssembly *assembly, size_t c, size_t k, bool of_coordinate, double value, ZpBand *K);
 
 /* K += values at the heights of both nodes of a station, and between them. Of a symmetric matrix. */
 void zp_assemble_heights(const ZpAssembly *assembly, size_t station, double upper, double lower, double both,

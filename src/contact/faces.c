@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/kernel.h"
 #include "math/gauss.h"
 
 void zp_faces_carve(const ZpFacesParams *p, ZpFacesEval *e, ZpCarver *carver) {
@@ -61,12 +62,82 @@ static void add_platform(const ZpFacesParams *p, const ZpFacesSpan *span, size_t
   e->stiffness[i] += 2 * c;
 }
 
-ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
-  return (ZpFacesSpan){start, end, h > 0 ? h / (h + p->settling) : 0};
-}
-
 static bool touches(const double *gap, size_t i) {
   return gap[i] < 0 || gap[i + 1] < 0;
+}
+
+/* -- at rest ----------------------------------------------------------------------------------------- */
+
+/* What some elements do to their left and right stations. */
+typedef struct Block {
+  double push[2][ZP_LANES], own[2][ZP_LANES], next[ZP_LANES], stiffness[2][ZP_LANES];
+} Block;
+
+/* At rest the mean of a point is s^3, and half of its slope 3 s^2 / 2. */
+ZP_KERNEL static void block_at_rest(const ZpFacesParams *p, const double *restrict gap, size_t count,
+                                    Block *restrict of) {
+  double per_depth = 1 / p->depth, l = p->l * p->push;
+  ZP_SIMD
+  for (size_t k = 0; k < count; k++) {
+    double push0 = 0, push1 = 0, own0 = 0, own1 = 0, next = 0, all0 = 0, all1 = 0;
+    for (int q = 0; q < GAUSS; q++) {
+      double right = gauss_at[q], left = 1 - right, x = -(left * gap[k] + right * gap[k + 1]) * per_depth;
+      double s = x > 0 ? x : 0, weight = gauss_weight[q] * l, f = weight * (s * s * s);
+      double c = weight * (1.5 * (s * s)) * per_depth;
+      push0 += left * f, push1 += right * f;
+      own0 += left * left * c, own1 += right * right * c, next += left * right * c;
+      all0 += 2 * left * c, all1 += 2 * right * c;
+    }
+    of->push[0][k] = push0, of->push[1][k] = push1, of->own[0][k] = own0, of->own[1][k] = own1;
+    of->next[k] = next, of->stiffness[0][k] = all0, of->stiffness[1][k] = all1;
+  }
+}
+
+static void add_of_block(const Block *of, size_t k, size_t i, const ZpFacesEval *e) {
+  for (size_t end = 0; end < 2; end++) {
+    e->push[i + end] += of->push[end][k];
+    e->own[i + end] += of->own[end][k];
+    e->stiffness[i + end] += of->stiffness[end][k];
+  }
+  e->next[i] += of->next[k];
+}
+
+static bool is_level(const ZpFacesParams *p, size_t i) {
+  for (size_t k = 0; k < p->level.count; k++)
+    if (p->level.of[k].element == i) return true;
+  return false;
+}
+
+static void elements_at_rest(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
+  size_t elements = p->nodes - 1;
+  const double *gap = span->end;
+  for (size_t first = 0; first < elements; first += ZP_LANES) {
+    size_t count = elements - first < ZP_LANES ? elements - first : ZP_LANES;
+    Block block;
+    bool any = false;
+    for (size_t k = 0; k < count; k++)
+      any = any || touches(gap, first + k);
+    if (any) block_at_rest(p, gap + first, count, &block);
+    for (size_t k = 0; any && k < count; k++) {
+      size_t i = first + k;
+      if (!touches(gap, i) || is_rigid(p, i)) continue;
+      if (is_level(p, i))
+        add_element(p, span, i, e);
+      else
+        add_of_block(&block, k, i, e);
+    }
+  }
+}
+
+/* -- all -------------------------------------------------------------------------------------------- */
+
+static void elements_over_span(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
+  for (size_t i = 0; i + 1 < p->nodes; i++)
+    if ((touches(span->start, i) || touches(span->end, i)) && !is_rigid(p, i)) add_element(p, span, i, e);
+}
+
+ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
+  return (ZpFacesSpan){start, end, h > 0 ? h / (h + p->settling) : 0};
 }
 
 void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
@@ -74,8 +145,10 @@ void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFace
   memset(e->own, 0, p->nodes * sizeof *e->own);
   memset(e->next, 0, p->nodes * sizeof *e->next);
   memset(e->stiffness, 0, p->nodes * sizeof *e->stiffness);
-  for (size_t i = 0; i + 1 < p->nodes; i++)
-    if ((touches(span->start, i) || touches(span->end, i)) && !is_rigid(p, i)) add_element(p, span, i, e);
+  if (span->start == span->end)
+    elements_at_rest(p, span, e);
+  else
+    elements_over_span(p, span, e);
   for (size_t i = p->platform; i <= p->platform_end; i++)
     add_platform(p, span, i, e);
 }

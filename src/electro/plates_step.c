@@ -180,11 +180,60 @@ static Parts covered_element(const ZpPlatesParams *p, const Laws *wet, const Law
   return parts;
 }
 
+/* How many elements from i on have all liquid, or none. 0: it ends in element i. */
+static size_t alike_from(const ZpPlatesParams *p, const ZpCover *cover, size_t i) {
+  size_t end = i;
+  double part = cover->part[i];
+  while ((part == 0 || part == 1) && end + 1 < p->nodes && cover->part[end] == part)
+    end++;
+  return end - i;
+}
+
+static ZpPlatesEval eval_from(const ZpPlatesEval *e, size_t i) {
+  ZpPlatesEval from = *e;
+  from.gap += i;
+  from.dx += i;
+  return from;
+}
+
+static ZpPlatesStep step_from(const ZpPlatesStep *s, size_t i) {
+  return (ZpPlatesStep){.own = s->own,
+                        .next = s->next + i,
+                        .along0 = s->along0 + i,
+                        .along1 = s->along1 + i,
+                        .A = s->A + i,
+                        .B = s->B + i,
+                        .P = s->P + i,
+                        .own_A = s->own_A + i,
+                        .own_B = s->own_B + i};
+}
+
+/* `count` elements from i on under one law that attracts alike at both ends. */
+static void alike_elements(size_t i, size_t count, const Laws *law, double d, const ZpPlatesEval *e0,
+                           const ZpPlatesEval *e1, const ZpPlatesStep *s) {
+  ZpPlatesEval from0 = eval_from(e0, i), from1 = eval_from(e1, i);
+  ZpPlatesStep to = step_from(s, i);
+  if (e0 == e1)
+    elements_at_rest(count, law, d, &from1, &to);
+  else
+    elements_at_one(count, law, d, &from0, &from1, &to);
+}
+
 static void covered_elements(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U0,
                              double U1, const ZpPlatesStep *s) {
   Laws wet = laws_of(p, U0, U1), dry = laws_of(p->air, U0, U1);
-  for (size_t i = 0; i + 1 < p->nodes; i++)
+  for (size_t i = 0, count; i + 1 < p->nodes; i += count > 0 ? count : 1) {
+    double part = e1->cover->part[i];
+    count = wet.count == 1 ? alike_from(p, e1->cover, i) : 0;
+    if (count > 0)
+      alike_elements(i, count, part == 1 ? &wet : &dry, part == 1 ? p->d : p->air->d, e0, e1, s);
+    else
+      put(s, i, covered_element(p, &wet, &dry, part, e0, e1, i));
+  }
+  for (size_t k = 0; k < p->level.count; k++) {
+    size_t i = p->level.of[k].element;
     put(s, i, covered_element(p, &wet, &dry, e1->cover->part[i], e0, e1, i));
+  }
 }
 
 /* A central difference, near the ends of the element one that stays inside: the sums over points are smooth. */
@@ -379,15 +428,37 @@ ZP_KERNEL static void parts_of_charges_at_rest(size_t count, double d, double h_
   }
 }
 
+/* `count` of them from i on under one law. */
+static void alike_charges(const ZpPlatesParams *law, const ZpPlatesEval *e, double U, double share, size_t i,
+                          size_t count, const ZpPlatesStep *s) {
+  ZpPlatesEval from = eval_from(e, i);
+  ZpPlatesStep to = step_from(s, i);
+  parts_of_charges_at_rest(count, law->d, zp_plates_least_h(law, U), share * (2 * law->k * U), &from, &to);
+}
+
+/* The same with liquid where the cover has it. */
+static void covered_charges(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, double share, ZpPlatesStep *s) {
+  for (size_t i = 0, count; i + 1 < p->nodes; i += count > 0 ? count : 1) {
+    count = alike_from(p, e->cover, i);
+    if (count > 0)
+      alike_charges(e->cover->part[i] == 1 ? p : p->air, e, U, share, i, count, s);
+    else
+      parts_of_charges_at(p, e, e, U, share, i, s);
+  }
+}
+
 static void parts_of_charges(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U,
                              double share, ZpPlatesStep *s) {
   size_t elements = p->nodes - 1;
-  if (p->edges || e1->cover || e0 != e1) {
+  if (p->edges || e0 != e1) {
     for (size_t i = 0; i < elements; i++)
       parts_of_charges_at(p, e0, e1, U, share, i, s);
     return;
   }
-  parts_of_charges_at_rest(elements, p->d, zp_plates_least_h(p, U), share * (2 * p->k * U), e1, s);
+  if (e1->cover)
+    covered_charges(p, e1, U, share, s);
+  else
+    alike_charges(p, e1, U, share, 0, elements, s);
   for (size_t k = 0; k < p->level.count; k++)
     parts_of_charges_at(p, e0, e1, U, share, p->level.of[k].element, s);
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "math/vector.h"
 
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver) {
   band->n = n;
@@ -12,10 +13,24 @@ void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver 
   band->stride = 2 * lower + upper + 1;
   band->a = zp_carve(carver, n * band->stride);
   band->pivot = lower > 0 ? (size_t *)(void *)zp_carve(carver, n) : NULL; /* a size_t is no larger than a double */
+  band->rank = 0;
+}
+
+void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carver) {
+  zp_band_carve(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, carver);
+  band->rank = form.rank;
+  band->u = zp_carve(carver, form.rank * n);
+  band->v = zp_carve(carver, form.rank * n);
+  band->w = zp_carve(carver, form.rank * n);
+  band->s = zp_carve(carver, form.rank);
 }
 
 void zp_band_clear(ZpBand *band) {
+  size_t terms = band->rank * band->n;
   memset(band->a, 0, band->n * band->stride * sizeof(double));
+  if (terms == 0) return;
+  memset(band->u, 0, terms * sizeof *band->u);
+  memset(band->v, 0, terms * sizeof *band->v);
 }
 
 static size_t least(size_t a, size_t b) {
@@ -219,21 +234,51 @@ ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {
     solve_rows(band, band->stride, b);
 }
 
-/* -- either ----------------------------------------------------------------------------------------- */
+/* -- what is on top: Sherman and Morrison's formula, term by term ------------------------------------ */
 
-bool zp_band_factor(ZpBand *band) {
-  return band->lower == 0 ? factor_symmetric(band) : factor_lu(band);
+/* b is solved with the band and `terms` terms on top of it, if it was with the band. */
+static void solve_top(const ZpBand *band, size_t terms, double *b) {
+  size_t n = band->n;
+  for (size_t k = 0; k < terms; k++) {
+    double part = zp_dot(n, band->v + k * n, b) / band->s[k];
+    for (size_t i = 0; i < n; i++)
+      b[i] -= band->w[k * n + i] * part;
+  }
 }
 
-void zp_band_solve(const ZpBand *band, double *b) {
+static void solve_band(const ZpBand *band, double *b) {
   if (band->lower == 0)
     solve_symmetric(band, b);
   else
     solve_lu(band, b);
 }
 
+static bool factor_top(ZpBand *band) {
+  size_t n = band->n;
+  for (size_t k = 0; k < band->rank; k++) {
+    double *w = band->w + k * n;
+    memcpy(w, band->u + k * n, n * sizeof *w);
+    solve_band(band, w);
+    solve_top(band, k, w);
+    band->s[k] = 1 + zp_dot(n, band->v + k * n, w);
+    if (!is_pivot(band->s[k])) return false;
+  }
+  return true;
+}
+
+/* -- either ----------------------------------------------------------------------------------------- */
+
+bool zp_band_factor(ZpBand *band) {
+  return (band->lower == 0 ? factor_symmetric(band) : factor_lu(band)) && factor_top(band);
+}
+
+void zp_band_solve(const ZpBand *band, double *b) {
+  solve_band(band, b);
+  solve_top(band, band->rank, b);
+}
+
 /* Of a symmetric matrix each entry beside the diagonal counts twice. */
-void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
+static void multiply_band(const ZpBand *band, const double *x, double *y) {
   size_t n = band->n, lower = band->lower;
   memset(y, 0, n * sizeof *y);
   for (size_t i = 0; i < n; i++) {
@@ -245,9 +290,26 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
   }
 }
 
-size_t zp_band_negative(const ZpBand *band) {
+void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
+  size_t n = band->n;
+  multiply_band(band, x, y);
+  for (size_t k = 0; k < band->rank; k++) {
+    double part = zp_dot(n, band->v + k * n, x);
+    for (size_t i = 0; i < n; i++)
+      y[i] += band->u[k * n + i] * part;
+  }
+}
+
+static size_t negative_of_band(const ZpBand *band) {
   size_t negative = 0;
   for (size_t i = 0; i < band->n; i++)
     negative += *zp_band_at(band, i, i) < 0;
   return band->lower == 0 ? negative : (negative + band->odd) % 2;
+}
+
+size_t zp_band_negative(const ZpBand *band) {
+  size_t negative = negative_of_band(band);
+  for (size_t k = 0; k < band->rank; k++)
+    if (band->s[k] < 0) negative = negative > 0 ? negative - 1 : 1;
+  return negative;
 }

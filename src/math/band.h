@@ -1,4 +1,5 @@
-/* Banded linear systems, square: factor in place, solve.
+/* Banded linear systems, square: factor in place, solve. On top of the band there may be a matrix of low rank, the sum
+ * of u v': what couples many equations through one scalar each.
  *
  * Storage: row i holds the columns i - lower .. i + upper + lower (room for what pivoting fills in), entry
  * (i, j) at [i * stride + (j - i + lower)], stride = 2 lower + upper + 1. A matrix with lower == 0 is symmetric and
@@ -18,12 +19,24 @@ typedef struct ZpBand {
   double *a;           /* [n * stride] */
   size_t *pivot;       /* [n] row that was exchanged with row i; not of a symmetric matrix */
   bool odd;            /* an odd number of rows was exchanged */
+  size_t rank;         /* of what is on top: */
+  double *u, *v;       /* [rank * n] its terms u v' */
+  double *w;           /* [rank * n] factored: u solved with the band and the terms before it */
+  double *s;           /* [rank] factored: 1 + v' w, by which a term changes the determinant */
 } ZpBand;
+
+/* What a matrix looks like, whatever its size. */
+typedef struct ZpBandForm {
+  size_t bandwidth; /* diagonals above the main one, and below */
+  bool symmetric;   /* the band is: only its upper triangle is kept */
+  size_t rank;      /* of what is on top of it */
+} ZpBandForm;
 
 enum { ZP_BAND_MOST = 23 };
 
-/* Cut the arrays from `carver`. */
+/* Cut the arrays from `carver`: of a band alone, of one of a form. */
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver);
+void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carver);
 
 /* All entries 0. */
 void zp_band_clear(ZpBand *band);
@@ -44,7 +57,8 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y);
 void zp_band_solve(const ZpBand *band, double *b);
 
 /* Of a factored symmetric matrix: how many of its eigenvalues are negative (Sylvester's law of inertia). Of another: 1
- * if its determinant is negative, else 0. */
+ * if its determinant is negative, else 0. Each term on top that changes the sign of the determinant takes one of them
+ * away, or adds one where there is none. */
 size_t zp_band_negative(const ZpBand *band);
 
 #endif

@@ -92,6 +92,17 @@ static void add_stiffness(const ZpAntagonists *both, int which, ZpBand *K) {
     }
 }
 
+/* Its terms on top of the band, from term `first` on. */
+static void add_top(const ZpAntagonists *both, int which, size_t first, ZpBand *K) {
+  const ZpBand *own = &both->of[which].branch.newton.K;
+  for (size_t k = 0; k < own->rank; k++)
+    for (size_t i = 0; i < own->n; i++) {
+      size_t from = k * own->n + i, to = (first + k) * K->n + place_of(both, which, i);
+      K->u[to] += sign_of(both, which, i) * own->u[from];
+      K->v[to] += sign_of(both, which, i) * own->v[from];
+    }
+}
+
 static void stiffness(void *self, ZpBand *K, double *r) {
   ZpAntagonists *both = self;
   (void)r; /* nothing is moved as prescribed */
@@ -99,6 +110,7 @@ static void stiffness(void *self, ZpBand *K, double *r) {
   for (int which = UPPER; which <= LOWER; which++) {
     both->alone[which].stiffness(member(both, which), &both->of[which].branch.newton.K, NULL);
     add_stiffness(both, which, K);
+    add_top(both, which, which == UPPER ? 0 : member(both, UPPER)->form.rank, K);
   }
 }
 
@@ -205,7 +217,9 @@ static ZpBranchSystem system_of(ZpAntagonists *both) {
 static void carve_all(ZpAntagonists *both, ZpCarver *carver) {
   for (int which = UPPER; which <= LOWER; which++)
     both->step[which] = zp_carve(carver, own_count(both, which));
-  zp_branch_carve(&both->branch, &both->system, bandwidth_of(both), member(both, UPPER)->assembly.symmetric, carver);
+  const ZpBandForm *upper = &member(both, UPPER)->form, *lower = &member(both, LOWER)->form;
+  ZpBandForm form = {bandwidth_of(both), upper->symmetric, upper->rank + lower->rank};
+  zp_branch_carve(&both->branch, &both->system, form, carver);
 }
 
 bool zp_antagonists_open(ZpAntagonists *both, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver),

@@ -19,8 +19,7 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
       carver = (ZpCarver){rest->memory, 0};
       if (!rest->memory) return false;
     }
-    zp_branch_carve(&rest->branch, &rest->system, rest->statics.assembly.bandwidth, rest->statics.assembly.symmetric,
-                    &carver);
+    zp_branch_carve(&rest->branch, &rest->system, rest->statics.form, &carver);
     zp_shape_carve(model, &rest->shape_room, &carver);
     if (carve) carve(user, &carver);
   }

@@ -27,7 +27,7 @@ void zp_slow_carve(ZpSlow *f, ZpRest *rest, ZpCarver *carver) {
   f->newton = &rest->branch.newton;
   f->square = zp_closing_by_square(s);
   f->load = zp_statics_branch(s, ZP_ALONG_LOAD);
-  zp_march_carve(&f->march, &f->square, s->assembly.bandwidth, s->assembly.symmetric, f->newton, carver);
+  zp_march_carve(&f->march, &f->square, s->form, f->newton, carver);
   f->held = zp_carve(carver, zp_rest_save_size(rest));
 }
 
@@ -132,20 +132,61 @@ static ZpAround climb_on(ZpSlow *f, double m, double sign) {
   return found ? ZP_CREST_HIGHER : ZP_OUT_OF_SIGHT;
 }
 
-/* On one side of the limit, in steps of the gap. Where the branch rises again, beyond what it has fallen to, it is as
- * near to the limit as it comes: that is the limit's room. */
+/* Along one side of a limit, in steps of the gap. */
+typedef struct Side {
+  double m, gap, sign, step; /* of the limit; where the parameter goes further: 1 or -1; of the gap */
+  double deepest;            /* how far below the limit it has been, relative to the value */
+} Side;
+
+/* Is the parameter further than the limit's, by what counts? */
+static bool is_higher(const Side *side, double m) {
+  static const double higher = 1e-6; /* of the parameter */
+  return side->sign * (m - side->m) > higher * side->m;
+}
+
+/* How far a parameter is below the limit's, relative to the value: of the voltage's square a half. */
+static double depth_of(const ZpSlow *f, const Side *side, double m) {
+  double ratio = fmax(m / side->m, 0);
+  return side->sign * (1 - (along_load(f) ? ratio : sqrt(ratio)));
+}
+
+/* Where the branch rises again, beyond what it has fallen to, it is as near to the limit as it comes: that is the
+ * limit's room. */
+static void go_below(const ZpSlow *f, Side *side, ZpLimit *limit, double m) {
+  double below = depth_of(f, side, m);
+  if (below < side->deepest) limit->room = fmin(limit->room, below);
+  side->deepest = fmax(side->deepest, below);
+}
+
+/* Pass the point after k steps. => parameter there; NAN: it was not found */
+static double pass(ZpSlow *f, const Side *side, int k) {
+  enum { MOST = 6 };
+  double here = side->gap + k * side->step, m = NAN;
+  ZpPass end = ZP_PASS_AGAIN;
+  for (int tries = 0; tries < MOST && end == ZP_PASS_AGAIN; tries++)
+    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + side->step, &m);
+  return end == ZP_PASS_ON ? m : (double)NAN;
+}
+
+/* To the equilibrium after k steps, which seems to be higher, point by point. */
+static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, int k) {
+  bool found = true;
+  zp_slow_go_to(f, limit->state);
+  for (int i = 1; i <= k && found; i++)
+    found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * side->step, ZP_FOLD_ROUGH);
+  return found;
+}
+
+/* From the limit on. */
 static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double step) {
   enum { MOST = 12 };
-  static const double higher = 1e-6; /* of the parameter: what counts */
-  const double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
-  double deepest = 0;
-  for (int k = 1; k <= MOST; k++) {
-    if (!zp_fold_event(&f->march.fold, zp_closing_gap, gap + k * step, ZP_FOLD_ROUGH)) return ZP_OUT_OF_SIGHT;
-    if (sign * (parameter(f) - m) > higher * m) return climb_on(f, m, sign);
-    double below = sign * (1 - value_at(f) / limit->value);
-    if (below < deepest) limit->room = fmin(limit->room, below);
-    deepest = fmax(deepest, below);
-    if (below > ZP_FOLD_RIPPLE) return ZP_NOTHING_HIGHER;
+  Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, step, 0};
+  for (int k = 0; k <= MOST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
+    double m = pass(f, &side, k);
+    if (isnan(m)) return ZP_OUT_OF_SIGHT;
+    if (k == 0) continue;
+    if (is_higher(&side, m)) return go_to_point(f, limit, &side, k) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
+    go_below(f, &side, limit, m);
   }
   return ZP_NOTHING_HIGHER;
 }
@@ -240,6 +281,13 @@ ZpSlowEnd zp_slow_close_at(ZpSlow *f, double target, ZpLimit *at) {
 static void seek_pull_in(ZpSlow *f, double top, ZpLimit *pull_in) {
   f->march.event = NULL;
   if (zp_march(&f->march, top * top) == ZP_MARCH_FOLD) zp_slow_note(f, pull_in, ZP_MARCH_FOLD);
+}
+
+ZpMarchEnd zp_slow_pull_in(ZpSlow *f, double top, ZpLimit *limit) {
+  choose(f, &f->square);
+  ZpMarchEnd end = zp_march(&f->march, top * top);
+  if (end == ZP_MARCH_FOLD) climb(f, limit, 1);
+  return end;
 }
 
 ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closing) {

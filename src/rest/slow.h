@@ -75,6 +75,9 @@ ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double target, ZpLimit *at);
  * first limit point that is no ripple of the mesh, and closing. */
 ZpSlowEnd zp_slow_raise(ZpSlow *slow, double top, ZpLimit *pull_in, ZpLimit *closing);
 
+/* The same, but only to the first limit point on the way, ripple or not, or to where it has closed. */
+ZpMarchEnd zp_slow_pull_in(ZpSlow *slow, double top, ZpLimit *limit);
+
 /* The closed state at voltage `top`, from the present point where that is closed, else from the straight shape. False
  * if it is not closed there. */
 bool zp_slow_close(ZpSlow *slow, double top);

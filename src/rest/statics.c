@@ -52,10 +52,11 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   if (s->memory) carve(model, s, s->memory);
   if (s->memory) fill_model(model, s);
   if (!s->memory || !zp_system_create(s->model, true, &s->eval) ||
-      !zp_assembly_create(s->model, model->has_bead ? 2 : 0, model->is_rod && !model->has_bead, &s->assembly)) {
+      !zp_assembly_create(s->model, 0, model->is_rod, &s->assembly)) {
     zp_statics_destroy(s);
     return false;
   }
+  s->form = (ZpBandForm){s->assembly.bandwidth, s->assembly.symmetric, zp_bead_rank(model)};
   s->scale = zp_eval_weight_scale(model);
   s->load = model->def.load.mass;
   put_on(s, 1);
@@ -356,10 +357,23 @@ static void hold_platform(ZpStatics *s, double *r) {
   r[row] = holding(s) * (zp_drop(&s->model->topology, s->q + s->model->stride) - s->opening);
 }
 
+/* The same of the terms on top of the band. */
+static void hold_top(ZpBand *K, size_t row, double move, double *r) {
+  size_t n = K->n;
+  for (size_t k = 0; k < K->rank; k++) {
+    double *u = K->u + k * n, *v = K->v + k * n;
+    u[row] = 0;
+    for (size_t i = 0; r && i < n; i++)
+      r[i] -= u[i] * v[row] * move;
+    v[row] = 0;
+  }
+}
+
 /* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
 static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
   size_t row = zp_statics_platform(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
   double move = r ? r[row] / holding(s) : 0;
+  hold_top(K, row, move, r);
   for (size_t i = row > K->upper ? row - K->upper : 0; i <= last; i++) {
     if (i == row) continue;
     bool kept = K->lower > 0 || i < row; /* of a symmetric matrix only the upper triangle is there */

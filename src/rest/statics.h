@@ -22,6 +22,7 @@ typedef struct ZpStatics {
   double reaction;   /* what holds it there, N, one part, positive downwards; of the last residual */
   bool contact_acts; /* faces push on each other; without, they may pass (to find a start) */
   ZpAssembly assembly;
+  ZpBandForm form;            /* of the stiffness; with a bead, whose reach all forces go with, low ranks on top */
   double scale;               /* force that a residual is relative to, N */
   double *tension;            /* [edges] what the last step foresaw, N */
   double *moved;              /* [2 stride] work space of a move */

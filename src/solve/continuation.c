@@ -12,10 +12,10 @@ static const double sharpest_turn = 0.7; /* cosine: a step that turns by more wo
 static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
 enum { MOST_CORRECTIONS = 25, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
-void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpCarver *carver) {
+void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, ZpBandForm form, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   b->system = system;
-  zp_newton_carve(&b->newton, n, bandwidth, symmetric, carver);
+  zp_newton_carve(&b->newton, n, form, carver);
   b->a = zp_carve(carver, n);
   b->b = zp_carve(carver, n);
   b->q = zp_carve(carver, n);

@@ -34,8 +34,7 @@ typedef struct ZpBranch {
   void *saved, *saved_before;
 } ZpBranch;
 
-void zp_branch_carve(ZpBranch *branch, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
-                     ZpCarver *carver);
+void zp_branch_carve(ZpBranch *branch, const ZpBranchSystem *system, ZpBandForm form, ZpCarver *carver);
 
 /* Start at the present point, which must be an equilibrium, towards growing (or falling) m. False if the
  * stiffness is singular there. */

@@ -11,12 +11,11 @@
 
 #include "math/vector.h"
 
-void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
-                   ZpCarver *carver) {
+void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   f->system = system;
   f->newton = newton;
-  zp_band_carve(&f->beside, n, symmetric ? 0 : bandwidth, bandwidth, carver);
+  zp_band_carve_form(&f->beside, n, form, carver);
   double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at, &f->by_a, &f->by_n};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_carve(carver, n);
@@ -77,7 +76,7 @@ static void beside(ZpFold *f, double h, double dm_a, double dm_n, double *by_a, 
 
 /* Derivative of g from the change y of the stiffness times a step. */
 static double change_of_test(ZpFold *f, double *y) {
-  bool symmetric = f->beside.lower == 0;
+  bool symmetric = f->beside.lower == 0 && f->beside.rank == 0;
   if (!symmetric) zp_band_solve(&f->newton->K, y);
   double through = zp_dot(f->system->at_rest.n, symmetric ? f->x : f->null, y);
   return -through * f->test * f->test;
@@ -190,7 +189,8 @@ static bool is_there(const ZpFold *f, const Goal *goal, double change_before, do
   static const double exact = 1e-9, rough = 1e-7, falls = 0.3, moved = 100, left = 1e-3;
   if (goal->kind == TO_REST) return f->moved < moved && f->left < left && !isinf(change_before);
   double rate = isinf(change_before) ? 1 : fmin(f->change / change_before, 1);
-  bool fallen = goal->kind != TO_FOLD || fabs(f->test) < falls * fabs(test_before);
+  bool still = f->change < exact && change_before < exact; /* it began there: what is left is rounding */
+  bool fallen = goal->kind != TO_FOLD || still || fabs(f->test) < falls * fabs(test_before);
   return f->change * rate < (goal->to == ZP_FOLD_EXACT ? exact : rough) && fallen;
 }
 
@@ -219,6 +219,23 @@ bool zp_fold_solve(ZpFold *f) {
 
 bool zp_fold_event(ZpFold *f, ZpEvent event, double value, ZpFoldTo to) {
   return solve(f, (Goal){TO_EVENT, event, value, to});
+}
+
+ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *m) {
+  static const double near = 1e3; /* times the accuracy that is asked for: what is left is squared */
+  const ZpBranchSystem *sys = f->system;
+  const ZpStaticSystem *rest = &sys->at_rest;
+  if (!zp_fold_tangent(f)) return ZP_PASS_LOST;
+  balance(f);
+  double value = event(rest->self, f->x), along = zp_dot(rest->n, f->x, f->along);
+  double dm = (here - value - zp_dot(rest->n, f->x, f->a)) / along, on = (next - here) / along;
+  if (!isfinite(dm) || !isfinite(on)) return ZP_PASS_LOST;
+  for (size_t i = 0; i < rest->n; i++)
+    f->a[i] += dm * f->along[i];
+  bool passes = rest->change(rest->self, f->a) < near;
+  *m = sys->get(rest->self) + dm;
+  step(f, passes ? on : 0, passes ? dm + on : dm);
+  return passes ? ZP_PASS_ON : ZP_PASS_AGAIN;
 }
 
 bool zp_fold_rest(ZpFold *f) {

@@ -34,8 +34,7 @@ typedef struct ZpFold {
 /* A solution is an answer, or a point on the way to one: near enough for its tangent. */
 typedef enum ZpFoldTo { ZP_FOLD_EXACT, ZP_FOLD_ROUGH } ZpFoldTo;
 
-void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, size_t bandwidth, bool symmetric, ZpNewtonWork *newton,
-                   ZpCarver *carver);
+void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpCarver *carver);
 
 /* At the present point: forces left => newton->r, factored stiffness => newton->K, its negative pivots => negative,
  * dq/dm = K^-1 dr/dm => along. False if there are no forces or the stiffness is singular. */
@@ -50,6 +49,12 @@ bool zp_fold_solve(ZpFold *fold);
 
 /* The same to the equilibrium where `event` has this value; limit points are no obstacle. */
 bool zp_fold_event(ZpFold *fold, ZpEvent event, double value, ZpFoldTo to);
+
+/* On along the branch with about one factorisation a point: from near the equilibrium where `event` has the value
+ * `here`, one Newton step to that, whose parameter is m, and by the tangent on to the value `next`. Where the step was
+ * too long for that it ends at `here`, to be tried again. */
+typedef enum ZpPass { ZP_PASS_ON, ZP_PASS_AGAIN, ZP_PASS_LOST } ZpPass;
+ZpPass zp_fold_pass(ZpFold *fold, ZpEvent event, double here, double next, double *m);
 
 /* The same to the equilibrium at the present parameter, roughly. */
 bool zp_fold_rest(ZpFold *fold);

@@ -7,10 +7,10 @@
 
 static const double little = 5e-3; /* of the scale of q: what is too little to matter */
 
-void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
-                    ZpNewtonWork *newton, ZpCarver *carver) {
+void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+                    ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
-  zp_fold_carve(&march->fold, system, bandwidth, symmetric, newton, carver);
+  zp_fold_carve(&march->fold, system, form, newton, carver);
   double **vectors[] = {&march->q, &march->before, &march->guess};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_carve(carver, n);

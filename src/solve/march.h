@@ -33,8 +33,8 @@ typedef struct ZpMarch {
   bool tried;     /* to solve for it from there */
 } ZpMarch;
 
-void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, size_t bandwidth, bool symmetric,
-                    ZpNewtonWork *newton, ZpCarver *carver);
+void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+                    ZpCarver *carver);
 
 /* From the present point, a stable equilibrium, towards m = target. Every point on the way is stable. */
 ZpMarchEnd zp_march(ZpMarch *march, double target);

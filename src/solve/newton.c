@@ -4,8 +4,8 @@
 
 #include "math/vector.h"
 
-void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, bool symmetric, ZpCarver *carver) {
-  zp_band_carve(&work->K, n, symmetric ? 0 : bandwidth, bandwidth, carver);
+void zp_newton_carve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpCarver *carver) {
+  zp_band_carve_form(&work->K, n, form, carver);
   work->r = zp_carve(carver, n);
 }
 

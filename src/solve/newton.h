@@ -77,7 +77,7 @@ bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolera
 /* What was held has been recomputed: the residual may be larger again. */
 void zp_closing_renew(ZpClosing *closing);
 
-void zp_newton_carve(ZpNewtonWork *work, size_t n, size_t bandwidth, bool symmetric, ZpCarver *carver);
+void zp_newton_carve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpCarver *carver);
 
 /* Iterate from the present point. */
 ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most, ZpNewtonWork *work);

@@ -161,10 +161,10 @@ static void lower_voltage(Finder *f) {
 /* Hang at drive.voltage under a load so large that it does not close. False if none was found. */
 static bool hang_heavy(Finder *f) {
   enum { MOST = 12 };
-  static const double lightest = 1e-3; /* kg */
+  static const double lightest = 1e-3, heavier = 3; /* kg; than what forces as the voltage's square could lift */
   ZpStatics *s = &f->rest.statics;
   double top = f->model->def.drive.voltage, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
-  double load = fmax(f->model->def.load.mass, lightest) * 3 * (top / closing) * (top / closing);
+  double load = fmax(f->model->def.load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
     f->slow.square.restore(s, f->limits->start);
     s->load = load;

@@ -1,16 +1,10 @@
 /* A bead at rest: all of its liquid lies between the faces, and how far it reaches follows from the gaps. The film term
- * has it in motion. What the reach does to the forces goes through two unknowns of each station, whose equations are
- * always fulfilled, so that the stiffness stays banded: the area A that lies between the clip and the station, and the
- * head p there, that of the meniscus as far as liquid reaches. Eqs. (22.19) to (22.21). */
+ * has it in motion. What the reach does to the forces goes through two scalars of each bead: the part of the element,
+ * or of the flat faces, that is wet where it ends, and with suction the head p of its liquid. In the stiffness each is
+ * a term of rank one on top of the band. Eqs. (22.19) to (22.21). */
 #include <math.h>
 
 #include "term/term.h"
-
-enum { AREA, HEAD };
-
-/* What counts as 1 m of a position: so little of it that arc lengths and corrections are those of positions. */
-static const double area_scale = 1e3;  /* m^2 */
-static const double head_scale = 1e12; /* Pa */
 
 static bool acts(const ZpModel *model) {
   return model->has_bead;
@@ -134,87 +128,92 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 
 /* -- stiffness ------------------------------------------------------------------------------------- */
 
-/* Entries of a station's gap: a row or a column of both its nodes' heights. */
-static void at_gap(const ZpModel *model, const ZpAssembly *a, size_t own, size_t i, bool row, double value, ZpBand *K) {
-  zp_assemble_cross(a, own, 2 * zp_upper(&model->topology, i) + 1, row, value, K);
-  zp_assemble_cross(a, own, 2 * zp_lower(&model->topology, i) + 1, row, -value, K);
+/* Scalars of a bead. */
+static size_t scalars_of(const ZpModel *model) {
+  return model->bead.suction > 0 ? 2 : 1;
 }
 
-/* Entries of the x of the nodes between which the bead ends: a row of what goes with dx/ds there. */
-static void by_level(const ZpModel *model, const ZpAssembly *a, const End *end, size_t own, double factor, ZpBand *K) {
-  const ZpTopology *t = &model->topology;
-  double value = 0.5 * factor / model->film.l * (end->at.near < end->at.far ? 1 : -1);
-  for (int lower = 0; lower < 2 && !is_below(end); lower++) {
-    zp_assemble_cross(a, own, 2 * (zp_upper(t, end->at.far) + (size_t)lower), false, value, K);
-    zp_assemble_cross(a, own, 2 * (zp_upper(t, end->at.near) + (size_t)lower), false, -value, K);
+size_t zp_bead_rank(const ZpModel *model) {
+  return model->has_bead ? scalars_of(model) * (size_t)zp_beads(&model->film) : 0;
+}
+
+/* A scalar z as a term of rank one: what it does to the forces, -dF/dz => u, and how it goes with coordinates => v. */
+typedef struct Scalar {
+  const ZpModel *model;
+  const ZpAssembly *assembly;
+  double *u, *v; /* [equations] */
+} Scalar;
+
+/* The part where bead `half` ends. The head's term is there where the rank has room for it: without suction, on the way
+ * to a rest with it, it is 0. */
+static Scalar part_of(const ZpModel *model, const ZpAssembly *a, int half, const ZpBand *K) {
+  size_t first = (size_t)half * (K->rank / (size_t)zp_beads(&model->film)) * K->n;
+  return (Scalar){model, a, K->u + first, K->v + first};
+}
+
+static Scalar head_after(Scalar part, const ZpBand *K) {
+  return (Scalar){part.model, part.assembly, part.u + K->n, part.v + K->n};
+}
+
+static void add_by(const ZpAssembly *a, size_t coordinate, double value, double *vector) {
+  int equation = a->equation[coordinate];
+  if (equation >= 0) vector[equation] += value;
+}
+
+/* The scalar pushes coordinate c by so much. */
+static void pushes(Scalar z, size_t c, double force) {
+  add_by(z.assembly, c, -force, z.u);
+}
+
+/* It goes with the gap of station i. */
+static void follows_gap(Scalar z, size_t i, double by_gap) {
+  add_by(z.assembly, 2 * zp_upper(&z.model->topology, i) + 1, by_gap, z.v);
+  add_by(z.assembly, 2 * zp_lower(&z.model->topology, i) + 1, -by_gap, z.v);
+}
+
+/* It goes with dx/ds where the bead ends, through the x of the nodes there. */
+static void follows_level(Scalar z, const End *end, double by_level) {
+  const ZpTopology *t = &z.model->topology;
+  double value = 0.5 * by_level / z.model->film.l * (end->at.near < end->at.far ? 1 : -1);
+  for (size_t lower = 0; lower < 2 && !is_below(end); lower++) {
+    add_by(z.assembly, 2 * (zp_upper(t, end->at.far) + lower), value, z.v);
+    add_by(z.assembly, 2 * (zp_upper(t, end->at.near) + lower), -value, z.v);
   }
 }
 
-static size_t own_of(size_t i, int which) {
-  return 2 * i + (size_t)which;
-}
-
-/* The area to each station is that to the one before it and what lies between both. */
-static void areas(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, int half, ZpBand *K) {
-  double share = -0.5 * model->film.l / area_scale;
-  for (size_t k = 0; k <= zp_bead_elements(&model->film); k++) {
-    size_t i = zp_bead_station(&model->film, half, k), own = own_of(i, AREA);
-    zp_assemble_own(a, own, own, 1, K);
-    if (k == 0) continue;
-    size_t before = zp_bead_station(&model->film, half, k - 1);
-    zp_assemble_own(a, own, own_of(before, AREA), -1, K);
-    at_gap(model, a, own, i, false, share * rise(model, e, i), K);
-    at_gap(model, a, own, before, false, share * rise(model, e, before), K);
+/* `by_part` times how the part goes with the gaps: with all of them up to there through the area that they hold. */
+static void follows_part(Scalar z, const ZpEval *e, const End *end, double by_part) {
+  const ZpFilmParams *film = &z.model->film;
+  double by_thickness = by_part * end->by_area * film->l;
+  for (size_t k = 0; k <= end->at.k; k++) {
+    size_t i = zp_bead_station(film, end->half, k);
+    double ends = (k > 0) + (k < end->at.k); /* of elements before the one where the bead ends */
+    follows_gap(z, i, 0.5 * ends * by_thickness * rise(z.model, e, i));
   }
+  follows_gap(z, end->at.near, by_part * end->by_near);
+  if (!is_below(end)) follows_gap(z, end->at.far, by_part * end->by_far);
 }
 
-/* Add to row `own`: -factor times the derivative of the part of the element that is wet at the meniscus. */
-static void follow_part(const ZpModel *model, const ZpAssembly *a, const End *end, size_t own, double factor,
-                        ZpBand *K) {
-  zp_assemble_own(a, own, own_of(end->at.near, AREA), -factor * end->by_area * area_scale, K);
-  at_gap(model, a, own, end->at.near, false, -factor * end->by_near, K);
-  if (!is_below(end)) at_gap(model, a, own, end->at.far, false, -factor * end->by_far, K);
-}
-
-/* The head at each wet station is that at the next one, at the last that of the meniscus; elsewhere it is 0. */
-static void heads(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end, ZpBand *K) {
-  for (size_t k = 0; k <= zp_bead_elements(&model->film); k++) {
-    size_t own = own_of(zp_bead_station(&model->film, end->half, k), HEAD);
-    zp_assemble_own(a, own, own, 1, K);
-    if (k < end->at.k) zp_assemble_own(a, own, own_of(zp_bead_station(&model->film, end->half, k + 1), HEAD), -1, K);
-  }
-  if (!end->ends) return;
-  size_t own = own_of(end->at.near, HEAD);
-  HeadSlope slope = head_slope(model, e, U, end);
-  double follows = share_that_follows(model, U, end) / head_scale;
-  follow_part(model, a, end, own, slope.by_part / head_scale, K);
-  by_level(model, a, end, own, -follows * zp_term_electric_head(model, U, end->g, end->H), K);
-  at_gap(model, a, own, end->at.near, false, -slope.by_near / head_scale, K);
-  if (!is_below(end)) at_gap(model, a, own, end->at.far, false, -slope.by_far / head_scale, K);
-}
-
-/* A force on coordinate c that goes with the part where the bead ends, N. */
-static void part_acts(const ZpModel *model, const ZpAssembly *a, const End *end, size_t c, double by_part, ZpBand *K) {
-  const ZpTopology *t = &model->topology;
-  const size_t station[] = {end->at.near, end->at.far};
-  const double by_gap[] = {end->by_near, end->by_far};
-  zp_assemble_cross(a, own_of(end->at.near, AREA), c, true, -by_part * end->by_area * area_scale, K);
-  for (int m = 0; m < (is_below(end) ? 1 : 2); m++) {
-    zp_assemble_entry(a, c, 2 * zp_upper(t, station[m]) + 1, -by_part * by_gap[m], K);
-    zp_assemble_entry(a, c, 2 * zp_lower(t, station[m]) + 1, by_part * by_gap[m], K);
-  }
+/* The head is that of the meniscus. */
+static void head_follows(Scalar z, const ZpEval *e, double U, const End *end) {
+  HeadSlope slope = head_slope(z.model, e, U, end);
+  double draws_on = share_that_follows(z.model, U, end) * zp_term_electric_head(z.model, U, end->g, end->H);
+  follows_part(z, e, end, slope.by_part);
+  follows_level(z, end, draws_on);
+  follows_gap(z, end->at.near, slope.by_near);
+  if (!is_below(end)) follows_gap(z, end->at.far, slope.by_far);
 }
 
 /* The attraction goes with the part, since one law follows the other there. */
-static void attraction(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, double U, const End *end,
-                       ZpBand *K) {
+static void part_attracts(Scalar z, const ZpEval *e, double U, const End *end) {
+  const ZpModel *model = z.model;
   const ZpTopology *t = &model->topology;
   size_t left = end->at.near < end->at.far ? end->at.near : end->at.far,
          right = end->at.near < end->at.far ? end->at.far : end->at.near;
   if (left == right) {
     double W = zp_plates_law(&model->plates, U, end->g).W - zp_plates_law(&model->air, U, end->g).W;
-    part_acts(model, a, end, 2 * zp_upper(t, left) + 1, -model->plates.flat_length * W, K);
-    part_acts(model, a, end, 2 * zp_lower(t, left) + 1, model->plates.flat_length * W, K);
+    pushes(z, 2 * zp_upper(t, left) + 1, -model->plates.flat_length * W);
+    pushes(z, 2 * zp_lower(t, left) + 1, model->plates.flat_length * W);
     return;
   }
   ZpPlatesByCover by = zp_plates_by_cover(&model->plates, &e->plates, U, left);
@@ -222,43 +221,52 @@ static void attraction(const ZpModel *model, const ZpAssembly *a, const ZpEval *
   const size_t station[] = {left, right};
   for (int m = 0; m < 2; m++) {
     size_t upper = 2 * zp_upper(t, station[m]), lower = 2 * zp_lower(t, station[m]);
-    part_acts(model, a, end, upper, along[m], K);
-    part_acts(model, a, end, lower, along[m], K);
-    part_acts(model, a, end, upper + 1, -closing[m], K);
-    part_acts(model, a, end, lower + 1, closing[m], K);
+    pushes(z, upper, along[m]);
+    pushes(z, lower, along[m]);
+    pushes(z, upper + 1, -closing[m]);
+    pushes(z, lower + 1, closing[m]);
   }
 }
 
-/* The suction on station k goes with the head, with its own gap, and where the bead ends with the part. */
-static void suction_at(const ZpModel *model, const ZpAssembly *a, const ZpEval *e, const End *end, double head,
-                       size_t k, ZpBand *K) {
+static void pushes_apart(Scalar z, size_t i, double force) {
+  pushes(z, 2 * zp_upper(&z.model->topology, i) + 1, force);
+  pushes(z, 2 * zp_lower(&z.model->topology, i) + 1, -force);
+}
+
+/* The suction on station k goes with its own gap, with the head, and where the bead ends with the part. */
+static void suction_at(Scalar part, Scalar head_scalar, const ZpEval *e, const End *end, double head, size_t k,
+                       ZpBand *K) {
+  const ZpModel *model = part.model;
   const ZpTopology *t = &model->topology;
-  size_t i = zp_bead_station(&model->film, end->half, k), wet = k > end->at.k ? end->at.near : i;
-  double w = model->film.w, share = wet_share(model, end, k), gap = e->plates.gap[i];
-  double bend = -w * head * share * zp_film_bend(&model->film, gap), slope = rise(model, e, i);
-  zp_assemble_heights(a, i, bend, bend, 0, K);
-  zp_assemble_entry(a, 2 * zp_upper(t, i) + 1, 2 * zp_lower(t, i) + 1, -bend, K);
-  zp_assemble_entry(a, 2 * zp_lower(t, i) + 1, 2 * zp_upper(t, i) + 1, -bend, K);
-  at_gap(model, a, own_of(wet, HEAD), i, true, -w * share * slope * head_scale, K);
+  size_t i = zp_bead_station(&model->film, end->half, k), y[] = {2 * zp_upper(t, i) + 1, 2 * zp_lower(t, i) + 1};
+  double w = model->film.w, share = wet_share(model, end, k), slope = rise(model, e, i);
+  double bend = -w * head * share * zp_film_bend(&model->film, e->plates.gap[i]);
+  for (int m = 0; m < 4; m++)
+    zp_assemble_entry(part.assembly, y[m / 2], y[m % 2], m == 0 || m == 3 ? bend : -bend, K);
+  pushes_apart(head_scalar, i, w * share * slope);
   if (i != end->at.near && i != end->at.far) return;
   double by_part = is_below(end)       ? end->length
                    : i == end->at.near ? end->length * (1 - end->at.part)
                                        : end->length * end->at.part;
-  part_acts(model, a, end, 2 * zp_upper(t, i) + 1, w * head * slope * by_part, K);
-  part_acts(model, a, end, 2 * zp_lower(t, i) + 1, -w * head * slope * by_part, K);
+  pushes_apart(part, i, w * head * slope * by_part);
+}
+
+static void suction(Scalar part, const ZpEval *e, double U, const End *end, ZpBand *K) {
+  Scalar head = head_after(part, K);
+  for (size_t k = 0; k <= last_of(part.model, end); k++)
+    suction_at(part, head, e, end, head_of(part.model, U, end), k, K);
+  head_follows(head, e, U, end);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
-  if (!zp_span_is_still(span) || a->own == 0) return;
+  if (!zp_span_is_still(span) || K->rank == 0) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
     End end = end_of(model, span->end, e, half);
-    double head = head_of(model, span->U1, &end);
-    areas(model, a, e, half, K);
-    heads(model, a, e, span->U1, &end, K);
     if (!end.ends) continue;
-    attraction(model, a, e, span->U1, &end, K);
-    for (size_t k = 0; draws(model, span) && k <= last_of(model, &end); k++)
-      suction_at(model, a, e, &end, head, k, K);
+    Scalar part = part_of(model, a, half, K);
+    part_attracts(part, e, span->U1, &end);
+    follows_part(part, e, &end, 1);
+    if (draws(model, span)) suction(part, e, span->U1, &end, K);
   }
 }
 

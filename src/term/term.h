@@ -102,6 +102,9 @@ double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double 
 double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level);
 double zp_term_electric_head(const ZpModel *model, double U, double g, double H);
 
+/* How many terms of rank one a bead at rest has on top of the stiffness's band. */
+size_t zp_bead_rank(const ZpModel *model);
+
 /* Share of that head which acts, and its derivative by the wet length, 1/m, eq. (22.17). */
 typedef struct ZpRoom {
   double share, by_reach;
