@@ -85,8 +85,9 @@ static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope) {
   double hanging = zp_closing_gap(list->slow->statics, NULL), rate, sum = 0;
   if (!zp_slope_solve(slope, zp_pose_load)) return NAN;
   rate = zp_slope_of(slope, zp_pose_load, closing_gap, NULL);
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++)
-    if (slope->model[k]) sum += slope->weight[k] * zp_closing_limit(&slope->near[k], hanging + slope->offset[k] * rate);
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (slope->by.model[k])
+      sum += slope->by.weight[k] * zp_closing_limit(&slope->near[k], hanging + slope->by.offset[k] * rate);
   return sum;
 }
 
