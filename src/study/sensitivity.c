@@ -44,6 +44,14 @@ static ZpStatus read_keys(const ZpActuatorDef *def, KeyList *list, ZpError *err)
   }
 }
 
+ZpStatus zp_sensitivity_keys(const ZpActuatorDef *def, int *key, int *keys, ZpError *err) {
+  KeyList list;
+  ZpStatus status = read_keys(def, &list, err);
+  memcpy(key, list.key, sizeof list.key);
+  *keys = list.count;
+  return status;
+}
+
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err) {
   KeyList list;
   return read_keys(def, &list, err);
