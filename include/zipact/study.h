@@ -29,7 +29,7 @@ typedef struct ZpSensitivity {
 
 /* Most keys of sensitivity.by, and most derivatives. */
 #define ZP_MAX_SENSITIVITY_KEYS 16
-#define ZP_MAX_SENSITIVITIES    128
+#define ZP_MAX_SENSITIVITIES    512
 
 /* The electric field around the ribbons, on a grid that follows them: node (i, j) is at [i * ny + j], i along the
  * ribbons, j upwards; cell (i, j) between the nodes (i, j) and (i + 1, j + 1) is at [i * (ny - 1) + j]. */

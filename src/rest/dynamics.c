@@ -367,7 +367,7 @@ static void damp(ZpDynamics *d, size_t i) {
 }
 
 /* Do faces overlap at the step's end, without a film that has taken their speed? In a bath there is one everywhere. */
-static bool meets(const ZpDynamics *d, size_t i) {
+bool zp_dynamics_meets(const ZpDynamics *d, size_t i) {
   const ZpModel *model = d->model;
   bool filled = model->has_film && (!model->has_bead || zp_film_fills(&model->film, &d->eval.film, i));
   return d->eval.faces.stiffness[i] > 0 && !filled;
@@ -379,7 +379,7 @@ static double pushed(const ZpDynamics *d, bool *any) {
   double loss = 0;
   for (size_t i = 1; i < d->model->nodes; i++) {
     loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
-    *any |= meets(d, i);
+    *any |= zp_dynamics_meets(d, i);
   }
   return loss;
 }
@@ -388,7 +388,7 @@ static double pushed(const ZpDynamics *d, bool *any) {
 static void damp_one(ZpDynamics *top, ZpDynamics *m) {
   if (m->above) top->v[joined_by(m).below] = -joined_by(m).sign * top->v[joined_by(m).above];
   for (size_t i = 1; i < m->model->nodes; i++)
-    if (meets(m, i)) damp(m, i);
+    if (zp_dynamics_meets(m, i)) damp(m, i);
   if (m->above) top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
 }
 
@@ -721,7 +721,7 @@ static void arrive(ZpDynamics *d, ZpState *state) {
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, d->eval.plates.gap);
 }
 
-double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
+void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
   const size_t first = first_link(d);
   size_t k = 0;
   for (ZpDynamics *m = d; m; m = m->below, k++) {
@@ -733,10 +733,10 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   }
   for (size_t link = first; link < d->system.n && d->links > 0; link++)
     d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
-  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
-  double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
-  if (!(taken > 0)) return 0;
-  k = 0;
+}
+
+void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
+  size_t k = 0;
   for (ZpDynamics *m = d; m; m = m->below, k++) {
     m->history.last = d->history.last;
     m->history.next = d->history.next;
@@ -746,5 +746,12 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   k = 0;
   for (ZpDynamics *m = d; m; m = m->below, k++)
     arrive(m, state[k]);
+}
+
+double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
+  zp_dynamics_begin(d, state, latest);
+  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
+  double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
+  if (taken > 0) zp_dynamics_end(d, state);
   return taken;
 }

@@ -55,4 +55,12 @@ void zp_dynamics_change_load(ZpDynamics *dynamics, ZpState *state);
  * step's length; 0 if none was found: the state is then as it was. */
 double zp_dynamics_step(ZpDynamics *dynamics, ZpState *const state[], double latest);
 
+/* Its two halves, for a step that is found otherwise: before it, the state => q, v, history; and after it, back, with
+ * the eval at its end. */
+void zp_dynamics_begin(ZpDynamics *dynamics, ZpState *const state[], double latest);
+void zp_dynamics_end(ZpDynamics *dynamics, ZpState *const state[]);
+
+/* Do the faces of station i overlap where the last step has ended, without liquid between them? */
+bool zp_dynamics_meets(const ZpDynamics *dynamics, size_t i);
+
 #endif

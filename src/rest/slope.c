@@ -38,46 +38,20 @@ void zp_pose_load(const ZpActuatorDef *def, ZpStatics *s) {
 
 /* -- actuators near ------------------------------------------------------------------------------- */
 
-/* Far above what rounding leaves of forces, far below what any law changes over; of the range where the key is 0. */
-static const double part = 5e-5, part_of_range = 1e-6;
-
-/* Difference quotients of fourth order: around the value, below it, above it. */
-typedef struct Stencil {
-  int first;                      /* place of the first point, in steps */
-  double weight[ZP_SLOPE_POINTS]; /* times 12 */
-} Stencil;
-
-static const Stencil stencils[] = {{-2, {1, -8, 0, 8, -1}}, {-4, {3, -16, 36, -48, 25}}, {0, {-25, 48, -36, 16, -3}}};
-enum { STENCILS = sizeof stencils / sizeof stencils[0] };
+/* Far above what rounding leaves of forces, far below what any law changes over. */
+static const double part = 5e-5;
 
 static void forget(ZpSlope *p) {
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
-    if (p->model[k]) zp_statics_destroy(&p->near[k]);
-    zp_model_destroy(p->model[k]);
-    p->model[k] = NULL;
-  }
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (p->by.model[k]) zp_statics_destroy(&p->near[k]);
+  zp_near_close(&p->by);
 }
 
-static ZpStatus build_one(ZpSlope *p, int k, ZpError *err) {
-  ZpActuatorDef def = p->at->model->def;
-  ZpStatus status = zp_def_set(&def, p->key, zp_def_get(&def, p->key) + p->offset[k], err);
-  if (status == ZP_OK) status = zp_model_create(&def, &p->model[k], err);
-  if (status != ZP_OK) return status;
-  if (zp_statics_create(p->model[k], &p->near[k])) return ZP_OK;
-  zp_model_destroy(p->model[k]);
-  p->model[k] = NULL;
-  return zp_fail_memory(err);
-}
-
-static ZpStatus build(ZpSlope *p, const Stencil *stencil, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  for (int k = 0; k < ZP_SLOPE_POINTS && status == ZP_OK; k++) {
-    p->offset[k] = (stencil->first + k) * p->step;
-    p->weight[k] = stencil->weight[k] / (12 * p->step);
-    if (stencil->weight[k] != 0) status = build_one(p, k, err);
-  }
-  if (status != ZP_OK) forget(p);
-  return status;
+static bool make_statics(ZpSlope *p) {
+  bool made = true;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (p->by.model[k]) made &= zp_statics_create(p->by.model[k], &p->near[k]);
+  return made;
 }
 
 static size_t carve(ZpSlope *p, void *block) {
@@ -94,21 +68,12 @@ static size_t carve(ZpSlope *p, void *block) {
 
 ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, ZpNewtonWork *work, int key, ZpError *err) {
   *p = (ZpSlope){.at = at, .work = work, .key = key};
-  const ZpKey *row = zp_key(key);
-  double value = zp_def_get(&at->model->def, key);
-  ZpError reason = {ZP_OK, ""};
-  ZpStatus status = ZP_BAD_INPUT;
-  p->step = value != 0 ? part * fabs(value) : part_of_range * row->max;
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   carve(p, p->memory);
-  for (int k = 0; k < STENCILS && status == ZP_BAD_INPUT; k++)
-    status = build(p, &stencils[k], &reason);
-  if (status == ZP_MACHINE) return zp_fail_memory(err);
-  if (status != ZP_OK)
-    return zp_fail(err, status, "sensitivity.by: %s = %g %s cannot be changed by 0.02 %% either way: %.200s", row->name,
-                   value, row->unit, reason.message);
-  return ZP_OK;
+  ZpStatus status = zp_near_open(&p->by, at->model, key, part, err);
+  if (status == ZP_OK && !make_statics(p)) status = zp_fail_memory(err);
+  return status;
 }
 
 void zp_slope_close(ZpSlope *p) {
@@ -138,9 +103,9 @@ static ZpStatics *place_along(ZpSlope *p, int k, ZpPose pose) {
   ZpStatics *near = place(p, k, pose);
   size_t stride = p->at->model->stride;
   for (size_t i = 0; i < 2 * stride; i++)
-    near->q[i] = p->at->q[i] + p->offset[k] * p->rate[i];
+    near->q[i] = p->at->q[i] + p->by.offset[k] * p->rate[i];
   for (size_t j = 0; j < stride; j++)
-    near->tension[j] = p->at->tension[j] + p->offset[k] * p->tension[j];
+    near->tension[j] = p->at->tension[j] + p->by.offset[k] * p->tension[j];
   return near;
 }
 
@@ -156,17 +121,17 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
   memset(p->tension, 0, stride * sizeof *p->tension);
   memset(p->by_key, 0, n * sizeof *p->by_key);
   p->reaction = 0;
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
-    if (!p->model[k]) continue;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+    if (!p->by.model[k]) continue;
     const ZpStatics *near = place(p, k, pose);
     residual(&p->near[k], p->row);
     for (size_t i = 0; i < n; i++)
-      p->by_key[i] += p->weight[k] * p->row[i];
+      p->by_key[i] += p->by.weight[k] * p->row[i];
     for (size_t i = 0; i < 2 * stride; i++)
-      p->rate[i] += p->weight[k] * (near->q[i] - at->q[i]);
+      p->rate[i] += p->by.weight[k] * (near->q[i] - at->q[i]);
     for (size_t j = 0; j < edges; j++)
-      p->tension[j] += p->weight[k] * near->eval.edges.T[j];
-    p->reaction += p->weight[k] * near->reaction;
+      p->tension[j] += p->by.weight[k] * near->eval.edges.T[j];
+    p->reaction += p->by.weight[k] * near->reaction;
   }
 }
 
@@ -217,11 +182,11 @@ bool zp_slope_solve(ZpSlope *p, ZpPose pose) {
 
 double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
   double sum = 0;
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
-    if (!p->model[k]) continue;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+    if (!p->by.model[k]) continue;
     ZpStatics *near = place_along(p, k, pose);
     residual(near, p->row);
-    sum += p->weight[k] * output(near, user);
+    sum += p->by.weight[k] * output(near, user);
   }
   return sum;
 }
@@ -231,15 +196,14 @@ double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
 /* dF/dm at the present point => by_parameter. */
 static void differentiate_by_parameter(ZpSlope *p, const ZpBranchSystem *branch) {
   static const double least = 1e-3; /* of the parameter's scale */
-  const Stencil *around = &stencils[0];
   size_t n = p->at->assembly.n;
   double m = branch->get(p->at), step = part * fmax(fabs(m), least * branch->m_scale);
   memset(p->by_parameter, 0, n * sizeof *p->by_parameter);
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
-    branch->set(p->at, m + (around->first + k) * step);
+  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+    branch->set(p->at, m + (k - 2) * step);
     residual(p->at, p->row);
     for (size_t i = 0; i < n; i++)
-      p->by_parameter[i] += around->weight[k] / (12 * step) * p->row[i];
+      p->by_parameter[i] += zp_near_weight(k) / step * p->row[i];
   }
   branch->set(p->at, m);
 }
@@ -273,11 +237,11 @@ double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, 
   size_t n = p->at->assembly.n;
   if (!solve_both(p, pose, branch)) return NAN;
   double direct = 0;
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++) {
-    if (!p->model[k]) continue;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+    if (!p->by.model[k]) continue;
     ZpStatics *near = place(p, k, pose);
     residual(near, p->row);
-    direct += p->weight[k] * event(near, NULL);
+    direct += p->by.weight[k] * event(near, NULL);
   }
   event(p->at, p->row);
   return (rate - direct - zp_dot(n, p->row, p->by_key)) / zp_dot(n, p->row, p->by_parameter);

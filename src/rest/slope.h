@@ -5,10 +5,9 @@
 #ifndef ZP_REST_SLOPE_H
 #define ZP_REST_SLOPE_H
 
+#include "rest/near.h"
 #include "rest/statics.h"
 #include "solve/fold.h"
-
-enum { ZP_SLOPE_POINTS = 5 };
 
 /* What a definition says of a state besides the model: its voltage, its load, the opening at which the platform is
  * held. What it does not set is that of the state. */
@@ -21,20 +20,17 @@ void zp_pose_load(const ZpActuatorDef *def, ZpStatics *statics);
 typedef double (*ZpOutput)(ZpStatics *statics, void *user);
 
 typedef struct ZpSlope {
-  ZpStatics *at;                   /* the state */
-  ZpNewtonWork *work;              /* the caller's */
-  int key;                         /* by which is differentiated */
-  double step;                     /* of it from point to point, SI */
-  double weight[ZP_SLOPE_POINTS];  /* of a difference quotient, 1 / SI; 0: the point is not used */
-  double offset[ZP_SLOPE_POINTS];  /* of the key, SI */
-  ZpModel *model[ZP_SLOPE_POINTS]; /* with the key there; NULL where it is not used */
-  ZpStatics near[ZP_SLOPE_POINTS];
-  double *motion;                /* [2 stride] that beyond the stretching */
-  double *rate;                  /* [2 stride] dq/dp of the last solution, m/SI */
-  double *tension;               /* [stride] and of the tensions, N/SI */
-  double reaction;               /* and of the force that holds the platform, one part, N/SI */
-  double *by_key, *by_parameter; /* [n] of forces at coordinates that are stretched only; then over the stiffness */
-  double *row;                   /* [n] work space */
+  ZpStatics *at;                  /* the state */
+  ZpNewtonWork *work;             /* the caller's */
+  int key;                        /* by which is differentiated */
+  ZpNear by;                      /* actuators with that key a little larger or smaller, */
+  ZpStatics near[ZP_NEAR_POINTS]; /* and states of them */
+  double *motion;                 /* [2 stride] that beyond the stretching */
+  double *rate;                   /* [2 stride] dq/dp of the last solution, m/SI */
+  double *tension;                /* [stride] and of the tensions, N/SI */
+  double reaction;                /* and of the force that holds the platform, one part, N/SI */
+  double *by_key, *by_parameter;  /* [n] of forces at coordinates that are stretched only; then over the stiffness */
+  double *row;                    /* [n] work space */
   void *memory;
 } ZpSlope;
 

@@ -251,6 +251,16 @@ static double capacitance_now(ZpSim *sim) {
   return cable_of(sim) + sim->model->parts * (then - now) / step;
 }
 
+void zp_feed_begin(ZpSim *sim) {
+  sim->feed.capacitance = capacitance_now(sim);
+  memcpy(sim->before, sim->state, zp_state_size(sim->model));
+}
+
+void zp_feed_end(ZpSim *sim) {
+  sim->state->supply = followed(sim, sim->before, sim->state->t);
+  book(sim);
+}
+
 /* => its margin at the end; NAN: no step was found. */
 static double try_step(ZpSim *sim, double latest) {
   ZpState *state = sim->state;

@@ -38,6 +38,10 @@ double zp_feed_resolution(const ZpSim *sim, double least);
 /* One step that ends at `latest`, at a limit that is reached or left, or before. False if none was found. */
 bool zp_feed_step(ZpSim *sim, double latest);
 
+/* Before and after a step of the dynamics that is found otherwise, without a limit in it. */
+void zp_feed_begin(ZpSim *sim);
+void zp_feed_end(ZpSim *sim);
+
 /* A mean current has flowed for a time h. */
 void zp_feed_note_current(ZpSim *sim, double current, double h);
 

@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "sim/hooks.h"
+#include "sim/run_rates.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
@@ -109,8 +110,8 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
 }
 
-/* The simulation of one member where it is at rest, the voltage switched on. NULL: there is no memory. */
-static ZpSim *create_one(const ZpModel *model, bool uppermost, const ZpHooks *hooks) {
+/* The simulation of one member, straight. NULL: there is no memory. */
+static ZpSim *create_straight(const ZpModel *model, bool uppermost) {
   ZpSim *sim = zp_calloc(1, sizeof *sim);
   if (!sim) return NULL;
   sim->model = model;
@@ -123,7 +124,13 @@ static ZpSim *create_one(const ZpModel *model, bool uppermost, const ZpHooks *ho
   ZpState *state = sim->state;
   state->zip_time = state->refreshed = state->starved_time = NAN;
   lay_straight(model, zp_state_q(model, state));
-  if (zp_sim_settle(sim, hooks)) return sim;
+  return sim;
+}
+
+/* The same where it is at rest. */
+static ZpSim *create_one(const ZpModel *model, bool uppermost, const ZpHooks *hooks) {
+  ZpSim *sim = create_straight(model, uppermost);
+  if (!sim || zp_sim_settle(sim, hooks)) return sim;
   zp_sim_destroy(sim);
   return NULL;
 }
@@ -183,6 +190,22 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   return ZP_OK;
 }
 
+ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0) {
+  ZpSim *sim = create_straight(model, true);
+  if (!sim) return NULL;
+  sim->state->opening0 = opening0;
+  if (q) memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
+  sim->settled = ZP_REACHED_END;
+  sim->states = zp_calloc(1, sizeof(ZpState *));
+  if (!sim->states) {
+    zp_sim_destroy(sim);
+    return NULL;
+  }
+  sim->states[0] = sim->state;
+  start(sim);
+  return sim;
+}
+
 void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
   zp_sim_destroy(sim->below);
@@ -207,7 +230,7 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
-static double next_corner(const ZpSim *sim) {
+double zp_sim_next_corner(const ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
@@ -352,7 +375,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, 
 }
 
 /* Of a series: before anything moves, all members. */
-static bool prepare_steps(ZpSim *sim) {
+bool zp_sim_prepare(ZpSim *sim) {
   for (ZpSim *m = sim; m; m = m->below) {
     if (zp_is_pair(&m->model->topology)) m->step_start = start_of(m->model, m->state);
     sim->stuck = !prepare_step(m);
@@ -362,7 +385,7 @@ static bool prepare_steps(ZpSim *sim) {
 }
 
 /* And where a step has ended. */
-static void note_steps(ZpSim *sim) {
+void zp_sim_arrive(ZpSim *sim) {
   const ZpDynamics *dynamics = &sim->dynamics;
   for (ZpSim *m = sim; m; m = m->below, dynamics = dynamics->below) {
     follow_voltage(m);
@@ -373,9 +396,10 @@ static void note_steps(ZpSim *sim) {
 
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   ZpState *state = sim->state;
+  if (sim->rates) zp_run_rates_begin(sim->rates, end_time);
   if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
   if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
-  double corner = next_corner(sim), latest = fmin(end_time, corner);
+  double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
   if (zp_sim_is_fed(sim)) {
     corner = fmin(corner, zp_feed_event(sim, latest));
@@ -383,14 +407,15 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   }
   const size_t mode = state->supply_mode;
   const bool unzipped = isnan(zp_sim_zip_time(sim));
-  if (!prepare_steps(sim)) return;
+  if (!zp_sim_prepare(sim)) return;
   ZpStepLimit limit;
   sim->stuck = !sim->stepping->step(sim, latest, &limit);
   if (sim->stuck) return;
   info->steps++;
   limit = limit_of(sim, limit, corner, end_time);
   info->limited[limit]++;
-  note_steps(sim);
+  zp_sim_arrive(sim);
+  if (sim->rates) zp_run_rates_follow(sim->rates);
   sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(zp_sim_zip_time(sim)));
 }
 

@@ -107,8 +107,20 @@ struct ZpSim {
   bool at_event;              /* the last step has ended at one */
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
   ZpState **states;           /* of the uppermost: of it and of all below */
+  struct ZpRunRates *rates;   /* what follows the derivatives of the run; NULL: nothing does */
   double *all;                /* of the uppermost of a series: room for the shape of all */
 };
+
+/* A simulation that starts at coordinates q [2 stride], NULL: straight, without looking for its hanging equilibrium,
+ * whose opening is given. NULL: there is no memory. */
+ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
+
+/* The next corner of what is told from outside, s. */
+double zp_sim_next_corner(const ZpSim *sim);
+
+/* Before a step moves anything; false: it cannot. And where it has ended. */
+bool zp_sim_prepare(ZpSim *sim);
+void zp_sim_arrive(ZpSim *sim);
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */

@@ -160,6 +160,33 @@ static void set_number(ZpState *state, size_t k, double value) {
     *(double *)(void *)place = value;
 }
 
+/* -- states near ----------------------------------------------------------------------------------- */
+
+/* Doubles behind the numbers. */
+static size_t data_of(const ZpModel *model) {
+  return (zp_state_size(model) - offsetof(ZpState, data)) / sizeof(double);
+}
+
+void zp_state_along(const ZpModel *model, const ZpState *at, const ZpState *rate, double offset, ZpState *near) {
+  memcpy(near, at, zp_state_size(model));
+  for (size_t k = 0; k < NUMBERS; k++)
+    if (number[k].kind == REAL) set_number(near, k, number_of(at, k) + offset * number_of(rate, k));
+  for (size_t i = 0; i < data_of(model); i++)
+    near->data[i] = at->data[i] + offset * rate->data[i];
+}
+
+static double beyond(double near, double at) {
+  return isfinite(near) && isfinite(at) ? near - at : 0;
+}
+
+void zp_state_add_rate(const ZpModel *model, const ZpState *at, const ZpState *near, double weight, ZpState *rate) {
+  for (size_t k = 0; k < NUMBERS; k++)
+    if (number[k].kind == REAL)
+      set_number(rate, k, number_of(rate, k) + weight * beyond(number_of(near, k), number_of(at, k)));
+  for (size_t i = 0; i < data_of(model); i++)
+    rate->data[i] += weight * beyond(near->data[i], at->data[i]);
+}
+
 /* -- bytes ----------------------------------------------------------------------------------------- */
 
 static void put(unsigned char *byte, int width, uint64_t value) {

@@ -26,4 +26,11 @@ ZpStatus zp_snapshot_fits(const ZpActuatorDef *def, const void *bytes, size_t si
 /* The time of a snapshot that zp_snapshot_check has passed, s. */
 double zp_snapshot_time(const void *bytes, size_t size);
 
+/* States near one whose numbers change by a key at `rate`, a state of derivatives. At `offset` of the key: flags and
+ * counts are those of `at`. */
+void zp_state_along(const ZpModel *model, const ZpState *at, const ZpState *rate, double offset, ZpState *near);
+
+/* rate += weight times what `near` has beyond `at`; 0 of what either has not, being NAN or INFINITY. */
+void zp_state_add_rate(const ZpModel *model, const ZpState *at, const ZpState *near, double weight, ZpState *rate);
+
 #endif

@@ -98,16 +98,24 @@ static double rounding_of(ZpImplicit *s, const double *q, double squares) {
   return DBL_EPSILON * sqrt(all * squares);
 }
 
-/* f - M a of (18.1) => r, and the Jacobian factored. */
+/* f - M a of (18.1) => r. */
+static ZpEnd left_over(ZpImplicit *s, double h, const double *q, const double *v) {
+  const ZpImplicitSystem *system = s->system;
+  ZpEnd end = system->residual(system->self, s->q, h, s->r);
+  for (size_t i = 0; i < system->n && end == ZP_END_FOUND; i++)
+    s->r[i] -= 2 * system->mass[i] / (h * h) * (s->q[i] - q[i] - h * v[i]);
+  return end;
+}
+
+/* The same, and the Jacobian factored. */
 static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
   const ZpImplicitSystem *system = s->system;
   double work = 0, turnover = 0, rounding = 0;
-  ZpEnd end = system->residual(system->self, s->q, h, s->r);
+  ZpEnd end = left_over(s, h, q, v);
   if (end != ZP_END_FOUND) return end;
   system->tangent(system->self, &s->A);
   for (size_t i = 0; i < system->n; i++) {
     double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
-    s->r[i] -= inertia * (moved - h * v[i]);
     double stiffness = *zp_bordered_at(&s->A, i, i) += inertia;
     double rounded = rounded_work(s, i, stiffness, moved);
     work += s->r[i] * moved;
@@ -274,11 +282,15 @@ void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
     v[i] += w[i];
 }
 
+static void begin(ZpImplicit *s, const double *q, const double *v) {
+  s->energy = s->system->begin(s->system->self, q, v);
+  s->reach = largest(s->system, q);
+}
+
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
   bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
-  s->energy = s->system->begin(s->system->self, q, v);
-  s->reach = largest(s->system, q);
+  begin(s, q, v);
   s->end = ZP_END_SHORTER;
   for (double h = cut ? longest : try; h >= shortest_step;) {
     int iterations;
@@ -307,6 +319,140 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
     return h;
   }
   return 0;
+}
+
+/* -- steps near one that is known ------------------------------------------------------------------ */
+
+/* A pass leaves what the factored matrix leaves out of the exact tangent, mostly a hundredth; rounding stops it. */
+static const double passed = 1e-12, most_left = 1e-6;
+
+/* What follows from positions and rates is differentiated by its formula, eqs. (20.8) and (20.9): as a difference it
+ * would have the rounding of positions over the step. Letters: d is the derivative by the number. */
+typedef struct Rates {
+  size_t n;
+  double h, dh;            /* s */
+  double *dq, *dv, *dmass; /* [n] where the step begins, and of the masses */
+  double *dq1;             /* [n] and where it ends */
+} Rates;
+
+/* Quotient of what the near steps have: that of a number that is the same is exactly 0. */
+static double quotient(const ZpNearSteps *steps, const double *(*of)(const ZpNearStep *near), size_t i) {
+  double sum = 0, first = of(&steps->near[0])[i];
+  for (int k = 1; k < steps->count; k++)
+    sum += steps->near[k].weight * (of(&steps->near[k])[i] - first);
+  return sum;
+}
+
+static const double *position(const ZpNearStep *near) {
+  return near->q;
+}
+
+static const double *velocity(const ZpNearStep *near) {
+  return near->v;
+}
+
+static const double *mass_of(const ZpNearStep *near) {
+  return near->stepper->system->mass;
+}
+
+static const double *mean_rate(const ZpNearStep *near) {
+  return near->history->last > 0 ? near->history->w : near->v;
+}
+
+static const double *length(const ZpNearStep *near) {
+  return &near->h;
+}
+
+/* Where the steps begin; ends are guessed as if all went on as in the last step. */
+static Rates start(const ZpNearSteps *steps, double *rate) {
+  size_t n = steps->near[0].stepper->system->n;
+  double *work = steps->work + n;
+  Rates r = {.n = n, .h = steps->lead->last, .dh = quotient(steps, length, 0), .dq = work, .dv = work + n,
+             .dmass = work + 2 * n, .dq1 = rate};
+  for (size_t i = 0; i < n; i++) {
+    r.dq[i] = quotient(steps, position, i);
+    r.dv[i] = quotient(steps, velocity, i);
+    r.dmass[i] = quotient(steps, mass_of, i);
+    rate[i] = r.dq[i] + r.h * quotient(steps, mean_rate, i) + r.dh * steps->lead->w[i];
+  }
+  for (int k = 0; k < steps->count; k++) {
+    const ZpNearStep *near = &steps->near[k];
+    ZpImplicit *s = near->stepper;
+    begin(s, near->q, near->v);
+    if (s->system->attempt) s->system->attempt(s->system->self, s->q);
+  }
+  return r;
+}
+
+/* Of the inertia 2 m (w - v0) / h = m a over the step. */
+static double rate_of_inertia(const ZpNearSteps *steps, const Rates *r, size_t i) {
+  const ZpImplicitHistory *lead = steps->lead;
+  double m = mass_of(&steps->near[0])[i], a = lead->a[i], v = lead->w[i] - 0.5 * r->h * a;
+  double late = r->dq1[i] - r->dq[i] - r->dh * v - r->h * r->dv[i];
+  return (r->dmass[i] - 2 * m * r->dh / r->h) * a + 2 * m / (r->h * r->h) * late;
+}
+
+/* All ends where the rate leads them to, and the derivative of what is left there => left. */
+static bool look(const ZpNearSteps *steps, const Rates *r, double *left) {
+  memset(left, 0, r->n * sizeof *left);
+  for (int k = 0; k < steps->count; k++) {
+    const ZpNearStep *near = &steps->near[k];
+    ZpImplicit *s = near->stepper;
+    for (size_t i = 0; i < r->n; i++)
+      s->q[i] = steps->q1[i] + near->offset * r->dq1[i];
+    if (s->system->residual(s->system->self, s->q, near->h, s->r) != ZP_END_FOUND) return false;
+    for (size_t i = 0; i < r->n; i++)
+      left[i] += near->weight * s->r[i];
+  }
+  for (size_t i = 0; i < r->n; i++)
+    left[i] -= rate_of_inertia(steps, r, i);
+  return true;
+}
+
+static bool factor(const ZpNearStep *near) {
+  Imbalance unused;
+  return linearise(near->stepper, near->h, near->q, near->v, &unused) == ZP_END_FOUND;
+}
+
+/* By passes with the factored Jacobian of one of them: what it lacks of the exact tangent the next pass sees. */
+static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
+  enum { MOST_PASSES = 40 };
+  ZpImplicit *s = steps->near[0].stepper;
+  double *left = steps->work, before = INFINITY;
+  for (int pass = 0; pass < MOST_PASSES; pass++) {
+    if (!look(steps, r, left) || (pass == 0 && !factor(&steps->near[0]))) return false;
+    zp_bordered_solve(&s->A, left);
+    for (size_t i = 0; i < r->n; i++)
+      r->dq1[i] += left[i];
+    double size = rms(s->system, left, r->n), all = rms(s->system, r->dq1, r->n);
+    if (!isfinite(size)) return false;
+    if (size <= passed * all || (size > 0.5 * before && size < most_left * all)) return true;
+    before = size;
+  }
+  return false;
+}
+
+/* The end of a near step, of which the residual was found last. */
+static void accept_near(const ZpNearSteps *steps, const Rates *r, const ZpNearStep *near) {
+  const ZpImplicitHistory *lead = steps->lead;
+  accept(near->stepper, near->h, near->q, near->v, near->history);
+  for (size_t i = 0; i < r->n; i++) {
+    if (kind_of(near->stepper->system, i) != ZP_SECOND_ORDER) continue;
+    double w = lead->w[i], a = lead->a[i], dw = (r->dq1[i] - r->dq[i] - w * r->dh) / r->h;
+    near->history->w[i] = w + near->offset * dw;
+    near->history->a[i] = a + near->offset * (2 * (dw - r->dv[i]) - a * r->dh) / r->h;
+    near->v[i] = w + 0.5 * r->h * a + near->offset * (2 * dw - r->dv[i]);
+  }
+}
+
+bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate) {
+  Rates r = start(steps, rate);
+  if (!find_rate(steps, &r) || !look(steps, &r, steps->work)) return false;
+  for (int k = 0; k < steps->count; k++) {
+    if (with_matrix && !factor(&steps->near[k])) return false;
+    accept_near(steps, &r, &steps->near[k]);
+  }
+  return true;
 }
 
 /* -- the exact tangent ----------------------------------------------------------------------------- */

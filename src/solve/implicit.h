@@ -86,6 +86,28 @@ void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCa
  * unknowns, v of first-order ones, too. => its length, 0 if none is found (see `end`); all is then as it was. */
 double zp_implicit_step(ZpImplicit *stepper, double longest, double *q, double *v, ZpImplicitHistory *history);
 
+/* A system that differs from one whose step is known by `offset` of some number: its step, of length h. */
+typedef struct ZpNearStep {
+  ZpImplicit *stepper;
+  double offset, weight; /* where the system is, and how much it counts in the difference quotient by that number */
+  double h;              /* s */
+  double *q, *v;         /* as of zp_implicit_step */
+  ZpImplicitHistory *history;
+} ZpNearStep;
+
+typedef struct ZpNearSteps {
+  ZpNearStep near[4];
+  int count;
+  const double *q1;              /* [n] where the known step ends, */
+  const ZpImplicitHistory *lead; /* with what rates */
+  double *work;                  /* [4 n] */
+} ZpNearSteps;
+
+/* How the end of the known step moves with the number => rate [n], eq. (20.7), and all near steps, accepted at
+ * q1 + offset rate. `with_matrix`: their Jacobians are factored there, for zp_implicit_smooth and zp_implicit_calm.
+ * False: the rate is not found. */
+bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate);
+
 /* The same of what velocities v have beyond the mean rates w of the last step, by the inertia `mass` alone: where a
  * resistance is far above that, the step lets them turn round without end. */
 void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v);

@@ -10,8 +10,8 @@
 #include "sim/margins.h"
 #include "study/loop.h"
 #include "study/notes.h"
+#include "study/rates.h"
 #include "study/sense.h"
-#include "study/sensitivity.h"
 #include "study/studies.h"
 
 /* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
@@ -261,8 +261,15 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpTable *samples = controlled ? zp_loop_watch(sim) : NULL;
   if (controlled && !samples) return zp_fail_memory(err);
   ZpRunInfo info;
-  zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
-  summarize(sim, model, &info, result);
+  ZpRunRates rates;
+  status = zp_rates_open(&rates, sim, err);
+  if (status == ZP_OK) {
+    zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
+    summarize(sim, model, &info, result);
+    zp_rates_add(&rates, result);
+  }
+  zp_run_rates_close(&rates);
+  if (status != ZP_OK) return status;
   if (controlled) zp_loop_summarize(sim, samples, result);
   zp_sim_keep_samples(sim, NULL);
   zp_table_destroy(samples);
@@ -306,6 +313,7 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
 ZpStatus zp_check_actuate(const ZpActuatorDef *def, ZpError *err) {
   bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
   ZpStatus status = zp_def_check_motion(def, err);
+  if (status == ZP_OK) status = zp_check_rates(def, err);
   if (status != ZP_OK || table) return status;
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
@@ -316,7 +324,6 @@ ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (status == ZP_OK) status = zp_model_create_driven(task->def, task->input.table, &model, err);
   if (status != ZP_OK) return status;
   status = run(task, model, result, err);
-  zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;
 }

@@ -365,8 +365,8 @@ static void derive_all(void *user, ZpSlope *slope, ZpResult *result) {
   Finder *f = user;
   double mass = 0, travel = NAN;
   zp_derive_limits(&f->list, slope, result);
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++)
-    if (slope->model[k]) mass += slope->weight[k] * mass_of(slope->model[k]);
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (slope->by.model[k]) mass += slope->by.weight[k] * mass_of(slope->by.model[k]);
   if (f->limits->closes)
     travel = slope_of_opening(f, slope, f->limits->start, zp_pose_load) -
              slope_of_opening(f, slope, f->limits->closed, pose_closed);

@@ -44,6 +44,14 @@ static ZpStatus read_keys(const ZpActuatorDef *def, KeyList *list, ZpError *err)
   }
 }
 
+ZpStatus zp_sensitivity_keys(const ZpActuatorDef *def, int *key, int *keys, ZpError *err) {
+  KeyList list;
+  ZpStatus status = read_keys(def, &list, err);
+  memcpy(key, list.key, sizeof list.key);
+  *keys = list.count;
+  return status;
+}
+
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err) {
   KeyList list;
   return read_keys(def, &list, err);
@@ -85,8 +93,9 @@ static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope) {
   double hanging = zp_closing_gap(list->slow->statics, NULL), rate, sum = 0;
   if (!zp_slope_solve(slope, zp_pose_load)) return NAN;
   rate = zp_slope_of(slope, zp_pose_load, closing_gap, NULL);
-  for (int k = 0; k < ZP_SLOPE_POINTS; k++)
-    if (slope->model[k]) sum += slope->weight[k] * zp_closing_limit(&slope->near[k], hanging + slope->offset[k] * rate);
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (slope->by.model[k])
+      sum += slope->by.weight[k] * zp_closing_limit(&slope->near[k], hanging + slope->by.offset[k] * rate);
   return sum;
 }
 

@@ -10,6 +10,9 @@
 /* Check sensitivity.by: real keys, each once, whose derivatives there are. ZP_BAD_INPUT names the key. */
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err);
 
+/* The keys that sensitivity.by names => key [ZP_MAX_SENSITIVITY_KEYS], and how many. ZP_BAD_INPUT as above. */
+ZpStatus zp_sensitivity_keys(const ZpActuatorDef *def, int *key, int *keys, ZpError *err);
+
 /* A study that differentiates nothing notes that it was asked to. */
 void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def);
 

@@ -1,0 +1,45 @@
+/* Derivatives of a whole run by keys, forward through its accepted steps. Beside the run go actuators near it, whose key
+ * is a little larger or smaller, each at the run's state plus its share of the derivatives; after a step these follow
+ * from where they end. docs/theory.md, section 20. */
+#ifndef ZP_SIM_RUN_RATES_H
+#define ZP_SIM_RUN_RATES_H
+
+#include "rest/near.h"
+#include "sim/sim_internal.h"
+
+/* Of one key. */
+typedef struct ZpKeyRates {
+  ZpNear by;
+  ZpSim *near[ZP_NEAR_POINTS]; /* NULL where the point is not used */
+  double from[ZP_NEAR_POINTS]; /* their last corner */
+  double to[ZP_NEAR_POINTS];   /* and their next one, s */
+  ZpState *rate;               /* derivatives of the numbers of the run's state */
+} ZpKeyRates;
+
+typedef struct ZpRunRates {
+  ZpSim *sim;        /* the run */
+  ZpKeyRates *key;   /* [keys] */
+  size_t keys;
+  ZpState *before;   /* the run's state where the step under way begins */
+  int64_t taken;     /* its steps until then */
+  double from, to;   /* its last corner and its next one, s */
+  bool *meets;       /* [N] stations whose faces meet without liquid between them */
+  double lost;       /* when the derivatives ceased to exist, s; INFINITY: they have not */
+  const char *cause; /* and why */
+  double *work;      /* [4 n] */
+  double *motion;    /* [n] */
+} ZpRunRates;
+
+/* Follow a run, which has not begun, by these keys; in any case to be closed, before the run. ZP_BAD_INPUT names a key
+ * about which there are no actuators near, ZP_MACHINE: no memory. */
+ZpStatus zp_run_rates_open(ZpRunRates *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err);
+void zp_run_rates_close(ZpRunRates *rates);
+
+/* A step begins, of a run until end_time, s; it has ended. */
+void zp_run_rates_begin(ZpRunRates *rates, double end_time);
+void zp_run_rates_follow(ZpRunRates *rates);
+
+/* The derivative by the k-th key of a number that a simulation has now. */
+double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user);
+
+#endif

@@ -1,0 +1,154 @@
+#include "study/rates.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "sim/feed.h"
+#include "study/sensitivity.h"
+
+/* -- what can be asked ----------------------------------------------------------------------------- */
+
+static ZpStatus refuse(const char *what, const char *why, ZpError *err) {
+  return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: study actuate has no derivatives with %s: %s", what, why);
+}
+
+static ZpStatus check_model(const ZpActuatorDef *def, ZpError *err) {
+  if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
+    return refuse("solver.integrator explicit", "they follow the implicit steps", err);
+  if (def->control.kind != ZP_CONTROL_NONE)
+    return refuse("control.kind", "a controller's samples and limits are not differentiated", err);
+  if (def->stack.series > 1) return refuse("stack.series above 1", "they are followed for one actuator", err);
+  if (def->ribbon.plasticity) return refuse("ribbon.plasticity", "a strip that begins to yield is not followed", err);
+  if (def->initial.state == ZP_INITIAL_CHECKPOINT)
+    return refuse("initial.state checkpoint", "a checkpoint does not say how it goes with a key", err);
+  if (def->source.model != ZP_SOURCE_IDEAL && isfinite(def->source.slew_rate))
+    return refuse("source.slew_rate", "the instants where the slew rate is reached and left are not followed", err);
+  return ZP_OK;
+}
+
+ZpStatus zp_check_rates(const ZpActuatorDef *def, ZpError *err) {
+  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
+  ZpStatus status = zp_sensitivity_keys(def, key, &keys, err);
+  return status == ZP_OK && keys > 0 ? check_model(def, err) : status;
+}
+
+ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err) {
+  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
+  ZpStatus status = zp_sensitivity_keys(zp_model_def(sim->model), key, &keys, err);
+  *rates = (ZpRunRates){.sim = sim};
+  return status == ZP_OK && keys > 0 ? zp_run_rates_open(rates, sim, key, (size_t)keys, err) : status;
+}
+
+/* -- numbers --------------------------------------------------------------------------------------- */
+
+static bool any(const ZpModel *model) {
+  (void)model;
+  return true;
+}
+
+static bool is_pair(const ZpModel *model) {
+  return zp_is_pair(&model->topology);
+}
+
+static bool turns(const ZpModel *model) {
+  return zp_has_angle(&model->topology);
+}
+
+static bool has_field(const ZpModel *model) {
+  return model->field;
+}
+
+static bool is_fed(const ZpModel *model) {
+  return model->supply.acts;
+}
+
+static bool has_film(const ZpModel *model) {
+  return model->has_film;
+}
+
+static bool has_bead(const ZpModel *model) {
+  return model->has_bead;
+}
+
+static bool leaks(const ZpModel *model) {
+  return model->leaks;
+}
+
+static bool is_damped(const ZpModel *model) {
+  return model->internal_damping > 0;
+}
+
+/* Numbers at the end of a run: their name, the signal, of which models. */
+static const struct {
+  const char *name, *unit, *signal;
+  bool (*has)(const ZpModel *model);
+} at_end[] = {{"opening_m", "m", "opening", is_pair},
+              {"contraction", "1", "contraction", is_pair},
+              {"angle_rad", "rad", "angle", turns},
+              {"stroke_m", "m", "stroke", any},
+              {"internal_loss_J", "J", "internal_loss", is_damped},
+              {"contact_loss_J", "J", "contact_loss", has_field},
+              {"viscous_loss_J", "J", "viscous_loss", has_film},
+              {"film_along_loss_J", "J", "film_along_loss", has_film},
+              {"film_across_loss_J", "J", "film_across_loss", has_film},
+              {"jet_loss_J", "J", "jet_loss", has_film},
+              {"outer_drag_loss_J", "J", "outer_drag_loss", has_film},
+              {"meniscus_loss_J", "J", "meniscus_loss", has_bead},
+              {"wet_length_m", "m", "wet_length", has_bead},
+              {"electric_work_J", "J", "electric_work", has_field},
+              {"charge_C", "C", "charge", has_field},
+              {"source_energy_J", "J", "source_energy", has_field},
+              {"source_loss_J", "J", "source_loss", is_fed},
+              {"leak_loss_J", "J", "leak_loss", leaks}};
+enum { AT_END = sizeof at_end / sizeof at_end[0] };
+
+static double signal_of(ZpSim *sim, void *name) {
+  return zp_sim_get(sim, name);
+}
+
+static double zip_time_of(ZpSim *sim, void *unused) {
+  (void)unused;
+  return sim->state->zip_time;
+}
+
+static double peak_of(ZpSim *sim, void *unused) {
+  (void)unused;
+  return zp_sim_currents(sim, sim->state->t).peak;
+}
+
+static double rms_of(ZpSim *sim, void *unused) {
+  (void)unused;
+  return zp_sim_currents(sim, sim->state->t).rms;
+}
+
+static bool is_lost(const ZpRunRates *rates) {
+  return isfinite(rates->lost);
+}
+
+static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
+  const ZpModel *model = rates->sim->model;
+  int key = rates->key[k].by.key;
+  if (is_pair(model)) zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
+  for (size_t i = 0; i < AT_END; i++)
+    if (at_end[i].has(model))
+      zp_result_add_sensitivity(result, at_end[i].name, key,
+                                is_lost(rates) ? NAN
+                                               : zp_run_rate_of(rates, k, signal_of, (void *)at_end[i].signal));
+  if (!is_fed(model)) return;
+  zp_result_add_sensitivity(result, "peak_current_A", key,
+                            is_lost(rates) ? NAN : zp_run_rate_of(rates, k, peak_of, NULL));
+  zp_result_add_sensitivity(result, "rms_current_A", key,
+                            is_lost(rates) ? NAN : zp_run_rate_of(rates, k, rms_of, NULL));
+}
+
+void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
+  for (size_t i = 0; rates->keys > 0 && i < AT_END; i++)
+    if (at_end[i].has(rates->sim->model) && isnan(zp_result_get(result, at_end[i].name)))
+      zp_result_add(result, at_end[i].name, at_end[i].unit, zp_sim_get(rates->sim, at_end[i].signal));
+  for (size_t k = 0; k < rates->keys; k++)
+    add_key(rates, k, result);
+  if (rates->keys > 0 && is_lost(rates))
+    zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives: %s", 1e3 * rates->lost,
+                   rates->cause);
+}
