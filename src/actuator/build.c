@@ -431,9 +431,9 @@ static ZpHingeParams hinge_of(const ZpModel *model) {
 
 /* Its joints may yield. */
 static void fill_plastic(ZpModel *model) {
-  ZpActuatorDef lower = zp_def_lower(&model->def);
   model->plastic_at = model->kept;
   if (!model->def.ribbon.plasticity) return;
+  ZpActuatorDef lower = zp_def_lower(&model->def);
   model->plastic[0] = plastic_of(&model->def);
   model->plastic[1] = plastic_of(&lower);
   model->rod.plastic = model->plastic;

@@ -28,8 +28,9 @@
 /* How often the writer looks around, and for how long rows may wait for their commit, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
 
-/* Rows that wait to be written, at most; cases that another process computes at once, at most. */
-enum { QUEUE = 256, SPAN_MOST = 64 };
+/* Rows that wait to be written, at most; how many wake the writer before its PULSE, since a wake-up takes as long as
+ * some rows; cases that another process computes at once, at most. */
+enum { QUEUE = 256, MANY = QUEUE / 2, SPAN_MOST = 64 };
 _Static_assert((int)SPAN_MOST >= (int)ZP_CHUNK_MOST, "a span has room for a chunk");
 
 /* What is known of a row. That an earlier process left is of the same case only if its hash says so. */
@@ -140,7 +141,7 @@ static void hand_over(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *res
   while (c->waiting == QUEUE)
     pthread_cond_wait(&c->room, &c->lock);
   c->queue[(c->first + c->waiting++) % QUEUE] = (Row){number, hash, result};
-  pthread_cond_signal(&c->more);
+  if (c->waiting == MANY) pthread_cond_signal(&c->more);
   pthread_mutex_unlock(&c->lock);
 }
 
@@ -271,7 +272,8 @@ static double now(void) {
   return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
 }
 
-/* Wait for rows, a PULSE at most, and take them => how many; *open is false once there will be no more. */
+/* Wait for many rows, a PULSE at most, and take those that are there => how many; *open is false once there will be no
+ * more. */
 static size_t take_rows(ZpCampaign *c, Row row[QUEUE], bool *open) {
   struct timespec end;
   clock_gettime(CLOCK_MONOTONIC, &end);
@@ -279,7 +281,7 @@ static size_t take_rows(ZpCampaign *c, Row row[QUEUE], bool *open) {
   end.tv_sec += end.tv_nsec / 1000000000L;
   end.tv_nsec %= 1000000000L;
   pthread_mutex_lock(&c->lock);
-  for (int late = 0; c->waiting == 0 && c->workers > 0 && !late;)
+  for (int late = 0; c->waiting < MANY && c->workers > 0 && !late;)
     late = pthread_cond_timedwait(&c->more, &c->lock, &end);
   const size_t count = c->waiting;
   for (size_t i = 0; i < count; i++)

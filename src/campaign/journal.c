@@ -20,13 +20,17 @@
 /* "zipa", and the number of this layout. */
 enum { APPLICATION = 0x7a697061, LAYOUT = 1 };
 
+/* One thread at a time uses a journal. */
+static const int open_flags = SQLITE_OPEN_NOMUTEX;
+
 static const char file_name[] = "journal.sqlite";
 
 struct ZpJournal {
   char *path;
   sqlite3 *base;
   sqlite3_stmt *put, *get, *put_name;
-  bool open; /* a transaction */
+  bool open;    /* a transaction */
+  bool reading; /* `get` stands at row `at`: the next one is a step away */
   ZpNames names;
   size_t names_written;
   ZpRecord record;
@@ -81,7 +85,8 @@ static bool is_ours(ZpJournal *journal) {
 
 /* Rows of a campaign that was not finished took time: only its owner may give them up. */
 static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
-  if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK || !is_ours(journal))
+  if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
+      !is_ours(journal))
     return ZP_OK;
   const sqlite3_int64 done = ask(journal, "SELECT count(*) FROM row");
   const sqlite3_int64 cases = ask(journal, "SELECT value FROM about WHERE name = 'cases'");
@@ -132,7 +137,8 @@ static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **stat
 }
 
 static ZpStatus prepare_get(ZpJournal *journal, ZpError *err) {
-  return prepare(journal, "SELECT outcome, message, result FROM row WHERE number = ?", &journal->get, err);
+  return prepare(journal, "SELECT number, outcome, message, result FROM row WHERE number >= ? ORDER BY number",
+                 &journal->get, err);
 }
 
 static ZpStatus prepare_all(ZpJournal *journal, ZpError *err) {
@@ -146,7 +152,7 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   char sql[160];
   snprintf(sql, sizeof sql, "DELETE FROM row WHERE number >= %zu; INSERT OR REPLACE INTO about VALUES('cases', '%zu')",
            cases, cases);
-  if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
+  if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
     return journal->base ? fail_base(journal, err) : zp_fail_memory(err);
   ZpStatus status = need_tables(journal, err);
   if (status == ZP_OK) status = run(journal, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL", err);
@@ -169,7 +175,7 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
 
 /* (journal with its path and study) => is it open, for reading? */
 static bool open_reader(ZpJournal *journal) {
-  return sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
+  return sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
          read_names(journal, NULL) == ZP_OK && prepare_get(journal, NULL) == ZP_OK;
 }
 
@@ -241,7 +247,13 @@ static ZpStatus write_names(ZpJournal *journal, ZpError *err) {
   return status;
 }
 
+static void end_reading(ZpJournal *journal) {
+  sqlite3_reset(journal->get);
+  journal->reading = false;
+}
+
 ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpResult *result, ZpError *err) {
+  end_reading(journal);
   if (!zp_record_write(&journal->record, &journal->names, result)) return zp_fail_memory(err);
   ZpStatus status = journal->open ? ZP_OK : run(journal, "BEGIN", err);
   journal->open = status == ZP_OK;
@@ -265,26 +277,34 @@ ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err) {
   return run(journal, "UPDATE about SET value = (SELECT count(*) FROM row) WHERE name = 'cases'", err);
 }
 
+/* Go to row `number`, a step where the row before it was read last: one transaction then reads all. False if there is
+ * no such row. */
+static bool find_row(ZpJournal *journal, size_t number) {
+  if (!journal->reading || number != journal->at + 1) {
+    end_reading(journal);
+    sqlite3_bind_int64(journal->get, 1, (sqlite3_int64)number);
+  }
+  journal->at = number;
+  journal->reading =
+      sqlite3_step(journal->get) == SQLITE_ROW && sqlite3_column_int64(journal->get, 0) == (sqlite3_int64)number;
+  if (!journal->reading) end_reading(journal);
+  return journal->reading;
+}
+
 /* False if there is no such row, or it is damaged. */
 static bool read_row(ZpJournal *journal, size_t number) {
   sqlite3_stmt *query = journal->get;
   ZpResult *result = &journal->row;
-  sqlite3_bind_int64(query, 1, (sqlite3_int64)number);
-  bool found = sqlite3_step(query) == SQLITE_ROW;
-  if (found) {
-    const char *message = (const char *)sqlite3_column_text(query, 1);
-    const unsigned char *byte = sqlite3_column_blob(query, 2);
-    result->outcome = outcome_of((const char *)sqlite3_column_text(query, 0));
-    snprintf(result->message, sizeof result->message, "%s", message ? message : "");
-    found = byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 2), &journal->names, &journal->row);
-  }
-  sqlite3_reset(query);
-  return found;
+  if (!find_row(journal, number)) return false;
+  const char *message = (const char *)sqlite3_column_text(query, 2);
+  const unsigned char *byte = sqlite3_column_blob(query, 3);
+  result->outcome = outcome_of((const char *)sqlite3_column_text(query, 1));
+  snprintf(result->message, sizeof result->message, "%s", message ? message : "");
+  return byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 3), &journal->names, result);
 }
 
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
   if (journal->has_row && journal->at == number) return &journal->row;
-  journal->at = number;
   journal->has_row = read_row(journal, number);
   if (!journal->has_row) zp_record_clear(&journal->row);
   journal->bad = journal->bad || !journal->has_row;
