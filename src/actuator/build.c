@@ -52,6 +52,7 @@ static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
     ribbon.place[k] = place[k];
     ribbon.place[k].end = along += place[k].end;
   }
+  ribbon.is_uniform = ribbon.place[ZP_REST - 1].end == 0;
   return ribbon;
 }
 
@@ -73,6 +74,10 @@ static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece 
   const ZpPlace *place = model->ribbon[ribbon].place;
   double from = 0;
   int count = 0;
+  if (model->ribbon[ribbon].is_uniform) {
+    piece[0] = (Piece){&place[ZP_REST], 0, 1};
+    return 1;
+  }
   for (int k = 0; k < ZP_PLACES && from < 1; k++) {
     if (place[k].end == (k > 0 ? place[k - 1].end : 0)) continue; /* a segment without length, as most are */
     double to = fmin(in_edges(model, place[k].end) - (double)station, 1);

@@ -5,11 +5,12 @@
  *   name(id, name, unit, help, timing)            names of scalars and columns, once for all rows
  *   row(number, hash, outcome, message, result)   a case that is done; result: record.c
  *
- * Names are written in the transaction of the first row that has them. */
+ * Names are written in the transaction of the first row that has them. Rows are packed by the threads that have
+ * computed them, so the numbers of names depend on who packs first; what is read does not. */
 #include "campaign/journal.h"
 
+#include <pthread.h>
 #include <sqlite3.h>
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,8 +30,9 @@ struct ZpJournal {
   char *path;
   sqlite3 *base;
   sqlite3_stmt *put, *get, *put_name;
-  bool open;    /* a transaction */
-  bool reading; /* `get` stands at row `at`: the next one is a step away */
+  bool open;            /* a transaction */
+  bool reading;         /* `get` stands at row `at`: the next one is a step away */
+  pthread_mutex_t lock; /* guards names and record, while rows are packed */
   ZpNames names;
   size_t names_written;
   ZpRecord record;
@@ -161,8 +163,15 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   return status == ZP_OK ? prepare_all(journal, err) : status;
 }
 
+static ZpJournal *create(void) {
+  ZpJournal *journal = calloc(1, sizeof *journal);
+  if (journal && pthread_mutex_init(&journal->lock, NULL) == 0) return journal;
+  free(journal);
+  return NULL;
+}
+
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
-  ZpJournal *journal = *out = calloc(1, sizeof *journal);
+  ZpJournal *journal = *out = create();
   ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK) journal->row.study = study;
   if (status == ZP_OK && !keep) status = replace_old(journal, directory, err);
@@ -180,7 +189,7 @@ static bool open_reader(ZpJournal *journal) {
 }
 
 ZpJournal *zp_journal_reader(const ZpJournal *journal) {
-  ZpJournal *reader = journal->open ? NULL : calloc(1, sizeof *reader);
+  ZpJournal *reader = journal->open ? NULL : create();
   if (!reader) return NULL;
   reader->row.study = journal->row.study;
   reader->path = strdup(journal->path);
@@ -200,6 +209,7 @@ void zp_journal_close(ZpJournal *journal) {
   zp_names_free(&journal->names);
   free(journal->record.byte);
   free(journal->path);
+  pthread_mutex_destroy(&journal->lock);
   free(journal);
 }
 
@@ -233,17 +243,22 @@ static ZpStatus finish(ZpJournal *journal, sqlite3_stmt *statement, ZpError *err
   return status;
 }
 
+static ZpStatus write_name(ZpJournal *journal, size_t number, ZpError *err) {
+  const ZpName *name = &journal->names.item[number];
+  sqlite3_bind_int64(journal->put_name, 1, (sqlite3_int64)number);
+  sqlite3_bind_text(journal->put_name, 2, name->name, -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
+  sqlite3_bind_int(journal->put_name, 5, name->timing);
+  return finish(journal, journal->put_name, err);
+}
+
 static ZpStatus write_names(ZpJournal *journal, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (; journal->names_written < journal->names.count && status == ZP_OK; journal->names_written++) {
-    const ZpName *name = &journal->names.item[journal->names_written];
-    sqlite3_bind_int64(journal->put_name, 1, (sqlite3_int64)journal->names_written);
-    sqlite3_bind_text(journal->put_name, 2, name->name, -1, SQLITE_STATIC);
-    sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
-    sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
-    sqlite3_bind_int(journal->put_name, 5, name->timing);
-    status = finish(journal, journal->put_name, err);
-  }
+  pthread_mutex_lock(&journal->lock);
+  for (; journal->names_written < journal->names.count && status == ZP_OK; journal->names_written++)
+    status = write_name(journal, journal->names_written, err);
+  pthread_mutex_unlock(&journal->lock);
   return status;
 }
 
@@ -252,18 +267,36 @@ static void end_reading(ZpJournal *journal) {
   journal->reading = false;
 }
 
-ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpResult *result, ZpError *err) {
+/* With the lock. */
+static ZpPacked *pack(ZpJournal *journal, const ZpResult *result) {
+  if (!zp_record_write(&journal->record, &journal->names, result)) return NULL;
+  ZpPacked *row = malloc(sizeof *row + journal->record.used);
+  if (!row) return NULL;
+  row->outcome = result->outcome;
+  memcpy(row->message, result->message, sizeof row->message);
+  row->size = journal->record.used;
+  memcpy(row->byte, journal->record.byte, row->size);
+  return row;
+}
+
+ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result) {
+  pthread_mutex_lock(&journal->lock);
+  ZpPacked *row = pack(journal, result);
+  pthread_mutex_unlock(&journal->lock);
+  return row;
+}
+
+ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpPacked *row, ZpError *err) {
   end_reading(journal);
-  if (!zp_record_write(&journal->record, &journal->names, result)) return zp_fail_memory(err);
   ZpStatus status = journal->open ? ZP_OK : run(journal, "BEGIN", err);
   journal->open = status == ZP_OK;
   if (status == ZP_OK) status = write_names(journal, err);
   if (status != ZP_OK) return status;
   sqlite3_bind_int64(journal->put, 1, (sqlite3_int64)number);
   sqlite3_bind_int64(journal->put, 2, (sqlite3_int64)hash);
-  sqlite3_bind_text(journal->put, 3, zp_outcome_name(result->outcome), -1, SQLITE_STATIC);
-  sqlite3_bind_text(journal->put, 4, result->message, -1, SQLITE_STATIC);
-  sqlite3_bind_blob64(journal->put, 5, journal->record.byte, journal->record.used, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put, 3, zp_outcome_name(row->outcome), -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put, 4, row->message, -1, SQLITE_STATIC);
+  sqlite3_bind_blob64(journal->put, 5, row->byte, row->size, SQLITE_STATIC);
   return finish(journal, journal->put, err);
 }
 
