@@ -365,6 +365,7 @@ static void fill_chain(ZpModel *model, Arrays *a) {
 }
 
 static double natural_curvature(double turn) {
+  if (turn == 0) return turn; /* of most joints */
   return zp_rod_curvature(zp_tangent(0.5 * turn));
 }
 
@@ -477,7 +478,9 @@ static void fill_stress(ZpModel *model, Arrays *a) {
 static double frequency_bound(const ZpModel *model) {
   double stiffest = 0;
   if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, ribbon_mass(model, 0));
-  for (size_t j = 0; j < model->s * zp_half_elements(&model->topology); j++) {
+  const bool alike = model->ribbon[0].is_uniform && model->ribbon[1].is_uniform; /* the first edges stand for all */
+  const size_t elements = alike ? 1 : zp_half_elements(&model->topology);
+  for (size_t j = 0; j < model->s * elements; j++) {
     Piece piece[ZP_PLACES];
     int count = pieces_of(model, j % model->s, j / model->s, piece);
     double EA = 0, EI = 0, mu = INFINITY;
