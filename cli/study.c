@@ -204,7 +204,7 @@ int cli_study(const char *study, const Options *o) {
   ZpScenario *scenario = zp_scenario_create();
   if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   ZpStatus status = cli_read_scenario(study, o, scenario, &err);
-  if (status == ZP_OK) status = zp_batch_check(scenario, &err);
+  if (status == ZP_OK) status = zp_batch_check_jobs(scenario, o->jobs, &err);
   int exit_code = status == ZP_OK ? run_in_folder(scenario, o) : cli_fail(&err);
   zp_scenario_destroy(scenario);
   return exit_code;

@@ -13,6 +13,9 @@ extern "C" {
 /* Check every Def of `scenario`. ZP_BAD_INPUT as zp_scenario_def and zp_data_check. */
 ZP_API ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err);
 
+/* The same in `jobs` threads; 0: as many as there are processors. The first wrong case is the one that is named. */
+ZP_API ZpStatus zp_batch_check_jobs(const ZpScenario *scenario, int jobs, ZpError *err);
+
 /* A scenario at work. */
 typedef struct ZpBatch {
   const ZpScenario *scenario;

@@ -52,6 +52,7 @@ static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
     ribbon.place[k] = place[k];
     ribbon.place[k].end = along += place[k].end;
   }
+  ribbon.is_uniform = ribbon.place[ZP_REST - 1].end == 0;
   return ribbon;
 }
 
@@ -73,6 +74,10 @@ static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece 
   const ZpPlace *place = model->ribbon[ribbon].place;
   double from = 0;
   int count = 0;
+  if (model->ribbon[ribbon].is_uniform) {
+    piece[0] = (Piece){&place[ZP_REST], 0, 1};
+    return 1;
+  }
   for (int k = 0; k < ZP_PLACES && from < 1; k++) {
     if (place[k].end == (k > 0 ? place[k - 1].end : 0)) continue; /* a segment without length, as most are */
     double to = fmin(in_edges(model, place[k].end) - (double)station, 1);
@@ -360,6 +365,7 @@ static void fill_chain(ZpModel *model, Arrays *a) {
 }
 
 static double natural_curvature(double turn) {
+  if (turn == 0) return turn; /* of most joints */
   return zp_rod_curvature(zp_tangent(0.5 * turn));
 }
 
@@ -431,9 +437,9 @@ static ZpHingeParams hinge_of(const ZpModel *model) {
 
 /* Its joints may yield. */
 static void fill_plastic(ZpModel *model) {
-  ZpActuatorDef lower = zp_def_lower(&model->def);
   model->plastic_at = model->kept;
   if (!model->def.ribbon.plasticity) return;
+  ZpActuatorDef lower = zp_def_lower(&model->def);
   model->plastic[0] = plastic_of(&model->def);
   model->plastic[1] = plastic_of(&lower);
   model->rod.plastic = model->plastic;
@@ -472,7 +478,9 @@ static void fill_stress(ZpModel *model, Arrays *a) {
 static double frequency_bound(const ZpModel *model) {
   double stiffest = 0;
   if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, ribbon_mass(model, 0));
-  for (size_t j = 0; j < model->s * zp_half_elements(&model->topology); j++) {
+  const bool alike = model->ribbon[0].is_uniform && model->ribbon[1].is_uniform; /* the first edges stand for all */
+  const size_t elements = alike ? 1 : zp_half_elements(&model->topology);
+  for (size_t j = 0; j < model->s * elements; j++) {
     Piece piece[ZP_PLACES];
     int count = pieces_of(model, j % model->s, j / model->s, piece);
     double EA = 0, EI = 0, mu = INFINITY;

@@ -45,8 +45,9 @@ typedef struct ZpPlace {
 enum { ZP_REST = 3, ZP_PLACES };
 typedef struct ZpRibbon {
   ZpPlace place[ZP_PLACES];
-  double yields; /* yield stress of its metal, Pa */
-  ZpCurl curl;   /* across its width */
+  bool is_uniform; /* no segment has a length */
+  double yields;   /* yield stress of its metal, Pa */
+  ZpCurl curl;     /* across its width */
 } ZpRibbon;
 
 /* The spring of a hinge, between the upper ribbon's direction there and the first element of the lower ribbon, which is

@@ -28,8 +28,9 @@
 /* How often the writer looks around, and for how long rows may wait for their commit, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
 
-/* Rows that wait to be written, at most; cases that another process computes at once, at most. */
-enum { QUEUE = 256, SPAN_MOST = 64 };
+/* Rows that wait to be written, at most; how many wake the writer before its PULSE, since a wake-up takes as long as
+ * some rows; cases that another process computes at once, at most. */
+enum { QUEUE = 4096, MANY = QUEUE / 8, SPAN_MOST = 64 };
 _Static_assert((int)SPAN_MOST >= (int)ZP_CHUNK_MOST, "a span has room for a chunk");
 
 /* What is known of a row. That an earlier process left is of the same case only if its hash says so. */
@@ -39,7 +40,7 @@ typedef enum Mark { MARK_NONE, MARK_OLD_FAILED, MARK_OLD_GOOD, MARK_FAILED, MARK
 typedef struct Row {
   size_t number;
   uint64_t hash;
-  ZpResult *result; /* NULL: the journal has this row */
+  ZpPacked *packed; /* NULL: the journal has this row */
 } Row;
 
 typedef struct Worker {
@@ -135,12 +136,12 @@ static void end_span(ZpCampaign *c, size_t from, size_t to, bool lost) {
   pthread_mutex_unlock(&c->lock);
 }
 
-static void hand_over(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *result) {
+static void hand_over(ZpCampaign *c, size_t number, uint64_t hash, ZpPacked *packed) {
   pthread_mutex_lock(&c->lock);
   while (c->waiting == QUEUE)
     pthread_cond_wait(&c->room, &c->lock);
-  c->queue[(c->first + c->waiting++) % QUEUE] = (Row){number, hash, result};
-  pthread_cond_signal(&c->more);
+  c->queue[(c->first + c->waiting++) % QUEUE] = (Row){number, hash, packed};
+  if (c->waiting == MANY) pthread_cond_signal(&c->more);
   pthread_mutex_unlock(&c->lock);
 }
 
@@ -149,6 +150,16 @@ static void fail(ZpCampaign *c, const ZpError *err) {
   if (c->err.status == ZP_OK) c->err = *err;
   pthread_mutex_unlock(&c->lock);
   atomic_store(&c->stop, true);
+}
+
+/* A result goes to the journal as bytes: there are many, and no thread frees the memory of another. */
+static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *result) {
+  ZpPacked *packed = zp_journal_pack(c->journal, result);
+  zp_result_destroy(result);
+  if (packed)
+    hand_over(c, number, hash, packed);
+  else
+    fail(c, &(ZpError){ZP_MACHINE, "no memory"});
 }
 
 /* => the result, NULL where the campaign ends: stopped, or the machine failed. What ends after it was stopped is left
@@ -192,7 +203,7 @@ static void run_chunk(Worker *worker, size_t from, size_t to) {
     hand_over(c, i, hash[i - from], NULL);
   for (size_t i = from; !known && i < to; i++) {
     ZpResult *result = run_case(worker, i, before);
-    if (before) hand_over(c, i - 1, hash[i - 1 - from], before);
+    if (before) hand_over_result(c, i - 1, hash[i - 1 - from], before);
     before = result;
     if (!result) return;
     if (!c->keeps_series) {
@@ -200,7 +211,7 @@ static void run_chunk(Worker *worker, size_t from, size_t to) {
       result->series = NULL;
     }
   }
-  if (before) hand_over(c, to - 1, hash[to - 1 - from], before);
+  if (before) hand_over_result(c, to - 1, hash[to - 1 - from], before);
 }
 
 /* -- cases that are computed elsewhere -------------------------------------------------------------- */
@@ -239,7 +250,10 @@ static bool run_span(Worker *worker, size_t from, size_t to) {
   free(byte);
   if (status != ZP_OK) fail(c, &err);
   for (size_t i = from; i < to && status == ZP_OK && !lost; i++)
-    hand_over(c, i, hash[i - from], result[i - from]);
+    if (known)
+      hand_over(c, i, hash[i - from], NULL);
+    else
+      hand_over_result(c, i, hash[i - from], result[i - from]);
   end_span(c, from, to, lost);
   return status == ZP_OK && !lost;
 }
@@ -271,7 +285,8 @@ static double now(void) {
   return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
 }
 
-/* Wait for rows, a PULSE at most, and take them => how many; *open is false once there will be no more. */
+/* Wait for many rows, a PULSE at most, and take those that are there => how many; *open is false once there will be no
+ * more. */
 static size_t take_rows(ZpCampaign *c, Row row[QUEUE], bool *open) {
   struct timespec end;
   clock_gettime(CLOCK_MONOTONIC, &end);
@@ -279,7 +294,7 @@ static size_t take_rows(ZpCampaign *c, Row row[QUEUE], bool *open) {
   end.tv_sec += end.tv_nsec / 1000000000L;
   end.tv_nsec %= 1000000000L;
   pthread_mutex_lock(&c->lock);
-  for (int late = 0; c->waiting == 0 && c->workers > 0 && !late;)
+  for (int late = 0; c->waiting < MANY && c->workers > 0 && !late;)
     late = pthread_cond_timedwait(&c->more, &c->lock, &end);
   const size_t count = c->waiting;
   for (size_t i = 0; i < count; i++)
@@ -295,14 +310,14 @@ static size_t take_rows(ZpCampaign *c, Row row[QUEUE], bool *open) {
 static ZpStatus write_row(ZpCampaign *c, const Row *row, ZpError *err) {
   unsigned char *mark = &c->mark[row->number];
   bool good = *mark == MARK_OLD_GOOD;
-  if (row->result) {
-    ZpStatus status = zp_journal_put(c->journal, row->number, row->hash, row->result, err);
+  if (row->packed) {
+    ZpStatus status = zp_journal_put(c->journal, row->number, row->hash, row->packed, err);
     if (status != ZP_OK) return status;
-    good = zp_outcome_good(row->result->outcome);
+    good = zp_outcome_good(row->packed->outcome);
   }
   *mark = good ? MARK_GOOD : MARK_FAILED;
   c->state.done++;
-  c->state.resumed += row->result == NULL;
+  c->state.resumed += row->packed == NULL;
   c->state.failed += !good;
   return ZP_OK;
 }
@@ -311,7 +326,7 @@ static ZpStatus write_row(ZpCampaign *c, const Row *row, ZpError *err) {
 static ZpStatus write_rows(ZpCampaign *c, const Row *row, size_t count, ZpStatus status, ZpError *err) {
   for (size_t i = 0; i < count; i++) {
     if (status == ZP_OK) status = write_row(c, &row[i], err);
-    zp_result_destroy(row[i].result);
+    free(row[i].packed);
   }
   return status;
 }

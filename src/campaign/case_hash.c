@@ -1,5 +1,5 @@
-/* FNV-1a, 64 bits. A row is looked for by its number and compared by its hash, so that two cases would have to collide
- * at the same place of a scenario that was changed: once in 2^64. */
+/* FNV-1a, 64 bits, of numbers eight bytes at a time. A row is looked for by its number and compared by its hash, so
+ * that two cases would have to collide at the same place of a scenario that was changed: once in 2^64. */
 #include "campaign/case_hash.h"
 
 #include <errno.h>
@@ -24,9 +24,13 @@ static uint64_t add_text(uint64_t hash, const char *text) {
   return add_bytes(hash, text, strlen(text) + 1);
 }
 
+/* All eight bytes at once; the high half is folded into the low one, which a product does not reach. */
 static uint64_t add_number(uint64_t hash, double value) {
+  uint64_t bits;
   if (isnan(value)) value = (double)NAN; /* one of its many bits */
-  return add_bytes(hash, &value, sizeof value);
+  memcpy(&bits, &value, sizeof bits);
+  hash = (hash ^ bits) * fnv_prime;
+  return hash ^ hash >> 32;
 }
 
 static ZpStatus add_file(const char *key, const char *path, uint64_t *hash, ZpError *err) {

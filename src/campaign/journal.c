@@ -5,11 +5,12 @@
  *   name(id, name, unit, help, timing)            names of scalars and columns, once for all rows
  *   row(number, hash, outcome, message, result)   a case that is done; result: record.c
  *
- * Names are written in the transaction of the first row that has them. */
+ * Names are written in the transaction of the first row that has them. Rows are packed by the threads that have
+ * computed them, so the numbers of names depend on who packs first; what is read does not. */
 #include "campaign/journal.h"
 
+#include <pthread.h>
 #include <sqlite3.h>
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,13 +21,18 @@
 /* "zipa", and the number of this layout. */
 enum { APPLICATION = 0x7a697061, LAYOUT = 1 };
 
+/* One thread at a time uses a journal. */
+static const int open_flags = SQLITE_OPEN_NOMUTEX;
+
 static const char file_name[] = "journal.sqlite";
 
 struct ZpJournal {
   char *path;
   sqlite3 *base;
   sqlite3_stmt *put, *get, *put_name;
-  bool open; /* a transaction */
+  bool open;            /* a transaction */
+  bool reading;         /* `get` stands at row `at`: the next one is a step away */
+  pthread_mutex_t lock; /* guards names and record, while rows are packed */
   ZpNames names;
   size_t names_written;
   ZpRecord record;
@@ -81,7 +87,8 @@ static bool is_ours(ZpJournal *journal) {
 
 /* Rows of a campaign that was not finished took time: only its owner may give them up. */
 static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
-  if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK || !is_ours(journal))
+  if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
+      !is_ours(journal))
     return ZP_OK;
   const sqlite3_int64 done = ask(journal, "SELECT count(*) FROM row");
   const sqlite3_int64 cases = ask(journal, "SELECT value FROM about WHERE name = 'cases'");
@@ -132,7 +139,8 @@ static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **stat
 }
 
 static ZpStatus prepare_get(ZpJournal *journal, ZpError *err) {
-  return prepare(journal, "SELECT outcome, message, result FROM row WHERE number = ?", &journal->get, err);
+  return prepare(journal, "SELECT number, outcome, message, result FROM row WHERE number >= ? ORDER BY number",
+                 &journal->get, err);
 }
 
 static ZpStatus prepare_all(ZpJournal *journal, ZpError *err) {
@@ -146,7 +154,7 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   char sql[160];
   snprintf(sql, sizeof sql, "DELETE FROM row WHERE number >= %zu; INSERT OR REPLACE INTO about VALUES('cases', '%zu')",
            cases, cases);
-  if (sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
+  if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
     return journal->base ? fail_base(journal, err) : zp_fail_memory(err);
   ZpStatus status = need_tables(journal, err);
   if (status == ZP_OK) status = run(journal, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL", err);
@@ -155,8 +163,15 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   return status == ZP_OK ? prepare_all(journal, err) : status;
 }
 
+static ZpJournal *create(void) {
+  ZpJournal *journal = calloc(1, sizeof *journal);
+  if (journal && pthread_mutex_init(&journal->lock, NULL) == 0) return journal;
+  free(journal);
+  return NULL;
+}
+
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
-  ZpJournal *journal = *out = calloc(1, sizeof *journal);
+  ZpJournal *journal = *out = create();
   ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK) journal->row.study = study;
   if (status == ZP_OK && !keep) status = replace_old(journal, directory, err);
@@ -169,12 +184,12 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
 
 /* (journal with its path and study) => is it open, for reading? */
 static bool open_reader(ZpJournal *journal) {
-  return sqlite3_open_v2(journal->path, &journal->base, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
+  return sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
          read_names(journal, NULL) == ZP_OK && prepare_get(journal, NULL) == ZP_OK;
 }
 
 ZpJournal *zp_journal_reader(const ZpJournal *journal) {
-  ZpJournal *reader = journal->open ? NULL : calloc(1, sizeof *reader);
+  ZpJournal *reader = journal->open ? NULL : create();
   if (!reader) return NULL;
   reader->row.study = journal->row.study;
   reader->path = strdup(journal->path);
@@ -194,6 +209,7 @@ void zp_journal_close(ZpJournal *journal) {
   zp_names_free(&journal->names);
   free(journal->record.byte);
   free(journal->path);
+  pthread_mutex_destroy(&journal->lock);
   free(journal);
 }
 
@@ -227,31 +243,60 @@ static ZpStatus finish(ZpJournal *journal, sqlite3_stmt *statement, ZpError *err
   return status;
 }
 
+static ZpStatus write_name(ZpJournal *journal, size_t number, ZpError *err) {
+  const ZpName *name = &journal->names.item[number];
+  sqlite3_bind_int64(journal->put_name, 1, (sqlite3_int64)number);
+  sqlite3_bind_text(journal->put_name, 2, name->name, -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
+  sqlite3_bind_int(journal->put_name, 5, name->timing);
+  return finish(journal, journal->put_name, err);
+}
+
 static ZpStatus write_names(ZpJournal *journal, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (; journal->names_written < journal->names.count && status == ZP_OK; journal->names_written++) {
-    const ZpName *name = &journal->names.item[journal->names_written];
-    sqlite3_bind_int64(journal->put_name, 1, (sqlite3_int64)journal->names_written);
-    sqlite3_bind_text(journal->put_name, 2, name->name, -1, SQLITE_STATIC);
-    sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
-    sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
-    sqlite3_bind_int(journal->put_name, 5, name->timing);
-    status = finish(journal, journal->put_name, err);
-  }
+  pthread_mutex_lock(&journal->lock);
+  for (; journal->names_written < journal->names.count && status == ZP_OK; journal->names_written++)
+    status = write_name(journal, journal->names_written, err);
+  pthread_mutex_unlock(&journal->lock);
   return status;
 }
 
-ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpResult *result, ZpError *err) {
-  if (!zp_record_write(&journal->record, &journal->names, result)) return zp_fail_memory(err);
+static void end_reading(ZpJournal *journal) {
+  sqlite3_reset(journal->get);
+  journal->reading = false;
+}
+
+/* With the lock. */
+static ZpPacked *pack(ZpJournal *journal, const ZpResult *result) {
+  if (!zp_record_write(&journal->record, &journal->names, result)) return NULL;
+  ZpPacked *row = malloc(sizeof *row + journal->record.used);
+  if (!row) return NULL;
+  row->outcome = result->outcome;
+  memcpy(row->message, result->message, sizeof row->message);
+  row->size = journal->record.used;
+  memcpy(row->byte, journal->record.byte, row->size);
+  return row;
+}
+
+ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result) {
+  pthread_mutex_lock(&journal->lock);
+  ZpPacked *row = pack(journal, result);
+  pthread_mutex_unlock(&journal->lock);
+  return row;
+}
+
+ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpPacked *row, ZpError *err) {
+  end_reading(journal);
   ZpStatus status = journal->open ? ZP_OK : run(journal, "BEGIN", err);
   journal->open = status == ZP_OK;
   if (status == ZP_OK) status = write_names(journal, err);
   if (status != ZP_OK) return status;
   sqlite3_bind_int64(journal->put, 1, (sqlite3_int64)number);
   sqlite3_bind_int64(journal->put, 2, (sqlite3_int64)hash);
-  sqlite3_bind_text(journal->put, 3, zp_outcome_name(result->outcome), -1, SQLITE_STATIC);
-  sqlite3_bind_text(journal->put, 4, result->message, -1, SQLITE_STATIC);
-  sqlite3_bind_blob64(journal->put, 5, journal->record.byte, journal->record.used, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put, 3, zp_outcome_name(row->outcome), -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put, 4, row->message, -1, SQLITE_STATIC);
+  sqlite3_bind_blob64(journal->put, 5, row->byte, row->size, SQLITE_STATIC);
   return finish(journal, journal->put, err);
 }
 
@@ -265,26 +310,34 @@ ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err) {
   return run(journal, "UPDATE about SET value = (SELECT count(*) FROM row) WHERE name = 'cases'", err);
 }
 
+/* Go to row `number`, a step where the row before it was read last: one transaction then reads all. False if there is
+ * no such row. */
+static bool find_row(ZpJournal *journal, size_t number) {
+  if (!journal->reading || number != journal->at + 1) {
+    end_reading(journal);
+    sqlite3_bind_int64(journal->get, 1, (sqlite3_int64)number);
+  }
+  journal->at = number;
+  journal->reading =
+      sqlite3_step(journal->get) == SQLITE_ROW && sqlite3_column_int64(journal->get, 0) == (sqlite3_int64)number;
+  if (!journal->reading) end_reading(journal);
+  return journal->reading;
+}
+
 /* False if there is no such row, or it is damaged. */
 static bool read_row(ZpJournal *journal, size_t number) {
   sqlite3_stmt *query = journal->get;
   ZpResult *result = &journal->row;
-  sqlite3_bind_int64(query, 1, (sqlite3_int64)number);
-  bool found = sqlite3_step(query) == SQLITE_ROW;
-  if (found) {
-    const char *message = (const char *)sqlite3_column_text(query, 1);
-    const unsigned char *byte = sqlite3_column_blob(query, 2);
-    result->outcome = outcome_of((const char *)sqlite3_column_text(query, 0));
-    snprintf(result->message, sizeof result->message, "%s", message ? message : "");
-    found = byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 2), &journal->names, &journal->row);
-  }
-  sqlite3_reset(query);
-  return found;
+  if (!find_row(journal, number)) return false;
+  const char *message = (const char *)sqlite3_column_text(query, 2);
+  const unsigned char *byte = sqlite3_column_blob(query, 3);
+  result->outcome = outcome_of((const char *)sqlite3_column_text(query, 1));
+  snprintf(result->message, sizeof result->message, "%s", message ? message : "");
+  return byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 3), &journal->names, result);
 }
 
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
   if (journal->has_row && journal->at == number) return &journal->row;
-  journal->at = number;
   journal->has_row = read_row(journal, number);
   if (!journal->has_row) zp_record_clear(&journal->row);
   journal->bad = journal->bad || !journal->has_row;

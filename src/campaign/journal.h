@@ -24,8 +24,19 @@ void zp_journal_close(ZpJournal *journal);
 ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t number, uint64_t hash, bool good),
                           void *user, ZpError *err);
 
+/* A result as the journal has it: some hundred bytes. */
+typedef struct ZpPacked {
+  ZpOutcome outcome;
+  char message[sizeof(((ZpResult *)0)->message)];
+  size_t size;
+  unsigned char byte[]; /* record.h */
+} ZpPacked;
+
+/* Pack a result, in any thread, while another uses the journal => to be freed. NULL if there is no memory. */
+ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result);
+
 /* Put a row, replacing one of the same number. It is on the disk after the next zp_journal_commit. */
-ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpResult *result, ZpError *err);
+ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpPacked *row, ZpError *err);
 
 /* Bring what was put to the disk; nothing if nothing was. */
 ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err);

@@ -10,19 +10,34 @@ static const double zp_tilt_rounding = 1e-5;
 /* Members of a series at most: so many groups member_K are in keys.def. */
 enum { ZP_MOST_MEMBERS = 8 };
 
-/* Where the fields of a group of keys lie in a Def. */
+/* One byte per key, in the order of the table: where a key or a group stands in this struct is its number. */
+#define ZP_GROUP(group) struct {
+#define ZP_GROUP_END(group)                                                                                            \
+  }                                                                                                                    \
+  group;
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           char name;
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) char field;
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           char name;
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           char name;
+#define ZP_INT(path, name, def, min, max, help)                         char name;
+#define ZP_BOOL(path, name, def, help)                                  char name;
+#define ZP_ENUM(path, name, type, def, help)                            char name;
+#define ZP_TEXT(path, name, def, help)                                  char name;
+#define ZP_OF_SCENARIO(name, type, def, help)                           char name;
+typedef struct ZpKeyNumbers {
+#include <zipact/keys.def>
+} ZpKeyNumbers;
+
+/* The keys of a group: first .. end - 1. */
 typedef struct ZpKeyGroup {
   const char *name;
-  size_t first, size;
+  int first, end;
 } ZpKeyGroup;
 #define ZP_KEY_GROUP(group)                                                                                            \
-  { #group, offsetof(ZpActuatorDef, group), sizeof(((ZpActuatorDef *)0)->group) }
-
-/* Is this a key of the group? Asked of all keys for every case: no names are compared. */
-static inline bool zp_key_is_in(int key, ZpKeyGroup group) {
-  size_t offset = zp_key(key)->offset;
-  return offset >= group.first && offset - group.first < group.size;
-}
+  {                                                                                                                    \
+#group, (int)offsetof(ZpKeyNumbers, group),                                                                        \
+        (int)(offsetof(ZpKeyNumbers, group) + sizeof(((ZpKeyNumbers *)0)->group))                                      \
+  }
 
 /* (name of a choice key, place in its list) => the word. */
 const char *zp_word_of(const char *key, int choice);

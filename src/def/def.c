@@ -496,8 +496,8 @@ static const char *name_in(int key, ZpKeyGroup group) {
 }
 
 static int key_in(ZpKeyGroup group, const char *name) {
-  for (int i = 0; i < KEY_COUNT; i++)
-    if (zp_key_is_in(i, group) && strcmp(name_in(i, group), name) == 0) return i;
+  for (int i = group.first; i < group.end; i++)
+    if (strcmp(name_in(i, group), name) == 0) return i;
   return -1;
 }
 
@@ -542,8 +542,8 @@ static const WaveformKey *waveform_key(const char *name) {
 
 /* A key that the waveform does not use must not be given: it would be a mistake in the one or the other. */
 static ZpStatus check_waveform(const ZpActuatorDef *def, ZpKeyGroup group, ZpWaveformKind kind, ZpError *err) {
-  for (int i = 0; i < KEY_COUNT; i++) {
-    const WaveformKey *key = zp_key_is_in(i, group) ? waveform_key(name_in(i, group)) : NULL;
+  for (int i = group.first; i < group.end; i++) {
+    const WaveformKey *key = waveform_key(name_in(i, group));
     if (key && !key->used[kind] && is_set(def, i))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s.waveform %s, but it is %s", keys[i].name, group.name,
                      key->goes_with, words_of_ZpWaveformKind[kind].word);
@@ -563,12 +563,16 @@ bool zp_def_takes_table(const ZpActuatorDef *def) {
 }
 
 /* Without a controller its keys would do nothing. */
-static ZpStatus check_no_control(const ZpActuatorDef *def, ZpError *err) {
-  for (int i = 0; i < KEY_COUNT; i++) {
-    if ((zp_key_is_in(i, control) || zp_key_is_in(i, setpoint)) && is_set(def, i))
+static ZpStatus check_none_set(const ZpActuatorDef *def, ZpKeyGroup group, ZpError *err) {
+  for (int i = group.first; i < group.end; i++)
+    if (is_set(def, i))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires control.kind pi or boost_pi, but it is none", keys[i].name);
-  }
   return ZP_OK;
+}
+
+static ZpStatus check_no_control(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = check_none_set(def, setpoint, err);
+  return status == ZP_OK ? check_none_set(def, control, err) : status;
 }
 
 /* A setpoint that no actuator can have. */
@@ -628,8 +632,8 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
                                              "capacitance", "bleeder",       "bandwidth",  "voltage_limit"};
-  for (int key = 0; key < KEY_COUNT; key++) {
-    if (!zp_key_is_in(key, source) || !is_set(def, key)) continue;
+  for (int key = source.first; key < source.end; key++) {
+    if (!is_set(def, key)) continue;
     for (size_t i = 0; i < sizeof of_amplifier / sizeof of_amplifier[0]; i++)
       if (strcmp(name_in(key, source), of_amplifier[i]) == 0)
         return zp_fail(err, ZP_BAD_INPUT, "%s: requires source.model amplifier, but it is ideal", keys[key].name);
@@ -1052,18 +1056,32 @@ static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK && def->electro.edges ? check_edges(def, err) : status;
 }
 
-/* Is this a real number in its range? Asked of all keys of every case: what is not is looked at more closely. */
-static bool is_real_in_range(const ZpActuatorDef *def, const ZpKey *key) {
-  double value;
-  if (key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO) return false;
-  memcpy(&value, (const char *)def + key->offset, sizeof value);
-  return value >= key->min && value <= key->max;
+/* Is this plainly a value in its range? Asked of all keys of every case: what is not is looked at more closely. */
+static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
+  const void *field = (const char *)def + key->offset;
+  double real;
+  int whole;
+  switch (key->type) {
+  case ZP_KEY_REAL:
+  case ZP_KEY_REAL_AUTO:
+    memcpy(&real, field, sizeof real);
+    return real >= key->min && real <= key->max;
+  case ZP_KEY_INT:
+  case ZP_KEY_ENUM:
+    memcpy(&whole, field, sizeof whole);
+    return whole >= key->min && whole <= key->max;
+  case ZP_KEY_TEXT:
+    return *(const char *)field == 0;
+  case ZP_KEY_BOOL:
+    break;
+  }
+  return false;
 }
 
 static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) {
-    if (!has_field(&keys[i]) || is_real_in_range(def, &keys[i])) continue;
+    if (!has_field(&keys[i]) || is_in_range(def, &keys[i])) continue;
     status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + keys[i].offset, err)
                                          : check_value(&keys[i], zp_def_get(def, i), err);
   }

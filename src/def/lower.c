@@ -6,11 +6,10 @@
 #include "def/check.h"
 
 static const char prefix[] = "lower.";
+static const ZpKeyGroup lower_keys = ZP_KEY_GROUP(lower);
 
-/* Is this a key of lower.* that is given? Of a material, the word none is not. */
+/* Is this key of lower.* given? Of a material, the word none is not. */
 static bool is_given(const ZpActuatorDef *def, int key) {
-  static const ZpKeyGroup lower = ZP_KEY_GROUP(lower);
-  if (!zp_key_is_in(key, lower)) return false;
   double value = zp_def_get(def, key);
   return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
 }
@@ -21,7 +20,7 @@ bool zp_def_has_two(const ZpActuatorDef *def) {
 
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
   ZpActuatorDef lower = *def;
-  for (int key = 0; key < zp_key_count(); key++)
+  for (int key = lower_keys.first; key < lower_keys.end; key++)
     if (is_given(def, key))
       zp_def_set(&lower, zp_key_find(zp_key(key)->name + sizeof prefix - 1), zp_def_get(def, key), NULL);
   return lower;
@@ -82,7 +81,7 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
 /* Keys of a lower ribbon that is not there, or that the paper's mechanics has as the upper one. */
 static ZpStatus check_lower(const ZpActuatorDef *def, ZpError *err) {
   const char *given = NULL;
-  for (int key = 0; key < zp_key_count() && !given; key++)
+  for (int key = lower_keys.first; key < lower_keys.end && !given; key++)
     if (is_given(def, key)) given = zp_key(key)->name;
   if (given && !zp_def_has_two(def))
     return zp_fail(err, ZP_BAD_INPUT, "%s: requires actuator.kind electro_ribbon or hinge, which have two ribbons",

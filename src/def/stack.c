@@ -10,12 +10,11 @@ _Static_assert(offsetof(ZpActuatorDef, member_8) ==
                    offsetof(ZpActuatorDef, member_1) + (ZP_MOST_MEMBERS - 1) * sizeof(((ZpActuatorDef *)0)->member_1),
                "the keys of the members are alike and follow each other");
 
-/* The member whose key this is; 0 of all other keys. */
+static const ZpKeyGroup first_member = ZP_KEY_GROUP(member_1), last_member = ZP_KEY_GROUP(member_8);
+
+/* The member whose key this is, of those of all members. */
 static int member_of(int key) {
-  static const ZpKeyGroup first = ZP_KEY_GROUP(member_1), last = ZP_KEY_GROUP(member_8);
-  size_t offset = zp_key(key)->offset;
-  bool is_in = offset >= first.first && offset < last.first + last.size;
-  return is_in ? 1 + (int)((offset - first.first) / first.size) : 0;
+  return 1 + (key - first_member.first) / (first_member.end - first_member.first);
 }
 
 bool zp_def_opposed(const ZpActuatorDef *def) {
@@ -40,11 +39,10 @@ static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def;
   bool last = member == def->stack.series;
-  for (int key = 0; key < zp_key_count(); key++) {
-    int of = member_of(key);
-    double value = of == member ? zp_def_get(def, key) : NAN;
+  for (int key = first_member.first; key < last_member.end; key++) {
+    double value = member_of(key) == member ? zp_def_get(def, key) : NAN;
     if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + PREFIX), value, NULL);
-    if (of > 0) zp_def_set(&one, key, NAN, NULL);
+    zp_def_set(&one, key, NAN, NULL);
   }
   one.stack.series = 1;
   one.stack.link_mass = 0;
@@ -62,7 +60,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
   int members = def->stack.series > 1 ? def->stack.series : 0;
-  for (int key = 0; key < zp_key_count(); key++) {
+  for (int key = first_member.first; key < last_member.end; key++) {
     int member = member_of(key);
     if (member > members && !isnan(zp_def_get(def, key)))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.series of at least %d, but it is %d", zp_key(key)->name,

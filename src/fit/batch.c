@@ -7,23 +7,12 @@
 
 #include "base/fail.h"
 #include "fit/case.h"
-#include "fit/data.h"
 #include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
 
 /* Bytes that a run may take while it lasts. */
 enum { MARGIN = 1 << 22 };
-
-ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err) {
-  ZpActuatorDef def;
-  ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < zp_scenario_count(scenario) && status == ZP_OK; i++) {
-    status = zp_scenario_def(scenario, i, &def, err);
-    if (status == ZP_OK) status = zp_data_check_files(zp_scenario_study(scenario), &def, err);
-  }
-  return status;
-}
 
 ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err) {
   *batch = (ZpBatch){.scenario = scenario, .count = zp_scenario_count(scenario)};

@@ -25,7 +25,8 @@ json_t *zp_json_number(double value, const char *unit) {
 static void print_real(FILE *file, double value) {
   char text[ZP_NUMBER_SIZE];
   zp_number_print(value, text, sizeof text);
-  fprintf(file, "%s%s", text, strpbrk(text, ".e") ? "" : ".0");
+  fputs(text, file);
+  if (!strpbrk(text, ".e")) fputs(".0", file);
 }
 
 /* The depth at which all is on one line. */
@@ -36,7 +37,9 @@ static int inside(int depth) {
 }
 
 static void begin_line(FILE *file, int depth) {
-  if (depth != FLAT) fprintf(file, "\n%*s", 2 * depth, "");
+  if (depth != FLAT) fputc('\n', file);
+  for (int k = 0; k < depth; k++)
+    fputs("  ", file);
 }
 
 static bool print_tree(FILE *file, const json_t *tree, int depth);
@@ -49,7 +52,9 @@ static bool print_members(FILE *file, const json_t *object, int depth) {
   json_object_foreach((json_t *)object, name, value) {
     fputs(mark, file);
     begin_line(file, inside(depth));
-    fprintf(file, "\"%s\": ", name);
+    fputc('"', file);
+    fputs(name, file);
+    fputs("\": ", file);
     done = print_tree(file, value, inside(depth)) && done;
     mark = depth == FLAT ? ", " : ",";
   }
@@ -75,15 +80,21 @@ static bool print_array(FILE *file, const json_t *array, int depth) {
   return done;
 }
 
-/* Names of members are ours and need no escapes; jansson writes all else but reals. */
+/* Names of members are ours and need no escapes; jansson writes strings. */
 static bool print_tree(FILE *file, const json_t *tree, int depth) {
-  if (json_is_object(tree) && json_object_size(tree) > 0) return print_object(file, tree, depth);
-  if (json_is_array(tree) && json_array_size(tree) > 0) return print_array(file, tree, depth);
-  if (json_is_real(tree))
+  switch (json_typeof(tree)) {
+  case JSON_OBJECT:
+    return json_object_size(tree) > 0 ? print_object(file, tree, depth) : fputs("{}", file) >= 0;
+  case JSON_ARRAY:
+    return json_array_size(tree) > 0 ? print_array(file, tree, depth) : fputs("[]", file) >= 0;
+  case JSON_REAL:
     print_real(file, json_real_value(tree));
-  else
+    return true;
+  case JSON_NULL:
+    return fputs("null", file) >= 0;
+  default:
     return json_dumpf(tree, file, JSON_ENCODE_ANY) == 0;
-  return true;
+  }
 }
 
 /* `done`: all was printed so far. */

@@ -15,8 +15,8 @@
 #include "io/report.h"
 #include "io/writers.h"
 
-/* The files that have all rows. */
-enum { TABLE, RESULTS, SUMMARY, FILES };
+/* The files that have all rows or values, those first that take longest. */
+enum { SUMMARY, RESULTS, TABLE, SCENARIO, FILES };
 
 typedef struct Files {
   const ZpReport *report;
@@ -57,6 +57,7 @@ static ZpStatus write_summary(const ZpReport *report, ZpAtomic *summary, ZpError
 
 static ZpStatus write_file(Files *files, size_t file, const ZpReport *report, ZpError *err) {
   if (file == SUMMARY) return write_summary(report, &files->summary, err);
+  if (file == SCENARIO) return write_scenario(report, err);
   return file == TABLE ? zp_csv_write(report, err) : zp_hdf5_write(report, err);
 }
 
@@ -99,7 +100,8 @@ static size_t start_writers(Files *files, Writer writer[FILES]) {
   return started;
 }
 
-/* The files that have all rows; summary.json is not yet under its name. What failed first in their order is said. */
+/* The files that have all rows or values; summary.json is not yet under its name. What failed first in their order is
+ * said. */
 static ZpStatus write_tables(const ZpReport *report, Files *files, ZpError *err) {
   Writer writer[FILES];
   const size_t writers = start_writers(files, writer);
@@ -123,7 +125,6 @@ static ZpStatus finish_summary(ZpAtomic *summary, ZpStatus status, ZpError *err)
 static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)(const char *message), ZpError *err) {
   Files files = {.report = report, .plain = plain};
   ZpStatus status = zp_remove_file(report->directory, "summary.json", err);
-  if (status == ZP_OK) status = write_scenario(report, err);
   if (status == ZP_OK) status = write_tables(report, &files, err);
   if (status == ZP_OK) status = zp_vtk_write(report, err);
   if (status == ZP_OK) status = zp_checkpoint_report(report, err);

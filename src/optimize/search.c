@@ -119,12 +119,15 @@ static bool take_row(ZpSearch *s, size_t number, uint64_t hash, ZpPoint *point) 
 
 static ZpStatus put_row(ZpSearch *s, size_t number, uint64_t hash, const ZpResult *result, ZpPoint *point,
                         ZpError *err) {
+  ZpPacked *packed = zp_journal_pack(s->journal, result);
+  if (!packed) return zp_fail_memory(err);
   pthread_mutex_lock(&s->lock);
-  ZpStatus status = zp_journal_put(s->journal, number, hash, result, err);
+  ZpStatus status = zp_journal_put(s->journal, number, hash, packed, err);
   if (status == ZP_OK) status = commit_if_due(s, err);
   if (status == ZP_OK) look(s, result, point);
   if (status == ZP_OK) count(s, result, false);
   pthread_mutex_unlock(&s->lock);
+  free(packed);
   return status;
 }
 
