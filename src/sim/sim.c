@@ -138,13 +138,23 @@ static void hang_below(const ZpSim *above, ZpSim *sim) {
     y[j] += fall;
 }
 
+/* For the shape of all members. */
+static bool make_room(ZpSim *sim, size_t members) {
+  const ZpModel *model = sim->model;
+  ZpCarver size = {NULL, 0};
+  zp_many_carve(&sim->all, members, model->count, model->nodes, &size);
+  sim->all_memory = zp_calloc(1, size.used);
+  ZpCarver carver = {sim->all_memory, 0};
+  zp_many_carve(&sim->all, members, model->count, model->nodes, &carver);
+  return sim->all_memory != NULL;
+}
+
 /* The members below, each at rest on the one above; antagonists at rest against each other. False if there is no
  * memory. */
 static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   size_t members = zp_members(sim->model), k = 0;
   sim->states = zp_calloc(members, sizeof(ZpState *));
-  if (members > 1) sim->all = zp_sim_series_room(sim->model);
-  if (!sim->states || (members > 1 && !sim->all)) return false;
+  if (!sim->states || (members > 1 && !make_room(sim, members))) return false;
   sim->states[k++] = sim->state;
   for (ZpSim *above = sim; above->model->below; above = above->below) {
     above->below = create_one(above->model->below, false, hooks);
@@ -187,7 +197,7 @@ void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
   zp_sim_destroy(sim->below);
   zp_free(sim->states);
-  zp_free(sim->all);
+  zp_free(sim->all_memory);
   zp_dynamics_destroy(&sim->dynamics);
   zp_paper_motion_destroy(&sim->paper);
   zp_system_destroy(&sim->eval);

@@ -107,7 +107,8 @@ struct ZpSim {
   bool at_event;              /* the last step has ended at one */
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
   ZpState **states;           /* of the uppermost: of it and of all below */
-  double *all;                /* of the uppermost of a series: room for the shape of all */
+  ZpManyShapes all;           /* of the uppermost of a series: room for the shape of all, */
+  void *all_memory;           /* and where it is */
 };
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
@@ -176,9 +177,6 @@ double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
 
 /* Numbers of a row, openings of the members of a series included. */
 size_t zp_sim_row_size(void);
-
-/* Room for the shape of a series (ZpSim.all); NULL if there is no memory. */
-double *zp_sim_series_room(const ZpModel *model);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);
