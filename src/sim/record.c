@@ -358,14 +358,12 @@ void zp_sim_start_row(ZpSim *sim) {
 
 /* All signals if the voltage had another value => row; the state is as it was. */
 static void read_at(ZpSim *sim, double voltage, double *row) {
-  ZpState *state = sim->state;
-  size_t size = zp_state_size(sim->model);
-  memcpy(sim->before, state, size);
-  state->by_hand = true;
-  state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->before, m->state, zp_state_size(m->model));
+  zp_sim_hold_voltage(sim, (ZpRamp){voltage, 0, sim->state->t, INFINITY});
   fill_row(sim, ALL);
-  memcpy(state, sim->before, size);
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->state, m->before, zp_state_size(m->model));
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 

@@ -121,6 +121,9 @@ bool zp_sim_settle_antagonists(ZpSim *sim, const ZpHooks *hooks);
 /* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 
+/* The member that the load hangs on. */
+ZpSim *zp_sim_loaded(ZpSim *sim);
+
 /* When load.change_mass is still to come or to go, s; INFINITY: never. And it comes or goes now (catch.c). */
 double zp_sim_load_due(const ZpSim *sim);
 void zp_sim_change_load(ZpSim *sim);
@@ -128,8 +131,8 @@ void zp_sim_change_load(ZpSim *sim);
 /* Resume from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 
-/* The last state so far that a longer run passes through, too; of sound numbers. */
-const ZpState *zp_sim_passed(const ZpSim *sim);
+/* The last states so far that a longer run passes through, too; of sound numbers => state [members]. */
+void zp_sim_passed(const ZpSim *sim, ZpState *state[]);
 
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);
