@@ -2,6 +2,8 @@
  * links, and what is refused. docs/theory.md, section 29. */
 #include "check_util.h"
 
+#include "actuator/model.h"
+
 /* Members without weight are alike: their limits are those of one, their openings add up. */
 START_TEST(weightless_series_pulls_in_as_one) {
   ZpActuatorDef one = DEF({"ribbon.density", 0}, {"mesh.nodes", 31}), five = one;
@@ -135,7 +137,7 @@ START_TEST(what_a_stack_lacks_is_said) {
       {{"stack.series", 2}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, ZP_STUDY_ACTUATE, "actuator.symmetry half"},
       {{"stack.series", 2}, {"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"},
       {{"stack.series", 2}, {"load.share", 0.4}, ZP_STUDY_ACTUATE, "load.share 0.5"},
-      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_MODES, "study modes"},
+      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "study isometric"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle"},
       {{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}, ZP_STUDY_LIMITS, "stack.series of at least 3"},
       {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series of at least 2"},
@@ -147,16 +149,173 @@ START_TEST(what_a_stack_lacks_is_said) {
 }
 END_TEST
 
-START_TEST(what_a_series_does_not_take_is_said) {
-  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 11});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+/* -- equilibria and modes --------------------------------------------------------------------------- */
+
+/* As a slow voltage rises members that are alike, without weight, are as one alone is; and the table ends where it
+ * began, with all open. */
+START_TEST(members_rest_together_as_alone) {
+  ZpActuatorDef one = DEF({"ribbon.density", 0}, {"mesh.nodes", 31}, {"drive.voltage", 3e3}), two = one;
+  two.stack.series = 2;
+  ZpResult *alone = answer_of(ZP_STUDY_EQUILIBRIUM, &one), *both = answer_of(ZP_STUDY_EQUILIBRIUM, &two);
+  size_t last = 0, top = 0;
+  while (zp_table_get(alone->series, last, "voltage_V") < 3e3)
+    last++;
+  while (zp_table_get(both->series, top, "voltage_V") < 3e3)
+    top++;
+  static const char *const sums[] = {"stroke_m", "opening_m", "charge_C", "capacitance_F"};
+  for (size_t k = 0; k < LENGTH_OF(sums); k++)
+    ck_near(zp_table_get(both->series, top, sums[k]), 2 * zp_table_get(alone->series, last, sums[k]), 1e-6);
+  size_t end = both->series->rows - 1;
+  ck_assert_double_eq(zp_table_get(both->series, end, "voltage_V"), 0);
+  ck_near(zp_table_get(both->series, end, "opening_m"), zp_table_get(both->series, 0, "opening_m"), 1e-9);
+  zp_result_destroy(alone);
+  zp_result_destroy(both);
+}
+END_TEST
+
+/* How many of these voltages are at most, or else at least, `voltage`. */
+static int count_of(const ZpResult *limits, const char *name, double voltage, bool at_most) {
+  int found = 0;
+  for (size_t k = 0; k < limits->series->rows; k++) {
+    double value = zp_table_get(limits->series, k, name);
+    found += at_most ? value <= voltage : value >= voltage;
+  }
+  return found;
+}
+
+/* As the voltage rises a member is closed from its own closing voltage on, as it falls until its own release. */
+START_TEST(members_close_and_open_one_by_one) {
+  ZpActuatorDef def = DEF({"stack.series", 3}, {"load.mass", 6e-3}, {"mesh.nodes", 31}, {"drive.voltage", 8e3});
+  ZpResult *path = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_near(zp_result_get(path, "pull_in_voltage_V"), zp_result_get(limits, "pull_in_voltage_V"), 1e-9);
+  for (size_t row = 0; row < path->series->rows; row++) {
+    double voltage = zp_table_get(path->series, row, "voltage_V");
+    bool falls = zp_table_get(path->series, row, "branch") > 0;
+    int closed = falls ? 3 - count_of(limits, "release_voltage_V", voltage, false)
+                       : count_of(limits, "closing_voltage_V", voltage, true);
+    ck_assert_msg(zp_table_get(path->series, row, "closed_members") == closed, "at %g V", voltage);
+  }
+  zp_result_destroy(path);
+  zp_result_destroy(limits);
+}
+END_TEST
+
+/* Light stiff members between equal masses are a chain of equal springs, held at one end: 2 sqrt(k / m) sin of odd
+ * parts of a right angle. Eq. (29.4). */
+START_TEST(chain_of_springs_and_masses) {
+  static const double pi = 3.14159265358979323846;
+  ZpActuatorDef def = DEF({"stack.series", 3}, {"stack.link_mass", 0.1}, {"load.mass", 0.1}, {"gravity", 0.01},
+                          {"ribbon.thickness", 500e-6}, {"ribbon.density", 1}, {"insulator.density", 0});
+  const double nu = def.ribbon.poisson_ratio, b = def.ribbon.thickness,
+               L = 0.5 * (def.ribbon.length - def.platform.length);
+  double EI = def.ribbon.young_modulus / (1 - nu * nu) * def.ribbon.width * b * b * b / 12;
+  ZpActuatorDef one = def;
+  one.stack.series = 1;
+  one.stack.link_mass = 0;
+  double alone = answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz");
+  ck_near(alone, sqrt(12 * EI / (L * L * L) / def.load.mass) / (2 * pi), 1e-3);
+  ZpResult *all = answer_of(ZP_STUDY_MODES, &def);
+  static const char *const name[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
+  for (int j = 0; j < 3; j++)
+    ck_near(zp_result_get(all, name[j]), 2 * alone * sin((2 * j + 1) * pi / 14), 1e-4);
+  zp_result_destroy(all);
+}
+END_TEST
+
+/* A member that hardly bends is a mass on the one above it. */
+START_TEST(stiff_member_is_a_mass) {
+  ZpActuatorDef series = DEF({"stack.series", 2}, {"member_2.ribbon.thickness", 2e-3}, {"mesh.nodes", 31}),
+                one = DEF({"mesh.nodes", 31});
+  ZpModel *model = model_of(&series);
+  one.load.mass += model->carried - series.load.mass;
+  zp_model_destroy(model);
+  ck_near(answered_value(ZP_STUDY_MODES, &series, "frequency_1_Hz"),
+          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 1e-4);
+}
+END_TEST
+
+/* At a voltage above the pull-in of one member there are no modes; below, frequencies fall with it. */
+START_TEST(voltage_softens_a_series) {
+  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 21}, {"load.mass", 6e-3});
+  double without = answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz");
+  def.modes.voltage = 3.5e3;
+  ck_assert_double_lt(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), without);
+  def.modes.voltage = 6e3;
+  ZpResult *result = study_of(ZP_STUDY_MODES, &def);
+  ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
+  ck_assert_double_nan(zp_result_get(result, "frequency_1_Hz"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- states and inputs ------------------------------------------------------------------------------- */
+
+/* Three in series, or two antagonists. */
+static ZpActuatorDef several(bool opposed) {
+  ZpActuatorDef def = DEF({"stack.series", opposed ? 2 : 3}, {"load.mass", 2e-3}, {"mesh.nodes", 11},
+                          {"member_2.ribbon.thickness", 60e-6}, {"solver.end_time", 20e-3});
+  if (opposed) def.stack.distance = 20e-3;
+  if (opposed) def.stack.voltage_ratio = 0.5;
+  return def;
+}
+
+static double opening_after(ZpSim *sim, double end) {
+  ZpRunInfo info;
+  zp_sim_run(sim, end, false, NULL, &info);
+  return zp_sim_get(sim, "opening");
+}
+
+/* A state that is restored goes on to the last bit as it would have; one of other members is refused, and what was
+ * there stays. */
+START_TEST(states_of_several_are_restored) {
+  ZpActuatorDef def = several(_i), other = def;
+  if (_i)
+    other.stack.distance = 21e-3;
+  else
+    other.member_2.ribbon.thickness = 61e-6;
+  ZpModel *model = model_of(&def), *unlike = model_of(&other);
+  ZpSim *sim = sim_of(model), *copy = sim_of(model), *wrong = sim_of(unlike);
+  opening_after(sim, 8e-3);
+  size_t size = zp_sim_state_size(sim);
+  void *bytes = malloc(size);
+  zp_sim_save(sim, bytes);
   ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, 1, 0, &err), ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, "series"), "%s", err.message);
-  ck_assert_int_eq(zp_sim_restore(sim, NULL, 0, &err), ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, "series"), "%s", err.message);
+  ck_assert_msg(zp_sim_restore(copy, bytes, size, &err) == ZP_OK, "%s", err.message);
+  ck_assert_double_eq(opening_after(copy, 15e-3), opening_after(sim, 15e-3));
+  ck_assert_double_eq(zp_sim_get(copy, "energy_imbalance"), zp_sim_get(sim, "energy_imbalance"));
+  double before = zp_sim_get(wrong, "opening");
+  ck_assert_int_eq(zp_sim_restore(wrong, bytes, size, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, _i ? "not joined" : "ribbon.thickness"), "%s", err.message);
+  ck_assert_double_eq(zp_sim_get(wrong, "opening"), before);
+  ck_assert_int_eq(zp_sim_restore(sim, bytes, size / 2, &err), ZP_BAD_INPUT);
+  free(bytes);
   zp_sim_destroy(sim);
+  zp_sim_destroy(copy);
+  zp_sim_destroy(wrong);
+  zp_model_destroy(model);
+  zp_model_destroy(unlike);
+}
+END_TEST
+
+/* A voltage and a force that a program sets act on all members, and their work is in the balance of energy. */
+START_TEST(inputs_of_several_do_work) {
+  ZpActuatorDef def = several(_i);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model), *waved = sim_of(model);
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_VOLTAGE, 1e3, 1e5, &err), ZP_OK);
+  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, 5e-3, 1, &err), ZP_OK);
+  opening_after(sim, 20e-3);
+  ck_assert_double_gt(fabs(zp_sim_get(sim, "load_work")), 1e-9);
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 1e-6);
+  ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-9);
+  /* a voltage that is set to what the drive has changes nothing */
+  ck_assert_int_eq(zp_sim_set_input(waved, ZP_INPUT_VOLTAGE, def.drive.voltage, 0, &err), ZP_OK);
+  ZpSim *driven = sim_of(model);
+  ck_assert_double_eq(opening_after(waved, 10e-3), opening_after(driven, 10e-3));
+  zp_sim_destroy(sim);
+  zp_sim_destroy(waved);
+  zp_sim_destroy(driven);
   zp_model_destroy(model);
 }
 END_TEST
@@ -168,12 +327,18 @@ int main(void) {
   tcase_add_test(rest, members_carry_those_below);
   tcase_add_test(rest, parallel_shares_the_load);
   tcase_add_test(rest, what_a_stack_lacks_is_said);
+  tcase_add_test(rest, members_rest_together_as_alone);
+  tcase_add_test(rest, members_close_and_open_one_by_one);
+  tcase_add_test(rest, chain_of_springs_and_masses);
+  tcase_add_test(rest, stiff_member_is_a_mass);
+  tcase_add_test(rest, voltage_softens_a_series);
   suite_add_tcase(suite, rest);
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, series_at_rest_stays, 0, 2);
   tcase_add_test(motion, two_in_series_are_half_as_stiff);
   tcase_add_loop_test(motion, energy_and_links_of_a_zip, 0, 3);
-  tcase_add_test(motion, what_a_series_does_not_take_is_said);
+  tcase_add_loop_test(motion, states_of_several_are_restored, 0, 2);
+  tcase_add_loop_test(motion, inputs_of_several_do_work, 0, 2);
   suite_add_tcase(suite, motion);
   return run_suite(suite);
 }

@@ -97,3 +97,38 @@ void zp_shape_turn_over(const ZpModel *model, double *y) {
   for (size_t j = 0; j < model->count; j++)
     y[j] = -model->distance - y[j];
 }
+
+/* -- several ------------------------------------------------------------------------------------------ */
+
+void zp_many_carve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpCarver *carver) {
+  all->nodes = nodes;
+  all->stations = stations;
+  for (size_t k = 0; k < ZP_SHAPE_ARRAYS; k++)
+    all->array[k] = zp_carve(carver, members * (k < ZP_NODE_ARRAYS ? nodes : stations));
+}
+
+double *zp_many_put(const ZpManyShapes *all, size_t member, const ZpShape *one) {
+  const double *const from[ZP_SHAPE_ARRAYS] = {one->x,   one->y,          one->stress,
+                                               one->gap, one->line_force, one->insulator_field};
+  for (size_t k = 0; k < ZP_SHAPE_ARRAYS; k++) {
+    size_t size = k < ZP_NODE_ARRAYS ? all->nodes : all->stations;
+    memcpy(all->array[k] + member * size, from[k], size * sizeof *from[k]);
+  }
+  return all->array[1] + member * all->nodes;
+}
+
+void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons) {
+  double *y = all->array[1] + member * all->nodes, fall = -y[all->nodes - ribbons];
+  if (member > 0) fall += y[-1];
+  for (size_t j = 0; j < all->nodes; j++)
+    y[j] += fall;
+}
+
+void zp_many_give(const ZpManyShapes *all, ZpShape *shape) {
+  shape->x = all->array[0];
+  shape->y = all->array[1];
+  shape->stress = all->array[2];
+  shape->gap = all->array[3];
+  shape->line_force = all->array[4];
+  shape->insulator_field = all->array[5];
+}

@@ -29,6 +29,24 @@ void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape
 /* Heights of the lower one of two antagonists, in its own frame upside down => as they are below the upper one. */
 void zp_shape_turn_over(const ZpModel *model, double *y);
 
+/* Shapes of several actuators as one, as if the stations of one followed on those of another. */
+enum { ZP_NODE_ARRAYS = 3, ZP_SHAPE_ARRAYS = 6 };
+typedef struct ZpManyShapes {
+  size_t nodes, stations;         /* of each */
+  double *array[ZP_SHAPE_ARRAYS]; /* first those over nodes: x, y, stress; gap, line force, insulators' field */
+} ZpManyShapes;
+
+void zp_many_carve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpCarver *carver);
+
+/* Copy a member's shape to its place => its heights there. */
+double *zp_many_put(const ZpManyShapes *all, size_t member, const ZpShape *one);
+
+/* Hang a member that was put on the one above it. */
+void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons);
+
+/* All that were put => the shape's arrays. */
+void zp_many_give(const ZpManyShapes *all, ZpShape *shape);
+
 /* The worst that materials see; places are lengths along the ribbon from the clip or clamp. */
 typedef struct ZpMargins {
   double insulator, insulator_place; /* V/m, m; NAN: there is no insulator between electrodes */

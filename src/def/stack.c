@@ -126,7 +126,6 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
       {!isnan(def->insulator.resistivity), "insulator.resistivity", "none"},
       {!isnan(def->medium.resistivity), "medium.resistivity", "none"},
       {!isnan(def->sense.frequency), "sense.frequency", "none"},
-      {def->initial.state == ZP_INITIAL_CHECKPOINT, "initial.state", "equilibrium or straight"},
       {*def->sensitivity.by != 0, "sensitivity.by", "empty"},
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)

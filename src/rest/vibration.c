@@ -12,6 +12,7 @@ void zp_vibration_carve(ZpVibration *v, size_t n, size_t most, ZpCarver *carver)
   v->n = n;
   v->m = n < most ? n : most;
   v->mass = zp_carve(carver, n);
+  v->weighed = zp_carve(carver, n);
   v->u = zp_carve(carver, v->m * n);
   v->next = zp_carve(carver, v->m * n);
 }
@@ -22,7 +23,16 @@ static double scattered(size_t k) {
   return 2 * (x - floor(x)) - 1;
 }
 
+static double inner_of_many(const ZpVibration *v, const double *a, const double *b) {
+  double sum = 0;
+  v->many->weigh(v->many->self, b, v->weighed);
+  for (size_t i = 0; i < v->n; i++)
+    sum += a[i] * v->weighed[i];
+  return sum;
+}
+
 double zp_vibration_inner(const ZpVibration *v, const double *a, const double *b) {
+  if (v->many) return inner_of_many(v, a, b);
   double sum = 0;
   for (size_t i = 0; i < v->n; i++)
     sum += a[i] * v->mass[i] * b[i];
@@ -60,6 +70,11 @@ void zp_vibration_start(ZpVibration *v) {
 /* K^-1 m u of vector j => its row of next. */
 static double *deflect(ZpVibration *v, size_t j) {
   double *next = v->next + j * v->n;
+  if (v->many) {
+    v->many->weigh(v->many->self, v->u + j * v->n, next);
+    v->many->solve(v->many->self, next);
+    return next;
+  }
   for (size_t i = 0; i < v->n; i++)
     next[i] = v->mass[i] * v->u[j * v->n + i];
   zp_band_solve(v->K, next);

@@ -1,5 +1,6 @@
-/* The lowest vibrations about a state of rest, K u = omega^2 m u with a banded stiffness and lumped masses, by subspace
- * iteration. Of a state that is not stable the squares below 0 come last. docs/theory.md, section 11. */
+/* The lowest vibrations about a state of rest, K u = omega^2 m u, by subspace iteration: of one actuator with a banded
+ * stiffness and lumped masses, of several with what joins them. Of a state that is not stable the squares below 0 come
+ * last. docs/theory.md, section 11. */
 #ifndef ZP_REST_VIBRATION_H
 #define ZP_REST_VIBRATION_H
 
@@ -9,11 +10,20 @@
 
 enum { ZP_VIBRATIONS = 24 }; /* most */
 
+/* What vibrates where it is not one actuator. */
+typedef struct ZpVibrating {
+  void (*weigh)(const void *self, const double *u, double *mu); /* m u; all [n] */
+  void (*solve)(const void *self, double *f);                   /* K^-1 f, in place */
+  const void *self;
+} ZpVibrating;
+
 typedef struct ZpVibration {
-  size_t n, m;      /* equations, vectors iterated */
-  const ZpBand *K;  /* factored; the caller's */
-  double *mass;     /* [n] by equation, for the caller to fill */
-  double *u, *next; /* [m][n] the subspace, of length 1 in the mass's measure; K^-1 m of it */
+  size_t n, m;             /* equations, vectors iterated */
+  const ZpBand *K;         /* factored; the caller's */
+  const ZpVibrating *many; /* in place of K and mass; NULL: one actuator */
+  double *mass;            /* [n] by equation, for the caller to fill */
+  double *weighed;         /* [n] work space */
+  double *u, *next;        /* [m][n] the subspace, of length 1 in the mass's measure; K^-1 m of it */
   double reduced[ZP_VIBRATIONS * ZP_VIBRATIONS], turn[ZP_VIBRATIONS * ZP_VIBRATIONS];
   double omega2[ZP_VIBRATIONS];
 } ZpVibration;

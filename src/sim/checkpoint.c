@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
@@ -72,26 +73,32 @@ bool zp_checkpoint_holds(int index) {
   return true;
 }
 
-ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = zp_snapshot_fits(def, checkpoint->byte, checkpoint->size, err);
-  if (status != ZP_OK) return status;
+static ZpStatus check_time(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
   double t = zp_checkpoint_time(checkpoint);
   if (def->solver.end_time > t) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "it stands at %.9g s already; solver.end_time is %.9g s", t, def->solver.end_time);
+}
+
+ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = zp_snapshot_fits(def, checkpoint->byte, checkpoint->size, err);
+  return status == ZP_OK ? check_time(checkpoint, def, err) : status;
 }
 
 /* -- of a simulation ------------------------------------------------------------------------------- */
 
 ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err) {
   *out = NULL;
-  if (sim->settled != ZP_REACHED_END || sim->below) return ZP_OK;
+  ZpState *passed[ZP_MOST_MEMBERS];
+  if (sim->settled != ZP_REACHED_END) return ZP_OK;
   *out = create(zp_snapshot_size(sim->model));
   if (!*out) return zp_fail_memory(err);
-  zp_snapshot_write(sim->model, zp_sim_passed(sim), (*out)->byte);
+  zp_sim_passed(sim, passed);
+  zp_snapshot_write(sim->model, passed, (*out)->byte);
   return ZP_OK;
 }
 
 ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *err) {
-  ZpStatus status = zp_checkpoint_check(checkpoint, &sim->model->def, err);
+  const ZpActuatorDef *def = &sim->model->def; /* of a series that of its uppermost member */
+  ZpStatus status = sim->below ? check_time(checkpoint, def, err) : zp_checkpoint_check(checkpoint, def, err);
   return status == ZP_OK ? zp_sim_restore(sim, checkpoint->byte, checkpoint->size, err) : status;
 }

@@ -26,19 +26,33 @@ static ZpRamp ramp_within(double value, double rate, double t, double least, dou
   return (ZpRamp){value, rate, t, t + left};
 }
 
+/* Voltage of a member where the uppermost one has `voltage`, V: the same, but of the lower antagonist. */
+static double voltage_of(const ZpSim *sim, const ZpSim *member, double voltage) {
+  bool turned = member != sim && zp_is_opposed(sim->model);
+  return turned ? zp_opposed_voltage(sim->model, voltage) : voltage;
+}
+
 /* Says that, and why, it is out of range. */
 static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
   bool within = voltage >= key->min && voltage <= key->max;
-  if (within) return zp_def_check_voltage(&sim->model->def, voltage, err);
+  ZpStatus status = ZP_OK;
+  for (const ZpSim *m = sim; m && within && status == ZP_OK; m = m->below)
+    status = zp_def_check_voltage(&m->model->def, voltage_of(sim, m, voltage), err);
+  if (within) return status;
   ZpActuatorDef scratch = sim->model->def;
   return zp_def_set(&scratch, sim->drive, voltage, err);
 }
 
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
-  sim->state->by_hand = true;
-  sim->state->voltage_input = voltage;
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage.value);
+  const ZpRamp all = voltage;
+  for (ZpSim *m = sim; m; m = m->below) {
+    voltage.value = voltage_of(sim, m, all.value);
+    voltage.rate = voltage_of(sim, m, all.rate) - voltage_of(sim, m, 0);
+    m->state->by_hand = true;
+    m->state->voltage_input = voltage;
+    if (!zp_sim_is_fed(m)) zp_sim_jump(m, voltage.value);
+  }
 }
 
 /* Whoever holds the voltage. */
@@ -72,7 +86,7 @@ static ZpStatus set_setpoint(ZpSim *sim, double setpoint, double rate, ZpError *
 static ZpStatus set_load(ZpSim *sim, double load, double rate, ZpError *err) {
   if (!(fabs(load) <= most_load))
     return zp_fail(err, ZP_BAD_INPUT, "load = %g N is out of range; %g N to %g N", load, -most_load, most_load);
-  sim->state->load_input = ramp_within(load, rate, sim->state->t, -most_load, most_load);
+  zp_sim_loaded(sim)->state->load_input = ramp_within(load, rate, sim->state->t, -most_load, most_load);
   return ZP_OK;
 }
 
@@ -83,8 +97,6 @@ ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, 
                    inputs[input].unit, -most_rate, most_rate, inputs[input].unit);
   static ZpStatus (*const set[ZP_INPUT_COUNT])(ZpSim *, double, double, ZpError *) = {
       [ZP_INPUT_VOLTAGE] = set_voltage, [ZP_INPUT_LOAD] = set_load, [ZP_INPUT_SETPOINT] = set_setpoint};
-  if (sim->below)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: cannot be set of actuators in series (stack.series)", inputs[input].name);
   ZpStatus status = check_free(sim, input, err);
   if (status == ZP_OK) status = set[input](sim, value, rate, err);
   if (status == ZP_OK) sim->cut = false;

@@ -358,14 +358,12 @@ void zp_sim_start_row(ZpSim *sim) {
 
 /* All signals if the voltage had another value => row; the state is as it was. */
 static void read_at(ZpSim *sim, double voltage, double *row) {
-  ZpState *state = sim->state;
-  size_t size = zp_state_size(sim->model);
-  memcpy(sim->before, state, size);
-  state->by_hand = true;
-  state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->before, m->state, zp_state_size(m->model));
+  zp_sim_hold_voltage(sim, (ZpRamp){voltage, 0, sim->state->t, INFINITY});
   fill_row(sim, ALL);
-  memcpy(state, sim->before, size);
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->state, m->before, zp_state_size(m->model));
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 
@@ -399,48 +397,18 @@ void zp_sim_read(ZpSim *sim, double *row) {
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 
-/* Numbers at a node and at a station in the shape of a series. */
-enum { OF_NODES = 3, OF_STATIONS = 3 };
-
-double *zp_sim_series_room(const ZpModel *model) {
-  return zp_calloc(zp_members(model) * (OF_NODES * model->count + OF_STATIONS * model->nodes), sizeof(double));
-}
-
-enum { SHAPE_ARRAYS = OF_NODES + OF_STATIONS };
-
-/* Copy the arrays of one member to their places in the room of a series. */
-static void put_member(const ZpModel *model, const ZpShape *one, size_t member, double *const room[SHAPE_ARRAYS]) {
-  const double *const from[SHAPE_ARRAYS] = {one->x,   one->y,          one->stress,
-                                            one->gap, one->line_force, one->insulator_field};
-  for (size_t k = 0; k < SHAPE_ARRAYS; k++) {
-    size_t size = k < OF_NODES ? model->count : model->nodes;
-    memcpy(room[k] + member * size, from[k], size * sizeof *room[k]);
-  }
-}
-
-/* Member after member, as if their stations were those of one. */
+/* Member after member. */
 ZpShape zp_sim_shape(ZpSim *sim) {
   ZpShape shape = shape_of(sim);
   if (!sim->below) return shape;
-  const ZpModel *model = sim->model;
-  size_t members = zp_members(model), member = 1;
-  double *room[SHAPE_ARRAYS], *next = sim->all;
-  for (size_t k = 0; k < SHAPE_ARRAYS; k++) {
-    room[k] = next;
-    next += members * (k < OF_NODES ? model->count : model->nodes);
-  }
-  put_member(model, &shape, 0, room);
+  zp_many_put(&sim->all, 0, &shape);
+  size_t member = 1;
   for (ZpSim *m = sim->below; m; m = m->below, member++) {
     ZpShape one = shape_of(m);
-    put_member(model, &one, member, room);
+    double *y = zp_many_put(&sim->all, member, &one);
+    if (zp_is_opposed(sim->model)) zp_shape_turn_over(m->model, y);
   }
-  if (zp_is_opposed(model)) zp_shape_turn_over(sim->below->model, room[1] + model->count);
-  shape.x = room[0];
-  shape.y = room[1];
-  shape.stress = room[2];
-  shape.gap = room[3];
-  shape.line_force = room[4];
-  shape.insulator_field = room[5];
+  zp_many_give(&sim->all, &shape);
   return shape;
 }
 

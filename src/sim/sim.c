@@ -88,13 +88,17 @@ static bool diverged(const ZpSim *sim) {
   return false;
 }
 
-const ZpState *zp_sim_passed(const ZpSim *sim) {
-  return sim->cut || diverged(sim) ? sim->kept : sim->state;
+void zp_sim_passed(const ZpSim *sim, ZpState *state[]) {
+  bool off = sim->cut || diverged(sim);
+  for (const ZpSim *m = sim; m; m = m->below)
+    *state++ = off ? m->kept : m->state;
 }
 
 /* A longer run passes through the present state, too, unless the end of this one has cut a step. */
 static void keep(ZpSim *sim) {
-  if (!sim->cut && !diverged(sim)) memcpy(sim->kept, sim->state, zp_state_size(sim->model));
+  if (sim->cut || diverged(sim)) return;
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->kept, m->state, zp_state_size(m->model));
 }
 
 /* A model may be built of a Def that can only be at rest. */
@@ -145,13 +149,23 @@ static void hang_below(const ZpSim *above, ZpSim *sim) {
     y[j] += fall;
 }
 
+/* For the shape of all members. */
+static bool make_room(ZpSim *sim, size_t members) {
+  const ZpModel *model = sim->model;
+  ZpCarver size = {NULL, 0};
+  zp_many_carve(&sim->all, members, model->count, model->nodes, &size);
+  sim->all_memory = zp_calloc(1, size.used);
+  ZpCarver carver = {sim->all_memory, 0};
+  zp_many_carve(&sim->all, members, model->count, model->nodes, &carver);
+  return sim->all_memory != NULL;
+}
+
 /* The members below, each at rest on the one above; antagonists at rest against each other. False if there is no
  * memory. */
 static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   size_t members = zp_members(sim->model), k = 0;
   sim->states = zp_calloc(members, sizeof(ZpState *));
-  if (members > 1) sim->all = zp_sim_series_room(sim->model);
-  if (!sim->states || (members > 1 && !sim->all)) return false;
+  if (!sim->states || (members > 1 && !make_room(sim, members))) return false;
   sim->states[k++] = sim->state;
   for (ZpSim *above = sim; above->model->below; above = above->below) {
     above->below = create_one(above->model->below, false, hooks);
@@ -160,7 +174,8 @@ static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
     sim->states[k++] = above->below->state;
     if (above->below->settled != ZP_REACHED_END) sim->settled = above->below->settled;
   }
-  return !zp_is_opposed(sim->model) || zp_sim_settle_antagonists(sim, hooks);
+  bool goes_on = sim->model->def.initial.state == ZP_INITIAL_CHECKPOINT;
+  return goes_on || !zp_is_opposed(sim->model) || zp_sim_settle_antagonists(sim, hooks);
 }
 
 /* What a simulation starts with. */
@@ -210,7 +225,7 @@ void zp_sim_destroy(ZpSim *sim) {
   if (!sim) return;
   zp_sim_destroy(sim->below);
   zp_free(sim->states);
-  zp_free(sim->all);
+  zp_free(sim->all_memory);
   zp_dynamics_destroy(&sim->dynamics);
   zp_paper_motion_destroy(&sim->paper);
   zp_system_destroy(&sim->eval);
@@ -230,11 +245,17 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
+ZpSim *zp_sim_loaded(ZpSim *sim) {
+  while (sim->below && !zp_is_opposed(sim->model))
+    sim = sim->below;
+  return sim;
+}
+
 double zp_sim_next_corner(const ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  double load = fmin(zp_sim_load_due(sim), zp_ramp_corner(&state->load_input, state->t));
+  double load = fmin(zp_sim_load_due(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
   return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
 }
 
@@ -256,7 +277,7 @@ static double resolution(ZpSim *sim) {
       state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
   if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_feed_resolution(sim, usual));
   if (model->leaks) voltage = fmin(voltage, zp_ramp_resolution(usual, zp_sim_leak(sim).fastest));
-  return fmin(voltage, hand_resolution(&state->load_input, zp_eval_weight_scale(model), t));
+  return fmin(voltage, hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(model), t));
 }
 
 /* The voltage at the time that a step has reached. By explicit steps it was that of the step's start all the way. */
@@ -616,14 +637,19 @@ double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {
   return sim->state->zip_time;
 }
 
-void zp_sim_resume(ZpSim *sim) {
+static void resume_one(ZpSim *sim) {
   ZpState *state = sim->state;
   double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
-  zp_sim_start_row(sim);
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
   sim->cut = false;
+}
+
+void zp_sim_resume(ZpSim *sim) {
+  zp_sim_start_row(sim);
+  for (ZpSim *m = sim; m; m = m->below)
+    resume_one(m);
 }
 
 size_t zp_sim_state_size(const ZpSim *sim) {
@@ -631,14 +657,41 @@ size_t zp_sim_state_size(const ZpSim *sim) {
 }
 
 void zp_sim_save(const ZpSim *sim, void *bytes) {
-  zp_snapshot_write(sim->model, sim->state, bytes);
+  zp_snapshot_write(sim->model, sim->states, bytes);
+}
+
+/* How far the platforms that a link joins are apart, m. */
+static double apart(const ZpSim *m) {
+  const ZpModel *above = m->model, *below = m->below->model;
+  const ZpTopology *t = &below->topology;
+  double y = zp_state_motion(above, m->state).y[zp_load_node(&above->topology)];
+  const double *other = zp_state_motion(below, m->below->state).y;
+  if (zp_is_opposed(above)) return y + other[zp_load_node(t)] + above->distance;
+  return y - other[zp_upper(t, t->platform.first)];
+}
+
+static bool is_joined(const ZpSim *sim) {
+  static const double same = 1e-9; /* of the length */
+  for (const ZpSim *m = sim; m->below; m = m->below)
+    if (!(fabs(apart(m)) < same * m->model->L)) return false;
+  return true;
+}
+
+/* => the states; where they do not fit they are as they were. */
+static ZpStatus read_states(ZpSim *sim, const void *bytes, size_t size, ZpError *reason) {
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->before, m->state, zp_state_size(m->model));
+  ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->states, reason);
+  if (status == ZP_OK && !is_joined(sim))
+    status = zp_fail(reason, ZP_BAD_INPUT, "of another model: its members are not joined as those here");
+  for (ZpSim *m = sim; m && status != ZP_OK; m = m->below)
+    memcpy(m->state, m->before, zp_state_size(m->model));
+  return status;
 }
 
 ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err) {
   ZpError reason;
-  if (sim->below)
-    return zp_fail(err, ZP_BAD_INPUT, "state: that of actuators in series (stack.series) is not restored");
-  ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->state, &reason);
+  ZpStatus status = read_states(sim, bytes, size, &reason);
   if (status != ZP_OK) return zp_fail(err, status, "state: %.500s", reason.message);
   zp_sim_resume(sim);
   return ZP_OK;

@@ -108,7 +108,8 @@ struct ZpSim {
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
   ZpState **states;           /* of the uppermost: of it and of all below */
   struct ZpRunRates *rates;   /* what follows the derivatives of the run; NULL: nothing does */
-  double *all;                /* of the uppermost of a series: room for the shape of all */
+  ZpManyShapes all;           /* of the uppermost of a series: room for the shape of all, */
+  void *all_memory;           /* and where it is */
 };
 
 /* A simulation that starts at coordinates q [2 stride], NULL: straight, without looking for its hanging equilibrium,
@@ -132,6 +133,9 @@ bool zp_sim_settle_antagonists(ZpSim *sim, const ZpHooks *hooks);
 /* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 
+/* The member that the load hangs on. */
+ZpSim *zp_sim_loaded(ZpSim *sim);
+
 /* When load.change_mass is still to come or to go, s; INFINITY: never. And it comes or goes now (catch.c). */
 double zp_sim_load_due(const ZpSim *sim);
 void zp_sim_change_load(ZpSim *sim);
@@ -139,8 +143,8 @@ void zp_sim_change_load(ZpSim *sim);
 /* Resume from the state as it has just been given: at the waveform's voltage of its time. */
 void zp_sim_resume(ZpSim *sim);
 
-/* The last state so far that a longer run passes through, too; of sound numbers. */
-const ZpState *zp_sim_passed(const ZpSim *sim);
+/* The last states so far that a longer run passes through, too; of sound numbers => state [members]. */
+void zp_sim_passed(const ZpSim *sim, ZpState *state[]);
 
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);
@@ -188,9 +192,6 @@ double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
 
 /* Numbers of a row, openings of the members of a series included. */
 size_t zp_sim_row_size(void);
-
-/* Room for the shape of a series (ZpSim.all); NULL if there is no memory. */
-double *zp_sim_series_room(const ZpModel *model);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);

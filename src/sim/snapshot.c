@@ -18,6 +18,8 @@
  *                   station, then interface voltages, place by place, then plastic strains, fibre by fibre; empty
  *                   without liquid, leak and plasticity
  *
+ * Of several actuators there is one after the other for each, from the uppermost on.
+ *
  * A number that comes, goes or means something else raises the version. */
 #include "sim/snapshot.h"
 
@@ -29,6 +31,7 @@
 #include <zipact/version.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 
 enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 7, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
@@ -329,7 +332,7 @@ static size_t head_size(const ZpModel *model) {
   return counter.used;
 }
 
-size_t zp_snapshot_size(const ZpModel *model) {
+static size_t size_of(const ZpModel *model) {
   size_t size = head_size(model) + 2 * (size_t)BLOCK;
   for (size_t k = 0; k < NUMBERS; k++)
     size += strlen(number[k].name) + 1 + sizeof(double);
@@ -338,7 +341,7 @@ size_t zp_snapshot_size(const ZpModel *model) {
   return size;
 }
 
-void zp_snapshot_write(const ZpModel *model, const ZpState *state, void *bytes) {
+static void write_one(const ZpModel *model, const ZpState *state, void *bytes) {
   unsigned char *byte = bytes;
   Writer writer = {byte, HEADER};
   write_text(&writer, "zipact", ZP_VERSION);
@@ -503,22 +506,77 @@ static ZpStatus take_fitting(const ZpActuatorDef *def, const void *bytes, size_t
   return status == ZP_OK ? check_numbers(parts, def, err) : status;
 }
 
+/* -- several ---------------------------------------------------------------------------------------- */
+
+/* Another snapshot follows on the first: as many bytes are its own; else all. */
+static size_t first_of(const unsigned char *byte, size_t size) {
+  if (size < HEADER || memcmp(byte, magic, MAGIC) != 0) return size;
+  uint64_t whole = get(byte + SUMMED, 8);
+  bool more = whole >= HEADER && whole < size && size - whole >= MAGIC && memcmp(byte + whole, magic, MAGIC) == 0;
+  return more ? (size_t)whole : size;
+}
+
+static size_t count(const unsigned char *byte, size_t size) {
+  size_t sections = 0;
+  for (size_t used = 0; used < size || sections == 0; sections++)
+    used += first_of(byte + used, size - used);
+  return sections;
+}
+
+static ZpStatus check_count(const void *bytes, size_t size, size_t members, ZpError *err) {
+  size_t there = count(bytes, size);
+  if (there == members) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "of another model: stack.series is %zu there, %zu here", there, members);
+}
+
+size_t zp_snapshot_size(const ZpModel *model) {
+  size_t size = 0;
+  for (; model; model = model->below)
+    size += size_of(model);
+  return size;
+}
+
+void zp_snapshot_write(const ZpModel *model, ZpState *const state[], void *bytes) {
+  unsigned char *byte = bytes;
+  for (; model; byte += size_of(model), model = model->below)
+    write_one(model, *state++, byte);
+}
+
 ZpStatus zp_snapshot_check(const void *bytes, size_t size, ZpError *err) {
-  Parts parts;
-  return take_apart(bytes, size, &parts, err);
+  const unsigned char *byte = bytes;
+  ZpStatus status = ZP_OK;
+  for (bool first = true; status == ZP_OK && (size > 0 || first); first = false) {
+    Parts parts;
+    size_t own = first_of(byte, size);
+    status = take_apart(byte, own, &parts, err);
+    byte += own;
+    size -= own;
+  }
+  return status;
 }
 
 ZpStatus zp_snapshot_fits(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err) {
-  Parts parts;
-  return take_fitting(def, bytes, size, &parts, err);
+  const unsigned char *byte = bytes;
+  bool many = def->stack.series > 1;
+  ZpStatus status = zp_snapshot_check(bytes, size, err);
+  if (status == ZP_OK) status = check_count(bytes, size, (size_t)def->stack.series, err);
+  for (int member = 1; member <= def->stack.series && status == ZP_OK; member++) {
+    Parts parts;
+    size_t own = first_of(byte, size);
+    ZpActuatorDef one = many ? zp_def_member(def, member) : *def;
+    status = take_fitting(&one, byte, own, &parts, err);
+    byte += own;
+    size -= own;
+  }
+  return status;
 }
 
 double zp_snapshot_time(const void *bytes, size_t size) {
   Parts parts;
-  return take_apart(bytes, size, &parts, NULL) == ZP_OK ? real_at(parts.number.item, TIME) : NAN;
+  return take_apart(bytes, first_of(bytes, size), &parts, NULL) == ZP_OK ? real_at(parts.number.item, TIME) : NAN;
 }
 
-ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err) {
+static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err) {
   Parts parts;
   size_t stride = model->stride;
   ZpStatus status = take_fitting(&model->def, bytes, size, &parts, err);
@@ -533,4 +591,17 @@ ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, 
     for (size_t j = 0; j < length_of(model, k); j++)
       state->data[2 * k * stride + j] = real_at(parts.array[k].item, j);
   return ZP_OK;
+}
+
+ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *const state[], ZpError *err) {
+  const unsigned char *byte = bytes;
+  ZpStatus status = zp_snapshot_check(bytes, size, err);
+  if (status == ZP_OK) status = check_count(bytes, size, zp_members(model), err);
+  for (; model && status == ZP_OK; model = model->below) {
+    size_t own = first_of(byte, size);
+    status = read_one(model, byte, own, *state++, err);
+    byte += own;
+    size -= own;
+  }
+  return status;
 }

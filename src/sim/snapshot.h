@@ -6,14 +6,14 @@
 
 #include "actuator/model.h"
 
-/* Bytes that zp_snapshot_write writes: as many for each state of the model. */
+/* Bytes that zp_snapshot_write writes: as many for each state of the model, and of all below it. */
 size_t zp_snapshot_size(const ZpModel *model);
 
-/* (model, state) => bytes. Equal states give equal bytes, on every machine. */
-void zp_snapshot_write(const ZpModel *model, const ZpState *state, void *bytes);
+/* (model, its states [members]) => bytes. Equal states give equal bytes, on every machine. */
+void zp_snapshot_write(const ZpModel *model, ZpState *const state[], void *bytes);
 
-/* (bytes) => state. ZP_BAD_INPUT as zp_snapshot_fits; the state is then as it was. */
-ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err);
+/* (bytes) => states. ZP_BAD_INPUT as zp_snapshot_fits; the state of one actuator is then as it was. */
+ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *const state[], ZpError *err);
 
 /* Are these bytes a whole snapshot? ZP_BAD_INPUT says what is wrong: none at all, cut short, damaged, of another
  * version of the format. */

@@ -44,17 +44,12 @@ typedef struct Follower {
   double closing;  /* V; NAN: neither has closed */
   double start[2]; /* openings without voltage, m */
   ZpMargins margins;
-  double *x, *y, *stress, *gap, *line_force, *field; /* the shape of both */
+  ZpManyShapes shapes; /* of both */
 } Follower;
 
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
-  size_t nodes = 2 * f->model->nodes, count = 2 * f->model->count;
-  double **of_nodes[] = {&f->x, &f->y, &f->stress}, **of_stations[] = {&f->gap, &f->line_force, &f->field};
-  for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++) {
-    *of_nodes[k] = zp_carve(carver, count);
-    *of_stations[k] = zp_carve(carver, nodes);
-  }
+  zp_many_carve(&f->shapes, 2, f->model->count, f->model->nodes, carver);
 }
 
 /* -- a point ---------------------------------------------------------------------------------------- */
@@ -67,29 +62,17 @@ static ZpStatics *lower(Follower *f) {
   return &f->both.of[1].statics;
 }
 
-/* One after the other, as if their stations were those of one. */
 static ZpShape shape_of(Follower *f) {
-  const ZpModel *model = f->model;
   ZpShape shape = {0};
-  for (int which = 0; which < 2; which++) {
-    ZpShape one = zp_statics_shape(&f->both.of[which].statics, f->points, &f->both.of[which].shape_room);
-    size_t node = (size_t)which * model->count, station = (size_t)which * model->nodes;
-    zp_margins_join(&f->margins, zp_margins_of(f->both.of[which].statics.model, &one));
-    memcpy(f->x + node, one.x, model->count * sizeof *f->x);
-    memcpy(f->y + node, one.y, model->count * sizeof *f->x);
-    memcpy(f->stress + node, one.stress, model->count * sizeof *f->x);
-    memcpy(f->gap + station, one.gap, model->nodes * sizeof *f->x);
-    memcpy(f->line_force + station, one.line_force, model->nodes * sizeof *f->x);
-    memcpy(f->field + station, one.insulator_field, model->nodes * sizeof *f->x);
+  for (size_t which = 0; which < 2; which++) {
+    ZpRest *rest = &f->both.of[which];
+    ZpShape one = zp_statics_shape(&rest->statics, f->points, &rest->shape_room);
+    zp_margins_join(&f->margins, zp_margins_of(rest->statics.model, &one));
+    double *y = zp_many_put(&f->shapes, which, &one);
     if (which == 0) shape = one;
+    if (which == 1) zp_shape_turn_over(f->model->below, y);
   }
-  zp_shape_turn_over(model->below, f->y + model->count);
-  shape.x = f->x;
-  shape.y = f->y;
-  shape.stress = f->stress;
-  shape.gap = f->gap;
-  shape.line_force = f->line_force;
-  shape.insulator_field = f->field;
+  zp_many_give(&f->shapes, &shape);
   return shape;
 }
 

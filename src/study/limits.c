@@ -449,7 +449,7 @@ ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   };
   ZpMembers members;
   ZpStatus status = zp_members_run(task, result->study, zp_study_limits, &members, err);
-  if (status == ZP_OK) status = zp_members_join(&members, columns, sizeof columns / sizeof columns[0], result, err);
+  if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
   if (status == ZP_OK && zp_outcome_good(result->outcome)) {
     zp_members_say(&members, "pull in", "pull_in_voltage_V", result->message, sizeof result->message);
     zp_members_say(&members, "close", "closing_voltage_V", result->message, sizeof result->message);

@@ -9,11 +9,12 @@
 #include "rest/rest.h"
 #include "rest/vibration.h"
 #include "study/hold.h"
+#include "study/modes.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
-enum { MODES = 8, SUBSPACE = 16 };
+static const double two_pi = 6.283185307179586;
 
 static const ZpColumn columns[] = {
     {"mode", "1", "number of the mode"},
@@ -22,8 +23,56 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
+static const char *const names[ZP_MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
                                          "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
+
+/* -- of whatever vibrates --------------------------------------------------------------------------- */
+
+const char *zp_modes_name(size_t j) {
+  return names[j];
+}
+
+size_t zp_modes_count(const ZpVibration *v) {
+  return v->m < ZP_MODES ? v->m : ZP_MODES;
+}
+
+ZpTable *zp_modes_table(void) {
+  return zp_table_create(columns, COLUMNS, ZP_MODES);
+}
+
+bool zp_modes_solve(ZpVibration *v, ZpResult *result) {
+  zp_vibration_start(v);
+  bool found = zp_vibration_solve(v, zp_modes_count(v));
+  result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
+  if (found)
+    snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz", sqrt(v->omega2[0]) / two_pi);
+  else
+    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged");
+  return found;
+}
+
+void zp_modes_add(ZpVibration *v, size_t j, ZpResult *result) {
+  double frequency = sqrt(v->omega2[j]) / two_pi;
+  zp_result_add(result, names[j], "Hz", frequency);
+  zp_table_offer(result->series, (double[COLUMNS]){(double)(j + 1), frequency, zp_vibration_residual(v, j)});
+}
+
+void zp_modes_pulled_in(const ZpVibration *v, double voltage, const char *trouble, ZpResult *result) {
+  if (!trouble) result->outcome = ZP_PULLED_IN;
+  snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
+           trouble ? trouble : "the actuator pulls in below it");
+  for (size_t j = 0; j < zp_modes_count(v); j++)
+    zp_result_add(result, names[j], "Hz", NAN);
+}
+
+double zp_modes_amplitude(const ZpVibration *v, size_t j, double length) {
+  double largest = 0;
+  for (size_t i = 0; i < v->n; i++)
+    largest = fmax(largest, fabs(v->u[j * v->n + i]));
+  return 0.1 * length / largest;
+}
+
+/* -- one actuator ------------------------------------------------------------------------------------ */
 
 typedef struct Problem {
   ZpRest rest;
@@ -34,7 +83,7 @@ typedef struct Problem {
 
 static void carve(void *user, ZpCarver *carver) {
   Problem *p = user;
-  zp_vibration_carve(&p->vibration, p->rest.statics.assembly.n, SUBSPACE, carver);
+  zp_vibration_carve(&p->vibration, p->rest.statics.assembly.n, ZP_MODES_SUBSPACE, carver);
   p->q = zp_carve(carver, 2 * p->rest.statics.model->stride);
 }
 
@@ -59,24 +108,13 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
   zp_shapes_offer(shapes, &shape);
 }
 
-/* What moves the node that moves most by a tenth of the length. */
-static double amplitude_of(const Problem *p, size_t j) {
-  double largest = 0;
-  for (size_t i = 0; i < p->vibration.n; i++)
-    largest = fmax(largest, fabs(p->vibration.u[j * p->vibration.n + i]));
-  return 0.1 * p->rest.statics.model->L / largest;
-}
-
-static void report(Problem *p, size_t modes, ZpResult *result) {
-  const double two_pi = 6.283185307179586;
-  memcpy(p->q, p->rest.statics.q, 2 * p->rest.statics.model->stride * sizeof *p->q);
+static void report(Problem *p, ZpResult *result) {
+  const ZpModel *model = p->rest.statics.model;
+  memcpy(p->q, p->rest.statics.q, 2 * model->stride * sizeof *p->q);
   record_shape(p, 0, 0, 0, result->shapes);
-  for (size_t j = 0; j < modes; j++) {
-    double frequency = sqrt(p->vibration.omega2[j]) / two_pi;
-    zp_result_add(result, names[j], "Hz", frequency);
-    zp_table_offer(result->series,
-                   (double[COLUMNS]){(double)(j + 1), frequency, zp_vibration_residual(&p->vibration, j)});
-    record_shape(p, (double)(j + 1), j, amplitude_of(p, j), result->shapes);
+  for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
+    zp_modes_add(&p->vibration, j, result);
+    record_shape(p, (double)(j + 1), j, zp_modes_amplitude(&p->vibration, j, model->L), result->shapes);
   }
 }
 
@@ -105,13 +143,11 @@ static double stiffness_of_mode(ZpStatics *s, void *user) {
 }
 
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
-  const double two_pi = 6.283185307179586;
   Problem *p = user;
-  size_t modes = p->vibration.m < MODES ? p->vibration.m : MODES;
   ZpStatics *s = &p->rest.statics;
   memcpy(s->q, p->q, 2 * s->model->stride * sizeof *s->q);
   bool found = zp_slope_solve(slope, pose);
-  for (size_t j = 0; j < modes; j++) {
+  for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
     Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
     double by_key = found ? zp_slope_of(slope, pose, stiffness_of_mode, &mode) : NAN;
@@ -120,7 +156,6 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
 }
 
 static void run(Problem *p, const ZpTask *task, ZpResult *result) {
-  size_t modes = p->vibration.m < MODES ? p->vibration.m : MODES;
   zp_task_watches(task, &p->rest.statics);
   ZpNewtonInfo info = zp_statics_hang(&p->rest.statics, &p->rest.branch.newton);
   result->outcome = p->rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
@@ -130,12 +165,7 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   double voltage = p->rest.statics.model->def.modes.voltage;
   if (voltage > 0 && p->rest.statics.model->field &&
       !zp_statics_raise(&p->rest.statics, voltage, &p->rest.branch.newton)) {
-    const char *trouble = zp_statics_trouble(&p->rest.statics);
-    if (!trouble) result->outcome = ZP_PULLED_IN;
-    snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
-             trouble ? trouble : "the actuator pulls in below it");
-    for (size_t j = 0; j < modes; j++)
-      zp_result_add(result, names[j], "Hz", NAN);
+    zp_modes_pulled_in(&p->vibration, voltage, zp_statics_trouble(&p->rest.statics), result);
     return;
   }
   if (zp_statics_shorted(&p->rest.statics)) {
@@ -151,16 +181,9 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   ZpVibration *v = &p->vibration;
   v->K = &p->rest.branch.newton.K;
   zp_assembly_masses(&p->rest.statics.assembly, p->rest.statics.model->mass, v->mass);
-  zp_vibration_start(v);
-  bool found = zp_vibration_solve(v, modes);
-  if (found && *p->rest.statics.model->def.sensitivity.by) refine(p);
-  result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
-  if (!found)
-    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged");
-  else
-    snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz",
-             sqrt(p->vibration.omega2[0]) / 6.283185307179586);
-  if (found) report(p, modes, result);
+  if (!zp_modes_solve(v, result)) return;
+  if (*p->rest.statics.model->def.sensitivity.by) refine(p);
+  report(p, result);
 }
 
 ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
@@ -182,15 +205,13 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
-/* What frequencies leave out of a bead. */
-static void note_bead(ZpResult *result, const ZpActuatorDef *def) {
+void zp_modes_note_bead(ZpResult *result, const ZpActuatorDef *def) {
   if (zp_def_liquid(def) != ZP_LIQUID_BEAD) return;
   zp_result_note(result, "the bead is left out: frequencies are those of the ribbons without its mass and drag%s",
                  def->modes.voltage > 0 ? ", in a liquid that attracts everywhere" : "");
 }
 
-/* Frequencies are those without the mass of a liquid: of a bead, which lies near the clip, where little moves. */
-static ZpActuatorDef without_liquid(const ZpActuatorDef *def) {
+ZpActuatorDef zp_modes_def(const ZpActuatorDef *def) {
   ZpActuatorDef dry = *def;
   dry.liquid.model = ZP_LIQUID_NONE;
   return dry;
@@ -198,12 +219,12 @@ static ZpActuatorDef without_liquid(const ZpActuatorDef *def) {
 
 ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
-  ZpActuatorDef def = without_liquid(task->def);
+  ZpActuatorDef def = zp_modes_def(task->def);
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   Problem *p = zp_calloc(1, sizeof *p);
-  result->series = zp_table_create(columns, COLUMNS, MODES);
-  result->shapes = p ? zp_shapes_create(model->s, model->nodes, MODES + 1) : NULL;
+  result->series = zp_modes_table();
+  result->shapes = p ? zp_shapes_create(model->s, model->nodes, ZP_MODES + 1) : NULL;
   if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
     p->margins = zp_margins_none();
     run(p, task, result);
@@ -211,7 +232,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
     zp_add_margins(result, model, &p->margins);
     zp_note_mesh(result, model, task->def->modes.voltage);
     zp_note_rest(result, model);
-    note_bead(result, task->def);
+    zp_modes_note_bead(result, task->def);
     if (result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&p->rest, derive, p, result, err);
     if (status == ZP_OK) status = zp_add_hold(task->def, result, err);
   } else {

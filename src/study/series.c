@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "actuator/model.h"
+#include "actuator/shape.h"
 #include "base/fail.h"
 
 /* How a number of the series follows from those of its members, which are NAN where a member has none. */
@@ -128,31 +128,26 @@ static bool add_table(const ZpMembers *members, const ZpColumn *columns, size_t 
 }
 
 bool zp_members_shape(const ZpMembers *members, ZpResult *result) {
-  size_t ribbons = members->of[0]->shapes->ribbons, nodes = members->of[0]->shapes->nodes, count = ribbons * nodes;
-  size_t all = members->count * nodes;
-  double *room = zp_calloc(3 * ribbons * all + 3 * all, sizeof *room), bottom = 0;
-  double *x = room, *y = x + ribbons * all, *stress = y + ribbons * all;
-  double *gap = stress + ribbons * all, *line_force = gap + all, *field = line_force + all;
-  bool whole = room != NULL;
+  size_t ribbons = members->of[0]->shapes->ribbons, nodes = members->of[0]->shapes->nodes;
+  ZpManyShapes all;
+  ZpCarver size = {NULL, 0};
+  zp_many_carve(&all, members->count, ribbons * nodes, nodes, &size);
+  ZpCarver carver = {zp_calloc(1, size.used), 0};
+  result->shapes = carver.base ? zp_shapes_create(ribbons, members->count * nodes, 2) : NULL;
+  bool whole = result->shapes != NULL;
+  if (whole) result->shapes->members = members->count;
+  zp_many_carve(&all, members->count, ribbons * nodes, nodes, &carver);
   for (size_t k = 0; whole && k < members->count; k++) {
     whole = members->of[k]->shapes->frames > 0;
     if (!whole) break;
     ZpShape one = zp_shapes_get(members->of[k]->shapes, 0);
-    double fall = bottom - one.y[count - ribbons];
-    for (size_t j = 0; j < count; j++)
-      y[k * count + j] = one.y[j] + fall;
-    bottom = y[(k + 1) * count - 1];
-    memcpy(x + k * count, one.x, count * sizeof *x);
-    memcpy(stress + k * count, one.stress, count * sizeof *x);
-    memcpy(gap + k * nodes, one.gap, nodes * sizeof *x);
-    memcpy(line_force + k * nodes, one.line_force, nodes * sizeof *x);
-    memcpy(field + k * nodes, one.insulator_field, nodes * sizeof *x);
+    zp_many_put(&all, k, &one);
+    zp_many_hang(&all, k, ribbons);
   }
-  result->shapes = room ? zp_shapes_create(ribbons, all, 2) : NULL;
-  ZpShape shape = {.x = x, .y = y, .stress = stress, .gap = gap, .line_force = line_force, .insulator_field = field};
-  if (result->shapes) result->shapes->members = members->count;
-  if (whole && result->shapes) zp_shapes_offer(result->shapes, &shape);
-  zp_free(room);
+  ZpShape shape = {0};
+  zp_many_give(&all, &shape);
+  if (whole) zp_shapes_offer(result->shapes, &shape);
+  zp_free(carver.base);
   return result->shapes != NULL;
 }
 
@@ -184,10 +179,15 @@ ZpStatus zp_members_run(const ZpTask *task, ZpStudy study, ZpStudyRun run, ZpMem
   return status;
 }
 
-ZpStatus zp_members_join(ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result, ZpError *err) {
+void zp_members_join(const ZpMembers *members, ZpResult *result) {
   add_numbers(members, result);
   add_notes(members, result);
   add_outcome(members, result);
+}
+
+ZpStatus zp_members_report(const ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result,
+                           ZpError *err) {
+  zp_members_join(members, result);
   return add_table(members, columns, count, result) ? ZP_OK : zp_fail_memory(err);
 }
 

@@ -17,9 +17,12 @@ typedef struct ZpMembers {
 ZpStatus zp_members_run(const ZpTask *task, ZpStudy study, ZpStudyRun run, ZpMembers *members, ZpError *err);
 void zp_members_forget(ZpMembers *members);
 
-/* Their numbers, notes and outcome => those of the series, with a table of `columns` [count]: number and load of a
- * member, then numbers of its result by their names. */
-ZpStatus zp_members_join(ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result, ZpError *err);
+/* Their numbers, notes and outcome => those of the series. */
+void zp_members_join(const ZpMembers *members, ZpResult *result);
+
+/* The same with a table of `columns` [count]: number and load of a member, then numbers of its result by their names. */
+ZpStatus zp_members_report(const ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result,
+                           ZpError *err);
 
 /* One frame: all members, each hung on the one above, as if their stations were those of one; none where a member has
  * no shape. False if there is no memory. */
@@ -30,6 +33,8 @@ void zp_members_say(const ZpMembers *members, const char *words, const char *nam
 
 /* The studies that know a series, each in its own file. */
 ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err);
+ZpStatus zp_series_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err);
+ZpStatus zp_series_modes(const ZpTask *task, ZpResult *result, ZpError *err);
 ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err);
 
 #endif

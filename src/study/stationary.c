@@ -132,7 +132,7 @@ ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err
   };
   ZpMembers members;
   ZpStatus status = zp_members_run(task, result->study, zp_study_stationary, &members, err);
-  if (status == ZP_OK) status = zp_members_join(&members, columns, sizeof columns / sizeof columns[0], result, err);
+  if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
   if (status == ZP_OK && !zp_members_shape(&members, result)) status = zp_fail_memory(err);
   if (status == ZP_OK && zp_outcome_good(result->outcome))
     snprintf(result->message, sizeof result->message, "%zu members at rest, each under all that hangs on it",
