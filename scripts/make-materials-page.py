@@ -20,25 +20,25 @@ HEAD = """# Materials
 
 Made by `make docs` from `include/zipact/materials.def`.
 
-`ribbon.material`, `insulator.material` and `medium.material` name a row of these tables. The material fills the keys of its group that are not given, wherever they are written; a key
-that is given, by the file or by `--set`, stays as it is. So `--set ribbon.material=brass` does not change a `ribbon.density` of the file. A material comes after the preset.
+`ribbon.material`, `insulator.material` and `medium.material` name a material of these tables. A material sets the keys of its group that are not given, regardless of the order in the file. A key
+that is given in the file or by `--set` keeps its value, so `--set ribbon.material=brass` does not change a `ribbon.density` in the file. A material overrides the preset.
 
     ribbon.material: steel_1.4310
     insulator: {material: kapton, thickness: 50 um}
     medium.material: silicone_oil_50cst
 
-The values are what handbooks and data sheets print for such a material, at 20 to 25 °C; the column "from" says which. Where it ends in "checked", the value was compared with
-that publication in November 2026; the others were written down from memory, so look them up before you rely on one. The spread is an estimate: one standard deviation, from one delivery to another.
-A resistivity is listed but fills no key: to give one adds [leakage](theory.md#25-leakage-and-interface-charge-insulatorresistivity-mediumresistivity), which not every model has.
+The values are those of handbooks and data sheets at 20 to 25 °C; the column "from" names the source. If it ends in "checked", we compared the value with
+that publication in November 2026; the other values are from memory, so look them up before you rely on them. The spread is an estimate of one standard deviation between deliveries.
+A resistivity is listed but sets no key, because setting it adds [leakage](theory.md#25-leakage-and-interface-charge-insulatorresistivity-mediumresistivity), which not every model has.
 
 ## Spreads as tolerances
 
-With `sampling.tolerances: materials` every key that a material fills is drawn from a lognormal distribution: its median is the value of the table, the standard deviation of its logarithm the spread.
+With `sampling.tolerances: materials` every key that a material sets is drawn from a lognormal distribution. Its median is the value of the table; the standard deviation of its logarithm is the spread.
 Keys that are given keep their value, or their own [distribution](campaigns.md#tolerances). [examples/materials.yaml](../examples/materials.yaml):
 
     zipact run examples/materials.yaml -o out/materials --quiet
 
-![Distribution of the largest load that the spreads of the materials lead to](images/materials.svg)
+![Distribution of the largest load that results from the spreads of the materials](images/materials.svg)
 """
 
 

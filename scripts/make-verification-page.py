@@ -18,12 +18,12 @@ Check = namedtuple("Check", "room test value against measured allowed")
 
 INTRO = """# How results are verified
 
-Made by `make verification` from the tests: every number on this page was measured by the run that made it. A comparison either asks for a value
-within a relative error of another, or for a number below a limit; "measured" is that error, or that number. A test fails where it is more than what is
-allowed. Where it was compared often, the comparison that came nearest to its limit is shown.
+Made by `make verification` from the tests, whose run measured every number on this page. A comparison requires either a value
+within a relative error of another, or a number below a limit; "measured" is this error or number. A test fails if it exceeds the
+allowed one. Of repeated comparisons the page shows the one nearest to its limit.
 
-Further tests compare bits, texts and files, refuse wrong input, let every allocation fail once, and fuzz the reader of scenarios: they pass or fail and have no
-number. Where the simple models deviate from the fuller ones is shown in [validity](validity.md), and so is [what experiments say](validity.md#experiments).
+Further tests compare bits, texts and files, check that wrong input is refused, make every allocation fail once, and fuzz the reader of scenarios: they pass or fail, without a
+number. [Validity](validity.md) shows where the simple models deviate from the fuller ones, and [compares with experiments](validity.md#experiments).
 
 | room | tests with numbers | comparisons |
 |---|---|---|

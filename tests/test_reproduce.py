@@ -140,7 +140,7 @@ def check_numbers(folder):
             ("Table I", "shear coefficient from theory", 9, 0.06, 0),
             ("Table II", "stroke", 18, 7e-4, 0),
             ("Table II", "stroke error", 18, 0, 0.02),  # a difference of strokes printed to 0.01 mm
-            ("Factor", "factor by the paper's bookkeeping", 1, 4e-3, 0),
+            ("Factor", "factor by the paper's method", 1, 4e-3, 0),
             ("Section III", "axial spring K_D", 3, 1e-4, 0),
             ("Section III", "mean time step", 3, 0.02, 0),
             ("Fig. 9", "zip time at 6 kV with N = 21", 1, 0.06, 0),

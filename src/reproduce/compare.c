@@ -241,7 +241,7 @@ const ZpSubject zp_subjects[] = {
     {ZP_TABLE_2_RELATIVE, "Table II", "relative error", "%", "paper", relative_to_published, ZP_REASON_MISPRINT,
      relative_slack, false},
     {ZP_TABLE_2_AREA, "Table II", "area error", "mm²", "paper", chain_area, ZP_REASON_CURVE, NULL, false},
-    {ZP_FACTOR, "Factor", "factor by the paper's bookkeeping", "", "paper", factor_by_their_books, ZP_REASON_UNKNOWN,
+    {ZP_FACTOR, "Factor", "factor by the paper's method", "", "paper", factor_by_their_books, ZP_REASON_UNKNOWN,
      NULL, false},
     {ZP_FACTOR_DEVIATION, "Factor", "its standard deviation", "", "paper", deviation_by_their_books, ZP_REASON_SCATTER,
      NULL, false},
