@@ -104,7 +104,7 @@ static double time_of(const ZpRunRates *rates, const ZpKeyRates *of, int k, doub
   return t == rates->to ? of->to[k] : of->from[k] + share * (of->to[k] - of->from[k]);
 }
 
-static double corner_of(const ZpSim *sim, double end_time) {
+static double corner_of(ZpSim *sim, double end_time) {
   return fmin(zp_sim_next_corner(sim), end_time);
 }
 

@@ -251,7 +251,7 @@ ZpSim *zp_sim_loaded(ZpSim *sim) {
   return sim;
 }
 
-double zp_sim_next_corner(const ZpSim *sim) {
+double zp_sim_next_corner(ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);

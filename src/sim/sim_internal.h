@@ -117,7 +117,7 @@ struct ZpSim {
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 
 /* The next corner of what is told from outside, s. */
-double zp_sim_next_corner(const ZpSim *sim);
+double zp_sim_next_corner(ZpSim *sim);
 
 /* Before a step moves anything; false: it cannot. And where it has ended. */
 bool zp_sim_prepare(ZpSim *sim);
