@@ -6,6 +6,7 @@
 #include "base/kernel.h"
 #include "math/band.h"
 #include "math/eigen.h"
+#include "math/vector.h"
 #include "paper/massspring.h"
 #include "ribbon/rod_step.h"
 
@@ -441,6 +442,74 @@ START_TEST(test_band_symmetric_limits) {
 }
 END_TEST
 
+/* A symmetric band with `rank` random terms u v' on top, and the same dense. */
+static void *random_top(ZpBand *K, Dense a, size_t rank, double shift, uint64_t seed) {
+  ZpBand band;
+  ZpCarver carver = {NULL, 0};
+  const ZpBandForm form = {.bandwidth = 4, .symmetric = true, .rank = rank};
+  void *other = random_band(&band, a, 4, 4, true, shift, seed);
+  zp_band_carve_form(K, EQUATIONS, form, &carver);
+  void *memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){memory, 0};
+  zp_band_carve_form(K, EQUATIONS, form, &carver);
+  for (size_t i = 0; i < EQUATIONS; i++)
+    for (size_t j = i; j < EQUATIONS && j <= i + 4; j++)
+      *zp_band_at(K, i, j) = a[i][j];
+  for (size_t k = 0; k < rank * EQUATIONS; k++)
+    K->u[k] = noise(&seed), K->v[k] = noise(&seed);
+  for (size_t k = 0; k < rank * EQUATIONS * EQUATIONS; k++) {
+    size_t term = k / (EQUATIONS * EQUATIONS), i = k / EQUATIONS % EQUATIONS, j = k % EQUATIONS;
+    a[i][j] += K->u[term * EQUATIONS + i] * K->v[term * EQUATIONS + j];
+  }
+  zp_free(other);
+  return memory;
+}
+
+/* Terms on top of a band change solution, product and sign of the determinant as they do in the dense matrix; cleared,
+ * they are gone. */
+START_TEST(test_terms_on_top_of_a_band) {
+  int seen[2] = {0};
+  for (size_t rank = 0; rank <= 3; rank++)
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+      ZpBand K;
+      Dense a;
+      void *memory = random_top(&K, a, rank, 6, seed);
+      double b[EQUATIONS], expected[EQUATIONS], product[EQUATIONS];
+      for (size_t i = 0; i < EQUATIONS; i++)
+        b[i] = expected[i] = sin(1 + (double)i);
+      zp_band_multiply(&K, b, product);
+      for (size_t i = 0; i < EQUATIONS; i++)
+        ck_near(product[i], zp_dot(EQUATIONS, a[i], b), 1e-12);
+      ck_assert(zp_band_factor(&K));
+      zp_band_solve(&K, b);
+      bool negative = eliminate(a, expected) < 0;
+      ck_assert_uint_eq(zp_band_negative(&K) % 2, negative);
+      seen[negative] = 1;
+      for (size_t i = 0; i < EQUATIONS; i++)
+        ck_assert_double_eq_tol(b[i], expected[i], 1e-10);
+      zp_band_clear(&K);
+      for (size_t i = 0; i < rank * EQUATIONS; i++)
+        ck_assert(K.u[i] == 0 && K.v[i] == 0);
+      zp_free(memory);
+    }
+  ck_assert(seen[0] && seen[1]);
+}
+END_TEST
+
+/* A term that makes a definite matrix indefinite adds a negative eigenvalue, one that makes up for one takes it away.
+ */
+START_TEST(test_negative_eigenvalues_with_a_term) {
+  static const double weights[][3] = {{-3, 1, 1}, {-0.5, 1, 0}, {3, -1, 0}, {0.5, -1, 1}}; /* u v, first pivot, which */
+  for (size_t c = 0; c < LENGTH_OF(weights); c++) {
+    ZpBand K;
+    double a[2] = {weights[c][1], 1}, u[2] = {weights[c][0], 0}, v[2] = {1, 0}, w[2], s[1];
+    K = (ZpBand){.n = 2, .stride = 1, .a = a, .rank = 1, .u = u, .v = v, .w = w, .s = s};
+    ck_assert(zp_band_factor(&K));
+    ck_assert_uint_eq(zp_band_negative(&K), (size_t)weights[c][2]);
+  }
+}
+END_TEST
+
 /* Sylvester: as many negative pivots as eigenvalues; and what does not pivot solves as well as what does. */
 START_TEST(test_negative_pivots) {
   static const double shifts[] = {-20, -1, 0, 0.5, 2, 20};
@@ -529,6 +598,8 @@ int main(void) {
   tcase_add_test(algebra, test_band_singular);
   tcase_add_test(algebra, test_band_symmetric);
   tcase_add_test(algebra, test_band_symmetric_limits);
+  tcase_add_test(algebra, test_terms_on_top_of_a_band);
+  tcase_add_test(algebra, test_negative_eigenvalues_with_a_term);
   tcase_add_test(algebra, test_negative_pivots);
   tcase_add_test(algebra, test_eigen_chain);
   tcase_add_test(algebra, test_eigen_limits);

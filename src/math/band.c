@@ -216,6 +216,27 @@ ZP_INLINE void solve_rows(const ZpBand *band, size_t width, double *b) {
     substitute(a + k * width, 1, most, 1, b + k);
 }
 
+/* Each entry beside the diagonal counts twice: y, which starts at 0, gets its own row and what it is in the column of.
+ */
+ZP_INLINE void multiply_row(const double *restrict row, size_t width, const double *x, double *restrict y) {
+  double sum[4] = {row[0] * x[0]}, first = x[0];
+  for (size_t j = 1; j < width; j++)
+    sum[j % 4] += row[j] * x[j];
+  y[0] += (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  ZP_SIMD
+  for (size_t j = 1; j < width; j++)
+    y[j] += row[j] * first;
+}
+
+ZP_INLINE void multiply_rows(const ZpBand *band, size_t width, const double *x, double *y) {
+  size_t n = band->n, whole = n - least(width - 1, n);
+  memset(y, 0, n * sizeof *y);
+  for (size_t i = 0; i < whole; i++)
+    multiply_row(band->a + i * width, width, x + i, y + i);
+  for (size_t i = whole; i < n; i++)
+    multiply_row(band->a + i * width, n - i, x + i, y + i);
+}
+
 /* The widths of one ribbon and of two are compiled on their own. */
 enum { ONE_RIBBON = 6, TWO_RIBBONS = 12 };
 
@@ -232,6 +253,13 @@ ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {
     solve_rows(band, ONE_RIBBON, b);
   else
     solve_rows(band, band->stride, b);
+}
+
+ZP_KERNEL static void multiply_symmetric(const ZpBand *band, const double *x, double *y) {
+  if (band->stride == TWO_RIBBONS)
+    multiply_rows(band, TWO_RIBBONS, x, y);
+  else
+    multiply_rows(band, band->stride, x, y);
 }
 
 /* -- what is on top: Sherman and Morrison's formula, term by term ------------------------------------ */
@@ -277,22 +305,22 @@ void zp_band_solve(const ZpBand *band, double *b) {
   solve_top(band, band->rank, b);
 }
 
-/* Of a symmetric matrix each entry beside the diagonal counts twice. */
-static void multiply_band(const ZpBand *band, const double *x, double *y) {
-  size_t n = band->n, lower = band->lower;
-  memset(y, 0, n * sizeof *y);
+static void multiply_general(const ZpBand *band, const double *x, double *y) {
+  size_t n = band->n;
   for (size_t i = 0; i < n; i++) {
-    size_t first = i - least(i, lower), last = least(i + band->upper, n - 1);
-    for (size_t j = first; j <= last; j++)
+    size_t last = least(i + band->upper, n - 1);
+    y[i] = 0;
+    for (size_t j = i - least(i, band->lower); j <= last; j++)
       y[i] += *zp_band_at(band, i, j) * x[j];
-    for (size_t j = i + 1; lower == 0 && j <= last; j++)
-      y[j] += *zp_band_at(band, i, j) * x[i];
   }
 }
 
 void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
   size_t n = band->n;
-  multiply_band(band, x, y);
+  if (band->lower == 0)
+    multiply_symmetric(band, x, y);
+  else
+    multiply_general(band, x, y);
   for (size_t k = 0; k < band->rank; k++) {
     double part = zp_dot(n, band->v + k * n, x);
     for (size_t i = 0; i < n; i++)

@@ -186,24 +186,26 @@ static bool step_to(ZpFold *f, const Goal *goal) {
  * along the null vector is least, close to 0. At rest under a given parameter m says nothing: there the step itself is
  * small, and what it began with in balance. */
 static bool is_there(const ZpFold *f, const Goal *goal, double change_before, double test_before) {
-  static const double exact = 1e-9, rough = 1e-7, falls = 0.3, moved = 100, left = 1e-3;
+  static const double exact = 1e-9, falls = 0.3, moved = 100, left = 1e-3;
   if (goal->kind == TO_REST) return f->moved < moved && f->left < left && !isinf(change_before);
+  if (goal->to == ZP_FOLD_ROUGH) return f->moved < moved && !isinf(change_before);
   double rate = isinf(change_before) ? 1 : fmin(f->change / change_before, 1);
   bool still = f->change < exact && change_before < exact; /* it began there: what is left is rounding */
   bool fallen = goal->kind != TO_FOLD || still || fabs(f->test) < falls * fabs(test_before);
-  return f->change * rate < (goal->to == ZP_FOLD_EXACT ? exact : rough) && fallen;
+  return f->change * rate < exact && fallen;
 }
 
 static bool solve(ZpFold *f, Goal goal) {
   const ZpStaticSystem *rest = &f->system->at_rest;
-  static const double astray = 0.2; /* what a step after the first may change */
+  static const double astray = 0.2, first = 1; /* what a step may change, and the first one to a limit point */
+  const double most = goal.kind == TO_FOLD ? first : INFINITY;
   int refreshes = 0;
   f->test = 0;
   f->change = INFINITY;
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     double change = f->change, test = f->test;
     if (k == 0 && rest->refresh && rest->refresh(rest->self) != ZP_END_FOUND) return false;
-    if (!step_to(f, &goal) || (k > 0 && f->change > astray)) return false;
+    if (!step_to(f, &goal) || f->change > (k > 0 ? astray : most)) return false;
     if (!is_there(f, &goal, change, test)) continue;
     bool fresh = !rest->refresh || k == 0;
     if (fresh) return rest->residual(rest->self, f->newton->r, NULL) == ZP_END_FOUND;
