@@ -415,6 +415,16 @@ static bool factor(const ZpNearStep *near) {
   return linearise(near->stepper, near->h, near->q, near->v, &unused) == ZP_END_FOUND;
 }
 
+/* Size of a rate of what a step hands on: algebraic unknowns have no memory. */
+static double size_of(const ZpImplicitSystem *system, const double *x) {
+  double sum = 0;
+  for (size_t i = 0; i < system->n; i++) {
+    double size = kind_of(system, i) == ZP_ALGEBRAIC ? 0 : x[i] / scale_of(system, i);
+    sum += size * size;
+  }
+  return sqrt(sum / (double)system->n);
+}
+
 /* By passes with the factored Jacobian of one of them: what it lacks of the exact tangent the next pass sees. */
 static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   enum { MOST_PASSES = 40 };
@@ -425,7 +435,7 @@ static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
     zp_bordered_solve(&s->A, left);
     for (size_t i = 0; i < r->n; i++)
       r->dq1[i] += left[i];
-    double size = rms(s->system, left, r->n), all = rms(s->system, r->dq1, r->n);
+    double size = size_of(s->system, left), all = size_of(s->system, r->dq1);
     if (!isfinite(size)) return false;
     if (size <= fmax(passed * all, rounding) || (size > 0.5 * before && size < most_left * all)) return true;
     before = size;
