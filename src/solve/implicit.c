@@ -323,8 +323,9 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
 
 /* -- steps near one that is known ------------------------------------------------------------------ */
 
-/* A pass leaves what the factored matrix leaves out of the exact tangent, mostly a hundredth; rounding stops it. */
-static const double passed = 1e-12, most_left = 1e-6;
+/* A pass leaves what the factored matrix lacks of the exact tangent, mostly a hundredth; rounding of positions ends
+ * it. */
+static const double passed = 1e-11, most_left = 1e-6;
 
 /* What follows from positions and rates is differentiated by its formula, eqs. (20.8) and (20.9): as a difference it
  * would have the rounding of positions over the step. Letters: d is the derivative by the number. */
@@ -414,19 +415,29 @@ static bool factor(const ZpNearStep *near) {
   return linearise(near->stepper, near->h, near->q, near->v, &unused) == ZP_END_FOUND;
 }
 
+/* Size of a rate of what a step hands on: algebraic unknowns have no memory. */
+static double size_of(const ZpImplicitSystem *system, const double *x) {
+  double sum = 0;
+  for (size_t i = 0; i < system->n; i++) {
+    double size = kind_of(system, i) == ZP_ALGEBRAIC ? 0 : x[i] / scale_of(system, i);
+    sum += size * size;
+  }
+  return sqrt(sum / (double)system->n);
+}
+
 /* By passes with the factored Jacobian of one of them: what it lacks of the exact tangent the next pass sees. */
 static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   enum { MOST_PASSES = 40 };
   ZpImplicit *s = steps->near[0].stepper;
-  double *left = steps->work, before = INFINITY;
+  double *left = steps->work, before = INFINITY, rounding = DBL_EPSILON * s->reach / fabs(steps->near[0].offset);
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     if (!look(steps, r, left) || (pass == 0 && !factor(&steps->near[0]))) return false;
     zp_bordered_solve(&s->A, left);
     for (size_t i = 0; i < r->n; i++)
       r->dq1[i] += left[i];
-    double size = rms(s->system, left, r->n), all = rms(s->system, r->dq1, r->n);
+    double size = size_of(s->system, left), all = size_of(s->system, r->dq1);
     if (!isfinite(size)) return false;
-    if (size <= passed * all || (size > 0.5 * before && size < most_left * all)) return true;
+    if (size <= fmax(passed * all, rounding) || (size > 0.5 * before && size < most_left * all)) return true;
     before = size;
   }
   return false;
