@@ -129,6 +129,7 @@ typedef struct ZpOptimum {
                       * first objective */
   size_t count;
   bool feasible;                /* they satisfy all constraints; else row[0] misses them least */
+  double excluded;              /* share of the box in which no design does, as far as the cases tell; NAN: not asked */
   ZpOutcome outcome;            /* ZP_CONVERGED, ZP_INTERRUPTED */
   char message[256];            /* one sentence on what was found */
   const char *const *objective; /* [objectives] names of outputs */

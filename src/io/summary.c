@@ -151,6 +151,7 @@ static json_t *optimum_of(const ZpReport *report) {
   const ZpOptimum *optimum = report->optimum;
   json_t *object = json_object(), *cases = json_array();
   bool done = zp_json_set(object, "feasible", json_boolean(optimum->feasible));
+  done = zp_json_set(object, "excluded_share", zp_json_number(optimum->excluded, "1")) && done;
   for (size_t i = 0; i < optimum->count; i++)
     done = json_array_append_new(cases, row_of(report, optimum->row[i])) == 0 && done;
   done = zp_json_set(object, "cases", cases) && done;

@@ -72,7 +72,14 @@ static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
 static void take_old_row(void *user, size_t number, uint64_t hash, bool good) {
   ZpSearch *s = user;
   (void)good;
-  if (number < s->problem.evaluations) s->old[number] = hash;
+  if (number < s->room) s->old[number] = hash;
+}
+
+/* With constraints as many cases again, as far as the lists of a scenario hold them. */
+static size_t room_of(const ZpProblem *p) {
+  const size_t twice = 2 * p->evaluations, most = ZP_LISTED_MOST / p->variables;
+  if (p->goals == p->objectives) return p->evaluations;
+  return twice < most ? twice : most;
 }
 
 static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
@@ -85,12 +92,13 @@ static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
   if (status == ZP_OK && (status = look_ahead(s, &reason)) != ZP_OK) zp_fail(err, status, "%s", reason.message);
   if (status != ZP_OK) return status;
   s->state.cases = s->problem.evaluations;
-  s->old = calloc(s->problem.evaluations, sizeof *s->old);
-  s->point = calloc(s->problem.evaluations, sizeof *s->point);
+  s->room = room_of(&s->problem);
+  s->excluded = NAN;
+  s->old = calloc(s->room, sizeof *s->old);
+  s->point = calloc(s->room, sizeof *s->point);
   if (!s->old || !s->point || pthread_mutex_init(&s->lock, NULL) != 0) return zp_fail_memory(err);
   status = zp_campaign_hash(s->study, &s->def, &s->start, err);
-  if (status == ZP_OK)
-    status = zp_journal_open(directory, s->study, s->options->resume, s->problem.evaluations, &s->journal, err);
+  if (status == ZP_OK) status = zp_journal_open(directory, s->study, s->options->resume, s->room, &s->journal, err);
   return status == ZP_OK ? zp_journal_visit(s->journal, take_old_row, s, err) : status;
 }
 
@@ -100,6 +108,22 @@ static ZpStatus run_search(ZpSearch *s, ZpError *err) {
   const size_t sampled = s->problem.evaluations / 4;
   ZpStatus status = zp_search_sample(s, sampled, err);
   return status == ZP_OK && !atomic_load(&s->stop) ? zp_search_local(s, sampled, err) : status;
+}
+
+static bool holds(const ZpSearch *s) {
+  bool any = false;
+  for (size_t i = 0; i < s->room; i++)
+    any = any || (s->point[i].done && zp_violation(&s->problem, s->point[i].value) == 0);
+  return any;
+}
+
+/* Search, and where nothing was found ask whether there is anything. */
+static ZpStatus search_all(ZpSearch *s, ZpError *err) {
+  ZpStatus status = run_search(s, err);
+  const bool ends = s->room == s->problem.evaluations || atomic_load(&s->stop) || holds(s);
+  if (status != ZP_OK || ends) return status;
+  s->state.cases = s->state.done + s->room - s->problem.evaluations;
+  return zp_search_exclude(s, err);
 }
 
 /* -- what was found --------------------------------------------------------------------------------- */
@@ -132,15 +156,35 @@ static void find_best(ZpOptimization *o) {
   }
 }
 
+/* That no case satisfies all constraints, and what is known of the designs between them. */
+static void describe_none(ZpOptimization *o, const char *when) {
+  char *text = o->optimum.message;
+  const size_t size = sizeof o->optimum.message, cases = o->report.count;
+  const double excluded = o->optimum.excluded = o->search.excluded;
+  if (isnan(excluded))
+    snprintf(text, size, "%snone of %zu cases satisfies all constraints; that which misses them least is given", when,
+             cases);
+  else if (excluded == 1)
+    snprintf(text, size,
+             "no design in the box satisfies all constraints, unless one changes twice as fast somewhere as between "
+             "any of the %zu cases; that which misses them least is given",
+             cases);
+  else
+    snprintf(text, size,
+             "none of %zu cases satisfies all constraints, and %.3g %% of the box is excluded; that which misses them "
+             "least is given",
+             cases, 100 * excluded);
+}
+
 static void describe(ZpOptimization *o) {
   const bool stopped = atomic_load(&o->search.stop);
   char *text = o->optimum.message;
   const size_t size = sizeof o->optimum.message, cases = o->report.count;
   o->optimum.outcome = stopped ? ZP_INTERRUPTED : ZP_CONVERGED;
+  o->optimum.excluded = NAN;
   const char *when = stopped ? "so far, " : "";
   if (!o->optimum.feasible)
-    snprintf(text, size, "%snone of %zu cases satisfies all constraints; that which misses them least is given", when,
-             cases);
+    describe_none(o, when);
   else if (o->search.problem.objectives > 1)
     snprintf(text, size, "%s%zu of %zu cases are on the Pareto front", when, o->optimum.count, cases);
   else
@@ -210,13 +254,13 @@ static ZpStatus get_status(void *user, ZpError *err) {
 
 static ZpStatus report(ZpOptimization *o, ZpError *err) {
   const ZpSearch *s = &o->search;
-  o->number = calloc(s->problem.evaluations, sizeof *o->number);
-  o->best = calloc(s->problem.evaluations, sizeof *o->best);
+  o->number = calloc(s->room, sizeof *o->number);
+  o->best = calloc(s->room, sizeof *o->best);
   o->cases = zp_scenario_create();
   if (!o->number || !o->best || !o->cases) return zp_fail_memory(err);
   o->rows = (ZpRows){.get = get_row, .status = get_status, .user = o};
   o->report = (ZpReport){.scenario = o->cases, .rows = &o->rows, .optimum = &o->optimum};
-  for (size_t i = 0; i < s->problem.evaluations; i++)
+  for (size_t i = 0; i < s->room; i++)
     if (s->point[i].done) o->number[o->report.count++] = i;
   find_best(o);
   describe(o);
@@ -232,7 +276,7 @@ static ZpStatus report(ZpOptimization *o, ZpError *err) {
 static ZpStatus optimize(ZpOptimization *o, const char *directory, ZpError *err) {
   ZpSearch *s = &o->search;
   ZpStatus status = open_search(s, directory, err);
-  if (status == ZP_OK) status = run_search(s, err);
+  if (status == ZP_OK) status = search_all(s, err);
   if (status == ZP_OK) status = zp_journal_commit(s->journal, err);
   if (status == ZP_OK && !atomic_load(&s->stop)) status = zp_journal_finish(s->journal, err);
   return status == ZP_OK ? report(o, err) : status;

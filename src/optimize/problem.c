@@ -96,9 +96,9 @@ ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *
   if (problem->objectives == 0) return zp_fail(err, ZP_BAD_INPUT, "optimize.objective: empty; write \"min mass_kg\"");
   if (problem->objectives > 1 && problem->method != ZP_OPTIMIZER_AUTO && problem->method != ZP_OPTIMIZER_NSGA2)
     return zp_fail(err, ZP_BAD_INPUT, "optimize.method: several objectives require nsga2 or auto");
-  if (problem->evaluations * problem->variables > 20000)
+  if (problem->evaluations * problem->variables > ZP_LISTED_MOST)
     return zp_fail(err, ZP_BAD_INPUT, "optimize.evaluations: with %zu variables at most %zu", problem->variables,
-                   20000 / problem->variables);
+                   ZP_LISTED_MOST / problem->variables);
   return ZP_OK;
 }
 

@@ -9,7 +9,8 @@
 
 #include "io/range.h"
 
-enum { ZP_VARIABLES_MOST = 8, ZP_GOALS_MOST = 4, ZP_BOUNDS_MOST = 12 };
+/* The last: values of variables in all cases, which become lists of a scenario. */
+enum { ZP_VARIABLES_MOST = 8, ZP_GOALS_MOST = 4, ZP_BOUNDS_MOST = 12, ZP_LISTED_MOST = 20000 };
 
 /* An output that counts. */
 typedef struct ZpGoal {

@@ -31,8 +31,10 @@ typedef struct ZpSearch {
   ZpStudy study;
   ZpJournal *journal;
   uint64_t start;       /* zp_campaign_hash */
-  uint64_t *old;        /* [evaluations] hashes of the rows of an earlier process; 0: none */
-  ZpPoint *point;       /* [evaluations] */
+  size_t room;          /* cases: problem.evaluations, and with constraints as many for zp_search_exclude */
+  uint64_t *old;        /* [room] hashes of the rows of an earlier process; 0: none */
+  ZpPoint *point;       /* [room] */
+  double excluded;      /* of zp_search_exclude; NAN before */
   bool derivatives;     /* cases have those of the study */
   atomic_bool stop;     /* asked to, or the machine failed */
   pthread_mutex_t lock; /* guards what follows, and the journal */
@@ -41,7 +43,7 @@ typedef struct ZpSearch {
   ZpError err;      /* of the first thread that failed */
 } ZpSearch;
 
-/* Compute case `number`, below problem.evaluations, at place z, or take its row from the journal => the point. False if
+/* Compute case `number`, below room, at place z, or take its row from the journal => the point. False if
  * the search is to stop. Several threads may call this, with different numbers. */
 bool zp_search_evaluate(ZpSearch *search, size_t number, const double *z);
 
@@ -54,6 +56,10 @@ ZpStatus zp_search_sample(ZpSearch *search, size_t count, ZpError *err);
 
 /* NLopt's searches from the best of `sampled` points, with cases up to problem.evaluations. */
 ZpStatus zp_search_local(ZpSearch *search, size_t sampled, ZpError *err);
+
+/* Is there a design that satisfies all constraints, where no case does? With cases problem.evaluations .. room - 1: a
+ * case that does, or the share of the box of which is known that it holds none => search->excluded. */
+ZpStatus zp_search_exclude(ZpSearch *search, ZpError *err);
 
 /* NSGA-II. */
 ZpStatus zp_search_evolve(ZpSearch *search, ZpError *err);

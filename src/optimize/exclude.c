@@ -1,0 +1,240 @@
+/* Is there a design in the box that satisfies all constraints? Asked where a search has found none.
+ *
+ * The box is cut into cells, each with a case in its middle. A cell holds no such design if some constraint, missed in
+ * the middle, is missed wherever in the cell, as it changes with each variable at most twice as fast as anywhere
+ * between two cases of the search. Cells that are not excluded are cut in three along a variable, so the case in the
+ * middle stays, the two new ones beside it give a slope by that variable alone (as in DIRECT, Jones, Perttunen and
+ * Stuckman 1993), and slopes that are found later count for all cells again. If all cells are excluded the box holds
+ * no such design, or a constraint changes faster somewhere than all cases let expect: no proof in the strict sense,
+ * which a study that solves numerically cannot give, but a statement that says what it rests on. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/fail.h"
+#include "optimize/search.h"
+
+/* How many cells are cut at once, whatever the number of threads. */
+enum { WAVE = 16 };
+
+static const double safety = 2;
+
+/* Slopes are at least this, so that pairs of cases can raise each of them. */
+static const double flattest = 1e-9;
+
+/* How far constraints count as kept and as missed, logarithms: how fast an output changes far from its bound says
+ * nothing of where it meets it. */
+static const double kept_most = -1, missed_most = 3;
+
+typedef struct Cell {
+  size_t number; /* of the case in its middle */
+  double z[ZP_VARIABLES_MOST], half[ZP_VARIABLES_MOST];
+} Cell;
+
+typedef struct Exclusion {
+  ZpSearch *search;
+  size_t cells, most;
+  size_t compared[ZP_BOUNDS_MOST];                 /* cases whose pairs its slopes know */
+  Cell *cell;                                      /* [most] */
+  double slope[ZP_BOUNDS_MOST][ZP_VARIABLES_MOST]; /* largest known; INFINITY: none is known */
+} Exclusion;
+
+static size_t bounds_of(const ZpProblem *p) {
+  return p->goals - p->objectives;
+}
+
+/* By which factor a constraint is missed at a case, its logarithm: outputs go by powers of the keys, so it changes as
+ * fast all over the box. Where there is no such factor, the part of the bound. NAN where there is no output: nothing
+ * then tells what is beside the case. */
+static double missed(const ZpSearch *s, size_t number, size_t bound) {
+  const size_t g = s->problem.objectives + bound;
+  const ZpGoal *goal = &s->problem.goal[g];
+  const double value = s->point[number].value[g], share = goal->sign > 0 ? 1 + value : 1 - value;
+  if (isnan(value)) return NAN;
+  if (goal->bound <= 0) return fmin(fmax(value, kept_most), missed_most);
+  const double factor = share > 0 ? goal->sign * log(share) : -goal->sign * INFINITY;
+  return fmin(fmax(factor, kept_most), missed_most);
+}
+
+/* -- slopes ----------------------------------------------------------------------------------------- */
+
+/* From a case to one that differs from it in one variable. */
+static void learn(Exclusion *e, const Cell *from, const Cell *to, size_t variable) {
+  const double way = fabs(to->z[variable] - from->z[variable]);
+  for (size_t b = 0; b < bounds_of(&e->search->problem); b++) {
+    const double found = fabs(missed(e->search, to->number, b) - missed(e->search, from->number, b)) / way;
+    double *known = &e->slope[b][variable];
+    if (!isnan(found)) *known = fmax(isinf(*known) ? flattest : *known, found);
+  }
+}
+
+/* How many times faster than by the known slopes a constraint changes between two cases; NAN: nothing tells. */
+static double excess(const Exclusion *e, size_t bound, const ZpPoint *one, const ZpPoint *other) {
+  const ZpSearch *s = e->search;
+  double most = 0;
+  for (size_t i = 0; i < s->problem.variables; i++)
+    most += e->slope[bound][i] * fabs(one->z[i] - other->z[i]);
+  const double change = missed(s, (size_t)(one - s->point), bound) - missed(s, (size_t)(other - s->point), bound);
+  return one->done && other->done && most > 0 ? fabs(change) / most : (double)NAN;
+}
+
+static bool knows_slopes(const Exclusion *e, size_t bound) {
+  for (size_t i = 0; i < e->search->problem.variables; i++)
+    if (isinf(e->slope[bound][i])) return false;
+  return true;
+}
+
+/* Steeper slopes where two cases ask for them, one of which is new. */
+static void learn_from_pairs(Exclusion *e, size_t bound) {
+  const ZpSearch *s = e->search;
+  const size_t end = s->problem.evaluations + e->cells;
+  double most = 1;
+  if (!knows_slopes(e, bound)) return;
+  for (size_t one = e->compared[bound]; one < end; one++)
+    for (size_t other = 0; other < one; other++)
+      most = fmax(most, excess(e, bound, &s->point[one], &s->point[other]));
+  for (size_t i = 0; i < s->problem.variables; i++)
+    e->slope[bound][i] *= most;
+  e->compared[bound] = end;
+}
+
+/* -- cells ------------------------------------------------------------------------------------------ */
+
+static bool is_excluded(const Exclusion *e, const Cell *cell) {
+  const ZpProblem *p = &e->search->problem;
+  for (size_t b = 0; b < bounds_of(p); b++) {
+    double least = missed(e->search, cell->number, b);
+    for (size_t i = 0; i < p->variables; i++)
+      least -= safety * e->slope[b][i] * cell->half[i];
+    if (least > 0) return true;
+  }
+  return false;
+}
+
+static double volume(const Exclusion *e, const Cell *cell) {
+  double product = 1;
+  for (size_t i = 0; i < e->search->problem.variables; i++)
+    product *= 2 * cell->half[i];
+  return product;
+}
+
+/* The variable along which the constraints may change most in a cell. */
+static size_t steepest(const Exclusion *e, const Cell *cell) {
+  size_t best = 0;
+  double most = -1;
+  for (size_t i = 0; i < e->search->problem.variables; i++)
+    for (size_t b = 0; b < bounds_of(&e->search->problem); b++)
+      if (e->slope[b][i] * cell->half[i] > most) {
+        most = e->slope[b][i] * cell->half[i];
+        best = i;
+      }
+  return best;
+}
+
+/* The largest cells that are not excluded, of those before `cells` => how many. */
+static size_t choose(const Exclusion *e, size_t chosen[WAVE]) {
+  size_t count = 0;
+  for (size_t k = 0; k < e->cells; k++) {
+    if (is_excluded(e, &e->cell[k])) continue;
+    size_t place = count < WAVE ? count++ : WAVE;
+    for (; place > 0 && volume(e, &e->cell[chosen[place - 1]]) < volume(e, &e->cell[k]); place--)
+      if (place < WAVE) chosen[place] = chosen[place - 1];
+    if (place < WAVE) chosen[place] = k;
+  }
+  return count;
+}
+
+/* Cut a cell in three: it keeps the middle; the outer ones are added. */
+static void cut(Exclusion *e, Cell *cell, size_t variable) {
+  cell->half[variable] /= 3;
+  for (int side = -1; side <= 1; side += 2) {
+    Cell *outer = &e->cell[e->cells];
+    *outer = *cell;
+    outer->z[variable] += side * 2 * cell->half[variable];
+    outer->number = e->search->problem.evaluations + e->cells++;
+  }
+}
+
+static void evaluate(void *user, size_t index) {
+  const Exclusion *e = user;
+  zp_search_evaluate(e->search, e->cell[index].number, e->cell[index].z);
+}
+
+typedef struct Wave {
+  Exclusion *exclusion;
+  size_t first;
+} Wave;
+
+static void evaluate_new(void *user, size_t index) {
+  const Wave *wave = user;
+  evaluate(wave->exclusion, wave->first + index);
+}
+
+/* Cut some cells, each along its variable, and run their cases. */
+static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *variable, size_t count, ZpError *err) {
+  const Wave wave = {e, e->cells};
+  for (size_t k = 0; k < count; k++)
+    cut(e, &e->cell[chosen[k]], variable[k]);
+  ZpStatus status = zp_search_parallel(e->search, 2 * count, evaluate_new, (void *)&wave, err);
+  if (status != ZP_OK || atomic_load(&e->search->stop)) return status;
+  for (size_t k = 0; k < 2 * count; k++)
+    learn(e, &e->cell[chosen[k / 2]], &e->cell[wave.first + k], variable[k / 2]);
+  for (size_t b = 0; b < bounds_of(&e->search->problem); b++)
+    learn_from_pairs(e, b);
+  return ZP_OK;
+}
+
+/* The whole box, once along each variable. */
+static ZpStatus cut_box(Exclusion *e, ZpError *err) {
+  ZpStatus status = zp_search_parallel(e->search, 1, evaluate, e, err);
+  for (size_t i = 0; i < e->search->problem.variables && status == ZP_OK && !atomic_load(&e->search->stop); i++)
+    status = cut_cells(e, &(size_t){0}, &i, e->cells + 2 <= e->most, err);
+  return status;
+}
+
+static bool holds_one(const Exclusion *e) {
+  for (size_t k = 0; k < e->cells; k++)
+    if (zp_violation(&e->search->problem, e->search->point[e->cell[k].number].value) == 0) return true;
+  return false;
+}
+
+/* Until all cells are excluded, one holds a design, or there are no more cases. */
+static ZpStatus exclude(Exclusion *e, ZpError *err) {
+  ZpStatus status = cut_box(e, err);
+  while (status == ZP_OK && !atomic_load(&e->search->stop) && !holds_one(e)) {
+    size_t chosen[WAVE], variable[WAVE], room = (e->most - e->cells) / 2, count = choose(e, chosen);
+    if (count > room) count = room;
+    if (count == 0) break;
+    for (size_t k = 0; k < count; k++)
+      variable[k] = steepest(e, &e->cell[chosen[k]]);
+    status = cut_cells(e, chosen, variable, count, err);
+  }
+  return status;
+}
+
+/* 1 only if no cell is left. */
+static double excluded_share(const Exclusion *e) {
+  size_t chosen[WAVE];
+  double share = 0;
+  if (choose(e, chosen) == 0) return 1;
+  for (size_t k = 0; k < e->cells; k++)
+    share += is_excluded(e, &e->cell[k]) ? volume(e, &e->cell[k]) : 0;
+  return fmin(share, 1 - DBL_EPSILON);
+}
+
+ZpStatus zp_search_exclude(ZpSearch *s, ZpError *err) {
+  Exclusion e = {.search = s, .cells = 1, .most = s->room - s->problem.evaluations};
+  e.cell = calloc(e.most, sizeof *e.cell);
+  if (!e.cell) return zp_fail_memory(err);
+  e.cell[0].number = s->problem.evaluations;
+  for (size_t i = 0; i < s->problem.variables; i++)
+    e.cell[0].z[i] = e.cell[0].half[i] = 0.5;
+  for (size_t b = 0; b < ZP_BOUNDS_MOST; b++)
+    for (size_t i = 0; i < ZP_VARIABLES_MOST; i++)
+      e.slope[b][i] = INFINITY;
+  s->derivatives = false;
+  ZpStatus status = exclude(&e, err);
+  if (status == ZP_OK && !atomic_load(&s->stop) && !holds_one(&e)) s->excluded = excluded_share(&e);
+  free(e.cell);
+  return status;
+}
