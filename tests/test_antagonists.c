@@ -200,6 +200,18 @@ START_TEST(one_closes_where_the_way_is_highest) {
 }
 END_TEST
 
+/* While the upper one is closed the lower one hangs at the whole distance, and pulls as a constant force does: the upper
+ * one opens where it would alone under that force, with the load. */
+START_TEST(it_opens_as_alone_under_the_pull_of_the_other) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0}),
+                upper = alone(&def, false);
+  upper.load.mass = def.load.mass;
+  upper.load.force = pull_without_voltage(alone(&def, true), 20e-3);
+  ck_near(answered_value(ZP_STUDY_EQUILIBRIUM, &def, "release_voltage_V"),
+          answered_value(ZP_STUDY_LIMITS, &upper, "release_voltage_V"), 1e-3);
+}
+END_TEST
+
 /* Upside down both change their places. */
 START_TEST(upside_down_they_change_places) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.7e-3}), turned = def;
@@ -288,6 +300,21 @@ START_TEST(either_one_may_close) {
 }
 END_TEST
 
+/* Behind the damper of either one that closes are the load and the other's platform: both lose as much in the impact,
+ * and are then as fast. */
+START_TEST(either_one_hits_as_hard) {
+  ZpActuatorDef upper = DEF(BOTH, {"gravity", 0}, {"load.mass", 5e-3}, {"drive.voltage", 10e3}, {"mesh.nodes", 11},
+                            {"stack.voltage_ratio", 0.2}, {"solver.stop_when_zipped", ZP_WHEN_FALSE}, {"solver.tolerance", 1e-3},
+                            {"solver.end_time", 0.1}),
+                lower = upper;
+  lower.drive.voltage = 2e3;
+  lower.stack.voltage_ratio = 5;
+  double lost = last_of(ZP_STUDY_ACTUATE, &upper, "contact_loss_J");
+  ck_assert_double_gt(lost, 0);
+  ck_near(last_of(ZP_STUDY_ACTUATE, &lower, "contact_loss_J"), lost, 1e-6);
+}
+END_TEST
+
 /* -- what is refused ------------------------------------------------------------------------------- */
 
 START_TEST(what_antagonists_lack_is_said) {
@@ -330,6 +357,7 @@ int main(void) {
   tcase_add_test(rest, forces_of_each_alone_balance);
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
   tcase_add_test(rest, one_closes_where_the_way_is_highest);
+  tcase_add_test(rest, it_opens_as_alone_under_the_pull_of_the_other);
   tcase_add_test(rest, upside_down_they_change_places);
   tcase_add_test(rest, constant_voltage_is_that_ratio);
   tcase_add_test(rest, what_antagonists_lack_is_said);
@@ -338,6 +366,7 @@ int main(void) {
   tcase_add_loop_test(motion, at_rest_they_stay, 0, 2);
   tcase_add_test(motion, load_swings_on_both);
   tcase_add_test(motion, either_one_may_close);
+  tcase_add_test(motion, either_one_hits_as_hard);
   tcase_add_loop_test(motion, energy_of_a_zip_against_the_other, 0, 3);
   suite_add_tcase(suite, motion);
   return run_suite(suite);

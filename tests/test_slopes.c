@@ -114,6 +114,17 @@ START_TEST(held_forces_change_as_differences_say) {
 }
 END_TEST
 
+/* Of a held fold the torque and the angle, too. */
+START_TEST(torques_change_as_differences_say) {
+  ZpActuatorDef fold = DEF({"actuator.kind", ZP_KIND_HINGE}, {"mesh.nodes", 21}, {"isometric.separation", 5e-3},
+                           {"hinge.stiffness", 0.01}, {"hinge.rest_angle", 0.3}, {"ribbon.thickness", 0.2e-3},
+                           {"drive.voltage", 3e3});
+  check_differences(ZP_STUDY_ISOMETRIC, &fold,
+                    "ribbon.thickness, ribbon.length, drive.voltage, isometric.separation, medium.permittivity", 1e-3,
+                    1e-5);
+}
+END_TEST
+
 START_TEST(frequencies_change_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"modes.voltage", 3e3});
   check_differences(ZP_STUDY_MODES, &def, "ribbon.thickness, load.mass, ribbon.length", 8e-3, 2e-6);
@@ -273,6 +284,7 @@ int main(void) {
   tcase_add_test(tests, rests_with_a_bead_change_as_differences_say);
   tcase_add_test(tests, pull_in_of_springs_changes_as_differences_say);
   tcase_add_test(tests, held_forces_change_as_differences_say);
+  tcase_add_test(tests, torques_change_as_differences_say);
   tcase_add_test(tests, frequencies_change_as_differences_say);
   tcase_add_test(tests, stroke_of_a_cantilever);
   tcase_add_test(tests, frequencies_of_a_cantilever);

@@ -120,7 +120,7 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
       {def->control.kind != ZP_CONTROL_NONE, "control.kind", "none"},
       {def->load.share != 0.5, "load.share", "0.5"},
       {def->load.change_mass != 0, "load.change_mass", "0"},
-      {def->ribbon.plasticity, "ribbon.plasticity", "false"},
+      {def->ribbon.plasticity && zp_def_opposed(def), "ribbon.plasticity", "false with stack.distance"},
       {def->load.stiffness > 0, "load.stiffness", "0"},
       {!isnan(def->load.stop_opening), "load.stop_opening", "none"},
       {!isnan(def->insulator.resistivity), "insulator.resistivity", "none"},

@@ -283,6 +283,7 @@ static const unsigned char of_series[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
                                                       [SIGNAL_bead_outside] = LARGEST,
                                                       [SIGNAL_bead_lost] = LARGEST,
                                                       [SIGNAL_insulator_field] = LARGEST,
+                                                      [SIGNAL_permanent_curvature] = LARGEST,
                                                       [SIGNAL_max_stress] = LARGEST};
 
 /* Antagonists have one load: its place, and how the upper one is, are told of the upper one. */

@@ -40,7 +40,9 @@ typedef struct Follower {
   double crest;    /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
   double highest;  /* of the voltage on the way, V, */
   double before;   /* and until the last step */
+  double trough;   /* of the voltage, from which it has not yet gone far up, V; NAN: there is none */
   double pull_in;  /* V; NAN: there is none */
+  double release;  /* V; the last trough: where one that is closed opens as the voltage falls */
   double closing;  /* V; NAN: neither has closed */
   double start[2]; /* openings without voltage, m */
   ZpMargins margins;
@@ -153,6 +155,8 @@ static ZpStatus run(const ZpTask *task, size_t rows, size_t frames, void (*find)
                 .task = task,
                 .result = result,
                 .crest = NAN,
+                .trough = NAN,
+                .release = NAN,
                 .pull_in = NAN,
                 .closing = NAN,
                 .margins = zp_margins_none()};
@@ -198,6 +202,16 @@ static void look_for_crest(Follower *f, double last, bool rose) {
   if (voltage < (1 - ZP_FOLD_RIPPLE) * f->crest) f->pull_in = f->crest;
 }
 
+/* A limit point may be a trough of the voltage, too. Where one of both is closed at drive.voltage, a slowly falling
+ * voltage comes to the last one from which the branch goes up by more than the ripple of a mesh => release. */
+static void look_for_trough(Follower *f, double last, bool rose) {
+  double voltage = upper(f)->U;
+  bool turned = !rose && f->both.branch.direction_m > 0;
+  if (turned) f->trough = fmin(zp_branch_limit(&f->both.branch), fmin(last, voltage));
+  if (voltage < f->trough) f->trough = NAN;
+  if (voltage * (1 - ZP_FOLD_RIPPLE) > f->trough) f->release = f->trough;
+}
+
 /* How far the nearer of both is from counting as closed, m. */
 static double left_to_close(Follower *f) {
   double left[2];
@@ -218,6 +232,10 @@ static void look_for_closing(Follower *f, double last, double was_left) {
 static bool is_beyond_top(void *user) {
   Follower *f = user;
   return upper(f)->U > f->model->def.drive.voltage;
+}
+
+static bool is_at_top(Follower *f) {
+  return upper(f)->U == f->model->def.drive.voltage;
 }
 
 /* The equilibrium at drive.voltage, which the last step passed. */
@@ -247,6 +265,7 @@ static bool advance(Follower *f) {
   }
   if (upper(f)->U < 0) return true;
   look_for_crest(f, last, rose);
+  look_for_trough(f, last, rose);
   look_for_closing(f, last, left);
   bool top = is_beyond_top(f);
   if (top) arrive(f);
@@ -266,6 +285,9 @@ static void describe(Follower *f) {
   size_t used = strlen(r->message);
   if (!isnan(f->closing))
     snprintf(r->message + used, sizeof r->message - used, ", one of both closes at %.4g V", f->closing);
+  used = strlen(r->message);
+  if (!isnan(f->release))
+    snprintf(r->message + used, sizeof r->message - used, " and opens again at %.4g V", f->release);
   if (f->crossed)
     zp_result_note(
         r,
@@ -282,6 +304,8 @@ static void follow(Follower *f) {
   bool ends = f->model->def.drive.voltage == 0 || !zp_antagonists_follow(&f->both);
   for (int k = 0; k < MOST_POINTS && !ends; k++)
     ends = advance(f);
+  bool arrived = f->result->outcome == ZP_FOLLOWED && is_at_top(f);
+  if (!arrived || left_to_close(f) > 0) f->release = NAN;
   describe(f);
   if (zp_antagonists_stopped(&f->both)) f->result->outcome = ZP_INTERRUPTED;
 }
@@ -301,9 +325,11 @@ static void find_equilibria(Follower *f) {
   const size_t first = r->scalars;
   zp_result_add(r, "pull_in_voltage_V", "V", NAN);
   zp_result_add(r, "closing_voltage_V", "V", NAN);
+  zp_result_add(r, "release_voltage_V", "V", NAN);
   find_branch(f);
   r->scalar[first].value = f->pull_in;
   r->scalar[first + 1].value = f->closing;
+  r->scalar[first + 2].value = f->release;
   zp_result_add(r, "points", "count", f->points);
   zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
   zp_margins_join(&f->margins, zp_margins_at_clip(f->model->below, lower(f)->U));

@@ -67,11 +67,16 @@ static double force(const Holder *h) {
   return h->model->parts * h->rest.statics.reaction - h->unpowered;
 }
 
-/* Moment about the hinge of what holds the end of a fold, N m. */
-static double moment(const Holder *h) {
-  const ZpStatics *s = &h->rest.statics;
-  const ZpTopology *t = &h->model->topology;
-  return h->model->parts * s->reaction * (s->q[zp_load_node(t)] - s->q[zp_lower(t, 0)]);
+/* How far to the right of the hinge the held end of a fold is, m. */
+static double lever(ZpStatics *s, void *user) {
+  const ZpTopology *t = &s->model->topology;
+  (void)user;
+  return s->q[zp_load_node(t)] - s->q[zp_lower(t, 0)];
+}
+
+/* Moment about the hinge of what holds that end, N m. */
+static double moment(Holder *h) {
+  return h->model->parts * h->rest.statics.reaction * lever(&h->rest.statics, NULL);
 }
 
 static double zipped_length(const Holder *h) {
@@ -330,6 +335,21 @@ static double capacitance(ZpStatics *s, void *user) {
   return zp_statics_capacitance(s);
 }
 
+/* Of the moment of a fold at the present point, along the last solution. */
+static double moment_slope(Holder *h, ZpSlope *slope, ZpPose pose) {
+  ZpStatics *s = &h->rest.statics;
+  if (!zp_is_hinge(&h->model->topology)) return NAN;
+  double arm = lever(s, NULL), reaction = s->reaction;
+  return h->model->parts * (slope->reaction * arm + reaction * zp_slope_of(slope, pose, lever, NULL));
+}
+
+/* Of what a fold has beside. */
+static void derive_fold(ZpSlope *slope, double torque, bool found, ZpResult *r) {
+  zp_result_add_sensitivity(r, "torque_N_m", slope->key, torque);
+  zp_result_add_sensitivity(r, "angle_rad", slope->key,
+                            found ? zp_slope_of(slope, pose_powered, zp_output_angle, NULL) : NAN);
+}
+
 /* From the state at drive.voltage, `near` being a copy of it. */
 static void derive(void *user, ZpSlope *slope, ZpResult *r) {
   static const struct {
@@ -339,14 +359,18 @@ static void derive(void *user, ZpSlope *slope, ZpResult *r) {
   Holder *h = user;
   ZpStatics *s = &h->rest.statics;
   h->rest.system.restore(s, h->unpowered_state);
-  double unpowered = zp_slope_solve(slope, pose_unpowered) ? h->model->parts * slope->reaction : NAN;
+  bool rests = zp_slope_solve(slope, pose_unpowered);
+  double unpowered = rests ? h->model->parts * slope->reaction : NAN;
+  double moment_without = rests ? moment_slope(h, slope, pose_unpowered) : NAN;
   h->rest.system.restore(s, h->near);
   bool found = zp_slope_solve(slope, pose_powered);
+  double torque = found ? moment_slope(h, slope, pose_powered) - moment_without : NAN;
   zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->model->parts * slope->reaction - unpowered : NAN);
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
     zp_result_add_sensitivity(r, others[k].name, slope->key,
                               found ? zp_slope_of(slope, pose_powered, others[k].output, NULL) : NAN);
+  if (zp_is_hinge(&h->model->topology)) derive_fold(slope, torque, found, r);
 }
 
 static void run(Holder *h) {
