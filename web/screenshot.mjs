@@ -2,12 +2,12 @@
 import {address, launch} from './browser.mjs';
 
 const browser = await launch();
-const page = await browser.newPage({viewport: {width: 1440, height: 910}, colorScheme: 'light'});
-await page.goto(`${address}#liquid.model=bead&bead.volume=100uL&slow=20`);
+const page = await browser.newPage({viewport: {width: 1280, height: 1010}, colorScheme: 'light'});
+await page.goto(`${address}#liquid.model=submerged&slow=20`);
 await page.waitForFunction(() => document.getElementById('n-letgo').textContent !== '–');
 await page.click('#step');
 await page.waitForFunction(() => Number(document.getElementById('n-zipped').textContent) >= 12);
 await page.click('#pause');
 await page.waitForTimeout(300);
-await page.screenshot({path: process.argv[2]});
+await page.screenshot({path: process.argv[2], clip: {x: 0, y: 0, width: 1280, height: 890}}); // down to the notes
 await browser.close();

@@ -198,6 +198,7 @@ static void define_stage(const ZpPlot *plot, FILE *file, const Stage *stage) {
   zp_plot_define_key(plot, file, "load.mass");
   zp_plot_define_key(plot, file, "platform.length");
   zp_plot_define_count(file, "ribbons", film(plot)->ribbons);
+  zp_plot_define_count(file, "members", film(plot)->members);
   zp_plot_define_count(file, "has_platform", has_platform(plot));
   zp_plot_define_count(file, "held", is_held(plot));
   zp_plot_define_count(file, "bead", zp_plot_has_bead(plot));
@@ -208,6 +209,15 @@ static void define_stage(const ZpPlot *plot, FILE *file, const Stage *stage) {
   zp_plot_define(file, "middle", stage->middle);
   zp_plot_define(file, "reach", stage->half);
   zp_plot_define(file, "clamp", stage->clamp);
+}
+
+/* What the field between the faces follows from, and the layers that the lens shows. */
+static void define_field(const ZpPlot *plot, FILE *file) {
+  static const char *const keys[] = {"actuator.kind",          "platform.electrode",     "ribbon.thickness",
+                                     "insulator.thickness",    "insulator.permittivity", "medium.permittivity",
+                                     "medium.breakdown_field", "electro.breakdown_cap",  "electro.insulator_offset"};
+  for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++)
+    zp_plot_define_key(plot, file, keys[k]);
 }
 
 /* How the film goes. */
@@ -226,6 +236,7 @@ static void define_animation(const ZpPlot *plot, FILE *file) {
   zp_plot_define(file, "begin", time_of(shapes, 0));
   zp_plot_define(file, "end", time_of(shapes, shapes->frames - 1));
   define_stage(plot, file, &stage);
+  define_field(plot, file);
   put_array(plot, file, &stage, "now", CAPTION_TIME);
   put_array(plot, file, &stage, "potential", CAPTION_VOLTAGE);
   put_array(plot, file, &stage, "contraction", CAPTION_CONTRACTION);

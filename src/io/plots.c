@@ -237,7 +237,7 @@ static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   for (size_t k = 0; k < sizeof subtitles / sizeof subtitles[0]; k++)
     if (subtitles[k].study == plot->study) add_subtitle(plot, &subtitles[k]);
   if (plot->shows != ZP_SHOWS_field || plot->def.profile.shape == ZP_PROFILE_HELD) add_key(plot, "mesh.nodes", "N = ");
-  add_key(plot, "preset", "preset ");
+  if (plot->def.preset != ZP_PRESET_NONE) add_key(plot, "preset", "preset ");
   return ZP_OK;
 }
 

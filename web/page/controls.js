@@ -103,16 +103,24 @@ export class Choice {
   }
 }
 
-/** Buttons, one per preset; `choose` gets its values. */
+/** Buttons, one per preset, below what they show; `choose` gets its values. */
 export function makePresets(place, presets, choose) {
-  const row = document.createElement('div');
-  for (const {name, help, values} of presets) {
+  const rows = new Map();
+  for (const {of, name, help, values} of presets) {
+    if (!rows.has(of)) rows.set(of, presetRow(place, of));
     const button = document.createElement('button');
     Object.assign(button, {type: 'button', textContent: name, title: help});
     button.addEventListener('click', () => choose(new Map(Object.entries(values))));
-    row.append(button);
+    rows.get(of).append(button);
   }
-  place.append(row);
+}
+
+function presetRow(place, of) {
+  const row = document.createElement('div'), words = document.createElement('p');
+  row.setAttribute('role', 'group');
+  row.setAttribute('aria-label', words.textContent = of);
+  place.append(words, row);
+  return row;
 }
 
 /** How many times slower than life: a list of round factors on a slider. */

@@ -30,13 +30,13 @@ await view.makePlots(breath);
 let refusal = null; // of the last change, in the core's words
 let field = null; // the control of that change; null: the address
 
-const broken = (words) => `The computation broke off: ${words}. Please report it, with the link.`;
+const broken = (words) => `The computation failed: ${words}. Please report it, with the link.`;
 
 /** Why nothing moves; null if it does. */
 function standstill() {
   if (!live.end) return null;
   const {failure, stopped, refused, broken: words} = live.end;
-  if (failure) return `The solver failed: ${failure}. Change something to go on.`;
+  if (failure) return `The solver failed: ${failure}. Change a value to continue.`;
   return refused ?? (stopped ? scenario.tooLong(core, stopped) : broken(words));
 }
 
@@ -101,7 +101,7 @@ function showButtons() {
   $('step').lastChild.textContent = pretty(core.print('drive.voltage', core.value('drive.voltage')));
   $('hold').disabled = !known;
   $('hold').lastChild.textContent = known ? `${fixed((pressed === 'hold' ? held : holdingVoltage()) / 1e3, 2)} kV` : '–';
-  $('hold').title = known ? 'A quarter more than the voltage at which it opens again' : 'There is no voltage at which it opens again';
+  $('hold').title = known ? '25 % above the voltage at which it opens again' : 'It has no voltage at which it opens again';
 }
 
 function pause(now) {
@@ -226,7 +226,7 @@ function work(passed) {
 /** Once a second, what need not be at once. */
 function describe() {
   if (live.frame) view.describe();
-  if (Remote.local !== null) view.notice(`This browser starts no worker for this page (${Remote.local}): it computes between frames, less at a time.`);
+  if (Remote.local !== null) view.notice(`This browser starts no worker for this page (${Remote.local}), so the page computes between frames, and more slowly.`);
   $('frame').textContent = `A frame takes ${fixed(cost.mean, 1)} ms, ${fixed(cost.worst, 1)} ms at most.`;
   cost.worst = 0;
 }

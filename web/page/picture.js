@@ -296,6 +296,21 @@ export class Picture {
     context.textAlign = 'left';
     context.textBaseline = 'alphabetic';
     context.fillText(`zip front, ${magnification} times larger`, at.x - radius, height - 12);
+    this.#layers(scene, at.x + radius + 8, height - 40);
+  }
+
+  /** What the layers of the lens are, from the lowest line up. */
+  #layers({bath, texts}, x, y) {
+    const context = this.#context, gap = context.createLinearGradient(x, 0, x + 14, 0);
+    [0, 0.25, 1].forEach((share) => gap.addColorStop(Math.sqrt(share), shade(share)));
+    const between = bath || texts.liquid ? 'liquid, by field' : 'gap, by field';
+    for (const [colour, words] of [[gap, between], [theme.colour.insulator, 'insulator'], [theme.colour.metal, 'metal']]) {
+      context.fillStyle = colour;
+      context.fillRect(x, y - 9, 14, 9);
+      context.fillStyle = theme.colour.soft;
+      context.fillText(words, x + 19, y);
+      y -= 16;
+    }
   }
 
   /** A ring at the front, joined to the lens. */

@@ -3,31 +3,31 @@
 export const steps = [
   {
     title: 'A weight between two ribbons',
-    words: 'Two steel ribbons with tape on them are clipped together at their ends. Without voltage 8 g bow them apart by 21 mm. Pull the slider of the load: the stroke follows.',
+    words: 'Two steel ribbons, covered with tape, are clipped together at their ends. Without voltage a load of 8 g bows them apart by 21 mm. Move the slider of the load: the stroke follows.',
     values: {'liquid.model': 'none'},
     button: 'release',
   },
   {
     title: 'It zips from its ends',
-    words: 'Step puts 10 kV on the ribbons. The field is strong where they are close, at the clips, so the front runs from there to the middle and lifts the weight. The colours show the field.',
+    words: 'Step applies 10 kV to the ribbons. The field is strongest where they are close, at the clips, so the zip front runs from there to the middle and lifts the load. The colours show the field.',
     values: {'liquid.model': 'none'},
     button: 'step',
   },
   {
     title: 'It closes at one voltage and opens at another',
-    words: 'In “Stroke over voltage” full lines are stable, dashed ones are not. Raised slowly, it closes where the full line ends, near 6 kV; it opens again below 1 kV. Hold shows it: little voltage keeps it closed.',
+    words: 'In “Stroke over voltage” solid lines are stable equilibria, dashed lines unstable ones. As the voltage rises slowly, the actuator closes where the solid line ends, near 6 kV; as it falls, the actuator opens below 1 kV. Press Hold: a low voltage keeps it closed.',
     values: {'liquid.model': 'none'},
     button: 'step',
   },
   {
     title: 'A design chart',
-    words: '“Largest load over voltage” has the scenario as a dot: below the curve it closes. Drag the steel thickness and watch the curve. Thick ribbons lift more, but less far.',
+    words: 'In “Largest load over voltage” the dot is the present scenario: below the curve it closes. Drag the steel thickness and watch the curve. Thick ribbons lift more, but less far.',
     values: {'liquid.model': 'none', 'ribbon.thickness': '100 um', 'load.mass': '20 g'},
     button: 'step',
   },
   {
     title: 'The liquid takes time',
-    words: 'In a bath of oil the liquid must leave the gap before the faces meet: look at the film and the pressure along the ribbon. Make the oil thinner with the slider of the viscosity, then choose another liquid or supply.',
+    words: 'In a bath the oil must leave the gap before the faces meet: look at the film and the pressure along the ribbon. Lower the viscosity with its slider, then choose another liquid or supply.',
     values: {'liquid.model': 'submerged'},
     button: 'step',
   },

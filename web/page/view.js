@@ -12,15 +12,15 @@ const tiles = {
   field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; at most its breakdown field where electro.breakdown_cap is true'},
   inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
   capacitance: {label: 'Capacitance', unit: 'pF', title: 'of the electrodes'},
-  bent: {label: 'Stress', unit: 'MPa', title: 'of the metal where it is largest, bending and tension'},
+  bent: {label: 'Stress', unit: 'MPa', title: 'largest stress of the metal, from bending and tension'},
   time: {label: 'Time', unit: 'ms', title: 'simulated, since the last button'},
   zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
-  stress: {label: 'Largest stress', unit: 'MPa', title: 'of the metal on the way from hanging to closed, at the voltage of Step', study: true},
+  stress: {label: 'Largest stress', unit: 'MPa', title: 'largest stress of the metal from hanging to closed, at the voltage of Step', study: true},
   yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal stays bent', study: true},
   breaks: {label: 'Breakdown margin', unit: '', title: 'insulator.breakdown_field over the field in the insulators at the voltage of Step: below 1 they break down', study: true},
   allowed: {label: 'Allowed voltage', unit: 'kV', title: 'at which the breakdown margin is 1', study: true},
-  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips, raised slowly', study: true},
-  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which it opens again, lowered slowly', study: true},
+  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips as the voltage rises slowly', study: true},
+  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which it opens again as the voltage falls slowly', study: true},
 };
 
 const $ = (id) => document.getElementById(id);
@@ -220,6 +220,6 @@ export class View {
     $('plot-liquid').setAttribute('aria-label', 'Pressure and thickness of the liquid between the faces along the ribbon; ' +
       (film > 0 ? `a film of ${digits(1e6 * film)} micrometres at a quarter of the length` : 'none at a quarter of the length'));
     $('plot-time').setAttribute('aria-label', `Stroke over time. ${$('time-note').textContent}`);
-    $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all states of rest. ${$('voltage-note').textContent}`);
+    $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all equilibria. ${$('voltage-note').textContent}`);
   }
 }

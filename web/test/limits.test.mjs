@@ -60,7 +60,7 @@ const numberShown = (page) => page.waitForFunction(() => document.getElementById
 test('a hostile link leaves the page responsive, with a message (it blocked the main thread for minutes)', {timeout: 180e3}, async () => {
   const cost = await longestTask(() => open('#load.mass=0&gravity=0&drive.voltage=1000kV&electro.breakdown_cap=false&insulator.thickness=1um', async (page) => {
     await alertShown(page);
-    assert.match(await alert(page), /^(The solver failed: .+ Change something to go on|Stopped after .+)\.$/);
+    assert.match(await alert(page), /^(The solver failed: .+ Change a value to continue|Stopped after .+)\.$/);
     await page.click('text=The paper’s');
     await page.waitForFunction(() => document.querySelector('[role=alert]').hidden);
     await page.waitForFunction(() => Number(document.getElementById('n-time').textContent) > 5);
@@ -71,7 +71,7 @@ test('a hostile link leaves the page responsive, with a message (it blocked the 
 test('steps too short to move it: stopped, with what was asked and what to change', {timeout: 180e3}, async () => {
   const cost = await longestTask(() => open('#solver.time_step=0.000001us', async (page) => {
     await alertShown(page);
-    assert.match(await alert(page), /^Stopped after 2 s of computing, which gave only .* [pn]s of motion\. Asked for: solver\.time_step=1e-06 us\. Change one of these, or choose a preset\.$/);
+    assert.match(await alert(page), /^Stopped after 2 s of computing, which gave only .* [pn]s of motion\. Keys that differ from the defaults: solver\.time_step=1e-06 us\. Change one of these, or choose a preset\.$/);
   }));
   assert.ok(cost < longest, `longest task: ${cost} ms`);
 });
@@ -83,7 +83,7 @@ test('a hanging state that is not found in time: stopped, and the next scenario 
   assert.deepEqual({stopped, failure}, {stopped: {seconds: 0, moved: 0}, failure: null});
   core.resolve(values);
   assert.equal(scenario.tooLong(core, stopped),
-    'Stopped after 0 s of computing. Asked for: ribbon.model=mass_spring, mass_spring.shear_coefficient=0 N/m. Change one of these, or choose a preset.');
+    'Stopped after 0 s of computing. Keys that differ from the defaults: ribbon.model=mass_spring, mass_spring.shear_coefficient=0 N/m. Change one of these, or choose a preset.');
   assert.deepEqual(engine.answer({span: 1e-3, frame}).stopped, stopped, 'it stays so');
   assert.equal(engine.answer({values: new Map(), voltage: 0, span: 1e-3, frame}).stopped, null);
   assert.ok(engine.answer({span: 1e-3, frame}).frame[0] > 0, 'it moves on');
@@ -238,7 +238,7 @@ test('a worker that does not answer is ended, and another goes on', {timeout: 18
 
 test('a study whose worker breaks says so, and the next scenario is answered', {timeout: 180e3}, async () => {
   await open('', async (page) => {
-    await page.waitForFunction(() => document.getElementById('time-note').textContent.includes('broke off: Error: of the test'));
+    await page.waitForFunction(() => document.getElementById('time-note').textContent.includes('computation failed: Error: of the test'));
     await page.focus('#load-mass');
     await page.keyboard.press('ArrowRight');
     await page.waitForFunction(() => document.getElementById('time-note').textContent.startsWith('closed after'));

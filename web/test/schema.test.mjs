@@ -89,5 +89,5 @@ test('an editor completes keys and words, and shows help', async () => {
   assert.ok((await labels(3, 2)).includes('breakdown_cap'));
   assert.ok((await labels(2, 9)).includes('field'));
   const hover = await request('textDocument/hover', {textDocument: {uri}, position: {line: 4, character: 3}});
-  assert.match(JSON.stringify(hover.contents), /mass hung on the actuator.*0 g to 1000000 g.*8 g/);
+  assert.match(JSON.stringify(hover.contents), /mass that hangs on the actuator.*0 g to 1000000 g.*8 g/);
 });
