@@ -26,7 +26,7 @@ CAMPAIGNS = [
     ("stationary", 61, 10000, LOADS, []),
     ("limits", 21, 4000, THICKNESSES, DRY),
     ("limits", 61, 2000, THICKNESSES, DRY),
-    ("limits with a bead", 61, 400, THICKNESSES, []),
+    ("limits with a bead", 61, 2000, THICKNESSES, []),
     ("actuate", 21, 200, "drive.voltage=7 kV .. 10 kV : %d", [*DRY, "--set", "solver.tolerance=1e-3"]),  # times to 0.1 %
 ]
 

@@ -13,7 +13,8 @@ enum { EQUATIONS = 3, MOST = 32 };
 
 typedef struct Toy {
   double q[EQUATIONS], m;
-  double across; /* s: what is across the null vector is stable where it is positive */
+  double across;   /* s: what is across the null vector is stable where it is positive */
+  double accuracy; /* that is asked for; 0: 1 */
   double seen[MOST];
   int visits;
 } Toy;
@@ -61,7 +62,7 @@ static void toy_set(void *self, double m) {
 static double toy_change(void *self, const double *step) {
   Toy *t = self;
   if (t->visits < MOST) t->seen[t->visits++] = fmax(fabs(t->m - 1), fmax(fabs(t->q[0]), fabs(t->q[1])));
-  return toy_length(self, step);
+  return toy_length(self, step) / (t->accuracy > 0 ? t->accuracy : 1);
 }
 
 static void toy_sensitivity(void *self, double *r_m) {
@@ -158,6 +159,42 @@ START_TEST(test_unstable_limit_point_is_told) {
   t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
   ck_assert_int_eq(zp_march(&f.march, 1.2), ZP_MARCH_LOST);
   ck_assert_int_eq(zp_march(&f.march, 0), ZP_MARCH_LOST);
+  zp_free(f.memory);
+}
+END_TEST
+
+static double toy_event(void *self, double *row) {
+  row[0] = 1;
+  row[1] = row[2] = 0;
+  return ((const Toy *)self)->q[0];
+}
+
+/* On the branch, where q0 is as given. */
+static double toy_branch(double q0) {
+  return 1 + q0 * q0 + q0 * q0 * q0 - 0.6 * q0 * (0.3 * q0 * q0);
+}
+
+/* Along the branch in passing, through its limit point: each point costs one factorisation and is as near as its
+ * Newton step leaves it, or where that is asked for as near as another one does. */
+START_TEST(test_points_in_passing) {
+  static const double step = 0.02;
+  const bool exact = _i == 1;
+  Toy t = {.q = {-0.3, 0.027, 0}, .m = toy_branch(-0.3), .across = 1, .accuracy = exact ? 1e-9 : 1};
+  ToyMarch f;
+  open_toy(&f, &t, true);
+  int tries = 0;
+  double worst = 0;
+  for (int k = 0; k <= 30; k++) {
+    double here = -0.3 + k * step, m = 0;
+    ZpPass end = ZP_PASS_AGAIN;
+    for (; end == ZP_PASS_AGAIN && tries < 100; tries++)
+      end = zp_fold_pass(&f.march.fold, toy_event, here, here + step, &m);
+    ck_assert_int_eq(end, ZP_PASS_ON);
+    worst = fmax(worst, fabs(m - toy_branch(here)));
+  }
+  printf("%d points in %d steps: m off by %.1e\n", 31, tries, worst);
+  ck_assert_int_eq(tries, exact ? 61 : 31);
+  ck_below(worst, 1e-12);
   zp_free(f.memory);
 }
 END_TEST
@@ -577,6 +614,7 @@ int main(void) {
   TCase *fold = tcase_create("fold");
   tcase_add_loop_test(fold, test_extended_system_converges_quadratically, 0, 2);
   tcase_add_test(fold, test_unstable_limit_point_is_told);
+  tcase_add_loop_test(fold, test_points_in_passing, 0, 2);
   tcase_add_test(fold, test_march);
   suite_add_tcase(suite, fold);
   TCase *study = tcase_create("study");

@@ -1,7 +1,7 @@
 /* A bead at rest: all of its liquid lies between the faces, and how far it reaches follows from the gaps. The film term
  * has it in motion. What the reach does to the forces goes through two scalars of each bead: the part of the element,
  * or of the flat faces, that is wet where it ends, and with suction the head p of its liquid. In the stiffness each is
- * a term of rank one on top of the band. Eqs. (22.19) to (22.21). */
+ * a term of rank one on top of the band. Eqs. (22.19) to (22.22). */
 #include <math.h>
 
 #include "term/term.h"
