@@ -133,8 +133,7 @@ static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
   for (size_t i = 0; i < AT_END; i++)
     if (at_end[i].has(model))
       zp_result_add_sensitivity(result, at_end[i].name, key,
-                                is_lost(rates) ? NAN
-                                               : zp_run_rate_of(rates, k, signal_of, (void *)at_end[i].signal));
+                                is_lost(rates) ? NAN : zp_run_rate_of(rates, k, signal_of, (void *)at_end[i].signal));
   if (!is_fed(model)) return;
   zp_result_add_sensitivity(result, "peak_current_A", key,
                             is_lost(rates) ? NAN : zp_run_rate_of(rates, k, peak_of, NULL));
