@@ -18,7 +18,6 @@ static ZpStatus check_model(const ZpActuatorDef *def, ZpError *err) {
     return refuse("solver.integrator explicit", "they follow the implicit steps", err);
   if (def->control.kind != ZP_CONTROL_NONE)
     return refuse("control.kind", "a controller's samples and limits are not differentiated", err);
-  if (def->stack.series > 1) return refuse("stack.series above 1", "they are followed for one actuator", err);
   if (def->ribbon.plasticity) return refuse("ribbon.plasticity", "a strip that begins to yield is not followed", err);
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
     return refuse("initial.state checkpoint", "a checkpoint does not say how it goes with a key", err);
