@@ -256,9 +256,9 @@ START_TEST(what_has_no_derivative_is_refused) {
 }
 END_TEST
 
-START_TEST(motion_notes_that_it_has_none) {
-  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"solver.end_time", 1e-3});
-  ZpResult *result = run_by(ZP_STUDY_ACTUATE, &def, "gravity");
+START_TEST(profile_notes_that_it_has_none) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11});
+  ZpResult *result = run_by(ZP_STUDY_PROFILE, &def, "gravity");
   ck_assert_uint_eq(notes_with(result, "sensitivity.by is ignored: this study has no derivatives"), 1);
   ck_assert_uint_eq(result->sensitivities, 0);
   zp_result_destroy(result);
@@ -293,7 +293,7 @@ int main(void) {
   tcase_add_test(tests, gradual_closing_changes_as_differences_say);
   tcase_add_test(tests, no_derivative_at_a_corner);
   tcase_add_test(tests, what_has_no_derivative_is_refused);
-  tcase_add_test(tests, motion_notes_that_it_has_none);
+  tcase_add_test(tests, profile_notes_that_it_has_none);
   tcase_add_test(tests, keys_at_their_bounds);
   suite_add_tcase(suite, tests);
   SRunner *runner = srunner_create(suite);

@@ -63,7 +63,8 @@ static bool allocate(ZpRunRates *rates) {
   size_t n = rates->sim->dynamics.system.n;
   rates->key = zp_calloc(rates->keys, sizeof *rates->key);
   rates->before = zp_calloc(1, zp_state_size(model));
-  rates->meets = zp_calloc(model->nodes, sizeof *rates->meets);
+  rates->meets = zp_calloc(2 * model->nodes, sizeof *rates->meets);
+  rates->wet = rates->meets + model->nodes;
   rates->work = zp_calloc(5 * n, sizeof *rates->work);
   rates->motion = rates->work + 4 * n;
   return rates->key && rates->before && rates->meets && rates->work;
@@ -142,16 +143,27 @@ static void lose(ZpRunRates *rates, const char *cause) {
   rates->cause = cause;
 }
 
-/* Have faces met or parted that no liquid slows down? */
-static bool faces_change(ZpRunRates *rates) {
+/* What station i has now => seen; is it another thing than after the step before? */
+static bool changes(const ZpRunRates *rates, bool now, bool *seen) {
+  bool other = now != *seen;
+  *seen = now;
+  return other && rates->before->t > 0;
+}
+
+/* What has happened in the run's step that has no derivative: how much a face loses where it meets another without
+ * liquid, and what a meniscus leaves to a station that it passes, depend on where within a step that is. NULL: nothing.
+ */
+static const char *cause_of_loss(ZpRunRates *rates) {
   const ZpDynamics *d = &rates->sim->dynamics;
-  bool change = false;
+  bool met = false, passed = false;
   for (size_t i = 1; i < d->model->nodes && d->model->field; i++) {
-    bool meets = zp_dynamics_meets(d, i);
-    change |= meets != rates->meets[i];
-    rates->meets[i] = meets;
+    met |= changes(rates, zp_dynamics_meets(d, i), &rates->meets[i]);
+    passed |= changes(rates, d->model->has_bead && zp_film_fills(&d->model->film, &d->eval.film, i), &rates->wet[i]);
   }
-  return change && rates->before->t > 0;
+  if (rates->sim->state->supply_mode != rates->before->supply_mode)
+    return "a limit of the supply's current begins or ends";
+  if (passed) return "the meniscus of a bead passes a station";
+  return met ? "faces meet or part without liquid between them" : NULL;
 }
 
 /* Does the damper of faces or menisci smooth velocities by the matrix of the step? */
@@ -174,17 +186,22 @@ static bool move(ZpRunRates *rates, ZpKeyRates *of) {
     if (!zp_sim_prepare(near)) return false;
     if (zp_sim_is_fed(near)) zp_feed_begin(near);
     zp_dynamics_begin(d, near->states, latest);
-    steps.near[steps.count++] = (ZpNearStep){&d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t,
-                                             d->q, d->v, &d->history};
+    steps.near[steps.count++] =
+        (ZpNearStep){&d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
   }
   return zp_implicit_follow(&steps, takes_matrix(rates), rates->motion);
 }
 
-static void arrive(ZpSim *near, bool zipped) {
+static void arrive(ZpSim *near) {
   zp_dynamics_end(&near->dynamics, near->states);
   if (zp_sim_is_fed(near)) zp_feed_end(near);
   zp_sim_arrive(near);
-  (void)zipped;
+}
+
+/* Has the run counted as closed only where its step ended, since its platform touches? Then that is no event. */
+static bool closes_at_end(const ZpRunRates *rates) {
+  const ZpState *state = rates->sim->state;
+  return isnan(rates->before->zip_time) && state->zip_time == state->t;
 }
 
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
@@ -194,21 +211,19 @@ static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
     if (!of->near[k]) continue;
     if (moves)
-      arrive(of->near[k], isnan(rates->before->zip_time) && !isnan(sim->state->zip_time));
+      arrive(of->near[k]);
     else
       of->near[k]->state->t = time_of(rates, of, k, sim->state->t);
+    if (closes_at_end(rates)) of->near[k]->state->zip_time = NAN;
   }
   take_rate(rates, of);
   return true;
 }
 
 void zp_run_rates_follow(ZpRunRates *rates) {
-  const ZpSim *sim = rates->sim;
   if (isfinite(rates->lost)) return;
-  if (faces_change(rates))
-    lose(rates, "faces meet or part without liquid between them");
-  else if (sim->state->supply_mode != rates->before->supply_mode)
-    lose(rates, "a limit of the supply's current begins or ends");
+  const char *cause = cause_of_loss(rates);
+  if (cause) lose(rates, cause);
   for (size_t k = 0; k < rates->keys && !isfinite(rates->lost); k++)
     if (!follow_key(rates, &rates->key[k])) lose(rates, "no derivative of a step is found");
 }

@@ -1,6 +1,6 @@
-/* Derivatives of a whole run by keys, forward through its accepted steps. Beside the run go actuators near it, whose key
- * is a little larger or smaller, each at the run's state plus its share of the derivatives; after a step these follow
- * from where they end. docs/theory.md, section 20. */
+/* Derivatives of a whole run by keys, forward through its accepted steps. Beside the run go actuators near it, whose
+ * key is a little larger or smaller, each at the run's state plus its share of the derivatives; after a step these
+ * follow from where they end. docs/theory.md, section 20. */
 #ifndef ZP_SIM_RUN_RATES_H
 #define ZP_SIM_RUN_RATES_H
 
@@ -17,13 +17,14 @@ typedef struct ZpKeyRates {
 } ZpKeyRates;
 
 typedef struct ZpRunRates {
-  ZpSim *sim;        /* the run */
-  ZpKeyRates *key;   /* [keys] */
+  ZpSim *sim;      /* the run */
+  ZpKeyRates *key; /* [keys] */
   size_t keys;
   ZpState *before;   /* the run's state where the step under way begins */
   int64_t taken;     /* its steps until then */
   double from, to;   /* its last corner and its next one, s */
   bool *meets;       /* [N] stations whose faces meet without liquid between them */
+  bool *wet;         /* [N] and with a bead those that its liquid fills */
   double lost;       /* when the derivatives ceased to exist, s; INFINITY: they have not */
   const char *cause; /* and why */
   double *work;      /* [4 n] */

@@ -368,8 +368,13 @@ static const double *length(const ZpNearStep *near) {
 static Rates start(const ZpNearSteps *steps, double *rate) {
   size_t n = steps->near[0].stepper->system->n;
   double *work = steps->work + n;
-  Rates r = {.n = n, .h = steps->lead->last, .dh = quotient(steps, length, 0), .dq = work, .dv = work + n,
-             .dmass = work + 2 * n, .dq1 = rate};
+  Rates r = {.n = n,
+             .h = steps->lead->last,
+             .dh = quotient(steps, length, 0),
+             .dq = work,
+             .dv = work + n,
+             .dmass = work + 2 * n,
+             .dq1 = rate};
   for (size_t i = 0; i < n; i++) {
     r.dq[i] = quotient(steps, position, i);
     r.dv[i] = quotient(steps, velocity, i);

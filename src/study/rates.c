@@ -18,7 +18,6 @@ static ZpStatus check_model(const ZpActuatorDef *def, ZpError *err) {
     return refuse("solver.integrator explicit", "they follow the implicit steps", err);
   if (def->control.kind != ZP_CONTROL_NONE)
     return refuse("control.kind", "a controller's samples and limits are not differentiated", err);
-  if (def->stack.series > 1) return refuse("stack.series above 1", "they are followed for one actuator", err);
   if (def->ribbon.plasticity) return refuse("ribbon.plasticity", "a strip that begins to yield is not followed", err);
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
     return refuse("initial.state checkpoint", "a checkpoint does not say how it goes with a key", err);
@@ -133,8 +132,7 @@ static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
   for (size_t i = 0; i < AT_END; i++)
     if (at_end[i].has(model))
       zp_result_add_sensitivity(result, at_end[i].name, key,
-                                is_lost(rates) ? NAN
-                                               : zp_run_rate_of(rates, k, signal_of, (void *)at_end[i].signal));
+                                is_lost(rates) ? NAN : zp_run_rate_of(rates, k, signal_of, (void *)at_end[i].signal));
   if (!is_fed(model)) return;
   zp_result_add_sensitivity(result, "peak_current_A", key,
                             is_lost(rates) ? NAN : zp_run_rate_of(rates, k, peak_of, NULL));

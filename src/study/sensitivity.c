@@ -60,7 +60,7 @@ ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err) {
 void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
   if (*def->sensitivity.by)
     zp_result_note(result, "sensitivity.by is ignored: this study has no derivatives; stationary, equilibrium, limits, "
-                           "isometric and modes have");
+                           "isometric, modes and actuate have");
 }
 
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,

@@ -1,0 +1,219 @@
+/* Derivatives of runs in time by keys, theory section 20: against differences of whole runs, scaling, closed forms. */
+#include "check_util.h"
+
+static ZpActuatorDef motion(void) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"solver.tolerance", 1e-7});
+  def.output.errors = false;
+  return def;
+}
+
+static ZpResult *run(const ZpActuatorDef *def) {
+  ZpError err = {ZP_OK, ""};
+  ZpResult *result;
+  ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
+  return result;
+}
+
+static ZpResult *run_by(const ZpActuatorDef *given, const char *by) {
+  ZpActuatorDef def = *given;
+  ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), by, NULL), ZP_OK);
+  return run(&def);
+}
+
+static double rate_in(const ZpResult *result, const char *output, const char *key) {
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (strcmp(result->sensitivity[i].output, output) == 0 &&
+        strcmp(zp_key(result->sensitivity[i].key)->name, key) == 0)
+      return result->sensitivity[i].value;
+  ck_abort_msg("no derivative of %s by %s", output, key);
+  return NAN;
+}
+
+/* Of fourth order, of runs with the same steps. */
+static double difference(const ZpActuatorDef *def, const char *output, const char *name, double part) {
+  int key = zp_key_find(name);
+  double value = zp_def_get(def, key), step = part * value, at[5] = {0};
+  for (int k = -2; k <= 2; k++) {
+    ZpActuatorDef near = *def;
+    if (k == 0) continue;
+    ck_assert_int_eq(zp_def_set(&near, key, value + k * step, NULL), ZP_OK);
+    ZpResult *result = run(&near);
+    at[k + 2] = zp_result_get(result, output);
+    zp_result_destroy(result);
+  }
+  return (at[0] - 8 * at[1] + 8 * at[3] - at[4]) / (12 * step);
+}
+
+static void check(const ZpActuatorDef *def, const char *output, const char *key, double part, double allowed) {
+  ZpResult *result = run_by(def, key);
+  double rate = rate_in(result, output, key), by_runs = difference(def, output, key, part);
+  ck_assert_msg(fabs(rate - by_runs) <= allowed * fabs(by_runs), "%s by %s: %.9g, by differences %.9g", output, key,
+                rate, by_runs);
+  zp_result_destroy(result);
+}
+
+/* -- against differences of whole runs ----------------------------------------------------------------- */
+
+START_TEST(zip_in_a_bath) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  def.solver.time_step = 5e-4;
+  check(&def, "zip_time_s", "drive.voltage", 1e-5, 1e-6);
+  check(&def, "zip_time_s", "insulator.thickness", 1e-5, 1e-6);
+  check(&def, "viscous_loss_J", "drive.voltage", 1e-6, 1e-6);
+  check(&def, "jet_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-5);
+}
+END_TEST
+
+/* The start, a hanging equilibrium, goes with the thickness, too; no step moves far in so short a run. */
+START_TEST(start_of_a_swing) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.drive.voltage = 5e3;
+  def.solver.time_step = 2e-4;
+  def.solver.end_time = 0.01;
+  check(&def, "opening_m", "ribbon.thickness", 1e-4, 1e-6);
+  check(&def, "stroke_m", "ribbon.length", 1e-4, 1e-6);
+}
+END_TEST
+
+/* Corners that a key moves are ends of steps. */
+START_TEST(corners_move_with_their_key) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.drive.voltage = 5e3;
+  def.drive.waveform = ZP_WAVEFORM_SQUARE;
+  def.drive.frequency = 250;
+  def.solver.end_time = 0.0097;
+  def.solver.time_step = 1e-5;
+  check(&def, "opening_m", "drive.frequency", 1e-3, 1e-3);
+  check(&def, "opening_m", "drive.duty", 1e-3, 1e-3);
+}
+END_TEST
+
+/* -- closed forms -------------------------------------------------------------------------------------- */
+
+/* A ribbon that is let go: forces times a factor are times over its root, so E y_E + g y_g = t v / 2. */
+START_TEST(swing_scales) {
+  ZpActuatorDef def = motion();
+  def.actuator.kind = ZP_KIND_RIBBON;
+  def.actuator.right_end = ZP_END_FREE;
+  def.initial.state = ZP_INITIAL_STRAIGHT;
+  def.solver.end_time = 0.03;
+  def.solver.time_step = 2e-5;
+  ZpResult *result = run_by(&def, "ribbon.young_modulus, gravity");
+  double by_E = def.ribbon.young_modulus * rate_in(result, "stroke_m", "ribbon.young_modulus"),
+         by_g = def.gravity * rate_in(result, "stroke_m", "gravity");
+  size_t last = result->series->rows - 1;
+  double v = -zp_table_get(result->series, last, "end_velocity_m_per_s");
+  double half = 0.5 * def.solver.end_time * v;
+  ck_assert_msg(fabs(by_E + by_g - half) < 2e-4 * fabs(half), "%.9g, scaling %.9g", by_E + by_g, half);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* A closed actuator charges through a resistor: its largest current is V / R, what is lost C V^2 / 2 of any R. */
+START_TEST(charging_through_a_resistor) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.initial.state = ZP_INITIAL_STRAIGHT;
+  def.gravity = 0;
+  def.load.mass = 0;
+  def.electro.breakdown_cap = false;
+  def.drive.voltage = 100; /* under which faces give way, as its power 2/3, by some 1e-4 of the capacitance */
+  def.source.model = ZP_SOURCE_AMPLIFIER;
+  def.source.resistance = 1e7;
+  def.source.capacitance = 100e-12;
+  def.solver.end_time = 0.05;
+  def.solver.time_step = 2e-4;
+  ZpResult *result = run_by(&def, "source.resistance, drive.voltage");
+  double V = def.drive.voltage, R = def.source.resistance;
+  double by_R = rate_in(result, "peak_current_A", "source.resistance");
+  double by_V = rate_in(result, "peak_current_A", "drive.voltage");
+  ck_assert_msg(fabs(by_R * R * R / V + 1) < 1e-6, "%.12g", by_R * R * R / V);
+  ck_assert_msg(fabs(by_V * R - 1) < 1e-6, "%.12g", by_V * R);
+  double lost = zp_result_get(result, "source_loss_J");
+  ck_assert_double_lt(fabs(rate_in(result, "source_loss_J", "source.resistance")) * R, 1e-5 * lost);
+  ck_assert_double_lt(fabs(rate_in(result, "source_loss_J", "drive.voltage") * V / lost - 2), 1e-4);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* -- where there are none ------------------------------------------------------------------------------ */
+
+static bool has_note(const ZpResult *result, const char *words) {
+  for (size_t i = 0; i < result->notes; i++)
+    if (strstr(result->note[i], words)) return true;
+  return false;
+}
+
+START_TEST(dry_faces_end_them) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.solver.tolerance = 1e-3;
+  ZpResult *result = run_by(&def, "drive.voltage");
+  ck_assert(isnan(rate_in(result, "zip_time_s", "drive.voltage")));
+  ck_assert(isnan(rate_in(result, "stroke_m", "drive.voltage")));
+  ck_assert(has_note(result, "ms on there are no derivatives: faces meet or part without liquid between them"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(limits_of_a_supply_end_them) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.source.model = ZP_SOURCE_AMPLIFIER;
+  def.source.resistance = 1e6;
+  def.source.current_limit = 1e-5;
+  def.drive.voltage = 3e3;
+  def.solver.end_time = 0.05;
+  def.solver.tolerance = 1e-3;
+  ZpResult *result = run_by(&def, "drive.voltage");
+  ck_assert(isnan(rate_in(result, "charge_C", "drive.voltage")));
+  ck_assert(has_note(result, "there are no derivatives: a limit of the supply's current begins or ends"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+START_TEST(refusals) {
+  static const struct {
+    const char *key;
+    double value;
+    const char *by, *words;
+  } wrong[] = {{"control.kind", ZP_CONTROL_PI, "gravity", "control.kind"},
+               {"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "solver.integrator explicit"},
+               {"stack.series", 2, "gravity", "requires sensitivity.by empty"},
+               {"ribbon.plasticity", 1, "gravity", "ribbon.plasticity"},
+               {"solver.tolerance", 1e-4, "solver.tolerance", "a setting of the computation"}};
+  for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
+    ZpActuatorDef def = motion();
+    ZpError err = {ZP_OK, ""};
+    def.liquid.model = ZP_LIQUID_NONE;
+    ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), wrong[k].by, NULL), ZP_OK);
+    ck_assert_int_eq(zp_def_set(&def, zp_key_find(wrong[k].key), wrong[k].value, NULL), ZP_OK);
+    ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, wrong[k].words), "%s", err.message);
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("run rates");
+  TCase *tests = tcase_create("run rates");
+  tcase_set_timeout(tests, 120);
+  tcase_add_test(tests, zip_in_a_bath);
+  tcase_add_test(tests, start_of_a_swing);
+  tcase_add_test(tests, corners_move_with_their_key);
+  tcase_add_test(tests, swing_scales);
+  tcase_add_test(tests, charging_through_a_resistor);
+  tcase_add_test(tests, dry_faces_end_them);
+  tcase_add_test(tests, limits_of_a_supply_end_them);
+  tcase_add_test(tests, refusals);
+  suite_add_tcase(suite, tests);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed > 0;
+}
