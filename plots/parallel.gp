@@ -10,21 +10,24 @@ unset ytics
 set border 0
 set yrange [-0.02:1.02]
 set xrange [-0.15:|axis_name| - 0.85]
+size(k) = max(abs(axis_low[k]), abs(axis_high[k]))
+factor(k) = scale(size(k), axis_si[k])
+name(k) = label(axis_name[k], unit(size(k), axis_si[k]))
 do for [k=1:|axis_name|] {
   i = k - 1
   set arrow i+10 from i,0 to i,1 nohead lw 1.2 lc rgb '#333333' front
-  set label 3*i+10 sprintf('%.4g', axis_high[k]) at i,1 center offset 0,0.7 font ',11'
-  set label 3*i+11 sprintf('%.4g', axis_low[k]) at i,0 center offset 0,-0.7 font ',11'
-  set label 3*i+12 axis_name[k] at i,0 center offset 0,(i % 2 ? -3.2 : -2) font ',11'
+  set label 3*i+10 sprintf('%.4g', axis_high[k] * factor(k)) at i,1 center offset 0,0.7 font ',11'
+  set label 3*i+11 sprintf('%.4g', axis_low[k] * factor(k)) at i,0 center offset 0,-0.7 font ',11'
+  set label 3*i+12 name(k) at i,0 center offset 0,(i % 2 ? -3.2 : -2) font ',11'
 }
 load 'scale_of_shades.gp'
 set colorbox user origin 0.85,0.2 size 0.025,0.5
 set bmargin at screen 0.20
 set tmargin at screen 0.81
-set cblabel axis_name[colour_axis] offset 0.5
+set cblabel name(colour_axis) offset 0.5
 if (objectives > 0) {
-  plot 'parallel.dat' index 0 using 1:2:3 with lines lw 0.8 lc palette notitle, \
+  plot 'parallel.dat' index 0 using 1:2:($3*factor(colour_axis)) with lines lw 0.8 lc palette notitle, \
        '' index 1 using 1:2 with lines lw 3 lc rgb colour(2) title (objectives > 1 ? 'front' : 'best')
 } else {
-  plot 'parallel.dat' index 0 using 1:2:3 with lines lw 0.8 lc palette notitle
+  plot 'parallel.dat' index 0 using 1:2:($3*factor(colour_axis)) with lines lw 0.8 lc palette notitle
 }

@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import random
+import resource
 import shutil
 import signal
 import sqlite3
@@ -226,6 +227,22 @@ def check_broken_files(zipact, scratch):
             ok("%s in the way, %s workers: no summary.json, nothing temporary" % (name, jobs), not list(folder.glob("*summary*")) and not list(folder.glob("*tmp*")))
 
 
+def small_disk():
+    """No file may become longer than a small disk holds."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))
+
+
+def check_full_disk(zipact, scratch):
+    """A disk that is full is status 3 and says which file; what was done before counts when there is room again."""
+    folder = scratch / "full"
+    words = zipact.command("rest", folder)
+    full = subprocess.run(words, stderr=subprocess.PIPE, text=True, preexec_fn=small_disk, restore_signals=False)  # SIGXFSZ stays ignored
+    ok("a full disk: status 3, and the journal is named", full.returncode == 3 and "journal.sqlite" in full.stderr)
+    ok("a full disk: no table", not (folder / "table.csv").exists())
+    again = zipact.run("rest", folder, "--resume")
+    ok("with room again: the bytes of an uninterrupted run", again.returncode == 0 and results(folder) == results(scratch / "rest-1"))
+
+
 def check_failures(zipact, scratch):
     """A case whose solver fails is a row; the campaign goes on and its status says 1."""
     folder = scratch / "failing"
@@ -286,6 +303,7 @@ def main():
     check_interrupt(zipact, scratch)
     check_gap(zipact, scratch)
     check_broken_files(zipact, scratch)
+    check_full_disk(zipact, scratch)
     check_failures(zipact, scratch)
     os.chdir(scratch)
     check_batch(zipact)

@@ -104,14 +104,35 @@ static void data_parallel(const ZpPlot *plot, FILE *file) {
     if (is_best(plot, run)) put_line(plot, file, &many, run);
 }
 
-/* An axis k: axis_name[k], axis_low[k], axis_high[k]. */
-static void define_axis(FILE *file, const Axis *axis, size_t k) {
+/* The unit of an output; none of a pure number. */
+static const char *unit_of(const ZpPlot *plot, const char *output) {
+  const ZpResult *result = zp_report_result(plot->report, 0);
+  const char *unit = "1";
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strcmp(result->scalar[i].name, output) == 0) unit = result->scalar[i].unit;
+  return strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0 ? "" : unit;
+}
+
+/* "mass" of mass_kg, whose unit is kg. */
+static void name_output(const char *output, const char *unit, char *words, size_t size) {
+  snprintf(words, size, "%.90s", output);
+  char *last = strrchr(words, '_');
+  if (*unit && last) *last = 0;
+  for (char *c = words; *c; c++)
+    if (*c == '_') *c = ' ';
+}
+
+/* An axis k: axis_name[k], axis_low[k], axis_high[k]; of an output its unit, axis_si[k], of a key, whose values are in
+ * the unit of its name, none. */
+static void define_axis(const ZpPlot *plot, FILE *file, const Axis *axis, size_t k) {
+  const char *unit = axis->output ? unit_of(plot, axis->output) : "";
   char name[128];
   if (axis->output)
-    snprintf(name, sizeof name, "%s", axis->output);
+    name_output(axis->output, unit, name, sizeof name);
   else
     zp_sweep_label(axis->key, name, sizeof name);
   zp_plot_define_text(file, zp_plot_entry("axis_name", k).text, name);
+  zp_plot_define_text(file, zp_plot_entry("axis_si", k).text, unit);
   zp_plot_define(file, zp_plot_entry("axis_low", k).text, axis->low);
   zp_plot_define(file, zp_plot_entry("axis_high", k).text, axis->high);
 }
@@ -122,10 +143,11 @@ static void define_parallel(const ZpPlot *plot, FILE *file) {
   zp_plot_define_count(file, "objectives", plot->report->optimum ? plot->report->optimum->objectives : 0);
   zp_plot_define_count(file, "colour_axis", many.colour + 1);
   zp_plot_define_array(file, "axis_name", many.axes);
+  zp_plot_define_array(file, "axis_si", many.axes);
   zp_plot_define_array(file, "axis_low", many.axes);
   zp_plot_define_array(file, "axis_high", many.axes);
   for (size_t i = 0; i < many.axes; i++)
-    define_axis(file, &many.axis[i], i + 1);
+    define_axis(plot, file, &many.axis[i], i + 1);
 }
 
 /* -- pareto ----------------------------------------------------------------------------------------- */
@@ -155,25 +177,11 @@ static void data_pareto(const ZpPlot *plot, FILE *file) {
     put_objectives(plot, file, optimum->row[i]);
 }
 
-/* The unit of an objective; none of a pure number. */
-static const char *unit_of(const ZpPlot *plot, size_t k) {
-  const ZpResult *result = zp_report_result(plot->report, 0);
-  const char *unit = "1";
-  for (size_t i = 0; i < result->scalars; i++)
-    if (strcmp(result->scalar[i].name, plot->report->optimum->objective[k]) == 0) unit = result->scalar[i].unit;
-  return strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0 ? "" : unit;
-}
-
-/* "mass" of mass_kg. */
 static void define_objective(const ZpPlot *plot, FILE *file, size_t k) {
-  const char *unit = unit_of(plot, k);
+  const char *output = plot->report->optimum->objective[k], *unit = unit_of(plot, output);
   double largest = 0;
   char words[128];
-  snprintf(words, sizeof words, "%.90s", plot->report->optimum->objective[k]);
-  char *last = strrchr(words, '_');
-  if (*unit && last) *last = 0;
-  for (char *c = words; *c; c++)
-    if (*c == '_') *c = ' ';
+  name_output(output, unit, words, sizeof words);
   for (size_t run = 0; run < plot->report->count; run++)
     largest = fmax(largest, fabs(objective(plot, run, k)));
   zp_plot_define_text(file, zp_plot_entry("objective", k + 1).text, words);

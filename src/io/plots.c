@@ -39,13 +39,16 @@ static void say_missing(const ZpDrawing *drawing) {
   if (drawing->notice) drawing->notice(message);
 }
 
-/* gnuplot does not tell of a full disk, so look whether the file has its end: </svg>, or ; of a GIF. */
+/* gnuplot does not tell of a full disk, so look whether the file has its end: </svg> and blank lines, or ; of a GIF as
+ * its last byte, since any other may be a ; too. */
 static bool is_complete(const char *path, const char *extension) {
-  const char *end = strcmp(extension, "svg") == 0 ? "</svg>" : ";";
+  const bool is_text = strcmp(extension, "svg") == 0;
+  const char *end = is_text ? "</svg>" : ";";
+  const long length = (long)strlen(end) + (is_text ? 3 : 0);
   char tail[32] = {0};
   FILE *file = fopen(path, "re");
   if (!file) return false;
-  bool found = fseek(file, -(long)strlen(end) - 3, SEEK_END) == 0;
+  bool found = fseek(file, -length, SEEK_END) == 0;
   size_t got = found ? fread(tail, 1, sizeof tail - 1, file) : 0;
   fclose(file);
   return got > 0 && memmem(tail, got, end, strlen(end)) != NULL;
