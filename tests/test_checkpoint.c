@@ -397,12 +397,12 @@ START_TEST(test_equal_states_give_equal_bytes) {
   unsigned char *one = malloc(size), *two = malloc(size);
   memset(there, 0xA5, bytes);
   memset(back, 0x5A, bytes);
-  zp_snapshot_write(model, sim->state, one);
-  ck_assert_int_eq(zp_snapshot_read(model, one, size, there, NULL), ZP_OK);
+  zp_snapshot_write(model, sim->states, one);
+  ck_assert_int_eq(zp_snapshot_read(model, one, size, &there, NULL), ZP_OK);
   there->zip_time = copysign(there->zip_time, -1);
-  zp_snapshot_write(model, there, two);
+  zp_snapshot_write(model, &there, two);
   ck_assert_mem_eq(one, two, size);
-  ck_assert_int_eq(zp_snapshot_read(model, two, size, back, NULL), ZP_OK);
+  ck_assert_int_eq(zp_snapshot_read(model, two, size, &back, NULL), ZP_OK);
   ck_assert_mem_eq(back->data, sim->state->data, bytes - sizeof *back);
   ck_assert(back->t == 1e-3 && isnan(back->zip_time) && back->was_open == sim->state->was_open);
   ck_assert(back->U == sim->state->U && back->work == sim->state->work && back->base_charge == sim->state->base_charge);
