@@ -200,8 +200,8 @@ START_TEST(one_closes_where_the_way_is_highest) {
 }
 END_TEST
 
-/* While the upper one is closed the lower one hangs at the whole distance, and pulls as a constant force does: the upper
- * one opens where it would alone under that force, with the load. */
+/* While the upper one is closed the lower one hangs at the whole distance, and pulls as a constant force does: the
+ * upper one opens where it would alone under that force, with the load. */
 START_TEST(it_opens_as_alone_under_the_pull_of_the_other) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0}),
                 upper = alone(&def, false);
@@ -304,8 +304,8 @@ END_TEST
  * and are then as fast. */
 START_TEST(either_one_hits_as_hard) {
   ZpActuatorDef upper = DEF(BOTH, {"gravity", 0}, {"load.mass", 5e-3}, {"drive.voltage", 10e3}, {"mesh.nodes", 11},
-                            {"stack.voltage_ratio", 0.2}, {"solver.stop_when_zipped", ZP_WHEN_FALSE}, {"solver.tolerance", 1e-3},
-                            {"solver.end_time", 0.1}),
+                            {"stack.voltage_ratio", 0.2}, {"solver.stop_when_zipped", ZP_WHEN_FALSE},
+                            {"solver.tolerance", 1e-3}, {"solver.end_time", 0.1}),
                 lower = upper;
   lower.drive.voltage = 2e3;
   lower.stack.voltage_ratio = 5;

@@ -116,9 +116,9 @@ END_TEST
 
 /* Of a held fold the torque and the angle, too. */
 START_TEST(torques_change_as_differences_say) {
-  ZpActuatorDef fold = DEF({"actuator.kind", ZP_KIND_HINGE}, {"mesh.nodes", 21}, {"isometric.separation", 5e-3},
-                           {"hinge.stiffness", 0.01}, {"hinge.rest_angle", 0.3}, {"ribbon.thickness", 0.2e-3},
-                           {"drive.voltage", 3e3});
+  ZpActuatorDef fold =
+      DEF({"actuator.kind", ZP_KIND_HINGE}, {"mesh.nodes", 21}, {"isometric.separation", 5e-3},
+          {"hinge.stiffness", 0.01}, {"hinge.rest_angle", 0.3}, {"ribbon.thickness", 0.2e-3}, {"drive.voltage", 3e3});
   check_differences(ZP_STUDY_ISOMETRIC, &fold,
                     "ribbon.thickness, ribbon.length, drive.voltage, isometric.separation, medium.permittivity", 1e-3,
                     1e-5);

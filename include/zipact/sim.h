@@ -197,8 +197,7 @@ ZP_API double zp_sim_starved_time(const ZpSim *sim);
 
 /* All that evolves, as a snapshot: bytes that may be stored anywhere and given to anyone, the same for equal states on
  * every machine. They hold the version, the keys that make the model and a checksum; docs/interface.md has the format.
- * `bytes` takes zp_sim_state_size bytes, as many for each state of one model. Of actuators in series only the uppermost
- * is written, and zp_sim_restore refuses it. */
+ * `bytes` takes zp_sim_state_size bytes, as many for each state of one model. */
 ZP_API size_t zp_sim_state_size(const ZpSim *sim);
 ZP_API void zp_sim_save(const ZpSim *sim, void *bytes);
 

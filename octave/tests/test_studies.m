@@ -61,6 +61,15 @@ same_as_the_command('calibrate', [' "' fit '"'], fit);
 fit = fullfile(data, 'calibrate-bench.yaml');
 same_as_the_command('calibrate', [' "' fit '" --set mesh.nodes=15'], fit, 'mesh.nodes', 15);
 
+% actuators in series, antagonists
+same_as_the_command('equilibrium', ' --set stack.series=2 --set mesh.nodes=21', 'stack.series', 2, 'mesh.nodes', 21);
+same_as_the_command('modes', ' --set stack.series=2 --set mesh.nodes=21', 'stack.series', 2, 'mesh.nodes', 21);
+pair = {'stack.series', 2, 'stack.distance', '20 mm', 'stack.voltage_ratio', 0, 'load.mass', '1 g', 'mesh.nodes', 21};
+held = zipact('stationary', pair{:});
+check(abs(held.opening_m + held.lower_opening_m - 0.02) < 1e-11 && held.stiffness_N_per_m > 0, 'antagonists at rest');
+path = zipact('equilibrium', pair{:}, 'drive.voltage', '5 kV');
+check(path.release_voltage_V < path.pull_in_voltage_V && path.closing_voltage_V < 5e3, 'antagonists close and open');
+
 % a file, a struct and pairs say the same, in this order
 file = fullfile(scratch(), 'mine.yaml');
 id = fopen(file, 'w');

@@ -12,6 +12,7 @@
 #include "rest/slow.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
+#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -310,5 +311,14 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   status = run(&f, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
+  return status;
+}
+
+ZpStatus zp_series_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpMembers members;
+  ZpStatus status = zp_members_run(task, result->study, zp_study_equilibrium, &members, err);
+  if (status == ZP_OK) zp_members_join(&members, result);
+  if (status == ZP_OK) status = zp_members_follow(task, &members, result, err);
+  zp_members_forget(&members);
   return status;
 }

@@ -24,7 +24,7 @@ static const ZpColumn columns[] = {
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
 static const char *const names[ZP_MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
-                                         "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
+                                            "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
 
 /* -- of whatever vibrates --------------------------------------------------------------------------- */
 

@@ -20,13 +20,18 @@ void zp_members_forget(ZpMembers *members);
 /* Their numbers, notes and outcome => those of the series. */
 void zp_members_join(const ZpMembers *members, ZpResult *result);
 
-/* The same with a table of `columns` [count]: number and load of a member, then numbers of its result by their names. */
+/* The same with a table of `columns` [count]: number and load of a member, then numbers of its result by their names.
+ */
 ZpStatus zp_members_report(const ZpMembers *members, const ZpColumn *columns, size_t count, ZpResult *result,
                            ZpError *err);
 
 /* One frame: all members, each hung on the one above, as if their stations were those of one; none where a member has
  * no shape. False if there is no memory. */
 bool zp_members_shape(const ZpMembers *members, ZpResult *result);
+
+/* The table, shapes and message of all members at rest as the voltage rises slowly to drive.voltage and falls again,
+ * from results that have their closing and release voltages. */
+ZpStatus zp_members_follow(const ZpTask *task, const ZpMembers *members, ZpResult *result, ZpError *err);
 
 /* Add to a text: "members pull in at 1 V to 2 V". */
 void zp_members_say(const ZpMembers *members, const char *words, const char *name, char *text, size_t size);

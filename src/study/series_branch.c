@@ -1,4 +1,4 @@
-/* Study `equilibrium` of actuators in series: all members at rest as the voltage rises slowly to drive.voltage and
+/* Equilibria of actuators in series: all members at rest as the voltage rises slowly to drive.voltage and
  * falls again. Their voltages are those of each alone, eq. (29.1); the table has what all of them do together. */
 #include <math.h>
 #include <stdio.h>
@@ -141,7 +141,7 @@ static void describe(const Walk *w, const ZpMembers *members) {
   zp_result_note(r, "the state at %.4g V was lost: the table ends there", w->lost);
 }
 
-static ZpStatus follow(const ZpTask *task, const ZpMembers *members, ZpResult *result, ZpError *err) {
+ZpStatus zp_members_follow(const ZpTask *task, const ZpMembers *members, ZpResult *result, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
@@ -163,14 +163,5 @@ static ZpStatus follow(const ZpTask *task, const ZpMembers *members, ZpResult *r
   if (w) zp_free(w->memory);
   zp_free(w);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_equilibrium, &members, err);
-  if (status == ZP_OK) zp_members_join(&members, result);
-  if (status == ZP_OK) status = follow(task, &members, result, err);
-  zp_members_forget(&members);
   return status;
 }

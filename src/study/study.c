@@ -56,16 +56,11 @@ static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
 
 /* What answers in place of a study that knows a single actuator only. */
 static const char *instead_of(ZpStudy study) {
-  switch (study) {
-  case ZP_STUDY_ISOMETRIC:
-    return "hold each member alone, with stack.series 1: one force goes through all, and their separations add up";
-  case ZP_STUDY_CYCLE:
-    return "let study actuate run for some periods of the drive";
-  case ZP_STUDY_CALIBRATE:
-    return "fit the keys of one member, with stack.series 1";
-  default:
-    return "use stack.series 1";
-  }
+  static const char *const instead[ZpStudy_COUNT] = {
+#define ZP_ALONE(enumerator, words) [enumerator] = words,
+#include <zipact/studies.def>
+  };
+  return instead[study] ? instead[study] : "use stack.series 1";
 }
 
 /* Does it unload ribbons through states of rest? */
@@ -89,8 +84,8 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
                    "stack.distance = %g m: study %s does not know antagonists; stationary, equilibrium and actuate do",
                    def->stack.distance, table[study].word);
   if (!run_of(study, def))
-    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; %s",
-                   def->stack.series, table[study].word, instead_of(study));
+    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; %s", def->stack.series,
+                   table[study].word, instead_of(study));
   if (def->ribbon.plasticity && is_elastic(study))
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.plasticity = true: study %s unloads ribbons through states of rest, which have no history; "
