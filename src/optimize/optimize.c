@@ -139,7 +139,8 @@ static void describe(ZpOptimization *o) {
   o->optimum.outcome = stopped ? ZP_INTERRUPTED : ZP_CONVERGED;
   const char *when = stopped ? "so far, " : "";
   if (!o->optimum.feasible)
-    snprintf(text, size, "%snone of %zu cases satisfies all constraints; that which misses them least is given", when,
+    snprintf(text, size,
+             "%snone of %zu cases satisfies all constraints; the result is the case with the smallest violation", when,
              cases);
   else if (o->search.problem.objectives > 1)
     snprintf(text, size, "%s%zu of %zu cases are on the Pareto front", when, o->optimum.count, cases);
