@@ -59,7 +59,7 @@ open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
 slower = delay/100*(frames - 1)/(end - begin)
-pace = path ? 'states of rest one after the other, stable or not' : 'still picture'
+pace = path ? 'equilibria one after the other, stable or not' : 'still picture'
 if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than real', slower) }
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
 set label 2 subtitle at screen 0.5,0.91 center

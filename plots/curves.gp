@@ -6,4 +6,4 @@
 factor = scale(largest(sized), si)
 set ylabel label(quantity, unit(largest(sized), si)) offset 0.5
 plot for [c in present(list)] '../table.csv' using (column('time_s')*time):(column(c)*factor) \
-     with lines lw 2 lc rgb colour(place(c, list)) title word(titles, place(c, list))
+     with lines lw 2 dt dash(place(c, list)) lc rgb colour(place(c, list)) title word(titles, place(c, list))

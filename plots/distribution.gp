@@ -7,4 +7,4 @@ factor = scale(largest_value, si)
 set xlabel label(quantity, unit(largest_value, si))
 set ylabel 'share of the samples below / %' offset 0.5
 set yrange [0:100]
-plot for [k=1:|curve|] 'distribution.dat' index k-1 using ($1*factor):2 with lines lw 2 lc rgb colour(k) title curve[k]
+plot for [k=1:|curve|] 'distribution.dat' index k-1 using ($1*factor):2 with lines lw 2 dt dash(k) lc rgb colour(k) title curve[k]

@@ -13,4 +13,4 @@ drawn = ''
 do for [c in present(list)] { if (shown(c)) { drawn = drawn.c.' ' } }
 plot for [c in drawn] '../table.csv' \
      using (column('time_s')*time):((column(c) + (more(c) eq '' ? 0 : column(more(c))))*factor) \
-     with lines lw 2 lc rgb colour(place(c, list)) title word(titles, place(c, list))
+     with lines lw 2 dt dash(place(c, list)) lc rgb colour(place(c, list)) title word(titles, place(c, list))

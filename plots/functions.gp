@@ -35,6 +35,9 @@ step(range, n) = _step(range / n)
 colour(k) = word('#0072b2 #d55e00 #009e73 #cc79a7 #56b4e9 #e69f00 #000000 #b8a800', (k - 1) % 8 + 1)
 colour_number(k) = word('0x0072b2 0xd55e00 0x009e73 0xcc79a7 0x56b4e9 0xe69f00 0x000000 0xb8a800', (k - 1) % 8 + 1) + 0
 
+# dash(1) ... dash(8): how the line of that colour is broken, for prints without colours; style.gp has the longer ones.
+dash(k) = (k - 1) % 8 + 1
+
 # shade(0) ... shade(1): a scale from dark to light.
 _from(p) = p < 1 ? int(4 * p) : 3
 _mix(l, p, k) = floor(word(l, k + 1) + (4 * p - k) * (word(l, k + 2) - word(l, k + 1)) + 0.5)

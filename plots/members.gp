@@ -11,4 +11,4 @@ length = scale(largest('member_1_opening_m member_2_opening_m'), 'm')
 set xlabel label('time', unit(largest('time_s'), 's'))
 set ylabel label('opening', unit(largest('member_1_opening_m member_2_opening_m'), 'm'))
 plot for [k=1:stack_series] '../table.csv' using (column('time_s')*time):(column(sprintf('member_%d_opening_m', k))*length) \
-     with lines lw 2 lc rgb colour(k) title sprintf('member %d', k)
+     with lines lw 2 dt dash(k) lc rgb colour(k) title sprintf('member %d', k)

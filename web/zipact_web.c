@@ -165,6 +165,8 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page has buttons for the voltage; the command knows more of drive.waveform");
+  if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
+    return zp_fail(err, ZP_BAD_INPUT, "this page has no tables; the command knows setpoint.waveform = table");
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
     return zp_fail(err, ZP_BAD_INPUT, "this page has no files; the command knows initial.state = checkpoint");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)

@@ -95,7 +95,7 @@ const char *zp_fmu_unit(ZpFmuVariable variable) {
 
 const char *zp_fmu_help(ZpFmuVariable variable) {
   static const char *const of_input[ZP_INPUT_COUNT] = {
-      "voltage that the source is told",
+      "commanded voltage of the source",
       "force on the whole actuator beside load.mass, without inertia; positive pulls the lower platform down",
       "what the controller is to hold, in the unit of control.signal, SI"};
   size_t count;

@@ -350,13 +350,12 @@ void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan) {
 }
 
 void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan) {
-  fprintf(
-      file,
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
-      "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the voltage that the"
-      " source is told, and the mean current over a step\">\n"
-      "      <TerminalMemberVariable variableName=\"%s\" memberName=\"v\" variableKind=\"signal\"/>\n"
-      "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
-      "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
-      plan->controlled ? "command" : "voltage");
+  fprintf(file,
+          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
+          "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the commanded "
+          "voltage of the source, and the mean current over a step\">\n"
+          "      <TerminalMemberVariable variableName=\"%s\" memberName=\"v\" variableKind=\"signal\"/>\n"
+          "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
+          "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
+          plan->controlled ? "command" : "voltage");
 }

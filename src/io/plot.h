@@ -31,7 +31,7 @@ typedef struct ZpPicture {
   const char *template;                           /* "stroke.gp"; NULL: what `define` writes is all */
 } ZpPicture;
 
-/* Wall time after which gnuplot counts as hanging, s. The animation takes 2 s on an idle machine. */
+/* Wall time after which gnuplot counts as hanging, s. The animation takes 4 s on an idle machine. */
 #define ZP_PLOT_PATIENCE 60.0
 
 /* Where pictures go. */

@@ -162,17 +162,17 @@ static void describe_none(ZpOptimization *o, const char *when) {
   const size_t size = sizeof o->optimum.message, cases = o->report.count;
   const double excluded = o->optimum.excluded = o->search.excluded;
   if (isnan(excluded))
-    snprintf(text, size, "%snone of %zu cases satisfies all constraints; that which misses them least is given", when,
+    snprintf(text, size, "%snone of %zu cases satisfies all constraints; the result is the case with the smallest violation", when,
              cases);
   else if (excluded == 1)
     snprintf(text, size,
              "no design in the box satisfies all constraints, unless one changes twice as fast somewhere as between "
-             "any of the %zu cases; that which misses them least is given",
+             "any of the %zu cases; the result is the case with the smallest violation",
              cases);
   else
     snprintf(text, size,
-             "none of %zu cases satisfies all constraints, and %.3g %% of the box is excluded; that which misses them "
-             "least is given",
+             "none of %zu cases satisfies all constraints, and %.3g %% of the box is excluded; the result is the case with the "
+             "smallest violation",
              cases, 100 * excluded);
 }
 

@@ -126,7 +126,7 @@ void zp_note_start(ZpResult *result, const ZpModel *model, double opening) {
     zp_result_note(
         result,
         "it starts from an opening of %.3g um, less than both insulators (%.3g um): it is nearly closed from "
-        "the start, and when it closes says little",
+        "the start, so its zip time means little",
         1e6 * opening, 1e6 * insulators);
 }
 
