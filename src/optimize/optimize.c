@@ -162,7 +162,8 @@ static void describe_none(ZpOptimization *o, const char *when) {
   const size_t size = sizeof o->optimum.message, cases = o->report.count;
   const double excluded = o->optimum.excluded = o->search.excluded;
   if (isnan(excluded))
-    snprintf(text, size, "%snone of %zu cases satisfies all constraints; the result is the case with the smallest violation", when,
+    snprintf(text, size,
+             "%snone of %zu cases satisfies all constraints; the result is the case with the smallest violation", when,
              cases);
   else if (excluded == 1)
     snprintf(text, size,
@@ -171,7 +172,8 @@ static void describe_none(ZpOptimization *o, const char *when) {
              cases);
   else
     snprintf(text, size,
-             "none of %zu cases satisfies all constraints, and %.3g %% of the box is excluded; the result is the case with the "
+             "none of %zu cases satisfies all constraints, and %.3g %% of the box is excluded; the result is the case "
+             "with the "
              "smallest violation",
              cases, 100 * excluded);
 }
