@@ -201,7 +201,6 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("run rates");
   TCase *tests = tcase_create("run rates");
-  tcase_set_timeout(tests, 120);
   tcase_add_test(tests, zip_in_a_bath);
   tcase_add_test(tests, start_of_a_swing);
   tcase_add_test(tests, corners_move_with_their_key);

@@ -79,27 +79,29 @@ static bool is_damped(const ZpModel *model) {
 }
 
 /* Numbers at the end of a run: their name, the signal, of which models. */
-static const struct {
+typedef struct EndNumber {
   const char *name, *unit, *signal;
   bool (*has)(const ZpModel *model);
-} at_end[] = {{"opening_m", "m", "opening", is_pair},
-              {"contraction", "1", "contraction", is_pair},
-              {"angle_rad", "rad", "angle", turns},
-              {"stroke_m", "m", "stroke", any},
-              {"internal_loss_J", "J", "internal_loss", is_damped},
-              {"contact_loss_J", "J", "contact_loss", has_field},
-              {"viscous_loss_J", "J", "viscous_loss", has_film},
-              {"film_along_loss_J", "J", "film_along_loss", has_film},
-              {"film_across_loss_J", "J", "film_across_loss", has_film},
-              {"jet_loss_J", "J", "jet_loss", has_film},
-              {"outer_drag_loss_J", "J", "outer_drag_loss", has_film},
-              {"meniscus_loss_J", "J", "meniscus_loss", has_bead},
-              {"wet_length_m", "m", "wet_length", has_bead},
-              {"electric_work_J", "J", "electric_work", has_field},
-              {"charge_C", "C", "charge", has_field},
-              {"source_energy_J", "J", "source_energy", has_field},
-              {"source_loss_J", "J", "source_loss", is_fed},
-              {"leak_loss_J", "J", "leak_loss", leaks}};
+} EndNumber;
+
+static const EndNumber at_end[] = {{"opening_m", "m", "opening", is_pair},
+                                   {"contraction", "1", "contraction", is_pair},
+                                   {"angle_rad", "rad", "angle", turns},
+                                   {"stroke_m", "m", "stroke", any},
+                                   {"internal_loss_J", "J", "internal_loss", is_damped},
+                                   {"contact_loss_J", "J", "contact_loss", has_field},
+                                   {"viscous_loss_J", "J", "viscous_loss", has_film},
+                                   {"film_along_loss_J", "J", "film_along_loss", has_film},
+                                   {"film_across_loss_J", "J", "film_across_loss", has_film},
+                                   {"jet_loss_J", "J", "jet_loss", has_film},
+                                   {"outer_drag_loss_J", "J", "outer_drag_loss", has_film},
+                                   {"meniscus_loss_J", "J", "meniscus_loss", has_bead},
+                                   {"wet_length_m", "m", "wet_length", has_bead},
+                                   {"electric_work_J", "J", "electric_work", has_field},
+                                   {"charge_C", "C", "charge", has_field},
+                                   {"source_energy_J", "J", "source_energy", has_field},
+                                   {"source_loss_J", "J", "source_loss", is_fed},
+                                   {"leak_loss_J", "J", "leak_loss", leaks}};
 enum { AT_END = sizeof at_end / sizeof at_end[0] };
 
 static double signal_of(ZpSim *sim, void *name) {
