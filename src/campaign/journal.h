@@ -32,7 +32,9 @@ typedef struct ZpPacked {
   unsigned char byte[]; /* record.h */
 } ZpPacked;
 
-/* Pack a result, in any thread, while another uses the journal => to be freed. NULL if there is no memory. */
+/* Pack a result, in any thread, while another puts rows, but none reads them => to be freed. NULL if there is no
+ * memory.
+ */
 ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result);
 
 /* Put a row, replacing one of the same number. It is on the disk after the next zp_journal_commit. */

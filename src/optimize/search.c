@@ -119,10 +119,9 @@ static bool take_row(ZpSearch *s, size_t number, uint64_t hash, ZpPoint *point) 
 
 static ZpStatus put_row(ZpSearch *s, size_t number, uint64_t hash, const ZpResult *result, ZpPoint *point,
                         ZpError *err) {
+  pthread_mutex_lock(&s->lock); /* before it is packed: rows of an earlier process are read meanwhile */
   ZpPacked *packed = zp_journal_pack(s->journal, result);
-  if (!packed) return zp_fail_memory(err);
-  pthread_mutex_lock(&s->lock);
-  ZpStatus status = zp_journal_put(s->journal, number, hash, packed, err);
+  ZpStatus status = packed ? zp_journal_put(s->journal, number, hash, packed, err) : zp_fail_memory(err);
   if (status == ZP_OK) status = commit_if_due(s, err);
   if (status == ZP_OK) look(s, result, point);
   if (status == ZP_OK) count(s, result, false);
