@@ -17,7 +17,7 @@ import zipfile
 
 FLAGS = ["-std=c99", "-O1", "-ffp-contract=off", "-fopenmp-simd", "-Wall", "-Wextra", "-Werror"]
 # Names of the C library that the sources may ask for; _-names are the compiler's.
-MAY_ASK = {"calloc", "malloc", "free", "aligned_alloc", "memcmp", "memcpy", "memmove", "memset", "memchr", "strcmp", "strlen", "strncmp", "strchr",
+MAY_ASK = {"calloc", "malloc", "free", "aligned_alloc", "memcmp", "memcpy", "memmove", "memset", "memchr", "strcmp", "strlen", "strncmp", "strchr", "strstr",
            "strrchr", "strcspn", "strspn", "snprintf", "vsnprintf", "strtod", "strtol", "qsort", "sqrt", "floor", "ceil", "round", "fmod", "ldexp",
            "frexp", "log10", "rint", "nearbyint", "trunc", "fmax", "fmin", "modf", "scalbn", "lround", "copysign", "remainder", "nextafter"}
 
