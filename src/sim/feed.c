@@ -271,36 +271,10 @@ static double try_step(ZpSim *sim, double latest) {
   return margin(sim, state->supply.voltage - state->U, charge_given(sim) / (state->t - sim->before->t));
 }
 
-/* Where a limit is reached, between the longest step within it and the shortest beyond it, s. */
-typedef struct Search {
-  double inside, at_inside; /* and its margin; that of no step at all may be unknown: NAN */
-  double beyond, at_beyond;
-} Search;
-
-static void note(Search *s, double h, double at_end) {
-  if (at_end < 0) {
-    s->beyond = h;
-    s->at_beyond = at_end;
-  } else {
-    s->inside = h;
-    s->at_inside = at_end;
-  }
-}
-
-/* On a straight line, where both margins are known; every third time halfway, since a line may approach from one side
- * for ever. */
-static double crossing(const Search *s, int tries) {
+/* Where in a step of h the margin is 0, as a share of it: on a straight line, where the start's is known. */
+static double crossing(double at_start, double at_end) {
   static const double least = 0.02, most = 0.98, blind = 0.25;
-  double share = !(s->at_inside > 0) ? blind
-                 : tries % 3 == 2    ? 0.5
-                                     : fmin(fmax(s->at_inside / (s->at_inside - s->at_beyond), least), most);
-  return s->inside + share * (s->beyond - s->inside);
-}
-
-/* Nothing lies between both, but rounding. */
-static bool is_closed(const Search *s) {
-  static const double close = 1e-9;
-  return s->beyond - s->inside <= close * s->beyond;
+  return at_start > 0 ? fmin(fmax(at_start / (at_start - at_end), least), most) : blind;
 }
 
 /* A mode ends where it began. What a limit lets through in so short a time is a jump. */
@@ -310,46 +284,30 @@ static void leave_at_once(ZpSim *sim) {
   if (limited && sim->model->supply.resistance == 0) jump(sim, sim->state->supply.voltage);
 }
 
-/* Step from the present state to where its mode ends or, if it goes on, to `latest` => the margin there; NAN: no step
- * was found. A mode that ends at once is not followed, `*at_once`: the state is as it was. */
-static double step_in_mode(ZpSim *sim, double latest, bool *at_once) {
-  enum { MOST_TRIES = 100 };
-  ZpState *state = sim->state;
-  bool known = !holds_voltage(sim);
-  double until = latest, at_end = NAN;
-  Search search = {0, known ? margin(sim, state->supply.voltage - state->U, 0) : NAN, INFINITY, NAN};
-  *at_once = false;
-  for (int tries = 0; tries < MOST_TRIES; tries++) {
-    bool last = is_closed(&search) || tries == MOST_TRIES - 1, goes_on = isinf(search.beyond);
-    at_end = try_step(sim, until);
-    if (isnan(at_end) || (at_end >= -at_limit && (goes_on || at_end <= at_limit)) || last) break;
-    note(&search, state->t - sim->before->t, at_end);
-    memcpy(state, sim->before, zp_state_size(sim->model));
-    double h = is_closed(&search) && search.inside > 0 ? search.inside : crossing(&search, tries);
-    *at_once = h <= (known ? shortest : shortest_held);
-    if (*at_once) return 0;
-    until = state->t + h;
-  }
-  return at_end;
-}
-
 bool zp_feed_step(ZpSim *sim, double latest) {
-  enum { MOST_CHANGES = 4 };
+  enum { MOST_TRIES = 100, MOST_CHANGES = 4 };
   ZpState *state = sim->state;
   if (latest - state->t < shortest) {
     state->supply = followed(sim, state, latest);
     state->t = latest;
     return true;
   }
+  double until = latest, at_end = NAN;
   sim->feed.capacitance = capacitance_now(sim);
-  bool at_once = true;
-  double at_end = NAN;
-  for (int changes = 0; at_once && changes < MOST_CHANGES; changes++) {
-    at_end = step_in_mode(sim, latest, &at_once);
-    if (at_once) leave_at_once(sim);
+  for (int tries = 0, changes = 0;; tries++) {
+    bool known = !holds_voltage(sim);
+    double at_start = known ? margin(sim, state->supply.voltage - state->U, 0) : NAN;
+    at_end = try_step(sim, until);
+    if (isnan(at_end)) return false;
+    if (at_end >= -at_limit || tries == MOST_TRIES || changes == MOST_CHANGES) break;
+    double h = (state->t - sim->before->t) * crossing(at_start, at_end);
+    memcpy(state, sim->before, zp_state_size(sim->model));
+    until = state->t + h;
+    if (h > (known ? shortest : shortest_held)) continue;
+    leave_at_once(sim);
+    changes++;
+    until = latest;
   }
-  if (at_once) at_end = try_step(sim, latest);
-  if (isnan(at_end)) return false;
   book(sim);
   if (at_end <= at_limit) change_mode(sim);
   return true;
