@@ -186,9 +186,10 @@ static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *vari
 
 /* The whole box, once along each variable. */
 static ZpStatus cut_box(Exclusion *e, ZpError *err) {
+  const size_t whole = 0;
   ZpStatus status = zp_search_parallel(e->search, 1, evaluate, e, err);
   for (size_t i = 0; i < e->search->problem.variables && status == ZP_OK && !atomic_load(&e->search->stop); i++)
-    status = cut_cells(e, &(size_t){0}, &i, e->cells + 2 <= e->most, err);
+    status = cut_cells(e, &whole, &i, e->cells + 2 <= e->most ? 1 : 0, err);
   return status;
 }
 

@@ -36,7 +36,7 @@ static size_t load_of(const ZpChain *chain, size_t k) {
 /* Eq. (29.3): each moves as it does from its upper platform on, and with that. */
 static void weigh(const void *self, const double *u, double *mu) {
   const ZpChain *chain = self;
-  double momentum[ZP_MOST_MEMBERS], way = 0, below = 0;
+  double momentum[ZP_MOST_MEMBERS] = {0}, way = 0, below = 0;
   for (size_t k = 0; k < chain->count; k++) {
     momentum[k] = chain->total[k] * way;
     for (size_t i = chain->at[k]; i < chain->at[k + 1]; i++) {
