@@ -359,12 +359,10 @@ void zp_sim_start_row(ZpSim *sim) {
 
 /* All signals if the voltage had another value => row; the state is as it was. */
 static void read_at(ZpSim *sim, double voltage, double *row) {
-  for (ZpSim *m = sim; m; m = m->below)
-    memcpy(m->before, m->state, zp_state_size(m->model));
+  zp_sim_keep_states(sim);
   zp_sim_hold_voltage(sim, (ZpRamp){voltage, 0, sim->state->t, INFINITY});
   fill_row(sim, ALL);
-  for (ZpSim *m = sim; m; m = m->below)
-    memcpy(m->state, m->before, zp_state_size(m->model));
+  zp_sim_take_states_back(sim);
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 

@@ -677,15 +677,27 @@ static bool is_joined(const ZpSim *sim) {
   return true;
 }
 
+void zp_sim_keep_states(ZpSim *sim) {
+  ZpSim *m = sim;
+  do
+    memcpy(m->before, m->state, zp_state_size(m->model));
+  while ((m = m->below));
+}
+
+void zp_sim_take_states_back(ZpSim *sim) {
+  ZpSim *m = sim;
+  do
+    memcpy(m->state, m->before, zp_state_size(m->model));
+  while ((m = m->below));
+}
+
 /* => the states; where they do not fit they are as they were. */
 static ZpStatus read_states(ZpSim *sim, const void *bytes, size_t size, ZpError *reason) {
-  for (ZpSim *m = sim; m; m = m->below)
-    memcpy(m->before, m->state, zp_state_size(m->model));
+  zp_sim_keep_states(sim);
   ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->states, reason);
   if (status == ZP_OK && !is_joined(sim))
     status = zp_fail(reason, ZP_BAD_INPUT, "of another model: its members are not joined as those here");
-  for (ZpSim *m = sim; m && status != ZP_OK; m = m->below)
-    memcpy(m->state, m->before, zp_state_size(m->model));
+  if (status != ZP_OK) zp_sim_take_states_back(sim);
   return status;
 }
 

@@ -119,6 +119,10 @@ ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 /* The next corner of what is told from outside, s. */
 double zp_sim_next_corner(ZpSim *sim);
 
+/* Copy the states of all members of a series, or of the only one, to `before`, and back. */
+void zp_sim_keep_states(ZpSim *sim);
+void zp_sim_take_states_back(ZpSim *sim);
+
 /* Before a step moves anything; false: it cannot. And where it has ended. */
 bool zp_sim_prepare(ZpSim *sim);
 void zp_sim_arrive(ZpSim *sim);
