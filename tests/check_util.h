@@ -176,6 +176,16 @@ static inline double noise(uint64_t *seed) {
   return (double)(int64_t)*seed * 0x1p-63;
 }
 
+/* The derivative of `output` by `key` in a result; a failure if there is none. */
+static inline double slope_in(const ZpResult *result, const char *output, const char *key) {
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (strcmp(result->sensitivity[i].output, output) == 0 &&
+        strcmp(zp_key(result->sensitivity[i].key)->name, key) == 0)
+      return result->sensitivity[i].value;
+  ck_abort_msg("no derivative of %s by %s", output, key);
+  return NAN;
+}
+
 /* Run the suite; exit status of main. */
 static inline int run_suite(Suite *suite) {
   setvbuf(stdout, NULL, _IOLBF, 0); /* what was measured stands there even if the test then fails */

@@ -12,7 +12,8 @@ import shutil
 import subprocess
 import sys
 
-passed = failed = 0
+from counting import finish, ok
+
 HERE = pathlib.Path(__file__).resolve().parent.parent / "examples" / "batch"
 
 # As Dakota 6 writes it for two variables and two responses.
@@ -59,14 +60,6 @@ def create_study(direction):
     assert direction == "maximize"
     return Study()
 """
-
-
-def ok(what, done):
-    global passed, failed
-    passed += bool(done)
-    failed += not done
-    if not done:
-        print("FAILED: " + what)
 
 
 def run(words, folder, **more):
@@ -127,8 +120,7 @@ def main():
         folder = scratch / check.__name__
         folder.mkdir()
         check(folder)
-    print("%d passed, %d failed" % (passed, failed))
-    return 1 if failed else 0
+    return finish()
 
 
 if __name__ == "__main__":

@@ -19,15 +19,7 @@ import subprocess
 import sys
 import time
 
-passed = failed = 0
-
-
-def ok(what, done):
-    global passed, failed
-    passed += bool(done)
-    failed += not done
-    if not done:
-        print("FAILED: " + what)
+from counting import finish, ok
 
 
 def listed(first, last, count, unit):
@@ -307,8 +299,7 @@ def main():
     check_failures(zipact, scratch)
     os.chdir(scratch)
     check_batch(zipact)
-    print("%d passed, %d failed" % (passed, failed))
-    return 1 if failed else 0
+    return finish()
 
 
 if __name__ == "__main__":

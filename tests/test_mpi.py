@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-passed = failed = 0
+from counting import finish, ok
 
 CASES = {
     "rest": ["stationary", "--set", "load.mass=1 g .. 100 g : 30", "--set", "ribbon.thickness=20 um .. 200 um : 10", "--set", "mesh.nodes=21"],
@@ -22,14 +22,6 @@ CASES = {
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
 MPIRUN = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3"]
-
-
-def ok(what, done):
-    global passed, failed
-    passed += bool(done)
-    failed += not done
-    if not done:
-        print("FAILED: " + what)
 
 
 def results(folder):
@@ -90,8 +82,7 @@ def main():
     check_bytes(zipact, zipact_mpi, scratch)
     check_lost_process(zipact_mpi, scratch)
     check_refusal(zipact_mpi, scratch)
-    print("%d passed, %d failed" % (passed, failed))
-    return 1 if failed else 0
+    return finish()
 
 
 if __name__ == "__main__":

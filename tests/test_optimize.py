@@ -16,20 +16,12 @@ import subprocess
 import sys
 import time
 
-passed = failed = 0
+from counting import finish, ok
 
 LIGHTEST = ["study=limits", "liquid.model=none", "load.mass=30 g", "drive.voltage=8 kV", "ribbon.length=60 mm", "mesh.nodes=21", "output.errors=false",
             "optimize.variables=ribbon.thickness = 20 um .. 200 um log; ribbon.width = 5 mm .. 40 mm log; insulator.thickness = 20 um .. 200 um log",
             "optimize.objective=min mass_kg", "optimize.constraints=max_load_kg >= 30 g; travel_m >= 15 mm; breakdown_margin >= 1.2", "optimize.evaluations=120"]
 FRONT = ["optimize.objective=min mass_kg; max travel_m", "optimize.constraints=max_load_kg >= 30 g; breakdown_margin >= 1.2", "optimize.evaluations=240"]
-
-
-def ok(what, done):
-    global passed, failed
-    passed += bool(done)
-    failed += not done
-    if not done:
-        print("FAILED: " + what)
 
 
 class Zipact:
@@ -187,8 +179,7 @@ def main():
     check_interrupt(zipact, scratch)
     check_empty_box(zipact, scratch)
     check_refusals(zipact, scratch)
-    print("%d passed, %d failed" % (passed, failed))
-    return 1 if failed else 0
+    return finish()
 
 
 if __name__ == "__main__":

@@ -10,16 +10,6 @@ static ZpResult *run(ZpStudy study, const ZpActuatorDef *def) {
   return result;
 }
 
-/* The derivative of `output` by `key` in a result; a failure if there is none. */
-static double slope_in(const ZpResult *result, const char *output, const char *key) {
-  for (size_t i = 0; i < result->sensitivities; i++)
-    if (strcmp(result->sensitivity[i].output, output) == 0 &&
-        strcmp(zp_key(result->sensitivity[i].key)->name, key) == 0)
-      return result->sensitivity[i].value;
-  ck_abort_msg("no derivative of %s by %s", output, key);
-  return NAN;
-}
-
 /* d log output / d log key. */
 static double exponent(const ZpResult *result, const ZpActuatorDef *def, const char *output, const char *key) {
   return slope_in(result, output, key) * zp_def_get(def, zp_key_find(key)) / zp_result_get(result, output);

@@ -246,9 +246,8 @@ static ZpStatus check_layout(const ZpActuatorDef *def, ZpError *err) {
       ZP_VERSION);
 }
 
-double zp_def_get(const ZpActuatorDef *def, int index) {
-  const ZpKey *key = &keys[index];
-  if (!is_ours(def) || !has_field(key)) return NAN;
+/* Of a key that has a field; NAN of a text. */
+static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
   const void *field = (const char *)def + key->offset;
   double real;
   int whole;
@@ -267,6 +266,11 @@ double zp_def_get(const ZpActuatorDef *def, int index) {
   }
   memcpy(&whole, field, sizeof whole);
   return whole;
+}
+
+double zp_def_get(const ZpActuatorDef *def, int index) {
+  const ZpKey *key = &keys[index];
+  return is_ours(def) && has_field(key) ? number_of(def, key) : (double)NAN;
 }
 
 const char *zp_def_text(const ZpActuatorDef *def, int index) {
@@ -1056,26 +1060,12 @@ static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK && def->electro.edges ? check_edges(def, err) : status;
 }
 
-/* Is this plainly a value in its range? Asked of all keys of every case: what is not is looked at more closely. */
+/* Is this plainly a value in its range, or an empty text? Asked of all keys of every case: what is not is looked at
+ * more closely. */
 static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
-  const void *field = (const char *)def + key->offset;
-  double real;
-  int whole;
-  switch (key->type) {
-  case ZP_KEY_REAL:
-  case ZP_KEY_REAL_AUTO:
-    memcpy(&real, field, sizeof real);
-    return real >= key->min && real <= key->max;
-  case ZP_KEY_INT:
-  case ZP_KEY_ENUM:
-    memcpy(&whole, field, sizeof whole);
-    return whole >= key->min && whole <= key->max;
-  case ZP_KEY_TEXT:
-    return *(const char *)field == 0;
-  case ZP_KEY_BOOL:
-    break;
-  }
-  return false;
+  if (key->type == ZP_KEY_TEXT) return *((const char *)def + key->offset) == 0;
+  double value = number_of(def, key);
+  return key->type != ZP_KEY_BOOL && value >= key->min && value <= key->max;
 }
 
 static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
