@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
+#include <stdio_ext.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -122,7 +123,10 @@ static FILE *open_stream(const char *path, ZpSink **sink) {
   if (!*sink) return NULL;
   (*sink)->fd = open(path, O_WRONLY | O_CLOEXEC);
   FILE *file = (*sink)->fd < 0 ? NULL : fopencookie(*sink, "w", (cookie_io_functions_t){.write = sink_write});
-  if (file) return file;
+  if (file) {
+    __fsetlocking(file, FSETLOCKING_BYCALLER); /* one thread has it: locks would cost more than most of the writing */
+    return file;
+  }
   int error = errno;
   if ((*sink)->fd >= 0) close((*sink)->fd);
   free(*sink);

@@ -36,10 +36,11 @@ static int inside(int depth) {
   return depth == FLAT ? FLAT : depth + 1;
 }
 
+/* Two blanks a level. A tree that is deeper has no more of them. */
 static void begin_line(FILE *file, int depth) {
-  if (depth != FLAT) fputc('\n', file);
-  for (int k = 0; k < depth; k++)
-    fputs("  ", file);
+  static const char line[] = "\n                                ";
+  size_t length = 1 + 2 * (size_t)depth, most = sizeof line - 1;
+  if (depth != FLAT) fwrite(line, 1, length < most ? length : most, file);
 }
 
 static bool print_tree(FILE *file, const json_t *tree, int depth);
