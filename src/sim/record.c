@@ -222,8 +222,8 @@ static ZpShape shape_of(ZpSim *sim) {
 }
 
 static void fill_margins(ZpSim *sim, double *row) {
-  ZpShape shape = shape_of(sim);
-  sim->now = zp_margins_of(sim->model, &shape);
+  sim->shape = shape_of(sim);
+  sim->now = zp_margins_of(sim->model, &sim->shape);
   if (sim->model->leaks) sim->now.liquid = zp_sim_leak(sim).liquid;
   row[SIGNAL_insulator_field] = sim->now.insulator;
   row[SIGNAL_max_stress] = sim->now.stress;
@@ -396,19 +396,23 @@ void zp_sim_read(ZpSim *sim, double *row) {
   memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
 }
 
-/* Member after member. */
-ZpShape zp_sim_shape(ZpSim *sim) {
-  ZpShape shape = shape_of(sim);
+/* The shapes of all, member after member. */
+static ZpShape join_shapes(ZpSim *sim) {
+  ZpShape shape = sim->shape;
   if (!sim->below) return shape;
-  zp_many_put(&sim->all, 0, &shape);
-  size_t member = 1;
-  for (ZpSim *m = sim->below; m; m = m->below, member++) {
-    ZpShape one = shape_of(m);
-    double *y = zp_many_put(&sim->all, member, &one);
-    if (zp_is_opposed(sim->model)) zp_shape_turn_over(m->model, y);
+  size_t member = 0;
+  for (ZpSim *m = sim; m; m = m->below, member++) {
+    double *y = zp_many_put(&sim->all, member, &m->shape);
+    if (m != sim && zp_is_opposed(sim->model)) zp_shape_turn_over(m->model, y);
   }
   zp_many_give(&sim->all, &shape);
   return shape;
+}
+
+ZpShape zp_sim_shape(ZpSim *sim) {
+  for (ZpSim *m = sim; m; m = m->below)
+    m->shape = shape_of(m);
+  return join_shapes(sim);
 }
 
 ZpLiquid zp_sim_liquid(ZpSim *sim) {
@@ -458,7 +462,7 @@ void zp_sim_offer_record(ZpSim *sim) {
   offer_trace(sim, false);
   if (sim->series) zp_table_offer(sim->series, sim->row);
   if (!sim->shapes) return;
-  ZpShape shape = zp_sim_shape(sim);
+  ZpShape shape = join_shapes(sim);
   zp_shapes_offer(sim->shapes, &shape);
 }
 
@@ -467,6 +471,6 @@ void zp_sim_close_record(ZpSim *sim) {
   offer_trace(sim, true);
   if (sim->series) zp_table_keep_last(sim->series, sim->row);
   if (!sim->shapes) return;
-  ZpShape shape = zp_sim_shape(sim);
+  ZpShape shape = join_shapes(sim);
   zp_shapes_keep_last(sim->shapes, &shape);
 }

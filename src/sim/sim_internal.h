@@ -90,6 +90,7 @@ struct ZpSim {
   double *row;                   /* one value per signal */
   ZpShapeRoom shape_room;        /* of the shape handed out, */
   void *shape_memory;            /* and where it is */
+  ZpShape shape;                 /* this member at the last row with margins */
   ZpMargins now, margins;        /* the worst that materials see in the row, and saw in all that were recorded */
   double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part, behind a
                                     supply what that has given; */
