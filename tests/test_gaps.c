@@ -98,12 +98,35 @@ END_TEST
 START_TEST(damper_takes_what_the_loss_factor_says) {
   ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
   double push[3], own[3], next[3], stiffness[3], k = 3 * 60 * 1e-3 / 1e-7, m = 1e-5, dt = 1e-12;
-  ZpFacesEval eval = {push, own, next, stiffness};
+  double none[3] = {0};
+  ZpFacesEval eval = {push, own, next, stiffness, none};
   const double closed[] = {-1e-7, -1e-7, -1e-7}, open[] = {0, 1e-9, 0};
-  zp_faces_eval(&faces, &(ZpFacesSpan){closed, closed, 0}, &eval);
+  zp_faces_eval(&faces, &(ZpFacesSpan){closed, closed, 0, 0}, &eval);
   ck_near((1 - zp_faces_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-4);
-  zp_faces_eval(&faces, &(ZpFacesSpan){open, open, 0}, &eval);
+  zp_faces_eval(&faces, &(ZpFacesSpan){open, open, 0, 0}, &eval);
   ck_assert_double_eq(zp_faces_kept(&eval, 1, m, 1), 1);
+}
+END_TEST
+
+/* Eq. (9.6): over a short span at nearly one depth the push beyond that of the layers is eta sqrt(k m) times the
+ * velocity, and from the first touch to a depth it takes eta sqrt(k m) / 2 times the way in touch, however long the way
+ * before. */
+START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
+  const double l = 1e-3, depth = 1e-7, m = 1e-5, h = 1e-9, k = 3 * 60 * l / depth;
+  ZpFacesParams faces = {.nodes = 3, .l = l, .depth = depth, .push = 60, .platform = 3};
+  double push[3], own[3], next[3], stiffness[3], damper[3];
+  ZpFacesEval eval = {push, own, next, stiffness, damper};
+  const double start[] = {-1e-7 + 1e-11, 3e-7}, way[] = {2e-11, 4e-7}, touching[] = {2e-11, 1e-7}, depths[] = {1, 0.5};
+  for (size_t j = 0; j < 2; j++) {
+    double a = start[j], b = a - way[j];
+    const double from[] = {a, a, a}, to[] = {b, b, b};
+    memset(damper, 0, sizeof damper);
+    zp_faces_eval(&faces, &(ZpFacesSpan){from, to, 0, 1 / h}, &eval);
+    double layers = push[1];
+    zp_faces_damp(&faces, 1, m, &eval);
+    zp_faces_eval(&faces, &(ZpFacesSpan){from, to, 0, 1 / h}, &eval);
+    ck_near(push[1] - layers, depths[j] * 0.5 * sqrt(k * m) * touching[j] / h, 1e-6);
+  }
 }
 END_TEST
 
@@ -121,7 +144,7 @@ static double layers_energy(const ZpFacesParams *faces, const double *gap) {
 
 static double work_of_push(const ZpFacesParams *faces, const double *from, const double *to, const ZpFacesEval *eval) {
   double work = 0;
-  zp_faces_eval(faces, &(ZpFacesSpan){from, to, 0}, eval);
+  zp_faces_eval(faces, &(ZpFacesSpan){from, to, 0, 0}, eval);
   for (size_t i = 0; i < faces->nodes; i++)
     work += eval->push[i] * (to[i] - from[i]);
   return work;
@@ -136,7 +159,8 @@ START_TEST(push_over_a_step_does_the_work_of_the_layers) {
                                      {{1e-7, 1e-7, 1e-7}, {2e-7, 2e-7, 2e-7}}};
   ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
   double push[3], own[3], next[3], stiffness[3];
-  ZpFacesEval eval = {push, own, next, stiffness};
+  double none[3] = {0};
+  ZpFacesEval eval = {push, own, next, stiffness, none};
   for (size_t k = 0; k < LENGTH_OF(way); k++) {
     double work = work_of_push(&faces, way[k][0], way[k][1], &eval);
     double lost = layers_energy(&faces, way[k][0]) - layers_energy(&faces, way[k][1]);
@@ -152,20 +176,22 @@ START_TEST(push_over_a_step_has_this_derivative) {
   const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
   ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
   double push[3], own[3], next[3], stiffness[3], more[3], other[3][3];
-  ZpFacesEval eval = {push, own, next, stiffness}, at_more = {more, other[0], other[1], other[2]};
+  double damper[3] = {0};
+  ZpFacesEval eval = {push, own, next, stiffness, damper}, at_more = {more, other[0], other[1], other[2], damper};
+  zp_faces_damp(&faces, 1, 1e-5, &eval);
   for (size_t k = 0; k < LENGTH_OF(from); k++)
     for (size_t i = 0; i < 3; i++) {
       double moved[3] = {to[0], to[1], to[2]};
       moved[i] += d;
-      double late = k == 2 ? 0.3 : 0;
-      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], to, late}, &eval);
-      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], moved, late}, &at_more);
+      double late = k == 2 ? 0.3 : 0, rate = 1e7;
+      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], to, late, rate}, &eval);
+      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], moved, late, rate}, &at_more);
       ck_near((push[i] - more[i]) / d, own[i], 1e-4);
       if (i + 1 < 3) ck_near((push[i + 1] - more[i + 1]) / d, next[i], 1e-4);
     }
-  zp_faces_eval(&faces, &(ZpFacesSpan){to, to, 0}, &eval);
+  zp_faces_eval(&faces, &(ZpFacesSpan){to, to, 0, 0}, &eval);
   double both[] = {to[0], to[1] + d, to[2]};
-  zp_faces_eval(&faces, &(ZpFacesSpan){both, both, 0}, &at_more);
+  zp_faces_eval(&faces, &(ZpFacesSpan){both, both, 0, 0}, &at_more);
   ck_near((push[1] - more[1]) / d, 2 * own[1], 1e-4);
 }
 END_TEST
@@ -263,6 +289,7 @@ int main(void) {
   tcase_add_test(c, front_ends_at_the_first_open_station);
   tcase_add_test(c, closed_faces_lie_on_each_other);
   tcase_add_test(c, damper_takes_what_the_loss_factor_says);
+  tcase_add_test(c, damper_in_a_step_is_that_of_the_loss_factor);
   tcase_add_test(c, push_over_a_step_does_the_work_of_the_layers);
   tcase_add_test(c, push_over_a_step_has_this_derivative);
   tcase_add_test(c, pull_in_does_not_depend_on_the_largest_voltage);

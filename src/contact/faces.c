@@ -13,6 +13,7 @@ void zp_faces_carve(const ZpFacesParams *p, ZpFacesEval *e, ZpCarver *carver) {
   e->own = zp_carve(carver, p->nodes);
   e->next = zp_carve(carver, p->nodes);
   e->stiffness = zp_carve(carver, p->nodes);
+  e->damper = zp_carve(carver, p->nodes);
 }
 
 /* Push over p_c as faces go from x0 to x1, -g / delta, of which what is positive is the depth s: eq. (18.11), and its
@@ -136,8 +137,33 @@ static void elements_over_span(const ZpFacesParams *p, const ZpFacesSpan *span, 
     if ((touches(span->start, i) || touches(span->end, i)) && !is_rigid(p, i)) add_element(p, span, i, e);
 }
 
+/* Eq. (9.6), and its derivative. */
+static void add_damper(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
+  double s0 = fmax(-span->start[i] / p->depth, 0), s1 = fmax(-span->end[i] / p->depth, 0),
+         c = e->damper[i] * span->rate;
+  e->push[i] += 0.5 * c * p->depth * (s1 * s1 - s0 * s0);
+  e->own[i] += c * s1;
+}
+
 ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
-  return (ZpFacesSpan){start, end, h > 0 ? h / (h + p->settling) : 0};
+  if (!(h > 0)) return (ZpFacesSpan){start, end, 0, 0};
+  return (ZpFacesSpan){start, end, h / (h + p->settling), 1 / h};
+}
+
+/* Length of the faces that station i stands for, m. */
+static double length_of(const ZpFacesParams *p, size_t i) {
+  bool left = i > 0 && !is_rigid(p, i - 1), right = i + 1 < p->nodes && !is_rigid(p, i);
+  bool flat = i >= p->platform && i <= p->platform_end;
+  return 0.5 * p->l * (left + right) + (flat ? p->flat_length : 0);
+}
+
+/* k_c of station i at s = 1, N/m. */
+static double layers_at(const ZpFacesParams *p, size_t i) {
+  return 3 * p->push * length_of(p, i) / p->depth;
+}
+
+void zp_faces_damp(const ZpFacesParams *p, size_t i, double reduced_mass, const ZpFacesEval *e) {
+  e->damper[i] = ZP_FACES_LOSS_FACTOR * sqrt(layers_at(p, i) * reduced_mass);
 }
 
 void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
@@ -151,10 +177,17 @@ void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFace
     elements_over_span(p, span, e);
   for (size_t i = p->platform; i <= p->platform_end; i++)
     add_platform(p, span, i, e);
+  for (size_t i = 0; i < p->nodes && span->rate > 0; i++)
+    add_damper(p, span, i, e);
 }
 
 double zp_faces_kept(const ZpFacesEval *e, size_t i, double reduced_mass, double dt) {
   return 1 / (1 + ZP_FACES_LOSS_FACTOR * dt * sqrt(e->stiffness[i] / reduced_mass));
+}
+
+double zp_faces_kept_at(const ZpFacesParams *p, double gap, size_t i, double reduced_mass, double dt) {
+  double s = fmax(-gap / p->depth, 0);
+  return 1 / (1 + ZP_FACES_LOSS_FACTOR * dt * s * sqrt(layers_at(p, i) / reduced_mass));
 }
 
 size_t zp_faces_front(const ZpFacesParams *p, const double *gap) {

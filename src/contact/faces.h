@@ -1,7 +1,7 @@
 /* Contact, at rest and in motion: insulator faces that overlap push each other apart, eq. (9.1), and nothing holds them
  * together. The push begins smoothly, so that a branch of equilibria has no corner where contact begins, and it is
  * integrated inside each element at the same points as the field, so that the two balance point by point. In motion a
- * damper acts between faces that overlap, eq. (9.3).
+ * damper acts between faces that overlap, eq. (9.3): within a step, eq. (9.6), or after it.
  *
  * Stations are pairs of facing nodes, or nodes below a flat face. */
 #ifndef ZP_CONTACT_FACES_H
@@ -35,6 +35,7 @@ typedef struct ZpFacesEval {
   double *push;       /* [N] on each station, N, positive opens */
   double *own, *next; /* [N], [N-1] its derivatives, sign turned: by the station's gap, by the next one's, N/m */
   double *stiffness;  /* [N] by all gaps at once, N/m: 0 where faces do not overlap */
+  double *damper;     /* [N] given: of the damper (9.6) within a step, at s = 1, N s/m; 0: it does not act */
 } ZpFacesEval;
 
 void zp_faces_carve(const ZpFacesParams *params, ZpFacesEval *eval, ZpCarver *carver);
@@ -43,7 +44,11 @@ void zp_faces_carve(const ZpFacesParams *params, ZpFacesEval *eval, ZpCarver *ca
 typedef struct ZpFacesSpan {
   const double *start, *end; /* [N] gaps, m; one array: rest */
   double late;               /* share of the push at the end in the mean, 0 to 1; eq. (18.11) */
+  double rate;               /* one over the time that they take, 1/s; 0: rest */
 } ZpFacesSpan;
+
+/* Let the damper (9.6) act at station i on relative motions of a mass, kg. */
+void zp_faces_damp(const ZpFacesParams *params, size_t i, double reduced_mass, const ZpFacesEval *eval);
 
 /* The same over a time h, s; 0: rest. */
 ZpFacesSpan zp_faces_span(const ZpFacesParams *params, const double *start, const double *end, double h);
@@ -55,6 +60,9 @@ void zp_faces_eval(const ZpFacesParams *params, const ZpFacesSpan *span, const Z
 /* (eval, mass of the relative motion of station i, kg) => the share of its velocity that the damper leaves after a time
  * dt. */
 double zp_faces_kept(const ZpFacesEval *eval, size_t i, double reduced_mass, double dt);
+
+/* The same with the k_c of eq. (9.6), by the gap of the station alone, m. */
+double zp_faces_kept_at(const ZpFacesParams *params, double gap, size_t i, double reduced_mass, double dt);
 
 /* How many stations from the first clip to the platform are closed, the clip not counted. */
 size_t zp_faces_front(const ZpFacesParams *params, const double *gap);

@@ -253,12 +253,11 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
 }
 
 /* The inertia beyond `mass` counts, too, or not. */
-static void smooth(ZpImplicit *s, double h, bool all, double *v) {
-  enum { POWER = 3 };
+static void smooth(ZpImplicit *s, double h, bool all, int power, double *v) {
   size_t n = s->system->n;
   double *fast = s->r, *slow = s->q;
   memcpy(fast, v, n * sizeof *v);
-  for (int k = 0; k < POWER; k++) {
+  for (int k = 0; k < power; k++) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
     if (all) add_inertia(s, 2 / (h * h), fast, slow);
@@ -271,13 +270,13 @@ static void smooth(ZpImplicit *s, double h, bool all, double *v) {
 }
 
 void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
-  smooth(s, h, true, v);
+  smooth(s, h, true, 5, v);
 }
 
 void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
   for (size_t i = 0; i < s->system->n; i++)
     v[i] -= w[i];
-  smooth(s, h, false, v);
+  smooth(s, h, false, 3, v);
   for (size_t i = 0; i < s->system->n; i++)
     v[i] += w[i];
 }

@@ -108,8 +108,8 @@ typedef struct ZpNearSteps {
  * False: the rate is not found. */
 bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate);
 
-/* The same of what velocities v have beyond the mean rates w of the last step, by the inertia `mass` alone: where a
- * resistance is far above that, the step lets them turn round without end. */
+/* The share (x / (1 + x))^3 of what velocities v have beyond the mean rates w of the last step, by the inertia `mass`
+ * alone: where a resistance is far above that, the step lets them turn round without end. */
 void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v);
 
 /* -d(r - M a)/dy1 at the last residual of the system, exactly, for a step of h => J, whose arrays
@@ -117,7 +117,7 @@ void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v)
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver);
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
-/* Take out of velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^3 of a mode of
+/* Take out of velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of
  * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) keeps such modes, turned round in
  * every step. */
 void zp_implicit_smooth(ZpImplicit *stepper, double h, double *v);

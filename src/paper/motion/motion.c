@@ -36,7 +36,7 @@ static double damp(const ZpPaperMotion *m, size_t i, const double *ay, double dt
   double upper = inverse[2 * i], lower = inverse[2 * i + 1], both = upper + lower;
   if (both == 0) return 0;
   double apart = vy[2 * i] - vy[2 * i + 1];
-  double lost = (1 - zp_faces_kept(&m->eval->faces, i, 1 / both, dt)) * apart;
+  double lost = (1 - zp_faces_kept_at(&m->model->faces, m->eval->plates.gap[i], i, 1 / both, dt)) * apart;
   double other = (ay[2 * i] - ay[2 * i + 1]) / both - m->eval->faces.push[i];
   vy[2 * i] -= lost * upper / both;
   vy[2 * i + 1] += lost * lower / both;
