@@ -47,15 +47,15 @@ typedef struct ZpFacesSpan {
   double rate;               /* one over the time that they take, 1/s; 0: rest */
 } ZpFacesSpan;
 
-/* Let the damper (9.6) act at station i on relative motions of a mass, kg. */
-void zp_faces_damp(const ZpFacesParams *params, size_t i, double reduced_mass, const ZpFacesEval *eval);
-
 /* The same over a time h, s; 0: rest. */
 ZpFacesSpan zp_faces_span(const ZpFacesParams *params, const double *start, const double *end, double h);
 
 /* => all of eval: the mean push of the span, its derivatives by the gaps at the end. At rest both ends move: the
  * derivatives are then half of the stiffness. */
 void zp_faces_eval(const ZpFacesParams *params, const ZpFacesSpan *span, const ZpFacesEval *eval);
+
+/* Let the damper (9.6) act at station i on relative motions of a mass, kg. */
+void zp_faces_damp(const ZpFacesParams *params, size_t i, double reduced_mass, const ZpFacesEval *eval);
 
 /* (eval, mass of the relative motion of station i, kg) => the share of its velocity that the damper leaves after a time
  * dt. */

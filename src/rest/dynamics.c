@@ -392,7 +392,7 @@ static void damp_one(ZpDynamics *top, ZpDynamics *m) {
   if (m->above) top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
 }
 
-/* Is the step short beside the vibration of a mass on the layers of faces that overlap, as in (18.13)? */
+/* Does the step follow the vibration of masses on the layers of all faces that overlap? Theory, section 18, Contact. */
 static bool follows_layers(const ZpDynamics *d) {
   for (const ZpDynamics *m = d; m; m = m->below)
     for (size_t i = 1; i < m->model->nodes; i++)

@@ -117,9 +117,9 @@ static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResul
   return status;
 }
 
-/* Has a branch been lost where elements are longer than what bends? */
+/* Has a branch been lost where what bends has fewer elements than its note advises? */
 static bool is_too_coarse(const ZpResult *result) {
-  return result->outcome == ZP_BRANCH_LOST && result->resolution < 1;
+  return result->outcome == ZP_BRANCH_LOST && result->resolution < 2;
 }
 
 /* Solve on the mesh that is asked for; where that is too coarse on one with half as long elements, and once more =>
@@ -135,8 +135,8 @@ static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task
     status = solve(run, study, &finer, result, err);
     if (status == ZP_OK)
       zp_result_note(*result,
-                     "solved with %d nodes: with mesh.nodes = %d elements are longer than the length over which the "
-                     "ribbon bends, and the branch of equilibria was lost there",
+                     "solved with %d nodes: with mesh.nodes = %d there are fewer than two elements on the length over "
+                     "which the ribbon bends, and the branch of equilibria was lost there",
                      def->mesh.nodes, task->def->mesh.nodes);
   }
   return status;
