@@ -389,6 +389,21 @@ START_TEST(coarse_mesh_is_refined) {
 }
 END_TEST
 
+/* A random design: lost with 30 nodes, and with 59, where there is more than one element on what bends. */
+START_TEST(coarse_mesh_is_refined_twice) {
+  ZpActuatorDef def = DEF({"isometric.separation", 0.0074693277786100302}, {"drive.voltage", 2872.2404835792363},
+                          {"mesh.nodes", 30}, {"ribbon.length", 0.29170161194665811},
+                          {"ribbon.width", 0.010404214410051807}, {"ribbon.thickness", 1.751729939629503e-05},
+                          {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38}, {"ribbon.density", 1390},
+                          {"platform.length", 0.029170161194665811}, {"insulator.thickness", 1.9668042635096224e-05},
+                          {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6}, {"output.errors", 0});
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
+  ck_assert_uint_eq(result->shapes->nodes, 117);
+  ck_assert(notes_with(result, "solved with 117 nodes") == 1);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* -- what is refused ------------------------------------------------------------------------------- */
 
 static void check_refused(ZpActuatorDef def, const char *first, const char *second) {
@@ -431,6 +446,7 @@ int main(void) {
   tcase_add_test(force, test_impossible_states_are_told);
   tcase_add_test(force, insulators_beyond_their_breakdown_are_pressed_not_passed);
   tcase_add_test(force, coarse_mesh_is_refined);
+  tcase_add_test(force, coarse_mesh_is_refined_twice);
   tcase_add_test(force, test_refused);
   suite_add_tcase(suite, force);
   return run_suite(suite);

@@ -44,7 +44,7 @@ START_TEST(moment_is_the_closed_form) {
 }
 END_TEST
 
-/* Let go after it was bent to x. Close to the first yield little is left: there the fibres' share of it is coarse. */
+/* Unloaded after it was bent to x. Close to the first yield little is left: there the fibres' share of it is coarse. */
 START_TEST(residual_curvature_is_the_closed_form) {
   static const double over[] = {1.3, 1.5, 1.7, 2, 2.5, 3, 4, 6, 10};
   double x = over[_i], p[ZP_FIBRES];

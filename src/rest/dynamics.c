@@ -392,11 +392,18 @@ static void damp_one(ZpDynamics *top, ZpDynamics *m) {
   if (m->above) top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
 }
 
-/* Does the step follow the vibration of masses on the layers of all faces that overlap? Theory, section 18, Contact. */
+static void damp_all(ZpDynamics *d) {
+  for (ZpDynamics *m = d; m; m = m->below)
+    damp_one(d, m);
+}
+
+/* Does the step follow the vibration of masses on the layers of all faces that meet? Theory, section 18, Contact. */
 static bool follows_layers(const ZpDynamics *d) {
+  static const double followed = 4; /* angle by which such a vibration turns in the step, at most */
+  double most = followed * followed / (d->h * d->h);
   for (const ZpDynamics *m = d; m; m = m->below)
     for (size_t i = 1; i < m->model->nodes; i++)
-      if (m->eval.faces.stiffness[i] * d->h * d->h > 16 * pair_of(m, i).reduced) return false;
+      if (zp_dynamics_meets(m, i) && m->eval.faces.stiffness[i] > most * pair_of(m, i).reduced) return false;
   return true;
 }
 
@@ -409,9 +416,10 @@ static double impact(ZpDynamics *d) {
     loss += pushed(m, &any);
   if (!any || (!film && follows_layers(d))) return loss;
   loss += kinetic_energy(d);
-  if (!film) zp_implicit_smooth(&d->stepper, d->h, d->v);
-  for (ZpDynamics *m = d; m && film; m = m->below)
-    damp_one(d, m);
+  if (film)
+    damp_all(d);
+  else
+    zp_implicit_smooth(&d->stepper, d->h, d->v);
   return loss - kinetic_energy(d);
 }
 
@@ -456,7 +464,7 @@ static void weigh_liquid(ZpDynamics *d) {
 
 /* The damper of faces acts within the step, but a film takes the speed of faces itself: those that it leaves to meet
  * are damped after the step. */
-static void damp_faces(ZpDynamics *d) {
+static void set_dampers(ZpDynamics *d) {
   const ZpModel *model = d->model;
   for (size_t i = 1; i < model->nodes && model->field && !model->has_film; i++) {
     Pair pair = pair_of(d, i);
@@ -475,7 +483,7 @@ static void weigh(ZpDynamics *d, double added) {
       int row = d->assembly.equation[2 * zp_lower(t, i) + c];
       if (row >= 0) d->mass[row] += added;
     }
-  damp_faces(d);
+  set_dampers(d);
 }
 
 /* The voltage behind a source has a rate and no inertia. */
