@@ -134,10 +134,11 @@ static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task
     const ZpTask finer = {def, task->input, task->hooks};
     status = solve(run, study, &finer, result, err);
     if (status == ZP_OK)
-      zp_result_note(*result,
-                     "solved with %d nodes: with mesh.nodes = %d there are fewer than two elements on the length over "
-                     "which the ribbon bends, and the branch of equilibria was lost there",
-                     def->mesh.nodes, task->def->mesh.nodes);
+      zp_result_note(
+          *result,
+          "solved with %d nodes: with mesh.nodes = %d the branch of equilibria was lost, because the length over "
+          "which the ribbon bends has fewer than two elements",
+          def->mesh.nodes, task->def->mesh.nodes);
   }
   return status;
 }
