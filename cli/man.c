@@ -84,7 +84,7 @@ static const Entry statuses[] = {
     {"1", "the solver failed; what was reached is kept"},
     {"2", "wrong input; nothing was written"},
     {"3", "the machine failed: disk full, no permission, no memory; or another run holds the output folder"},
-    {"130", "interrupted; what was done is kept"},
+    {"130", "interrupted; the results so far are kept"},
     {NULL, NULL}};
 
 static const char scenarios[] =

@@ -92,7 +92,7 @@ START_TEST(test_auto_runs_as_what_it_stands_for) {
       continue; /* the study does not know that key's value at all */
     ZpResult *given = study_of(study, &def);
     bool draws = study != ZP_STUDY_STATIONARY && study != ZP_STUDY_PROFILE && study != ZP_STUDY_MODES;
-    ck_assert_int_eq(note_of(given, "liquid.model auto stands for none") != NULL, draws && of[k].says);
+    ck_assert_int_eq(note_of(given, "liquid.model auto means none") != NULL, draws && of[k].says);
     if (draws && of[k].says) ck_assert_ptr_nonnull(note_of(given, of[k].says));
     def.liquid.model = of[k].liquid;
     ZpResult *said = study_of(study, &def);
@@ -109,7 +109,7 @@ START_TEST(test_modes_leave_the_bead_out) {
   ZpActuatorDef bead = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_AUTO}), dry = DEF({"mesh.nodes", 11});
   ZpResult *with = study_of(ZP_STUDY_MODES, &bead), *without = study_of(ZP_STUDY_MODES, &dry);
   ck_same_scalars(with, without);
-  ck_assert(notes_with(with, "the bead is left out") == 1 && notes_with(without, "bead") == 0);
+  ck_assert(notes_with(with, "the bead is ignored") == 1 && notes_with(without, "bead") == 0);
   zp_result_destroy(with);
   zp_result_destroy(without);
 }

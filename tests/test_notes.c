@@ -106,7 +106,7 @@ START_TEST(closed_start_is_no_zip) {
   ck_assert_int_eq(held->outcome, ZP_REACHED_END);
   ck_assert_double_nan(zp_result_get(held, "zip_time_s"));
   ck_assert_double_gt(zp_result_get(held, "contraction"), 0.99);
-  ck_assert_ptr_nonnull(note_of(held, "it starts closed and does not open"));
+  ck_assert_ptr_nonnull(note_of(held, "the actuator starts closed and does not open"));
   ck_assert_ptr_null(note_of(held, "bead is too small"));
   zp_result_destroy(held);
 }
@@ -201,12 +201,12 @@ END_TEST
 START_TEST(what_rest_leaves_out_is_noted) {
   static const ZpStudy at_rest[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.current_limit", 1e-3});
-  ck_assert(notes(at_rest[_i], &def, "source.model = amplifier is left out"));
-  ck_assert(!notes(at_rest[_i], &def, "resistivities are left out"));
+  ck_assert(notes(at_rest[_i], &def, "source.model = amplifier is ignored"));
+  ck_assert(!notes(at_rest[_i], &def, "resistivities are ignored"));
   def.source.model = ZP_SOURCE_IDEAL;
   def.source.current_limit = NAN;
   def.insulator.resistivity = 1e12;
-  ck_assert(notes(at_rest[_i], &def, "resistivities are left out"));
+  ck_assert(notes(at_rest[_i], &def, "resistivities are ignored"));
   ck_assert(!notes(at_rest[_i], &def, "amplifier"));
 }
 END_TEST

@@ -132,11 +132,13 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
       zp_result_add(result, names[fit->key[k]].correlation[j], "1",
                     told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
     if (at_bound(fit, z, k))
-      zp_result_note(result, "%s is at a bound of its range: it has no standard error", key->name);
+      zp_result_note(result, "%s is at a bound of its range, so it has no standard error", key->name);
   }
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
   if (!told_apart && n > 0)
-    zp_result_note(result, "the data cannot distinguish the fitted keys: they have no standard errors");
+    zp_result_note(
+        result,
+        "the data cannot distinguish the fitted keys, so these have no standard errors; fit fewer keys or add data");
 }
 
 /* -- the table: what was set, then what was measured and computed, kind by kind ------------------------------------ */

@@ -67,7 +67,7 @@ static json_t *row_of(const ZpComparison *c) {
 }
 
 static const char *message_of(ZpOutcome outcome) {
-  if (outcome == ZP_INTERRUPTED) return "interrupted; what was done is kept";
+  if (outcome == ZP_INTERRUPTED) return "interrupted; the results so far are kept";
   return zp_outcome_good(outcome) ? "all runs done" : "a run failed: see its summary.json";
 }
 

@@ -519,28 +519,31 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     snprintf(text, size, "closed after %.4g ms", 1e3 * zp_sim_zip_time(sim));
     break;
   case ZP_INTERRUPTED:
-    snprintf(text, size, "interrupted at %g s; what was done is kept", t);
+    snprintf(text, size, "interrupted at %g s; the results so far are kept", t);
     break;
   case ZP_NOT_SETTLED:
-    snprintf(text, size, "no hanging equilibrium found: %g of the weight is still unbalanced after %lld steps",
-             sim->settle_residual, (long long)sim->settle_steps);
+    snprintf(text, size,
+             "no hanging equilibrium was found: after %lld steps the unbalanced force is still %g of the weight",
+             (long long)sim->settle_steps, sim->settle_residual);
     break;
   case ZP_DIVERGED:
     if (sim->eval.fault)
-      snprintf(text, size, "the field could not be solved before %g s: %s; what was recorded until then is kept", t,
+      snprintf(text, size, "the field could not be solved before %g s: %s; the results so far are kept", t,
                sim->eval.fault);
     else if (sim->stuck)
-      snprintf(text, size, "no time step converges at %g s, however short; what was recorded until then is kept", t);
+      snprintf(text, size,
+               "the solver failed at %g s: no time step converges, however short; the results so far are kept", t);
     else
-      snprintf(text, size, "diverged before %g s; what was recorded until then is kept; try a smaller solver.time_step",
-               t);
+      snprintf(text, size, "diverged before %g s; the results so far are kept; try a smaller solver.time_step", t);
     break;
   case ZP_STEP_LIMIT:
-    snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps", t, sim->model->def.solver.max_steps);
+    snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps; raise solver.max_steps to run to the end",
+             t, sim->model->def.solver.max_steps);
     break;
   case ZP_SHORT_CIRCUIT:
-    snprintf(text, size, "short circuit at %.4g ms: electrodes without an insulator touch at %g V", 1e3 * t,
-             sim->state->U);
+    snprintf(text, size,
+             "short circuit at %.4g ms: electrodes without an insulator touch at %g V; give insulator.thickness",
+             1e3 * t, sim->state->U);
     break;
   case ZP_CONVERGED:
   case ZP_FOLLOWED:

@@ -124,7 +124,7 @@ static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
 /* What may help where the energy of a run does not balance. */
 static const char *remedy(const ZpActuatorDef *def) {
   if (def->electro.surface == ZP_SURFACE_BEZIER || def->ribbon.model == ZP_RIBBON_MASS_SPRING)
-    return "the forces of mass_spring and bezier have no energy that could balance";
+    return "mass_spring and bezier have no energy, so it cannot balance";
   if (def->electro.model == ZP_ELECTRO_FIELD)
     return "try a smaller electro.refresh_change together with a smaller solver.tolerance";
   return "try a smaller solver.tolerance or solver.time_step";
@@ -134,7 +134,7 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
   static const double most = 1e-4;
   double error = zp_result_get(result, "energy_error");
   if (error > most)
-    zp_result_note(result, "the energy balance is off by %.2g of the electric work, more than %g; %s", error, most,
+    zp_result_note(result, "the error of the energy balance is %.2g of the electric work, above %g; %s", error, most,
                    remedy(def));
 }
 
@@ -148,7 +148,7 @@ static bool was_open(const ZpSim *sim) {
 static void note_start(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double opening = zp_table_get(result->series, 0, "opening_m");
   if (zp_model_info(model).ribbons == 2 && sim->state->t > 0 && !was_open(sim))
-    zp_result_note(result, "it starts closed and does not open: it does not zip, and zip_time_s is null");
+    zp_result_note(result, "the actuator starts closed and does not open, so it does not zip: zip_time_s is null");
   else if (opening > 0)
     zp_note_start(result, model, opening);
 }
@@ -165,10 +165,11 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   zp_note_liquid(result, model);
   double starved = zp_result_get(result, "starved_time_s");
   if (isfinite(starved))
-    zp_result_note(result,
-                   "the bead is too small: %.3g ms after the start the zip front has outrun its liquid, and closes in "
-                   "air from there; a larger bead.volume reaches further",
-                   1e3 * starved);
+    zp_result_note(
+        result,
+        "the bead is too small: from %.3g ms on the zip front is beyond its liquid and closes in air; increase "
+        "bead.volume",
+        1e3 * starved);
   if (isfinite(zp_result_get(result, "zip_time_s")))
     zp_result_note(result, model->has_film
                                ? "the zip time has not been compared with a measured one"

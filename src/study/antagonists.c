@@ -291,8 +291,8 @@ static void describe(Follower *f) {
   if (f->crossed)
     zp_result_note(
         r,
-        "at %.4g V another branch crosses the one that was followed: beyond it the load goes to either side, "
-        "and neither is in the table",
+        "at %.4g V another branch crosses this one, and the table ends: at higher voltages the load moves to one "
+        "side",
         f->pull_in);
 }
 

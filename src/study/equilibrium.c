@@ -215,12 +215,14 @@ static void note(Follower *f) {
   if (!isnan(f->left))
     zp_result_note(
         r,
-        "a branch was left at %.4g V, beyond its first limit point: other states of rest there are not in the "
-        "table; pull-in, closing and release do not depend on them",
+        "the table ends a branch at %.4g V, beyond its first limit point, so other states of rest are missing there; "
+        "pull-in, closing and release do not depend on them",
         f->left);
   if (!isnan(f->shorted))
-    zp_result_note(r, "at %.4g V electrodes without an insulator touch, a short circuit: the branch ends there",
-                   f->shorted);
+    zp_result_note(
+        r,
+        "short circuit at %.4g V: electrodes without an insulator touch, and the branch ends; give insulator.thickness",
+        f->shorted);
 }
 
 static void describe(Follower *f) {
@@ -243,7 +245,8 @@ static void describe(Follower *f) {
   else if (isnan(f->shorted))
     snprintf(down, sizeof down, "; no release: %s", f->release.reason);
   if (f->rest.statics.stopped)
-    snprintf(r->message, sizeof r->message, "interrupted at %.4g V; what was done is kept", fabs(f->rest.statics.U));
+    snprintf(r->message, sizeof r->message, "interrupted at %.4g V; the results so far are kept",
+             fabs(f->rest.statics.U));
   else if (f->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
   else

@@ -96,10 +96,11 @@ static void forget_all(Findings *findings) {
 static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
   if (result->resolution >= 1) return true;
   double enough = 1 + ceil((def->mesh.nodes - 1) / result->resolution);
-  zp_result_note(result,
-                 "mesh.nodes = %d: no errors are estimated, since elements are longer than the length over which the "
-                 "ribbon bends; mesh.nodes = %.0f would do",
-                 def->mesh.nodes, enough);
+  zp_result_note(
+      result,
+      "mesh.nodes = %d: errors are not estimated, because elements are longer than the length over which the "
+      "ribbon bends; use mesh.nodes = %.0f",
+      def->mesh.nodes, enough);
   return false;
 }
 

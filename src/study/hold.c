@@ -61,10 +61,11 @@ static double gain(const ZpControl *c, double setpoint, bool closing) {
 
 static void note_unknown(const ZpControl *c, ZpResult *result) {
   add_none(result, NAN);
-  zp_result_note(result,
-                 "control: whether the setpoint is held is not known: no eigenvalues of the loop are found; within "
-                 "control.period = %g s small motions may grow beyond all numbers, try a shorter one",
-                 c->period);
+  zp_result_note(
+      result,
+      "control: the eigenvalues of the loop were not found, so it is not known whether the setpoint is held; "
+      "small motions may overflow within control.period = %g s: try a shorter period",
+      c->period);
 }
 
 /* Of a loop with a boost what decays less of both sides. */
@@ -107,7 +108,9 @@ ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err) {
     done = look(rest, &signal, def->setpoint.value, result);
   } else if (done) {
     add_none(result, 0);
-    zp_result_note(result, "control: no state of rest on the way from hanging has the setpoint: it cannot be held");
+    zp_result_note(
+        result,
+        "control: no state of rest on the branch from the hanging state has the setpoint, so it cannot be held");
   }
   if (rest) zp_rest_close(rest);
   zp_free(rest);

@@ -269,15 +269,15 @@ static void note(Holder *h) {
   zp_note_no_controller(r, h->model);
   if (h->jumps > 0)
     zp_result_note(r,
-                   "%d jumps on the way up, the largest by %.3g N; where the wedge is shorter than an element the "
-                   "front passes nodes "
-                   "so: more mesh.nodes show whether they are real",
+                   "%d jumps on the way up, the largest by %.3g N; a wedge shorter than an element causes such jumps: "
+                   "increase mesh.nodes to see whether they are real",
                    h->jumps, h->leap);
   if (h->others > 0)
-    zp_result_note(r,
-                   "%d more stable states at drive.voltage (force %.4g N in the last): a higher or a suddenly applied "
-                   "voltage may lead to them",
-                   h->others, h->other_force);
+    zp_result_note(
+        r,
+        "%d more stable states at drive.voltage (force %.4g N in the last): a voltage that is higher at first, or "
+        "applied suddenly, may lead to them",
+        h->others, h->other_force);
 }
 
 static void describe(Holder *h) {

@@ -393,7 +393,7 @@ static void run(Finder *f, ZpResult *r) {
   r->outcome = hangs || f->rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);
   if (!hangs) snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
-  if (f->rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; what was done is kept");
+  if (f->rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; the results so far are kept");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
     record(f, r->series, r->shapes, k);
   look_at_ends(f);

@@ -22,10 +22,11 @@ static void note_limit(const ZpSim *sim, const ZpResponse *response, ZpResult *r
   double highest = sim->model->control.highest, command = zp_sim_is_fed(sim) ? zp_sim_command(sim) : sim->state->U;
   bool at_limit = command == 0 || command == highest;
   if (at_limit && fabs(response->error) > little * fabs(zp_sim_setpoint(sim)))
-    zp_result_note(result,
-                   "the setpoint is not held: at the end the controller is at its limit of %g V (drive.voltage is the "
-                   "upper one)",
-                   command);
+    zp_result_note(
+        result,
+        "the setpoint is not held: the run ends with the controller at its limit of %g V (its range is 0 V to "
+        "drive.voltage)",
+        command);
 }
 
 void zp_loop_summarize(ZpSim *sim, ZpTable *samples, ZpResult *result) {

@@ -207,8 +207,8 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
 
 void zp_modes_note_bead(ZpResult *result, const ZpActuatorDef *def) {
   if (zp_def_liquid(def) != ZP_LIQUID_BEAD) return;
-  zp_result_note(result, "the bead is left out: frequencies are those of the ribbons without its mass and drag%s",
-                 def->modes.voltage > 0 ? ", in a liquid that attracts everywhere" : "");
+  zp_result_note(result, "the bead is ignored: frequencies are those of the ribbons without its mass and drag%s",
+                 def->modes.voltage > 0 ? ", with the liquid's permittivity everywhere" : "");
 }
 
 ZpActuatorDef zp_modes_def(const ZpActuatorDef *def) {

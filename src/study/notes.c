@@ -38,8 +38,8 @@ void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen
     zp_result_note(result, "the metal reaches its yield stress of %.4g MPa: it stays bent", seen->yields / 1e6);
   else if (seen->stress > seen->yields)
     zp_result_note(result,
-                   "the metal's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent, which "
-                   "ribbon.plasticity true computes",
+                   "the metal's stress reaches %.4g MPa, above its yield stress of %.4g MPa: it would stay bent; set "
+                   "ribbon.plasticity true to compute this",
                    seen->stress / 1e6, seen->yields / 1e6);
 }
 
@@ -75,12 +75,12 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   double front = front_length(model, voltage), elements = model->L / model->l;
   result->resolution = fmin(front, hanging_length(model)) / model->l;
   if (elements < fewest)
-    zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements a shape at rest is off by some 5 %% or more",
+    zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements the error of a shape at rest may reach 8 %%",
                    model->def.mesh.nodes, fewest);
   if (model->l > front)
     zp_result_note(result,
-                   "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm; pull-in, zip time and "
-                   "force are off by some 10 %% or more; mesh.nodes = %.0f leaves some 5 %%",
+                   "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm; the error of pull-in, "
+                   "zip time and force may reach 10 %%; with mesh.nodes = %.0f it is about half of that",
                    model->def.mesh.nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
 }
 
@@ -96,7 +96,9 @@ void zp_note_liquid(ZpResult *result, const ZpModel *model) {
   ZpError why;
   if (model->def.liquid.model != ZP_LIQUID_AUTO || model->has_bead) return;
   if (zp_is_pair(&model->topology) && zp_check_bead(&model->def, &why) != ZP_OK)
-    zp_result_note(result, "liquid.model auto stands for none here, the liquid everywhere and without drag (%s)",
+    zp_result_note(result,
+                   "liquid.model auto means none here: the liquid is everywhere and has no drag, because a bead is not "
+                   "possible (%s)",
                    why.message);
 }
 
@@ -104,18 +106,18 @@ void zp_note_liquid(ZpResult *result, const ZpModel *model) {
 
 void zp_note_no_controller(ZpResult *result, const ZpModel *model) {
   if (model->control.kind == ZP_CONTROL_NONE) return;
-  zp_result_note(result, "control.kind is left out: these are states at given voltages; study actuate has the "
-                         "controller, and modes says whether it holds a state");
+  zp_result_note(result, "control.kind is ignored: these are states at given voltages; use study actuate to run the "
+                         "controller, and modes to find out whether it holds a state");
 }
 
 void zp_note_rest(ZpResult *result, const ZpModel *model) {
   zp_note_liquid(result, model);
   if (model->supply.acts)
-    zp_result_note(result, "source.model = amplifier is left out: at rest the electrodes have drive.voltage, whatever "
-                           "its current is; study actuate has the supply");
+    zp_result_note(result, "source.model = amplifier is ignored: at rest the electrodes have drive.voltage; use study "
+                           "actuate to include the supply");
   if (model->leaks)
-    zp_result_note(result, "resistivities are left out: these are states of a voltage that has just been switched on, "
-                           "before charge gathers between insulators and liquid; study actuate follows it");
+    zp_result_note(result, "resistivities are ignored: these are states just after the voltage is switched on, before "
+                           "charge collects between insulators and liquid; use study actuate to include it");
 }
 
 /* -- the start ------------------------------------------------------------------------------------- */
@@ -125,8 +127,8 @@ void zp_note_start(ZpResult *result, const ZpModel *model, double opening) {
   if (opening < insulators)
     zp_result_note(
         result,
-        "it starts from an opening of %.3g um, less than both insulators (%.3g um): it is nearly closed from "
-        "the start, so its zip time means little",
+        "the opening at the start, %.3g um, is less than the thickness of both insulators, %.3g um: the actuator "
+        "is nearly closed, so zip_time_s says little about zipping",
         1e6 * opening, 1e6 * insulators);
 }
 
@@ -135,7 +137,7 @@ void zp_add_efficiency(ZpResult *result, const char *name, double work, double e
   zp_result_add(result, name, "1", sound ? work / energy : NAN);
   if (!(energy > 0)) return;
   if (work < 0)
-    zp_result_note(result, "%s is null: the load ends lower than it began, the work on it is %.3g J", name, work);
+    zp_result_note(result, "%s is null: the load ends lower than it began; the work on it is %.3g J", name, work);
   if (work > energy)
     zp_result_note(
         result,

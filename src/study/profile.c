@@ -302,13 +302,14 @@ static void note(const Profiler *p) {
   if (fabs(local) > valid)
     zp_result_note(
         p->result,
-        "the field pulls with %.3g times what any local plates law gives: the faces are too steep or too far "
-        "apart for it",
+        "the force of the field is %.3g times that of the plates law: the faces are too steep or too far apart for "
+        "that law",
         1 + local);
   if (fabs(off) > agreement)
-    zp_result_note(p->result,
-                   "force by traction and by virtual work differ by %.2g %%: too steep a wedge for the field's grid",
-                   100 * fabs(off));
+    zp_result_note(
+        p->result,
+        "forces by traction and by virtual work differ by %.2g %%: the wedge is too steep for the field's grid",
+        100 * fabs(off));
 }
 
 /* -- the map --------------------------------------------------------------------------------------- */

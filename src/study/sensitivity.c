@@ -59,8 +59,9 @@ ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err) {
 
 void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
   if (*def->sensitivity.by)
-    zp_result_note(result, "sensitivity.by is ignored: this study has no derivatives; stationary, equilibrium, limits, "
-                           "isometric, modes and actuate have");
+    zp_result_note(result,
+                   "sensitivity.by is ignored: only stationary, equilibrium, limits, isometric, modes and actuate "
+                   "compute derivatives");
 }
 
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
@@ -127,7 +128,7 @@ void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result) {
       same++;
     found[k] = same < k ? found[same] : derive_limit(list, item, closed, slope);
     if (isnan(found[k]) && !isnan(item->limit->value) && !has_none(result, item->output))
-      zp_result_note(result, "%s has no derivatives: it is at a corner of a law", item->output);
+      zp_result_note(result, "%s has no derivatives: the slope of a force jumps at this state", item->output);
     zp_result_add_sensitivity(result, item->output, slope->key, found[k]);
   }
 }

@@ -138,7 +138,7 @@ static void describe(const Walk *w, const ZpMembers *members) {
   zp_members_say(members, "release", "release_voltage_V", r->message, sizeof r->message);
   if (isnan(w->lost)) return;
   r->outcome = ZP_BRANCH_LOST;
-  zp_result_note(r, "the state at %.4g V was lost: the table ends there", w->lost);
+  zp_result_note(r, "the solver lost the state at %.4g V: the table ends there", w->lost);
 }
 
 ZpStatus zp_members_follow(const ZpTask *task, const ZpMembers *members, ZpResult *result, ZpError *err) {
