@@ -74,7 +74,10 @@ static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mes
 /* The error of f_0 if errors go with the power -order of the number of elements; NAN where that mesh has none. */
 static double richardson(const Findings *findings, int k, int mesh, int order) {
   const double *f = findings->f[k], *n = findings->elements;
-  return fabs(f[0] - f[mesh]) / (pow(n[0] / n[mesh], order) - 1);
+  double growth = 1;
+  for (int i = 0; i < order; i++)
+    growth *= n[0] / n[mesh];
+  return fabs(f[0] - f[mesh]) / (growth - 1);
 }
 
 /* Do the meshes approach from one side, with the first power of the elements' length or faster? */
