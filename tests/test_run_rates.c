@@ -39,6 +39,7 @@ static double difference(const ZpActuatorDef *def, const char *output, const cha
 static void check(const ZpActuatorDef *def, const char *output, const char *key, double part, double allowed) {
   ZpResult *result = run_by(def, key);
   double rate = slope_in(result, output, key), by_runs = difference(def, output, key, part);
+  printf("%s by %s: %.9g, off by %.1e\n", output, key, rate, fabs(rate / by_runs - 1));
   ck_assert_msg(fabs(rate - by_runs) <= allowed * fabs(by_runs), "%s by %s: %.9g, by differences %.9g", output, key,
                 rate, by_runs);
   zp_result_destroy(result);
@@ -54,6 +55,64 @@ START_TEST(zip_in_a_bath) {
   check(&def, "zip_time_s", "insulator.thickness", 1e-5, 1e-7);
   check(&def, "viscous_loss_J", "drive.voltage", 1e-6, 1e-7);
   check(&def, "jet_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-6);
+}
+END_TEST
+
+static ZpActuatorDef dry_zip(int nodes, double tolerance) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.mesh.nodes = nodes;
+  def.solver.tolerance = tolerance;
+  return def;
+}
+
+/* Through all landings of faces, with the same steps; with and without the cap of the field. */
+START_TEST(zip_without_liquid) {
+  ZpActuatorDef def = dry_zip(21, 1e-7);
+  def.solver.time_step = 5e-5;
+  def.electro.breakdown_cap = _i;
+  check(&def, "zip_time_s", "drive.voltage", 1e-6, 1e-5);
+  check(&def, "zip_time_s", "ribbon.thickness", 1e-6, 1e-5);
+  def.solver.end_time = 0.04;
+  check(&def, "stroke_m", "load.mass", 1e-6, 1e-5);
+  check(&def, "stroke_m", "insulator.thickness", 1e-6, 1e-5);
+}
+END_TEST
+
+/* Runs near choose other steps. The derivative comes nearer to their difference with the tolerance. */
+START_TEST(zip_without_liquid_with_its_own_steps) {
+  ZpActuatorDef def = dry_zip(41, 1e-5);
+  check(&def, "zip_time_s", "drive.voltage", 3e-4, 2e-3);
+}
+END_TEST
+
+/* As faces land, the matrix of the iteration lacks much of the exact tangent: plain passes turned round and found no
+ * derivative from 73.7 ms on. */
+START_TEST(derivative_of_every_landing_is_found) {
+  ZpActuatorDef def = dry_zip(21, 1e-3);
+  ZpResult *result = run_by(&def, "ribbon.thickness");
+  ck_near(slope_in(result, "zip_time_s", "ribbon.thickness"), -5210, 3e-2);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Where the instant is at the end of a step, those of actuators near are before it and after it. */
+START_TEST(zip_at_the_end_of_a_step) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  def.solver.time_step = 5e-4;
+  ZpResult *result = run_by(&def, "drive.voltage");
+  double usual = slope_in(result, "zip_time_s", "drive.voltage"), time = zp_result_get(result, "zip_time_s");
+  double steps = ceil(time / def.solver.time_step);
+  for (int k = 0; k < 8; k++) {
+    zp_result_destroy(result);
+    def.solver.time_step = time / steps;
+    result = run_by(&def, "drive.voltage");
+    time = zp_result_get(result, "zip_time_s");
+  }
+  ck_assert_double_lt(fabs(time - steps * def.solver.time_step), 1e-12);
+  ck_near(slope_in(result, "zip_time_s", "drive.voltage"), usual, 1e-3);
+  zp_result_destroy(result);
 }
 END_TEST
 
@@ -140,18 +199,6 @@ static bool has_note(const ZpResult *result, const char *words) {
   return false;
 }
 
-START_TEST(dry_faces_end_them) {
-  ZpActuatorDef def = motion();
-  def.liquid.model = ZP_LIQUID_NONE;
-  def.solver.tolerance = 1e-3;
-  ZpResult *result = run_by(&def, "drive.voltage");
-  ck_assert(isnan(slope_in(result, "zip_time_s", "drive.voltage")));
-  ck_assert(isnan(slope_in(result, "stroke_m", "drive.voltage")));
-  ck_assert(has_note(result, "ms on there are no derivatives: faces meet or part without liquid between them"));
-  zp_result_destroy(result);
-}
-END_TEST
-
 START_TEST(limits_of_a_supply_end_them) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_NONE;
@@ -194,11 +241,14 @@ int main(void) {
   Suite *suite = suite_create("run rates");
   TCase *tests = tcase_create("run rates");
   tcase_add_test(tests, zip_in_a_bath);
+  tcase_add_loop_test(tests, zip_without_liquid, 0, 2);
+  tcase_add_test(tests, zip_without_liquid_with_its_own_steps);
+  tcase_add_test(tests, derivative_of_every_landing_is_found);
+  tcase_add_test(tests, zip_at_the_end_of_a_step);
   tcase_add_test(tests, start_of_a_swing);
   tcase_add_test(tests, corners_move_with_their_key);
   tcase_add_test(tests, swing_scales);
   tcase_add_test(tests, charging_through_a_resistor);
-  tcase_add_test(tests, dry_faces_end_them);
   tcase_add_test(tests, limits_of_a_supply_end_them);
   tcase_add_test(tests, refusals);
   suite_add_tcase(suite, tests);
