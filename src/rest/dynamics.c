@@ -774,7 +774,7 @@ void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
     d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
 }
 
-/* What the links of those side by side push each platform up with, eq. (29.6). */
+/* What the links of those side by side push each platform up with, eq. (29.5). */
 static void book_links(const ZpDynamics *d, ZpState *const state[]) {
   const double *link = d->q + first_link(d);
   for (size_t k = 0; k <= d->links; k++)

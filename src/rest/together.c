@@ -400,7 +400,7 @@ bool zp_together_stable(ZpTogether *all) {
 
 double zp_together_stiffness(ZpTogether *all) {
   ZpNewtonWork *work = &all->branch.newton;
-  size_t load = own_load(all, 0);
+  size_t load = place_of(all, 0, own_load(all, 0));
   if (!factor(all)) return NAN;
   memset(work->r, 0, all->system.at_rest.n * sizeof *work->r);
   work->r[load] = 1;

@@ -326,7 +326,7 @@ static void join_row(const ZpModel *model, double *row, const double *other) {
   }
 }
 
-/* What one of those side by side pulls the load up with, eq. (29.6), N: the mean over the last step. */
+/* What one of those side by side pulls the load up with, eq. (29.5), N: the mean over the last step. */
 static double force_of(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
