@@ -3,7 +3,7 @@
 #include "check_util.h"
 
 #include "actuator/model.h"
-#include "rest/antagonists.h"
+#include "rest/together.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -87,10 +87,10 @@ START_TEST(voltage_moves_the_residual) {
   static const double little = 1e-2; /* V */
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"stack.voltage_ratio", 0.6});
   ZpModel *model = model_of(&def);
-  ZpAntagonists both;
-  ck_assert(zp_antagonists_open(&both, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_antagonists_hang(&both).end));
-  ck_assert(zp_newton_good(zp_antagonists_settle(&both, 1500).end));
+  ZpTogether both;
+  ck_assert(zp_together_open(&both, model, NULL, NULL));
+  ck_assert(zp_newton_good(zp_together_hang(&both).end));
+  ck_assert(zp_newton_good(zp_together_settle(&both, 1500).end));
   const ZpBranchSystem *system = &both.system;
   size_t n = system->at_rest.n;
   double *up = calloc(3 * n, sizeof *up), *down = up + n, *by = down + n;
@@ -105,7 +105,7 @@ START_TEST(voltage_moves_the_residual) {
     up[i] = (up[i] - down[i]) / (2 * little) - by[i];
   ck_below(largest_of(up, n) / most, 1e-4);
   free(up);
-  zp_antagonists_close(&both);
+  zp_together_close(&both);
   zp_model_destroy(model);
 }
 END_TEST

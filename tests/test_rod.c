@@ -263,7 +263,7 @@ END_TEST
 
 /* -- band matrices --------------------------------------------------------------------------------- */
 
-enum { EQUATIONS = 24 };
+enum { EQUATIONS = 40 };
 
 typedef double Dense[EQUATIONS][EQUATIONS];
 
@@ -398,7 +398,7 @@ static void *upper_of(const ZpBand *band, ZpBand *half) {
 
 /* Definite matrices, either sign: no pivoting, the same solution. Measured: within 4e-16. */
 START_TEST(test_band_symmetric) {
-  static const size_t widths[] = {0, 1, 2, 5, 11, ZP_BAND_MOST};
+  static const size_t widths[] = {0, 1, 2, 5, 11, ZP_BAND_MOST, ZP_BAND_MOST + 1, EQUATIONS - 1};
   double worst = 0;
   for (size_t c = 0; c < LENGTH_OF(widths); c++)
     for (uint64_t seed = 1; seed <= 20; seed++) {

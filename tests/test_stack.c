@@ -3,6 +3,7 @@
 #include "check_util.h"
 
 #include "actuator/model.h"
+#include "def/check.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
 START_TEST(weightless_series_pulls_in_as_one) {
@@ -63,6 +64,198 @@ START_TEST(parallel_shares_the_load) {
   for (size_t k = 0; k < LENGTH_OF(expected); k++)
     ck_near(answered_value(expected[k].study, &three, expected[k].name),
             expected[k].times * answered_value(expected[k].study, &one, expected[k].name), 1e-6);
+}
+END_TEST
+
+/* -- unlike members side by side ------------------------------------------------------------------- */
+
+/* So many side by side that are alike, though one of them has a key of its own. */
+static ZpActuatorDef alike(int members, double mass) {
+  ZpActuatorDef def = DEF({"stack.parallel", members}, {"load.mass", mass}, {"mesh.nodes", 21}, {"drive.voltage", 5e3});
+  def.member_1.ribbon.thickness = def.ribbon.thickness;
+  return def;
+}
+
+/* As many equal ones, and one alone under its share, are as the system of them is: two, whose unknowns lie back to
+ * back, three and eight, whose unknowns lie side by side. */
+START_TEST(equal_ones_side_by_side_are_as_one) {
+  static const int counts[] = {2, 3, 8};
+  static const struct {
+    ZpStudy study;
+    const char *name;
+    double within;
+  } same[] = {{ZP_STUDY_STATIONARY, "opening_m", 1e-12},
+              {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", 1e-9},
+              {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", 1e-5}, /* points of the branch lie elsewhere */
+              {ZP_STUDY_ACTUATE, "opening_m", 1e-9}};
+  ZpActuatorDef all = alike(counts[_i], 4e-3 * counts[_i]);
+  all.mesh.nodes = 61; /* without ripples on the branch */
+  all.solver.time_step = 1e-4;
+  all.solver.end_time = 30e-3;
+  ZpActuatorDef equal = all;
+  equal.member_1.ribbon.thickness = NAN;
+  for (size_t k = 0; k < LENGTH_OF(same); k++)
+    ck_near(answered_value(same[k].study, &all, same[k].name), answered_value(same[k].study, &equal, same[k].name),
+            same[k].within);
+}
+END_TEST
+
+static double sum_of(const ZpTable *table, size_t row, const char *number, size_t members) {
+  double sum = 0;
+  for (size_t k = 1; k <= members; k++) {
+    char name[40];
+    snprintf(name, sizeof name, "member_%zu_%s", k, number);
+    sum += zp_table_get(table, row, name);
+  }
+  return sum;
+}
+
+static ZpActuatorDef unlike(void) {
+  return DEF({"stack.parallel", 3}, {"load.mass", 12e-3}, {"mesh.nodes", 21}, {"member_2.ribbon.thickness", 80e-6},
+             {"member_3.insulator.thickness", 110e-6}, {"drive.voltage", 6e3});
+}
+
+/* At every voltage, on stable and unstable ways, forces of unlike members carry the load. Eq. (29.5). */
+START_TEST(forces_carry_the_load) {
+  ZpActuatorDef def = unlike();
+  def.load.force = 20e-3;
+  ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  for (size_t row = 0; row < result->series->rows; row++)
+    ck_near(sum_of(result->series, row, "force_N", 3), def.load.mass * def.gravity + def.load.force, 1e-6);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Each force is the one that holds that member alone at the common opening: alone under it, it opens as far. */
+START_TEST(force_of_each_is_as_alone) {
+  ZpActuatorDef def = unlike();
+  ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
+  static const char *const force[] = {"member_1_force_N", "member_2_force_N", "member_3_force_N"};
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef one = zp_def_member(&def, k + 1);
+    one.load.mass = 0;
+    one.load.force = zp_result_get(result, force[k]);
+    ck_near(answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), zp_result_get(result, "opening_m"), 1e-8);
+  }
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* The stiffness is how the sum of forces goes with the opening: that is what a little more load says. */
+START_TEST(stiffness_side_by_side_is_the_slope) {
+  static const double little = 1e-5; /* N */
+  ZpActuatorDef def = unlike(), more = def, less = def;
+  more.load.force = little;
+  less.load.force = -little;
+  double moved =
+      answered_value(ZP_STUDY_STATIONARY, &more, "opening_m") - answered_value(ZP_STUDY_STATIONARY, &less, "opening_m");
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "stiffness_N_per_m"), 2 * little / moved, 1e-5);
+}
+END_TEST
+
+/* Over a zip, dry, in a bath and with beads, what the source gives is stored or lost; and the work of the forces on the
+ * way of the load is what it gains in height and speed. Dry, rows are too few for the impacts at its end. */
+START_TEST(energy_and_forces_of_unlike_ones) {
+  static const int liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
+  ZpActuatorDef def = unlike();
+  def.liquid.model = liquid[_i];
+  def.solver.end_time = 2;
+  def.output.samples = 2000;
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  const ZpTable *table = result->series;
+  ck_assert_int_eq(result->outcome, ZP_ZIPPED);
+  ck_below(zp_result_get(result, "energy_error"), 1e-7);
+  double work = 0, speed = 0;
+  for (size_t row = 1; row < table->rows; row++) {
+    double fell = zp_table_get(table, row - 1, "opening_m") - zp_table_get(table, row, "opening_m");
+    work += sum_of(table, row, "force_N", 3) * fell;
+    speed = zp_table_get(table, row, "end_velocity_m_per_s");
+  }
+  double risen = zp_table_get(table, 0, "opening_m") - zp_table_get(table, table->rows - 1, "opening_m");
+  ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed), _i == 0 ? 1e-2 : 1e-4);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Without voltage what is at rest stays, and forces remain those of rest. */
+START_TEST(unlike_ones_at_rest_stay) {
+  ZpActuatorDef def = unlike();
+  def.drive.voltage = 0;
+  def.solver.end_time = 0.1;
+  ZpResult *moved = answer_of(ZP_STUDY_ACTUATE, &def), *rest = answer_of(ZP_STUDY_STATIONARY, &def);
+  size_t last = moved->series->rows - 1;
+  ck_near(zp_result_get(moved, "opening_m"), zp_result_get(rest, "opening_m"), 1e-6);
+  static const char *const force[] = {"member_1_force_N", "member_2_force_N", "member_3_force_N"};
+  for (size_t k = 0; k < 3; k++) {
+    ck_near(zp_table_get(moved->series, 0, force[k]), zp_result_get(rest, force[k]), 1e-9);
+    ck_near(zp_table_get(moved->series, last, force[k]), zp_result_get(rest, force[k]), 1e-5);
+  }
+  zp_result_destroy(moved);
+  zp_result_destroy(rest);
+}
+END_TEST
+
+/* At a low voltage with much damping motion ends where the equilibrium is. */
+START_TEST(unlike_ones_come_to_their_equilibrium) {
+  ZpActuatorDef def = unlike();
+  def.drive.voltage = 1e3;
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  def.solver.end_time = 8;
+  ZpResult *moved = answer_of(ZP_STUDY_ACTUATE, &def), *rest = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  size_t last = moved->series->rows - 1, end = rest->series->rows - 1;
+  static const char *const same[] = {"opening_m", "charge_C", "member_1_force_N", "member_2_force_N",
+                                     "member_3_force_N"};
+  for (size_t k = 0; k < LENGTH_OF(same); k++)
+    ck_near(zp_table_get(moved->series, last, same[k]), zp_table_get(rest->series, end, same[k]), 1e-4);
+  zp_result_destroy(moved);
+  zp_result_destroy(rest);
+}
+END_TEST
+
+/* In the impact all that shares the platform is behind the damper, whichever member's faces meet first. */
+START_TEST(any_member_hits_as_hard) {
+  ZpActuatorDef def = DEF({"stack.parallel", 3}, {"load.mass", 12e-3}, {"mesh.nodes", 11}, {"drive.voltage", 10e3},
+                          {"solver.stop_when_zipped", ZP_WHEN_FALSE}, {"solver.tolerance", 1e-3},
+                          {"solver.end_time", 0.1}, {"liquid.model", ZP_LIQUID_NONE});
+  double lost[3];
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef one = def;
+    double *thickness[] = {&one.member_1.ribbon.thickness, &one.member_2.ribbon.thickness,
+                           &one.member_3.ribbon.thickness};
+    *thickness[k] = 80e-6;
+    ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &one);
+    lost[k] = zp_table_get(result->series, result->series->rows - 1, "contact_loss_J");
+    ck_below(zp_result_get(result, "energy_error"), 1e-6);
+    zp_result_destroy(result);
+  }
+  ck_assert_double_gt(lost[0], 0);
+  ck_near(lost[1], lost[0], 1e-6);
+  ck_near(lost[2], lost[0], 1e-6);
+}
+END_TEST
+
+START_TEST(what_unlike_ones_lack_is_said) {
+  static const struct {
+    Setting set;
+    ZpStudy study;
+    const char *says;
+  } refused[] = {
+      {{"mesh.nodes", 21}, ZP_STUDY_LIMITS, "study limits does not know them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_MODES, "study modes does not know them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not know them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "study isometric does not know them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not know them"},
+      {{"stack.parallel", 9}, ZP_STUDY_STATIONARY, "stack.parallel = 9: with keys of member_K at most 8"},
+      {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
+      {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series of at least 2"},
+      {{"stack.distance", 0.02}, ZP_STUDY_STATIONARY, "requires stack.series 2"},
+      {{"actuator.symmetry", ZP_SYMMETRY_NONE}, ZP_STUDY_ACTUATE, "of unlike members: requires actuator.symmetry half"},
+      {{"ribbon.plasticity", 1}, ZP_STUDY_ACTUATE, "ribbon.plasticity false with unlike members"},
+      {{"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"}};
+  for (size_t k = 0; k < LENGTH_OF(refused); k++) {
+    ZpActuatorDef def = DEF({"stack.parallel", 3}, {"member_2.ribbon.thickness", 80e-6}, refused[k].set);
+    ck_refused_by(refused[k].study, &def, refused[k].says);
+  }
 }
 END_TEST
 
@@ -355,6 +548,10 @@ int main(void) {
   tcase_add_test(rest, members_carry_those_below);
   tcase_add_test(rest, parallel_shares_the_load);
   tcase_add_test(rest, what_a_stack_lacks_is_said);
+  tcase_add_test(rest, forces_carry_the_load);
+  tcase_add_test(rest, force_of_each_is_as_alone);
+  tcase_add_test(rest, stiffness_side_by_side_is_the_slope);
+  tcase_add_test(rest, what_unlike_ones_lack_is_said);
   tcase_add_test(rest, members_rest_together_as_alone);
   tcase_add_test(rest, members_close_and_open_one_by_one);
   tcase_add_test(rest, chain_of_springs_and_masses);
@@ -364,6 +561,11 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, series_at_rest_stays, 0, 2);
   tcase_add_test(motion, two_in_series_are_half_as_stiff);
+  tcase_add_loop_test(motion, equal_ones_side_by_side_are_as_one, 0, 3);
+  tcase_add_loop_test(motion, energy_and_forces_of_unlike_ones, 0, 3);
+  tcase_add_test(motion, unlike_ones_at_rest_stay);
+  tcase_add_test(motion, unlike_ones_come_to_their_equilibrium);
+  tcase_add_test(motion, any_member_hits_as_hard);
   tcase_add_loop_test(motion, energy_and_links_of_a_zip, 0, 3);
   tcase_add_test(motion, members_yield);
   tcase_add_loop_test(motion, states_of_several_are_restored, 0, 2);

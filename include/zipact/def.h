@@ -142,6 +142,10 @@ ZP_API const char *zp_def_text(const ZpActuatorDef *def, int index);
  * of another type; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
 
+/* How many members does the system have: stack.series, or stack.parallel where a member has keys of its own; equal
+ * actuators side by side count as one. */
+ZP_API int zp_def_members(const ZpActuatorDef *def);
+
 /* Does this key name a material (ribbon.material and the like), whose values fill other keys before anything is
  * computed? */
 ZP_API bool zp_key_is_material(int index);

@@ -772,25 +772,28 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
                  hangs, most);
 }
 
-/* The members of a series, two or more, from the lowest up. */
-static ZpStatus create_series(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
+/* The members of a stack, two or more, from the last one on. */
+static ZpStatus create_stack(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
   ZpModel *below = NULL;
-  for (int member = def->stack.series; member >= 1; member--) {
+  for (int member = zp_def_members(def); member >= 1; member--) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpModel *model;
-    bool opposed = zp_def_opposed(def), follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
-    ZpStatus status = create_one(&one, follows ? table : NULL, member > 1 && !opposed, &model, err);
+    bool opposed = zp_def_opposed(def), abreast = zp_def_abreast(def), hangs = !opposed && !abreast,
+         follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
+    ZpStatus status = create_one(&one, follows ? table : NULL, member > 1 && hangs, &model, err);
     if (status != ZP_OK) {
       zp_model_destroy(below);
       return status;
     }
     model->below = below;
+    model->abreast = abreast;
+    if (abreast) model->ratio = 1;
     if (opposed) {
       model->distance = def->stack.distance;
       model->bias = zp_def_lower_voltage(def, 0);
       model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
     }
-    if (below && !opposed) model->carried = mass_from_here(below);
+    if (below && hangs) model->carried = mass_from_here(below);
     below = model;
   }
   ZpStatus status = below ? check_carried(below, err) : ZP_OK;
@@ -806,7 +809,7 @@ ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *ta
   ZpStatus status = zp_def_check(def, err);
   if (status == ZP_OK) status = check_table(def, table, err);
   if (status != ZP_OK) return status;
-  return def->stack.series > 1 ? create_series(def, table, out, err) : create_one(def, table, false, out, err);
+  return zp_def_members(def) > 1 ? create_stack(def, table, out, err) : create_one(def, table, false, out, err);
 }
 
 ZpActuatorDef zp_member_at_rest(const ZpModel *member) {

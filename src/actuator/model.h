@@ -108,7 +108,8 @@ struct ZpModel {
   double total_weight;  /* of what moves, of one half, N */
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
-  ZpModel *below;       /* of a series: the member that hangs on this one's lower platform; NULL: none */
+  ZpModel *below;       /* of a series: the member that hangs on this one's lower platform; else the next one; NULL: none */
+  bool abreast;         /* its lower platform is joined to those of the others, side by side */
   double carried;       /* mass of all members and loads below, kg, of the whole actuator */
   double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
   double ratio, bias;   /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
@@ -166,6 +167,8 @@ typedef struct ZpState {
   double leaked;           /* and charge that has passed through the insulators, C */
   double meniscus_loss;    /* per part: by menisci that move, J */
   ZpBead bead[ZP_BEADS];   /* of each half */
+  double link_force;       /* one of those side by side: what links push its platform up with, the mean over the last
+                              step, N per part */
   double starved_time;     /* when a zip front had outrun its bead, s; NAN: it has not */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
@@ -231,14 +234,20 @@ static inline double zp_opposed_voltage(const ZpModel *model, double voltage) {
   return model->ratio * voltage + model->bias;
 }
 
-/* The member of a series on which the load hangs: the lowest one, of antagonists the upper one. */
+/* Do all members share one load, at the lower platform of each? */
+static inline bool zp_shares_load(const ZpModel *model) {
+  return zp_is_opposed(model) || model->abreast;
+}
+
+/* The member of a series on which the load hangs: the lowest one, of those that share it the first
+ * one. */
 static inline const ZpModel *zp_lowest(const ZpModel *model) {
-  while (model->below && !zp_is_opposed(model))
+  while (model->below && !zp_shares_load(model))
     model = model->below;
   return model;
 }
 
-/* How many members hang one below the other from here on. */
+/* How many members are there from here on? */
 static inline size_t zp_members(const ZpModel *model) {
   size_t count = 1;
   while ((model = model->below))
@@ -246,9 +255,9 @@ static inline size_t zp_members(const ZpModel *model) {
   return count;
 }
 
-/* Is it a member of a series? */
+/* Is it one of several members? */
 static inline bool zp_in_series(const ZpModel *model) {
-  return model->below || model->topology.platform.kind == ZP_JOINT_LINK || zp_is_opposed(model);
+  return model->below || model->topology.platform.kind == ZP_JOINT_LINK || zp_shares_load(model);
 }
 
 /* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (29.1). */

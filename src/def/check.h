@@ -51,9 +51,12 @@ bool zp_def_has_two(const ZpActuatorDef *def);
 /* The keys of the lower ribbon: those of the upper one, but where lower.* says otherwise. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 
-/* Member 1 .. stack.series of a series, alone: as the others, but where member_K.* says otherwise. The last one carries
+/* Are the members of stack.parallel unlike, since one of them has keys of its own? */
+bool zp_def_abreast(const ZpActuatorDef *def);
+
+/* Member 1 .. zp_def_members, alone: as the others, but where member_K.* says otherwise. Of a series the last one carries
  * load.mass and load.force, the others a link; of antagonists the first one carries them, and the last one is upside
- * down. */
+ * down; side by side each carries its share. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
 /* Are the two members of a series antagonists, between mounts at stack.distance? Voltage of the lower one where the
@@ -61,7 +64,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 bool zp_def_opposed(const ZpActuatorDef *def);
 double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
 
-/* What a stack asks of other keys; may all members of a series have this voltage, V? */
+/* What a stack asks of other keys; may all members have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 

@@ -770,7 +770,7 @@ static const char *touches_at(const ZpActuatorDef *def) {
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus ours = check_layout(def, err);
   if (ours != ZP_OK) return ours;
-  if (def->stack.series > 1) return zp_check_members_voltage(def, voltage, err);
+  if (zp_def_members(def) > 1) return zp_check_members_voltage(def, voltage, err);
   bool two = zp_def_has_two(def);
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V is more than the source gives, source.voltage_limit = %g V",

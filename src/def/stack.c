@@ -17,6 +17,26 @@ static int member_of(int key) {
   return 1 + (key - first_member.first) / (first_member.end - first_member.first);
 }
 
+/* Has member 1 .. `members` a key of its own? */
+static bool has_own_key(const ZpActuatorDef *def, int members) {
+  for (int key = first_member.first; key < last_member.end; key++)
+    if (member_of(key) <= members && !isnan(zp_def_get(def, key))) return true;
+  return false;
+}
+
+bool zp_def_abreast(const ZpActuatorDef *def) {
+  return def->stack.series == 1 && def->stack.parallel > 1 && has_own_key(def, ZP_MOST_MEMBERS);
+}
+
+int zp_def_members(const ZpActuatorDef *def) {
+  return zp_def_abreast(def) ? def->stack.parallel : def->stack.series;
+}
+
+/* For messages: which key says how many members there are. */
+static const char *stack_of(const ZpActuatorDef *def) {
+  return zp_def_abreast(def) ? "parallel" : "series";
+}
+
 bool zp_def_opposed(const ZpActuatorDef *def) {
   return !isnan(def->stack.distance);
 }
@@ -38,7 +58,7 @@ static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
 
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def;
-  bool last = member == def->stack.series;
+  bool last = member == def->stack.series, abreast = zp_def_abreast(def);
   for (int key = first_member.first; key < last_member.end; key++) {
     double value = member_of(key) == member ? zp_def_get(def, key) : NAN;
     if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + PREFIX), value, NULL);
@@ -48,6 +68,12 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   one.stack.link_mass = 0;
   one.stack.distance = one.stack.lower_voltage = NAN;
   one.stack.voltage_ratio = 1;
+  if (abreast) {
+    one.stack.parallel = 1;
+    one.load.mass /= def->stack.parallel;
+    one.load.force /= def->stack.parallel;
+    return one;
+  }
   if (zp_def_opposed(def)) {
     if (last) turn_over(def, &one);
     return one;
@@ -59,14 +85,18 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
-  int members = def->stack.series > 1 ? def->stack.series : 0;
+  bool abreast = zp_def_abreast(def), series = def->stack.series > 1;
+  int members = abreast || series ? zp_def_members(def) : 0;
+  if (abreast && members > ZP_MOST_MEMBERS)
+    return zp_fail(err, ZP_BAD_INPUT, "stack.parallel = %d: with keys of member_K at most %d", members,
+                   ZP_MOST_MEMBERS);
   for (int key = first_member.first; key < last_member.end; key++) {
     int member = member_of(key);
     if (member > members && !isnan(zp_def_get(def, key)))
-      return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.series of at least %d, but it is %d", zp_key(key)->name,
-                     member > 1 ? member : 2, def->stack.series);
+      return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", zp_key(key)->name,
+                     stack_of(def), member > 1 ? member : 2, zp_def_members(def));
   }
-  if (members == 0 && def->stack.link_mass > 0)
+  if (!series && def->stack.link_mass > 0)
     return zp_fail(err, ZP_BAD_INPUT, "stack.link_mass = %g kg: requires stack.series of at least 2",
                    def->stack.link_mass);
   return ZP_OK;
@@ -105,8 +135,8 @@ static ZpStatus check_opposed(const ZpActuatorDef *def, ZpError *err) {
   return opposed ? check_distance(def, err) : ZP_OK;
 }
 
-/* What is not known of a series. */
-static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
+/* What is not known of several members. */
+static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
   const struct {
     bool given;
     const char *key, *instead;
@@ -121,6 +151,7 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
       {def->load.share != 0.5, "load.share", "0.5"},
       {def->load.change_mass != 0, "load.change_mass", "0"},
       {def->ribbon.plasticity && zp_def_opposed(def), "ribbon.plasticity", "false with stack.distance"},
+      {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unlike members"},
       {def->load.stiffness > 0, "load.stiffness", "0"},
       {!isnan(def->load.stop_opening), "load.stop_opening", "none"},
       {!isnan(def->insulator.resistivity), "insulator.resistivity", "none"},
@@ -130,13 +161,13 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
     if (unknown[k].given)
-      return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: requires %s %s", def->stack.series, unknown[k].key,
-                     unknown[k].instead);
-  for (int member = 1; member <= def->stack.series; member++) {
+      return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s", stack_of(def), zp_def_members(def),
+                     zp_def_abreast(def) ? " of unlike members" : "", unknown[k].key, unknown[k].instead);
+  for (int member = 1; member <= zp_def_members(def); member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
     ZpStatus status = zp_def_check(&one, &reason);
-    if (status != ZP_OK) return zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
+    if (status != ZP_OK) return zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
   }
   return ZP_OK;
 }
@@ -149,17 +180,17 @@ ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
                    def->stack.series > 1 ? def->stack.series : def->stack.parallel);
   ZpStatus status = check_members(def, err);
   if (status == ZP_OK) status = check_opposed(def, err);
-  return status == ZP_OK && def->stack.series > 1 ? check_series(def, err) : status;
+  return status == ZP_OK && zp_def_members(def) > 1 ? check_several(def, err) : status;
 }
 
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (int member = 1; member <= def->stack.series && status == ZP_OK; member++) {
+  for (int member = 1; member <= zp_def_members(def) && status == ZP_OK; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
     bool turned = zp_def_opposed(def) && member == 2;
     status = zp_def_check_voltage(&one, turned ? zp_def_lower_voltage(def, voltage) : voltage, &reason);
-    if (status != ZP_OK) zp_fail(err, status, "member %d of the series: %.400s", member, reason.message);
+    if (status != ZP_OK) zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
   }
   return status;
 }

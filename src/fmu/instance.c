@@ -78,8 +78,9 @@ static ZpStatus keep_origin(ZpFmu *fmu, ZpError *err) {
 
 static ZpStatus build(ZpFmu *fmu, ZpError *err) {
   drop_model(fmu);
-  if (fmu->def.stack.series > 1)
-    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: an FMU is of a single actuator", fmu->def.stack.series);
+  if (zp_def_members(&fmu->def) > 1)
+    return zp_fail(err, ZP_BAD_INPUT, "%d members of a stack: an FMU is of a single actuator",
+                   zp_def_members(&fmu->def));
   ZpStatus status = zp_model_create(&fmu->def, &fmu->model, err);
   if (status == ZP_OK) status = zp_sim_create(fmu->model, NULL, &fmu->sim, err);
   if (status == ZP_OK) status = check_start(fmu->sim, err);

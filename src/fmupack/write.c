@@ -36,8 +36,8 @@ static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
 }
 
 static ZpStatus check(const ZpScenario *scenario, int version, const ZpActuatorDef *def, ZpError *err) {
-  if (def->stack.series > 1)
-    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: an FMU is of a single actuator", def->stack.series);
+  if (zp_def_members(def) > 1)
+    return zp_fail(err, ZP_BAD_INPUT, "%d members of a stack: an FMU is of a single actuator", zp_def_members(def));
   if (version != 2 && version != 3) return zp_fail(err, ZP_BAD_INPUT, "FMI %d is not known: 2 or 3", version);
   if (zp_scenario_count(scenario) != 1)
     return zp_fail(err, ZP_BAD_INPUT, "an FMU is one actuator: the scenario has a list of values");

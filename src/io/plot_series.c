@@ -20,7 +20,7 @@ static const ZpTable *series(const ZpPlot *plot) {
 /* What the templates of these pictures ask for. */
 static void define_run(const ZpPlot *plot, FILE *file) {
   static const char *const key[] = {"actuator.kind", "source.model",        "control.signal", "control.noise",
-                                    "drive.voltage", "ribbon.yield_stress", "stack.series"};
+                                    "drive.voltage", "ribbon.yield_stress", "stack.series",   "stack.parallel"};
   zp_plot_define_text(file, "note", zp_plot_drag_note(plot));
   for (size_t i = 0; i < sizeof key / sizeof key[0]; i++)
     zp_plot_define_key(plot, file, key[i]);
@@ -91,7 +91,11 @@ static bool has_plastic(const ZpPlot *plot) {
 }
 
 static bool has_members(const ZpPlot *plot) {
-  return is_film(plot) && plot->def.stack.series > 1 && zp_plot_has(series(plot), "member_1_opening_m");
+  return is_film(plot) && zp_plot_has(series(plot), "member_1_opening_m");
+}
+
+static bool has_forces(const ZpPlot *plot) {
+  return is_film(plot) && zp_plot_has(series(plot), "member_1_force_N");
 }
 
 static bool has_limits(const ZpPlot *plot) {
@@ -113,6 +117,7 @@ const ZpPicture zp_series_pictures[] = {
     {"stress", "svg", has_stress, define_run, NULL, "stress.gp"},
     {"plastic", "svg", has_plastic, define_run, NULL, "plastic.gp"},
     {"members", "svg", has_members, define_run, NULL, "members.gp"},
+    {"members", "svg", has_forces, define_run, NULL, "members_forces.gp"},
     {"members", "svg", has_limits, define_run, NULL, "members_limits.gp"},
     {0},
 };

@@ -187,6 +187,28 @@ ZP_INLINE bool factor_rows(ZpBand *band, size_t width) {
   return true;
 }
 
+/* The same of rows of any width: nothing is copied, so that a row is scaled last. */
+static bool eliminate_wide(double *restrict row_k, size_t width, size_t below) {
+  if (!is_pivot(row_k[0])) return false;
+  double inverse = 1 / row_k[0];
+  for (size_t i = 1; i <= below; i++) {
+    double factor = row_k[i] * inverse, *restrict row_i = row_k + i * width;
+    ZP_SIMD
+    for (size_t j = 0; j < width - i; j++)
+      row_i[j] -= factor * row_k[i + j];
+  }
+  for (size_t i = 1; i <= below; i++)
+    row_k[i] *= inverse;
+  return true;
+}
+
+static bool factor_wide(ZpBand *band) {
+  size_t n = band->n, width = band->stride;
+  for (size_t k = 0; k < n; k++)
+    if (!eliminate_wide(band->a + k * width, width, least(width - 1, n - 1 - k))) return false;
+  return true;
+}
+
 /* What `count` entries, `stride` apart, take off *b with the values `step` apart: in four sums, whatever the processor;
  * the nearest value, found last, comes last, as the next row waits for it. */
 ZP_INLINE void substitute(const double *entry, ptrdiff_t stride, size_t count, ptrdiff_t step, double *b) {
@@ -243,7 +265,7 @@ enum { ONE_RIBBON = 6, TWO_RIBBONS = 12 };
 ZP_KERNEL static bool factor_symmetric(ZpBand *band) {
   if (band->stride == TWO_RIBBONS) return factor_rows(band, TWO_RIBBONS);
   if (band->stride == ONE_RIBBON) return factor_rows(band, ONE_RIBBON);
-  return factor_rows(band, band->stride);
+  return band->upper > ZP_BAND_MOST ? factor_wide(band) : factor_rows(band, band->stride);
 }
 
 ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {

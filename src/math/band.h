@@ -3,7 +3,7 @@
  *
  * Storage: row i holds the columns i - lower .. i + upper + lower (room for what pivoting fills in), entry
  * (i, j) at [i * stride + (j - i + lower)], stride = 2 lower + upper + 1. A matrix with lower == 0 is symmetric and
- * keeps its upper triangle only (upper <= ZP_BAND_MOST). */
+ * keeps its upper triangle only. */
 #ifndef ZP_MATH_BAND_H
 #define ZP_MATH_BAND_H
 
@@ -32,6 +32,7 @@ typedef struct ZpBandForm {
   size_t rank;      /* of what is on top of it */
 } ZpBandForm;
 
+/* Symmetric matrices with more diagonals are factored by simpler, slower code. */
 enum { ZP_BAND_MOST = 23 };
 
 /* Cut the arrays from `carver`: of a band alone, of one of a form. */

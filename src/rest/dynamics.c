@@ -142,8 +142,8 @@ static void force_of_one(ZpDynamics *d, const double *q1, double h, double *f) {
 }
 
 /* Platforms that a link joins: equations of the height of the lower one above it, and of the one below: the upper one,
- * or of an antagonist, which is upside down, its lower one. The former height plus `sign` times the latter is
- * `height`. */
+ * or the lower one, of an antagonist, which is upside down, and of members side by side. The former height plus `sign`
+ * times the latter is `height`. */
 typedef struct Joined {
   size_t above, below;
   double sign, height;
@@ -152,7 +152,7 @@ typedef struct Joined {
 /* Which platform of the member below does a link join? */
 static size_t node_joined(const ZpModel *below) {
   const ZpTopology *t = &below->topology;
-  return zp_is_opposed(below) ? zp_lower(t, t->platform.first) : zp_upper(t, t->platform.first);
+  return zp_shares_load(below) ? zp_lower(t, t->platform.first) : zp_upper(t, t->platform.first);
 }
 
 /* By the link that member m hangs on. */
@@ -258,13 +258,24 @@ static double mass_joined_below(const ZpDynamics *d) {
   return d->below ? d->below->model->mass[node_joined(d->below->model)] : 0;
 }
 
+/* Of the lower platforms of all others that share the load of a member, kg. */
+static double mass_of_others(const ZpDynamics *d) {
+  const ZpDynamics *m = d;
+  double sum = 0;
+  while (m->above)
+    m = m->above;
+  for (; m; m = m->below)
+    if (m != d) sum += m->model->mass[zp_lower(&m->model->topology, m->model->topology.platform.first)];
+  return sum;
+}
+
 /* What moves with the upper platform of a member, and with its lower one, kg. */
 static double mass_with_upper(const ZpDynamics *d) {
-  return zp_is_opposed(d->model) ? 0 : mass_joined_above(d);
+  return zp_shares_load(d->model) ? 0 : mass_joined_above(d);
 }
 
 static double mass_with_lower(const ZpDynamics *d) {
-  return d->added + mass_joined_below(d) + (zp_is_opposed(d->model) ? mass_joined_above(d) : 0);
+  return d->added + (zp_shares_load(d->model) ? mass_of_others(d) : mass_joined_below(d));
 }
 
 /* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. Both ends
@@ -387,7 +398,8 @@ static void damp_one(ZpDynamics *top, ZpDynamics *m) {
   if (m->above) top->v[joined_by(m).below] = -joined_by(m).sign * top->v[joined_by(m).above];
   for (size_t i = 1; i < m->model->nodes; i++)
     if (meets(m, i)) damp(m, i);
-  if (m->above) top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
+  for (; m->above; m = m->above)
+    top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
 }
 
 static void damp_all(ZpDynamics *d) {
@@ -769,6 +781,13 @@ void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
     d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
 }
 
+/* What the links of those side by side push each platform up with, eq. (29.5). */
+static void book_links(const ZpDynamics *d, ZpState *const state[]) {
+  const double *link = d->q + first_link(d);
+  for (size_t k = 0; k <= d->links; k++)
+    state[k]->link_force = (k > 0 ? link[k - 1] : 0) - (k < d->links ? link[k] : 0);
+}
+
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   size_t k = 0;
   for (ZpDynamics *m = d; m; m = m->below, k++) {
@@ -780,6 +799,7 @@ void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   k = 0;
   for (ZpDynamics *m = d; m; m = m->below, k++)
     arrive(m, state[k]);
+  if (d->model->abreast) book_links(d, state);
 }
 
 double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {

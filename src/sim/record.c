@@ -22,11 +22,25 @@ enum {
 #define OPENINGS                                                                                                       \
   OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
 
+/* Those side by side have one opening, and each its force. */
+enum { NUMBERS_ABREAST = 2 };
+#define ABREAST_OF(member)                                                                                             \
+  {"member_" #member "_force_N", "N", "force with which member " #member " of those side by side pulls the load up"},  \
+  {                                                                                                                    \
+    "member_" #member "_zipped_length_m", "m", "closed length of one half of member " #member                          \
+  }
+#define ABREAST                                                                                                        \
+  ABREAST_OF(1), ABREAST_OF(2), ABREAST_OF(3), ABREAST_OF(4), ABREAST_OF(5), ABREAST_OF(6), ABREAST_OF(7), ABREAST_OF(8)
+
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
 static const ZpColumn columns[] = {
 #include <zipact/signals.def>
     OPENINGS};
 _Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + ZP_MOST_MEMBERS, "one opening for each member");
+
+static const ZpColumn columns_abreast[] = {
+#include <zipact/signals.def>
+    ABREAST};
 
 /* The same where the controller holds a length, and where it holds a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
@@ -55,12 +69,14 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
                                                             [ZP_CONTROL_STROKE] = columns_of_length,
                                                             [ZP_CONTROL_CONTRACTION] = columns,
                                                             [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance};
-  *count = SIGNAL_COUNT + (def->stack.series > 1 ? (size_t)def->stack.series : 0);
+  size_t members = zp_def_members(def) > 1 ? (size_t)zp_def_members(def) : 0;
+  *count = SIGNAL_COUNT + members * (zp_def_abreast(def) ? NUMBERS_ABREAST : 1);
+  if (zp_def_abreast(def)) return columns_abreast;
   return def->control.kind == ZP_CONTROL_NONE ? columns : of[def->control.signal];
 }
 
 size_t zp_sim_row_size(void) {
-  return sizeof columns / sizeof columns[0];
+  return sizeof columns_abreast / sizeof columns_abreast[0]; /* the most of all */
 }
 
 const char *zp_control_unit(const ZpActuatorDef *def) {
@@ -292,30 +308,53 @@ static bool is_of_upper(size_t signal) {
          signal == SIGNAL_zipped_length;
 }
 
+/* Those side by side are closed as far as all of them are. */
+static int rule_of(const ZpModel *model, size_t signal) {
+  if (!zp_shares_load(model) || !is_of_upper(signal)) return of_series[signal];
+  return model->abreast && signal == SIGNAL_zipped_length ? LEAST : FIRST;
+}
+
 /* The row of a member joins that of those above it. */
-static void join_row(bool opposed, double *row, const double *other) {
+static void join_row(const ZpModel *model, double *row, const double *other) {
   for (size_t k = 0; k < SIGNAL_COUNT; k++) {
     double values[] = {[SUM] = row[k] + other[k],
                        [FIRST] = row[k],
                        [LAST] = other[k],
                        [LARGEST] = fmax(row[k], other[k]),
                        [LEAST] = fmin(row[k], other[k])};
-    row[k] = values[opposed && is_of_upper(k) ? FIRST : of_series[k]];
+    row[k] = values[rule_of(model, k)];
   }
 }
 
-/* The same of all members of a series, and their openings. */
+/* What one of those side by side pulls the load up with, eq. (29.5), N: the mean over the last step. */
+static double force_of(const ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  const ZpState *state = sim->state;
+  const double *up = zp_state_mean_a(model, sim->state) + model->stride;
+  double inertia = zp_load_share(model) * model->def.load.mass * zp_load_at(model, up);
+  double input = zp_ramp_value(&state->load_input, state->t);
+  return zp_load_pull(model) + input + model->parts * (inertia - state->link_force);
+}
+
+/* Numbers of one member alone beside those of all => how many. */
+static size_t put_member(const ZpSim *sim, double *place) {
+  place[0] = sim->model->abreast ? force_of(sim) : sim->row[SIGNAL_opening];
+  if (sim->model->abreast) place[1] = sim->row[SIGNAL_zipped_length];
+  return sim->model->abreast ? NUMBERS_ABREAST : 1;
+}
+
+/* The same of all members, and numbers of each. */
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
   if (!sim->below) return;
-  const bool opposed = zp_is_opposed(sim->model);
-  double *row = sim->row, *opening = row + SIGNAL_COUNT, whole = sim->state->opening0;
-  *opening++ = row[SIGNAL_opening];
+  const bool shared = zp_shares_load(sim->model);
+  double *row = sim->row, *place = row + SIGNAL_COUNT, whole = sim->state->opening0;
+  place += put_member(sim, place);
   for (ZpSim *m = sim->below; m; m = m->below) {
     fill_own_row(m, what);
-    *opening++ = m->row[SIGNAL_opening];
-    if (!opposed) whole += m->state->opening0;
-    join_row(opposed, row, m->row);
+    place += put_member(m, place);
+    if (!shared) whole += m->state->opening0;
+    join_row(sim->model, row, m->row);
     if (what & MARGINS) zp_margins_join(&sim->now, m->now);
   }
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;

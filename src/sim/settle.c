@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "rest/antagonists.h"
+#include "rest/together.h"
 #include "rest/rest.h"
 #include "ribbon/rod_plastic.h"
 #include "sim/hooks.h"
@@ -131,7 +131,7 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   double *q = sim->relax_work;
   bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
-  if (goes_on || zp_is_opposed(model)) return true;                 /* antagonists come to rest together */
+  if (goes_on || zp_shares_load(model)) return true;                /* with all others */
   /* of one straight ribbon neither a start nor a reference is needed */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
@@ -148,25 +148,30 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   return true;
 }
 
-/* One of two antagonists, where they have come to rest. */
-static void start_antagonist(ZpSim *sim, const ZpStatics *rest) {
+/* One of those that share a load, where they have come to rest. */
+static void start_member(ZpSim *sim, ZpTogether *all, size_t which) {
+  const ZpStatics *rest = &all->of[which].statics;
+  const ZpModel *model = sim->model;
   sim->state->opening0 = zp_statics_opening(rest);
+  if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   start_at(sim, rest->q);
+  if (model->abreast) sim->state->link_force = (zp_load_pull(model) - zp_together_force(all, which)) / model->parts;
 }
 
-bool zp_sim_settle_antagonists(ZpSim *sim, const ZpHooks *hooks) {
-  ZpAntagonists both;
-  bool opened = zp_antagonists_open(&both, sim->model, NULL, NULL);
+bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks) {
+  ZpTogether all;
+  bool opened = zp_together_open(&all, sim->model, NULL, NULL);
   if (opened) {
-    zp_antagonists_watch(&both, stop_hanging, (void *)hooks);
-    ZpNewtonInfo info = zp_antagonists_hang(&both);
-    bool stopped = zp_antagonists_stopped(&both);
+    zp_together_watch(&all, stop_hanging, (void *)hooks);
+    ZpNewtonInfo info = zp_together_hang(&all);
+    bool stopped = zp_together_stopped(&all);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (!zp_newton_good(info.end)) sim->settled = stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-    start_antagonist(sim, &both.of[0].statics);
-    start_antagonist(sim->below, &both.of[1].statics);
+    size_t which = 0;
+    for (ZpSim *m = sim; m; m = m->below)
+      start_member(m, &all, which++);
   }
-  zp_antagonists_close(&both);
+  zp_together_close(&all);
   return opened;
 }

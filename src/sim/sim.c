@@ -160,7 +160,7 @@ static bool make_room(ZpSim *sim, size_t members) {
   return sim->all_memory != NULL;
 }
 
-/* The members below, each at rest on the one above; antagonists at rest against each other. False if there is no
+/* The members below, each at rest on the one above; those that share a load come to rest together. False if there is no
  * memory. */
 static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   size_t members = zp_members(sim->model), k = 0;
@@ -170,12 +170,12 @@ static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   for (ZpSim *above = sim; above->model->below; above = above->below) {
     above->below = create_one(above->model->below, false, hooks);
     if (!above->below) return false;
-    if (!zp_is_opposed(sim->model)) hang_below(above, above->below);
+    if (!zp_shares_load(sim->model)) hang_below(above, above->below);
     sim->states[k++] = above->below->state;
     if (above->below->settled != ZP_REACHED_END) sim->settled = above->below->settled;
   }
   bool goes_on = sim->model->def.initial.state == ZP_INITIAL_CHECKPOINT;
-  return goes_on || !zp_is_opposed(sim->model) || zp_sim_settle_antagonists(sim, hooks);
+  return goes_on || !zp_shares_load(sim->model) || zp_sim_settle_together(sim, hooks);
 }
 
 /* What a simulation starts with. */
@@ -246,7 +246,7 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
 ZpSim *zp_sim_loaded(ZpSim *sim) {
-  while (sim->below && !zp_is_opposed(sim->model))
+  while (sim->below && !zp_shares_load(sim->model))
     sim = sim->below;
   return sim;
 }
@@ -680,6 +680,7 @@ static double apart(const ZpSim *m) {
   const ZpTopology *t = &below->topology;
   double y = zp_state_motion(above, m->state).y[zp_load_node(&above->topology)];
   const double *other = zp_state_motion(below, m->below->state).y;
+  if (above->abreast) return y - other[zp_load_node(t)];
   if (zp_is_opposed(above)) return y + other[zp_load_node(t)] + above->distance;
   return y - other[zp_upper(t, t->platform.first)];
 }

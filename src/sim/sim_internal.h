@@ -137,7 +137,7 @@ double zp_sim_crossing(const ZpSim *sim);
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
 /* The same of antagonists, which are at rest against each other. */
-bool zp_sim_settle_antagonists(ZpSim *sim, const ZpHooks *hooks);
+bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks);
 
 /* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);

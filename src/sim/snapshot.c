@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 7
+ *   8 .. 11         version of the format, 8
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -33,7 +33,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 7, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 8, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -89,6 +89,7 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, bead[1].outside),
                                 NUMBER(REAL, bead[1].lost),
                                 NUMBER(REAL, bead[1].supply),
+                                NUMBER(REAL, link_force),
                                 NUMBER(REAL, starved_time),
                                 NUMBER(REAL, last_step),
                                 NUMBER(REAL, next_step),
@@ -526,7 +527,7 @@ static size_t count(const unsigned char *byte, size_t size) {
 static ZpStatus check_count(const void *bytes, size_t size, size_t members, ZpError *err) {
   size_t there = count(bytes, size);
   if (there == members) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "of another model: stack.series is %zu there, %zu here", there, members);
+  return zp_fail(err, ZP_BAD_INPUT, "of another model: it has %zu members, %zu here", there, members);
 }
 
 size_t zp_snapshot_size(const ZpModel *model) {
@@ -557,10 +558,10 @@ ZpStatus zp_snapshot_check(const void *bytes, size_t size, ZpError *err) {
 
 ZpStatus zp_snapshot_fits(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err) {
   const unsigned char *byte = bytes;
-  bool many = def->stack.series > 1;
+  bool many = zp_def_members(def) > 1;
   ZpStatus status = zp_snapshot_check(bytes, size, err);
-  if (status == ZP_OK) status = check_count(bytes, size, (size_t)def->stack.series, err);
-  for (int member = 1; member <= def->stack.series && status == ZP_OK; member++) {
+  if (status == ZP_OK) status = check_count(bytes, size, (size_t)zp_def_members(def), err);
+  for (int member = 1; member <= zp_def_members(def) && status == ZP_OK; member++) {
     Parts parts;
     size_t own = first_of(byte, size);
     ZpActuatorDef one = many ? zp_def_member(def, member) : *def;

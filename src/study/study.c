@@ -2,7 +2,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "sim/hooks.h"
-#include "study/antagonists.h"
+#include "study/together.h"
 #include "study/estimate.h"
 #include "study/series.h"
 
@@ -39,18 +39,17 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
-/* What fills the result of a study of this definition; NULL: it does not know actuators in series, or
- * antagonists. */
+/* What fills the result of a study of this definition; NULL: it does not know such members. */
 static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
   static const ZpStudyRun in_series[ZpStudy_COUNT] = {
 #define ZP_IN_SERIES(enumerator, run) [enumerator] = run,
 #include <zipact/studies.def>
   };
-  static const ZpStudyRun opposed[ZpStudy_COUNT] = {
-#define ZP_OPPOSED(enumerator, run) [enumerator] = run,
+  static const ZpStudyRun shared[ZpStudy_COUNT] = {
+#define ZP_SHARED(enumerator, run) [enumerator] = run,
 #include <zipact/studies.def>
   };
-  if (zp_def_opposed(def)) return opposed[study];
+  if (zp_def_opposed(def) || zp_def_abreast(def)) return shared[study];
   return def->stack.series > 1 ? in_series[study] : table[study].run;
 }
 
@@ -83,6 +82,11 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "stack.distance = %g m: study %s does not know antagonists; stationary, equilibrium and actuate do",
                    def->stack.distance, table[study].word);
+  if (!run_of(study, def) && zp_def_abreast(def))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "stack.parallel = %d of unlike members: study %s does not know them; stationary, equilibrium and "
+                   "actuate do, and all studies know equal members, without keys of member_K",
+                   def->stack.parallel, table[study].word);
   if (!run_of(study, def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; %s", def->stack.series,
                    table[study].word, instead_of(study));

@@ -1,39 +1,55 @@
-/* Studies `stationary` and `equilibrium` of antagonists: where the load is at rest between both, how stiffly they hold
- * it, and where it jumps. Numbers without a name of their own are of the upper one, which the voltage is of. */
-#include "study/antagonists.h"
+/* Studies `stationary` and `equilibrium` of members that share one load: where it is at rest, how stiffly they hold it,
+ * and where it jumps. Numbers without a name of their own are of the first one: of antagonists the upper one, which the
+ * voltage is of; those side by side have one opening and one voltage. */
+#include "study/together.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "rest/antagonists.h"
 #include "rest/closing.h"
+#include "rest/together.h"
 #include "solve/fold.h"
 #include "study/notes.h"
 
-static const ZpColumn columns[] = {
-    {"voltage_V", "V", "potential difference of the upper one's electrodes"},
-    {"stroke_m", "m", "height of the upper one's clip over the load, signed"},
-    {"opening_m", "m", "distance of the upper one's platforms' faces"},
-    {"zipped_length_m", "m", "closed length of the upper one from the clip, one half"},
-    {"charge_C", "C", "charge on the electrodes of both"},
-    {"capacitance_F", "F", "capacitance of the electrodes of both"},
-    {"stable", "1", "1: comes back when pushed, 0: does not"},
-    {"branch", "1", "0: followed from the state without voltage"},
-    ZP_MARGIN_COLUMNS,
+#define COMMON                                                                                                         \
+  {"voltage_V", "V", "potential difference of the electrodes, of antagonists of the upper one's"},                     \
+      {"stroke_m", "m", "height of the clip over the load, of antagonists of the upper one's, signed"},                \
+      {"opening_m", "m", "distance of the platforms' faces, of antagonists of the upper one's"},                       \
+      {"zipped_length_m", "m", "closed length from the clip, one half, of antagonists of the upper one, else of all"}, \
+      {"charge_C", "C", "charge on the electrodes of all members"},                                                    \
+      {"capacitance_F", "F", "capacitance of the electrodes of all members"},                                          \
+      {"stable", "1", "1: comes back when pushed, 0: does not"},                                                       \
+      {"branch", "1", "0: followed from the state without voltage"}, ZP_MARGIN_COLUMNS
+#define STIFFNESS                                                                                                      \
+  { "stiffness_N_per_m", "N/m", "force per way by which the load comes back, all else at rest" }
+static const ZpColumn columns_opposed[] = {
+    COMMON,
     {"lower_voltage_V", "V", "potential difference of the lower one's electrodes"},
     {"lower_opening_m", "m", "distance of the lower one's platforms' faces"},
     {"lower_zipped_length_m", "m", "closed length of the lower one from the clip, one half"},
-    {"stiffness_N_per_m", "N/m", "force per way by which the load comes back, all else at rest"},
+    STIFFNESS,
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000 };
+#define OF_MEMBER(k)                                                                                                   \
+  {"member_" #k "_force_N", "N", "force with which member " #k " pulls the load up"}, {                                \
+    "member_" #k "_zipped_length_m", "m", "closed length of one half of member " #k                                    \
+  }
+static const ZpColumn columns_abreast[] = {COMMON,       STIFFNESS,    OF_MEMBER(1), OF_MEMBER(2), OF_MEMBER(3),
+                                           OF_MEMBER(4), OF_MEMBER(5), OF_MEMBER(6), OF_MEMBER(7), OF_MEMBER(8)};
+enum {
+  OPPOSED = sizeof columns_opposed / sizeof columns_opposed[0],
+  MOST_COLUMNS = sizeof columns_abreast / sizeof columns_abreast[0],
+  OF_EACH = 2, /* numbers of each member side by side */
+  MOST_POINTS = 5000
+};
+_Static_assert((int)MOST_COLUMNS > (int)OPPOSED, "a row has room for the columns of either");
 
 typedef struct Follower {
   const ZpModel *model;
   const ZpTask *task;
   ZpResult *result;
-  ZpAntagonists both;
+  ZpTogether all;
   int points;
   bool was_stable; /* at the last point */
   bool crossed;    /* the branch ends where another one crosses it */
@@ -44,35 +60,39 @@ typedef struct Follower {
   double pull_in;  /* V; NAN: there is none */
   double release;  /* V; the last trough: where one that is closed opens as the voltage falls */
   double closing;  /* V; NAN: neither has closed */
-  double start[2]; /* openings without voltage, m */
+  double start[ZP_MOST_MEMBERS]; /* openings without voltage, m */
   ZpMargins margins;
-  ZpManyShapes shapes; /* of both */
+  ZpManyShapes shapes; /* of all */
 } Follower;
 
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
-  zp_many_carve(&f->shapes, 2, f->model->count, f->model->nodes, carver);
+  zp_many_carve(&f->shapes, zp_members(f->model), f->model->count, f->model->nodes, carver);
 }
 
 /* -- a point ---------------------------------------------------------------------------------------- */
 
+static ZpStatics *member(Follower *f, size_t which) {
+  return &f->all.of[which].statics;
+}
+
 static ZpStatics *upper(Follower *f) {
-  return &f->both.of[0].statics;
+  return member(f, 0);
 }
 
 static ZpStatics *lower(Follower *f) {
-  return &f->both.of[1].statics;
+  return member(f, 1);
 }
 
 static ZpShape shape_of(Follower *f) {
   ZpShape shape = {0};
-  for (size_t which = 0; which < 2; which++) {
-    ZpRest *rest = &f->both.of[which];
+  for (size_t which = 0; which < f->all.count; which++) {
+    ZpRest *rest = &f->all.of[which];
     ZpShape one = zp_statics_shape(&rest->statics, f->points, &rest->shape_room);
     zp_margins_join(&f->margins, zp_margins_of(rest->statics.model, &one));
     double *y = zp_many_put(&f->shapes, which, &one);
     if (which == 0) shape = one;
-    if (which == 1) zp_shape_turn_over(f->model->below, y);
+    if (which == 1 && !f->model->abreast) zp_shape_turn_over(f->model->below, y);
   }
   zp_many_give(&f->shapes, &shape);
   return shape;
@@ -82,29 +102,68 @@ static double zipped_length(const ZpStatics *s) {
   return (double)zp_statics_front(s) * s->model->l;
 }
 
+static double charge_of(Follower *f) {
+  double sum = 0;
+  for (size_t which = 0; which < f->all.count; which++)
+    sum += zp_statics_charge(member(f, which));
+  return sum;
+}
+
+static double capacitance_of(Follower *f) {
+  double sum = 0;
+  for (size_t which = 0; which < f->all.count; which++)
+    sum += zp_statics_capacitance(member(f, which));
+  return sum;
+}
+
+/* Of the upper antagonist; of those side by side as far as all are closed. */
+static double common_length(Follower *f) {
+  double least = zipped_length(upper(f));
+  for (size_t which = 1; which < f->all.count && f->model->abreast; which++)
+    least = fmin(least, zipped_length(member(f, which)));
+  return least;
+}
+
+/* Behind what all have in common. */
+static void put_members(Follower *f, double stiffness, double *place) {
+  const double of_lower[] = {lower(f)->U, zp_statics_opening(lower(f)), zipped_length(lower(f)), stiffness};
+  if (!f->model->abreast) memcpy(place, of_lower, sizeof of_lower);
+  if (f->model->abreast) *place++ = stiffness;
+  for (size_t which = 0; which < f->all.count && f->model->abreast; which++, place += OF_EACH) {
+    place[0] = zp_together_force(&f->all, which);
+    place[1] = zipped_length(member(f, which));
+  }
+}
+
 static void record(Follower *f) {
   ZpMargins all = f->margins;
   f->margins = zp_margins_none();
-  f->was_stable = zp_antagonists_stable(&f->both);
-  double stiffness = zp_antagonists_stiffness(&f->both);
+  f->was_stable = zp_together_stable(&f->all);
+  double stiffness = zp_together_stiffness(&f->all);
   ZpShape shape = shape_of(f);
-  double row[COLUMNS] = {upper(f)->U,
-                         zp_statics_stroke(upper(f)),
-                         zp_statics_opening(upper(f)),
-                         zipped_length(upper(f)),
-                         zp_statics_charge(upper(f)) + zp_statics_charge(lower(f)),
-                         zp_statics_capacitance(upper(f)) + zp_statics_capacitance(lower(f)),
-                         f->was_stable,
-                         0,
-                         ZP_MARGIN_VALUES(f->margins),
-                         lower(f)->U,
-                         zp_statics_opening(lower(f)),
-                         zipped_length(lower(f)),
-                         stiffness};
+  const double common[] = {upper(f)->U,
+                           zp_statics_stroke(upper(f)),
+                           zp_statics_opening(upper(f)),
+                           common_length(f),
+                           charge_of(f),
+                           capacitance_of(f),
+                           f->was_stable,
+                           0,
+                           ZP_MARGIN_VALUES(f->margins)};
+  double row[MOST_COLUMNS];
+  memcpy(row, common, sizeof common);
+  put_members(f, stiffness, row + sizeof common / sizeof common[0]);
   f->points++;
   zp_margins_join(&f->margins, all);
   zp_table_offer(f->result->series, row);
   zp_shapes_offer(f->result->shapes, &shape);
+}
+
+static void add_forces(Follower *f) {
+  static const char *const names[] = {"member_1_force_N", "member_2_force_N", "member_3_force_N", "member_4_force_N",
+                                      "member_5_force_N", "member_6_force_N", "member_7_force_N", "member_8_force_N"};
+  for (size_t which = 0; which < f->all.count; which++)
+    zp_result_add(f->result, names[which], "N", zp_together_force(&f->all, which));
 }
 
 /* Numbers of the present point. */
@@ -112,8 +171,9 @@ static void add_point(Follower *f) {
   ZpResult *r = f->result;
   zp_result_add(r, "stroke_m", "m", zp_statics_stroke(upper(f)));
   zp_result_add(r, "opening_m", "m", zp_statics_opening(upper(f)));
-  zp_result_add(r, "lower_opening_m", "m", zp_statics_opening(lower(f)));
-  zp_result_add(r, "stiffness_N_per_m", "N/m", zp_antagonists_stiffness(&f->both));
+  if (!f->model->abreast) zp_result_add(r, "lower_opening_m", "m", zp_statics_opening(lower(f)));
+  zp_result_add(r, "stiffness_N_per_m", "N/m", zp_together_stiffness(&f->all));
+  if (f->model->abreast) add_forces(f);
 }
 
 /* -- the way there ---------------------------------------------------------------------------------- */
@@ -125,23 +185,27 @@ static bool asked_to_stop(void *follower) {
 
 /* From the straight ribbons to the state without a voltage. */
 static bool hang(Follower *f) {
-  ZpNewtonInfo info = zp_antagonists_hang(&f->both);
+  ZpNewtonInfo info = zp_together_hang(&f->all);
   bool found = zp_newton_good(info.end);
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  f->result->outcome = found ? ZP_CONVERGED : zp_antagonists_stopped(&f->both) ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  f->result->outcome = found ? ZP_CONVERGED : zp_together_stopped(&f->all) ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   snprintf(f->result->message, sizeof f->result->message, "%s",
-           found ? "both at rest against each other" : "no equilibrium of both found");
+           !found              ? "no equilibrium of all members found"
+           : f->model->abreast ? "all members at rest under their load"
+                               : "both at rest against each other");
   return found;
 }
 
 static bool open_follower(Follower *f, size_t rows, size_t frames) {
-  f->result->series = zp_table_create(columns, COLUMNS, rows);
-  f->result->shapes = zp_shapes_create(f->model->s, 2 * f->model->nodes, frames);
+  size_t members = zp_members(f->model), count = MOST_COLUMNS - OF_EACH * (ZP_MOST_MEMBERS - members);
+  bool abreast = f->model->abreast;
+  f->result->series = zp_table_create(abreast ? columns_abreast : columns_opposed, abreast ? count : OPPOSED, rows);
+  f->result->shapes = zp_shapes_create(f->model->s, members * f->model->nodes, frames);
   if (!f->result->series || !f->result->shapes) return false;
-  f->result->shapes->members = 2;
-  if (!zp_antagonists_open(&f->both, f->model, carve, f)) return false;
-  zp_antagonists_watch(&f->both, asked_to_stop, f);
+  f->result->shapes->members = members;
+  if (!zp_together_open(&f->all, f->model, carve, f)) return false;
+  zp_together_watch(&f->all, asked_to_stop, f);
   return true;
 }
 
@@ -164,7 +228,7 @@ static ZpStatus run(const ZpTask *task, size_t rows, size_t frames, void (*find)
     find(&f);
   else
     status = zp_fail_memory(err);
-  zp_antagonists_close(&f.both);
+  zp_together_close(&f.all);
   zp_model_destroy(model);
   return status;
 }
@@ -179,7 +243,7 @@ static void find_rest(Follower *f) {
   zp_note_mesh(f->result, f->model, 0);
 }
 
-ZpStatus zp_opposed_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
+ZpStatus zp_together_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
   return run(task, 2, 2, find_rest, result, err);
 }
 
@@ -187,8 +251,8 @@ ZpStatus zp_opposed_stationary(const ZpTask *task, ZpResult *result, ZpError *er
 
 /* Where the voltage was highest before it began to fall, V; NAN: it does not fall. */
 static double crest_of(Follower *f, double last, bool rose) {
-  if (!(f->both.branch.direction_m < 0)) return NAN;
-  return rose ? zp_branch_limit(&f->both.branch) : last;
+  if (!(f->all.branch.direction_m < 0)) return NAN;
+  return rose ? zp_branch_limit(&f->all.branch) : last;
 }
 
 /* A limit point is a crest of the voltage. The load pulls in at the first one from which the branch goes down by more
@@ -206,20 +270,22 @@ static void look_for_crest(Follower *f, double last, bool rose) {
  * voltage comes to the last one from which the branch goes up by more than the ripple of a mesh => release. */
 static void look_for_trough(Follower *f, double last, bool rose) {
   double voltage = upper(f)->U;
-  bool turned = !rose && f->both.branch.direction_m > 0;
-  if (turned) f->trough = fmin(zp_branch_limit(&f->both.branch), fmin(last, voltage));
+  bool turned = !rose && f->all.branch.direction_m > 0;
+  if (turned) f->trough = fmin(zp_branch_limit(&f->all.branch), fmin(last, voltage));
   if (voltage < f->trough) f->trough = NAN;
   if (voltage * (1 - ZP_FOLD_RIPPLE) > f->trough) f->release = f->trough;
 }
 
-/* How far the nearer of both is from counting as closed, m. */
+/* How far the nearer one of two antagonists is from counting as closed, of those side by side the farthest one, m. */
 static double left_to_close(Follower *f) {
-  double left[2];
-  for (int which = 0; which < 2; which++) {
-    const ZpStatics *s = &f->both.of[which].statics;
-    left[which] = zp_statics_opening(s) - zp_closing_limit(s, f->start[which]);
+  double found = 0;
+  for (size_t which = 0; which < f->all.count; which++) {
+    const ZpStatics *s = member(f, which);
+    double left = zp_statics_opening(s) - zp_closing_limit(s, f->start[which]);
+    bool counts = which == 0 || (left > found) == f->model->abreast;
+    if (counts) found = left;
   }
-  return fmin(left[0], left[1]);
+  return found;
 }
 
 /* As the voltage rises slowly one has closed once it is as high as it was anywhere on the way to there => closing. */
@@ -240,14 +306,14 @@ static bool is_at_top(Follower *f) {
 
 /* The equilibrium at drive.voltage, which the last step passed. */
 static void arrive(Follower *f) {
-  zp_branch_approach(&f->both.branch, is_beyond_top, f);
-  if (!zp_newton_good(zp_antagonists_settle(&f->both, f->model->def.drive.voltage).end))
+  zp_branch_approach(&f->all.branch, is_beyond_top, f);
+  if (!zp_newton_good(zp_together_settle(&f->all, f->model->def.drive.voltage).end))
     f->result->outcome = ZP_BRANCH_LOST;
 }
 
 /* The branch does not go on: another one crosses it where the state loses its stability, or it was lost. */
 static void end_at_crossing(Follower *f) {
-  f->crossed = f->both.branch.reversed && f->was_stable;
+  f->crossed = f->all.branch.reversed && f->was_stable;
   if (f->crossed)
     f->pull_in = upper(f)->U;
   else
@@ -257,9 +323,9 @@ static void end_at_crossing(Follower *f) {
 /* One step along the branch. => has it come to its end? */
 static bool advance(Follower *f) {
   double last = upper(f)->U, left = left_to_close(f);
-  bool rose = f->both.branch.direction_m > 0;
+  bool rose = f->all.branch.direction_m > 0;
   f->before = f->highest;
-  if (!zp_branch_advance(&f->both.branch)) {
+  if (!zp_branch_advance(&f->all.branch)) {
     end_at_crossing(f);
     return true;
   }
@@ -270,7 +336,7 @@ static bool advance(Follower *f) {
   bool top = is_beyond_top(f);
   if (top) arrive(f);
   record(f);
-  return top || zp_antagonists_stopped(&f->both);
+  return top || zp_together_stopped(&f->all);
 }
 
 static void describe(Follower *f) {
@@ -284,10 +350,12 @@ static void describe(Follower *f) {
     snprintf(r->message, sizeof r->message, "%s at %.4g V", how, f->pull_in);
   size_t used = strlen(r->message);
   if (!isnan(f->closing))
-    snprintf(r->message + used, sizeof r->message - used, ", one of both closes at %.4g V", f->closing);
+    snprintf(r->message + used, sizeof r->message - used, "%s at %.4g V",
+             f->model->abreast ? ", closes" : ", one of both closes", f->closing);
   used = strlen(r->message);
   if (!isnan(f->release))
-    snprintf(r->message + used, sizeof r->message - used, " and opens again at %.4g V", f->release);
+    snprintf(r->message + used, sizeof r->message - used, "%s at %.4g V",
+             f->model->abreast ? ", releases" : " and opens again", f->release);
   if (f->crossed)
     zp_result_note(
         r,
@@ -298,21 +366,21 @@ static void describe(Follower *f) {
 
 static void follow(Follower *f) {
   f->result->outcome = ZP_FOLLOWED;
-  f->start[0] = zp_statics_opening(upper(f));
-  f->start[1] = zp_statics_opening(lower(f));
+  for (size_t which = 0; which < f->all.count; which++)
+    f->start[which] = zp_statics_opening(member(f, which));
   record(f);
-  bool ends = f->model->def.drive.voltage == 0 || !zp_antagonists_follow(&f->both);
+  bool ends = f->model->def.drive.voltage == 0 || !zp_together_follow(&f->all);
   for (int k = 0; k < MOST_POINTS && !ends; k++)
     ends = advance(f);
   bool arrived = f->result->outcome == ZP_FOLLOWED && is_at_top(f);
   if (!arrived || left_to_close(f) > 0) f->release = NAN;
   describe(f);
-  if (zp_antagonists_stopped(&f->both)) f->result->outcome = ZP_INTERRUPTED;
+  if (zp_together_stopped(&f->all)) f->result->outcome = ZP_INTERRUPTED;
 }
 
 static void find_branch(Follower *f) {
   if (!hang(f)) return;
-  if (zp_antagonists_bias(&f->both))
+  if (zp_together_bias(&f->all))
     follow(f);
   else {
     f->result->outcome = ZP_NOT_SETTLED;
@@ -331,14 +399,16 @@ static void find_equilibria(Follower *f) {
   r->scalar[first + 1].value = f->closing;
   r->scalar[first + 2].value = f->release;
   zp_result_add(r, "points", "count", f->points);
-  zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
-  zp_margins_join(&f->margins, zp_margins_at_clip(f->model->below, lower(f)->U));
+  for (size_t which = 0; which < f->all.count; which++) {
+    const ZpStatics *s = member(f, which);
+    zp_margins_join(&f->margins, zp_margins_at_clip(s->model, which == 0 ? f->model->def.drive.voltage : s->U));
+  }
   zp_add_margins(r, f->model, &f->margins);
   zp_note_mesh(r, f->model, f->model->def.drive.voltage);
   zp_note_rest(r, f->model);
 }
 
-ZpStatus zp_opposed_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
+ZpStatus zp_together_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = task->def;
   return run(task, (size_t)def->output.samples, (size_t)def->output.shapes, find_equilibria, result, err);
 }

@@ -1,0 +1,11 @@
+/* Studies at rest of several actuators that share one load, which are one system: antagonists (docs/theory.md,
+ * section 31), and unlike ones side by side (section 29). */
+#ifndef ZP_STUDY_TOGETHER_H
+#define ZP_STUDY_TOGETHER_H
+
+#include "study/studies.h"
+
+ZpStatus zp_together_stationary(const ZpTask *task, ZpResult *result, ZpError *err);
+ZpStatus zp_together_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err);
+
+#endif
