@@ -25,6 +25,7 @@ PICTURES = {
     "design-chart.svg": "design/plots/map.svg",
     "stress.svg": "stress/plots/stress.svg",
     "sensitivity.svg": "counts/plots/tornado.svg",
+    "sensitivity-zip.svg": "counts-zip/plots/tornado.svg",
     "calibrate.svg": "calibrate/plots/fit.svg",
     "fits.svg": "bench/plots/fits.svg",
     "profile.svg": "profile/plots/profile.svg",

@@ -171,6 +171,18 @@ START_TEST(derivatives_cost_one_evaluation) {
 }
 END_TEST
 
+/* Of zip times, too: of runs with steps of one length, so that differences of runs are as sharp. */
+START_TEST(zip_times_have_derivatives) {
+  write_file("slopes-times.csv", "voltage_kV,zip_time_ms\n8,200\n10,150\n");
+  ZpActuatorDef times = calibration("slopes-times.csv", "ribbon.young_modulus,insulator.thickness");
+  set(&times, "mesh.nodes", 15);
+  set(&times, "liquid.model", ZP_LIQUID_SUBMERGED);
+  set(&times, "solver.time_step", 1e-4);
+  set(&times, "solver.tolerance", 1e-7);
+  derivatives_cost_one_evaluation_of(&times);
+}
+END_TEST
+
 START_TEST(voltage_data) {
   static const char *const volts[] = {"0", "2", "3", "4"};
   ZpActuatorDef def = calibration("volts.csv", "medium.permittivity"), truth = def;
@@ -225,7 +237,8 @@ START_TEST(zip_times_show_the_pull_in) {
   set(&def, "ribbon.young_modulus", 180e9);
   ZpResult *result = fit(&def);
   double found = zp_result_get(result, "pull_in_voltage_V");
-  printf("pull-in %.2f V, from zip times %.2f V, %s\n", pull_in, found, result->message);
+  printf("pull-in %.2f V, from zip times %.2f V, %s, %g evaluations\n", pull_in, found, result->message,
+         zp_result_get(result, "evaluations"));
   ck_assert_double_lt(fabs(found / pull_in - 1), 1e-3);
   zp_result_destroy(result);
 }
@@ -920,6 +933,7 @@ int main(void) {
   tcase_add_test(fits, two_keys_are_found);
   tcase_add_test(fits, standard_error_follows_the_noise);
   tcase_add_test(fits, derivatives_cost_one_evaluation);
+  tcase_add_test(fits, zip_times_have_derivatives);
   tcase_add_test(fits, voltage_data);
   tcase_add_test(fits, zip_times_show_the_pull_in);
   tcase_add_test(fits, bounds_are_kept);

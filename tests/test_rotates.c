@@ -35,6 +35,29 @@ START_TEST(small_tilt_is_that_of_its_closed_form) {
 }
 END_TEST
 
+/* Eq. (19.6): opening and angle under a load in the middle, the left clip held. */
+START_TEST(small_load_beside_a_held_clip_is_as_its_closed_form) {
+  double off[3], turned[3];
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef def = turning(10 * (1 << k) + 1, _i ? 2e-3 : 0);
+    def.actuator.held_clip = ZP_HELD_LEFT;
+    def.gravity = 0, def.load.force = 1e-6;
+    double b = def.ribbon.thickness, nu = def.ribbon.poisson_ratio, a = def.platform.length;
+    double EI = def.ribbon.young_modulus * def.ribbon.width * b * b * b / 12 / (1 - nu * nu);
+    double L = 0.5 * (def.ribbon.length - a), W = def.load.force, e = def.load.offset;
+    double k11 = 18, k12 = -3 * (a + L), k22 = 4.5 * a * a + 9 * L * a + 6.5 * L * L, unit = W * L * L * L / EI;
+    double opening = unit * (k22 - k12 * e) / (k11 * k22 - k12 * k12);
+    double angle = unit * (k12 - k11 * e) / (k11 * k22 - k12 * k12);
+    off[k] = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m") / opening - 1;
+    turned[k] = angle_of(def) / angle - 1;
+  }
+  ck_below(fabs(off[2]), 6e-4);
+  ck_below(fabs(turned[2]), 6e-4);
+  ck_near(off[1] / off[2], 4, 5e-3);
+  ck_near(turned[1] / turned[2], 4, 2e-2); /* of angles whose error is below 1e-4 */
+}
+END_TEST
+
 /* One node of the one and its image of the other, right clip to left clip. */
 static void check_mirrored(const ZpTable *one, const ZpTable *other, double width) {
   for (size_t i = 0; i < one->rows; i++) {
@@ -46,10 +69,11 @@ static void check_mirrored(const ZpTable *one, const ZpTable *other, double widt
   }
 }
 
-/* With the load on the other side, or in the middle, the state is the mirror image. */
+/* With the load on the other side, or in the middle, or the other clip held, the state is the mirror image. */
 START_TEST(offset_on_the_other_side_is_a_mirror_image) {
-  double offset = _i ? 3e-3 : 0;
+  double offset = _i == 1 ? 3e-3 : 0;
   ZpActuatorDef right = turning(21, offset), left = turning(21, -offset);
+  if (_i == 2) right.actuator.held_clip = ZP_HELD_LEFT, left.actuator.held_clip = ZP_HELD_RIGHT;
   ZpResult *one = study_of(ZP_STUDY_STATIONARY, &right), *other = study_of(ZP_STUDY_STATIONARY, &left);
   check_mirrored(one->series, other->series, right.ribbon.length);
   if (_i) ck_below(zp_result_get(one, "angle_rad"), -0.02);
@@ -107,6 +131,7 @@ START_TEST(energy_balances) {
           {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.end_time", 0.1}),
       DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"mount.tilt", 0.5}, {"solver.end_time", 0.05}),
       DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"electro.edges", 1}, {"drive.voltage", 8e3}),
+      DEF(TURNS, {"mesh.nodes", 21}, {"actuator.held_clip", ZP_HELD_LEFT}, {"drive.voltage", 8e3}),
   };
   ck_below(imbalance_of(&def[_i]), 1e-9);
 }
@@ -163,6 +188,8 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
     ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 1e-3}, refused[k].setting);
     ck_refused(&def, refused[k].words);
   }
+  ZpActuatorDef fixed = DEF({"actuator.symmetry", ZP_SYMMETRY_NONE}, {"actuator.held_clip", ZP_HELD_RIGHT});
+  ck_refused(&fixed, "actuator.held_clip = right: requires platform.rotates true");
   ZpActuatorDef def = turning(21, 0);
   def.load.stiffness = 1, def.load.rest_opening = 1e-3;
   ck_refused(&def, "platform.rotates: requires load.stiffness 0 N/m");
@@ -178,10 +205,11 @@ int main(void) {
   Suite *suite = suite_create("rotates");
   TCase *c = tcase_create("rotates");
   tcase_add_loop_test(c, small_tilt_is_that_of_its_closed_form, 0, 3);
-  tcase_add_loop_test(c, offset_on_the_other_side_is_a_mirror_image, 0, 2);
+  tcase_add_loop_test(c, small_load_beside_a_held_clip_is_as_its_closed_form, 0, 2);
+  tcase_add_loop_test(c, offset_on_the_other_side_is_a_mirror_image, 0, 3);
   tcase_add_test(c, load_in_the_middle_does_not_tilt);
   tcase_add_test(c, platform_keeps_its_length);
-  tcase_add_loop_test(c, energy_balances, 0, 3);
+  tcase_add_loop_test(c, energy_balances, 0, 4);
   tcase_add_test(c, rest_stays_at_rest);
   tcase_add_test(c, frequency_of_the_tilt);
   tcase_add_test(c, what_takes_the_platform_as_level_is_refused);

@@ -14,6 +14,7 @@ typedef struct Hold {
 
 static const Hold hold_of[ZP_JOINT_KINDS] = {
     [ZP_JOINT_CLIP] = {.unites = true, .slope = {true, true}},
+    [ZP_JOINT_HELD] = {.unites = true, .x = {true, true}, .y = {true, true}, .slope = {true, true}},
     [ZP_JOINT_CLAMP] = {.x = {true, true}, .y = {true, true}, .slope = {true, true}},
     [ZP_JOINT_HINGE] = {.unites = true, .x = {true, true}, .y = {true, true}, .slope = {true, false}},
     [ZP_JOINT_GUIDE] = {.slope = {true, true}},
@@ -38,13 +39,14 @@ static void of_one(ZpRightEnd end, size_t nodes, ZpTopology *t) {
 }
 
 /* Two ribbons from the left clip to the platform and, if there are two halves, on to the right clip. */
-static void of_two(size_t halves, ZpJointKind platform, size_t nodes, ZpTopology *t) {
-  t->halves = halves;
-  t->stations = halves * nodes;
-  add(t, ZP_JOINT_CLIP, 0, 0);
-  add(t, platform, nodes - 1, nodes + halves - 2);
+static void of_two(const ZpActuatorDef *def, size_t nodes, ZpTopology *t) {
+  ZpHeldClip held = def->actuator.held_clip;
+  t->halves = def->actuator.symmetry == ZP_SYMMETRY_NONE ? 2 : 1;
+  t->stations = t->halves * nodes;
+  add(t, held == ZP_HELD_LEFT ? ZP_JOINT_HELD : ZP_JOINT_CLIP, 0, 0);
+  add(t, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes - 1, nodes + t->halves - 2);
   t->platform = t->joint[1];
-  if (halves == 2) add(t, ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
+  if (t->halves == 2) add(t, held == ZP_HELD_RIGHT ? ZP_JOINT_HELD : ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
 }
 
 /* Two ribbons on a hinge, their right ends free. */
@@ -56,13 +58,12 @@ static void of_hinge(size_t nodes, ZpTopology *t) {
 }
 
 ZpTopology zp_topology_of(const ZpActuatorDef *def) {
-  bool whole = def->actuator.symmetry == ZP_SYMMETRY_NONE;
   size_t nodes = (size_t)def->mesh.nodes;
   ZpTopology t = {.ribbons = zp_def_has_two(def) ? 2 : 1, .halves = 1};
   if (def->actuator.kind == ZP_KIND_HINGE)
     of_hinge(nodes, &t);
   else if (zp_def_has_two(def))
-    of_two(whole ? 2 : 1, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes, &t);
+    of_two(def, nodes, &t);
   else
     of_one(def->actuator.right_end, nodes, &t);
   t.nodes = t.ribbons * t.stations;

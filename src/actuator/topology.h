@@ -14,6 +14,7 @@
 
 typedef enum ZpJointKind {
   ZP_JOINT_CLIP,     /* both nodes are one; horizontal */
+  ZP_JOINT_HELD,     /* a clip that is held; horizontal */
   ZP_JOINT_CLAMP,    /* held; horizontal */
   ZP_JOINT_HINGE,    /* both nodes are one, held; the upper ribbon horizontal, the lower one free to turn */
   ZP_JOINT_GUIDE,    /* free to move; horizontal */

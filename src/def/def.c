@@ -1009,6 +1009,15 @@ static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+/* A clip that is held. */
+static ZpStatus check_held_clip(const ZpActuatorDef *def, ZpError *err) {
+  if (def->actuator.held_clip == ZP_HELD_NONE || def->platform.rotates) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "actuator.held_clip = %s: requires platform.rotates true; the ribbons between a held clip and a "
+                 "platform that a guide keeps horizontal could only stretch",
+                 def->actuator.held_clip == ZP_HELD_LEFT ? "left" : "right");
+}
+
 /* Where the load hangs. */
 static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
   double most = def->platform.length / 2, offset = def->load.offset;
@@ -1105,6 +1114,7 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK) status = zp_check_stack(def, err);
   if (status == ZP_OK) status = check_hinge(def, err);
   if (status == ZP_OK) status = check_rotates(def, err);
+  if (status == ZP_OK) status = check_held_clip(def, err);
   if (status == ZP_OK) status = check_offset(def, err);
   if (status == ZP_OK) status = check_spring(def, err);
   if (status == ZP_OK) status = check_stop(def, err);

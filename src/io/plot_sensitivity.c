@@ -54,13 +54,20 @@ static void add_key(const ZpPlot *plot, Tornado *t, int key) {
   t->key[place] = key;
 }
 
+/* Is there something to draw of it? A run that has closed ends while openings and strokes pass 0: their percentages
+ * there are of no use, and hide those of the zip time. */
+static bool counts(const ZpPlot *plot, const ZpSensitivity *s) {
+  bool passing = plot->single->outcome == ZP_ZIPPED && strcmp(s->output, "zip_time_s") != 0;
+  return !passing && isfinite(percent(plot, s));
+}
+
 static Tornado tornado(const ZpPlot *plot) {
   Tornado t = {.outputs = 0};
   const ZpResult *result = plot->single;
   for (size_t i = 0; result && i < result->sensitivities; i++)
-    if (isfinite(percent(plot, &result->sensitivity[i]))) add_output(&t, result->sensitivity[i].output);
+    if (counts(plot, &result->sensitivity[i])) add_output(&t, result->sensitivity[i].output);
   for (size_t i = 0; result && i < result->sensitivities; i++)
-    if (isfinite(percent(plot, &result->sensitivity[i]))) add_key(plot, &t, result->sensitivity[i].key);
+    if (counts(plot, &result->sensitivity[i])) add_key(plot, &t, result->sensitivity[i].key);
   return t;
 }
 

@@ -367,20 +367,18 @@ static void damp(ZpDynamics *d, size_t i) {
 }
 
 /* Do faces overlap at the step's end, without a film that has taken their speed? In a bath there is one everywhere. */
-bool zp_dynamics_meets(const ZpDynamics *d, size_t i) {
+static bool meets(const ZpDynamics *d, size_t i) {
   const ZpModel *model = d->model;
   bool filled = model->has_film && (!model->has_bead || zp_film_fills(&model->film, &d->eval.film, i));
   return d->eval.faces.stiffness[i] > 0 && !filled;
 }
 
-/* What the push of the faces of one member took on its way, J; do any meet? */
-static double pushed(const ZpDynamics *d, bool *any) {
+/* What the push of the faces of one member took on its way, J. */
+static double pushed(const ZpDynamics *d) {
   const double *gap = d->eval.plates.gap, *before = d->eval.plates_start.gap;
   double loss = 0;
-  for (size_t i = 1; i < d->model->nodes; i++) {
+  for (size_t i = 1; i < d->model->nodes; i++)
     loss -= d->eval.faces.push[i] * (gap[i] - before[i]);
-    *any |= zp_dynamics_meets(d, i);
-  }
   return loss;
 }
 
@@ -388,7 +386,7 @@ static double pushed(const ZpDynamics *d, bool *any) {
 static void damp_one(ZpDynamics *top, ZpDynamics *m) {
   if (m->above) top->v[joined_by(m).below] = -joined_by(m).sign * top->v[joined_by(m).above];
   for (size_t i = 1; i < m->model->nodes; i++)
-    if (zp_dynamics_meets(m, i)) damp(m, i);
+    if (meets(m, i)) damp(m, i);
   if (m->above) top->v[joined_by(m).above] = -joined_by(m).sign * top->v[joined_by(m).below];
 }
 
@@ -397,24 +395,33 @@ static void damp_all(ZpDynamics *d) {
     damp_one(d, m);
 }
 
-/* Does the step follow the vibration of masses on the layers of all faces that meet? Theory, section 18, Contact. */
-static bool follows_layers(const ZpDynamics *d) {
+static bool any_meet(const ZpDynamics *d) {
+  for (const ZpDynamics *m = d; m; m = m->below)
+    for (size_t i = 1; i < m->model->nodes; i++)
+      if (meets(m, i)) return true;
+  return false;
+}
+
+/* Is there a vibration of masses on the layers of faces that meet that the step does not follow? Theory, section 18,
+ * Contact. */
+static bool misses_layers(const ZpDynamics *d) {
   static const double followed = 4; /* angle by which such a vibration turns in the step, at most */
   double most = followed * followed / (d->h * d->h);
   for (const ZpDynamics *m = d; m; m = m->below)
     for (size_t i = 1; i < m->model->nodes; i++)
-      if (zp_dynamics_meets(m, i) && m->eval.faces.stiffness[i] > most * pair_of(m, i).reduced) return false;
-  return true;
+      if (meets(m, i) && m->eval.faces.stiffness[i] > most * pair_of(m, i).reduced) return true;
+  return false;
 }
 
 /* What the faces' push took on its way, and its damper (9.6). Without a film, what is too fast for a step that does not
  * follow it is taken out of velocities after an impact; beside one the damper (9.3) acts there => the loss, J. */
 static double impact(ZpDynamics *d) {
   double loss = 0;
-  bool any = false, film = d->model->has_film;
-  for (ZpDynamics *m = d; m; m = m->below)
-    loss += pushed(m, &any);
-  if (!any || (!film && follows_layers(d))) return loss;
+  const bool film = d->model->has_film;
+  for (const ZpDynamics *m = d; m; m = m->below)
+    loss += pushed(m);
+  d->filters = d->lead ? d->lead->filters : !film && misses_layers(d);
+  if (film ? !any_meet(d) : !d->filters) return loss;
   loss += kinetic_energy(d);
   if (film)
     damp_all(d);

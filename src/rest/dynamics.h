@@ -39,6 +39,8 @@ typedef struct ZpDynamics {
   struct ZpDynamics *above, *below; /* of a series: its neighbours; NULL: none */
   size_t at;                        /* where its equations begin among those of the series */
   size_t links;                     /* of the uppermost member: how many hold the members together */
+  bool filters;                     /* the last step has taken out of velocities what it does not follow */
+  const struct ZpDynamics *lead;    /* whose steps these follow, as near it: they filter where it does; NULL: none */
   void *memory;
 } ZpDynamics;
 
@@ -59,8 +61,5 @@ double zp_dynamics_step(ZpDynamics *dynamics, ZpState *const state[], double lat
  * the eval at its end. */
 void zp_dynamics_begin(ZpDynamics *dynamics, ZpState *const state[], double latest);
 void zp_dynamics_end(ZpDynamics *dynamics, ZpState *const state[]);
-
-/* Do the faces of station i overlap where the last step has ended, without liquid between them? */
-bool zp_dynamics_meets(const ZpDynamics *dynamics, size_t i);
 
 #endif

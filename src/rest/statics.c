@@ -592,22 +592,41 @@ static void lay_one(ZpStatics *s) {
 /* Stations of a half: its upper ribbon is laid from the platform to the clip, the lower one from there back. */
 typedef struct Loop {
   size_t platform, clip;
+  bool is_held; /* the clip */
 } Loop;
 
+static Loop loop_to(const ZpTopology *t, size_t platform, size_t clip) {
+  return (Loop){platform, clip, zp_topology_is_held(t, 2 * zp_upper(t, clip))};
+}
+
+/* The station `k` elements from the platform. */
+static size_t station_of(Loop loop, size_t k) {
+  return loop.clip < loop.platform ? loop.platform - k : loop.platform + k;
+}
+
+/* What misses a clip that is held is spread along the upper ribbon. */
+static void spread_to_clip(const ZpTopology *t, Loop loop, double missed, double *q) {
+  size_t elements = zp_half_elements(t);
+  for (size_t k = 0; k <= elements; k++)
+    q[zp_upper(t, station_of(loop, k))] -= missed * ((double)k / (double)elements);
+}
+
 static void lay_loop(const ZpTopology *t, Loop loop, const double *d, double *q) {
-  lay(d, t->ribbons, zp_upper(t, loop.platform), zp_upper(t, loop.clip), q);
-  q[zp_lower(t, loop.clip)] = q[zp_upper(t, loop.clip)];
+  size_t clip = zp_upper(t, loop.clip);
+  double place = q[clip];
+  lay(d, t->ribbons, zp_upper(t, loop.platform), clip, q);
+  if (loop.is_held) spread_to_clip(t, loop, q[clip] - place, q);
+  q[zp_lower(t, loop.clip)] = q[clip];
   lay(d, t->ribbons, zp_lower(t, loop.clip), zp_lower(t, loop.platform), q);
 }
 
-/* What misses the lower platform is spread along the loop. */
+/* What misses the lower platform is spread along the loop, or along the lower ribbon alone if the clip is held. */
 static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
-  size_t elements = zp_half_elements(t);
-  double path = 2 * (double)elements;
+  size_t elements = zp_half_elements(t), path = loop.is_held ? elements : 2 * elements;
   for (size_t k = 0; k <= elements; k++) {
-    size_t i = loop.clip < loop.platform ? loop.platform - k : loop.platform + k;
-    q[zp_upper(t, i)] -= missed * ((double)k / path);
-    q[zp_lower(t, i)] -= missed * ((double)(2 * elements - k) / path);
+    size_t i = station_of(loop, k);
+    if (!loop.is_held) q[zp_upper(t, i)] -= missed * ((double)k / (double)path);
+    q[zp_lower(t, i)] -= missed * ((double)(path - k) / (double)path);
   }
 }
 
@@ -639,7 +658,7 @@ static void lay_level_platform(ZpStatics *s, const Loop loops[2]) {
 /* Lay two ribbons from the upper platform. */
 static void lay_two(ZpStatics *s) {
   const ZpTopology *t = &s->model->topology;
-  const Loop loops[2] = {{t->platform.first, 0}, {t->platform.last, t->stations - 1}};
+  const Loop loops[2] = {loop_to(t, t->platform.first, 0), loop_to(t, t->platform.last, t->stations - 1)};
   for (size_t h = 0; h < t->halves; h++)
     for (size_t c = 0; c < 2; c++)
       lay_loop(t, loops[h], s->moved + c * s->model->stride, s->q + c * s->model->stride);
@@ -652,7 +671,7 @@ static void lay_two(ZpStatics *s) {
 void zp_statics_put_platform(ZpStatics *s, double height) {
   const ZpTopology *t = &s->model->topology;
   double *y = s->q + s->model->stride;
-  spread(t, (Loop){t->platform.first, 0}, y[zp_load_node(t)] - height, y);
+  spread(t, loop_to(t, t->platform.first, 0), y[zp_load_node(t)] - height, y);
 }
 
 static void move(void *self, const double *step, double fraction) {

@@ -8,8 +8,9 @@
 #include "rest/slope.h"
 #include "sim/snapshot.h"
 
-/* Steps of a key: small enough that no gap of faces in contact changes by a part that counts, above rounding. */
-static const double part = 1e-6;
+/* Steps of a key: small enough that hardly ever the first touch of two faces, where (9.6) has a corner, is between the
+ * points of a difference; above rounding. */
+static const double part = 1e-7;
 
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
@@ -35,6 +36,7 @@ static ZpStatus create_near(ZpRunRates *rates, ZpKeyRates *of, ZpError *err) {
     double *q = straight ? NULL : zp_state_q(model, rates->before);
     of->near[k] = zp_sim_create_at(of->by.model[k], q, rates->before->opening0);
     if (!of->near[k]) return zp_fail_memory(err);
+    of->near[k]->dynamics.lead = &rates->sim->dynamics;
   }
   return ZP_OK;
 }
@@ -49,6 +51,7 @@ static void take_rate(const ZpRunRates *rates, const ZpKeyRates *of) {
 static ZpStatus open_key(ZpRunRates *rates, ZpRest *rest, int key, ZpKeyRates *of, ZpError *err) {
   const ZpModel *model = rates->sim->model;
   bool hangs = zp_is_pair(&model->topology) || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
+  of->lost = INFINITY;
   of->rate = zp_calloc(1, zp_state_size(model));
   if (!of->rate) return zp_fail_memory(err);
   ZpStatus status = zp_near_open(&of->by, model, key, part, err);
@@ -63,15 +66,14 @@ static bool allocate(ZpRunRates *rates) {
   size_t n = rates->sim->dynamics.system.n;
   rates->key = zp_calloc(rates->keys, sizeof *rates->key);
   rates->before = zp_calloc(1, zp_state_size(model));
-  rates->meets = zp_calloc(2 * model->nodes, sizeof *rates->meets);
-  rates->wet = rates->meets + model->nodes;
-  rates->work = zp_calloc(5 * n, sizeof *rates->work);
-  rates->motion = rates->work + 4 * n;
-  return rates->key && rates->before && rates->meets && rates->work;
+  rates->wet = zp_calloc(model->nodes, sizeof *rates->wet);
+  rates->work = zp_calloc(7 * n, sizeof *rates->work);
+  rates->motion = rates->work + 6 * n;
+  return rates->key && rates->before && rates->wet && rates->work;
 }
 
 ZpStatus zp_run_rates_open(ZpRunRates *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err) {
-  *rates = (ZpRunRates){.sim = sim, .keys = keys, .lost = INFINITY};
+  *rates = (ZpRunRates){.sim = sim, .keys = keys};
   ZpRest rest;
   bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   ZpStatus status = opened && allocate(rates) ? ZP_OK : zp_fail_memory(err);
@@ -92,7 +94,7 @@ void zp_run_rates_close(ZpRunRates *rates) {
   }
   zp_free(rates->key);
   zp_free(rates->before);
-  zp_free(rates->meets);
+  zp_free(rates->wet);
   zp_free(rates->work);
   rates->sim->rates = NULL;
 }
@@ -125,12 +127,11 @@ static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_c
 void zp_run_rates_begin(ZpRunRates *rates, double end_time) {
   ZpSim *sim = rates->sim;
   bool at_corner = sim->state->t >= rates->to;
-  if (isfinite(rates->lost)) return;
   memcpy(rates->before, sim->state, zp_state_size(sim->model));
   rates->taken = sim->dynamics.stepper.counts.steps;
   for (size_t j = 0; j < rates->keys; j++)
     for (int k = 0; k < ZP_NEAR_POINTS; k++)
-      if (rates->key[j].near[k]) begin_near(rates, &rates->key[j], k, at_corner, end_time);
+      if (rates->key[j].near[k] && !isfinite(rates->key[j].lost)) begin_near(rates, &rates->key[j], k, at_corner, end_time);
   if (!at_corner) return;
   rates->from = sim->state->t;
   rates->to = corner_of(sim, end_time);
@@ -138,40 +139,34 @@ void zp_run_rates_begin(ZpRunRates *rates, double end_time) {
 
 /* -- and ends ---------------------------------------------------------------------------------------- */
 
-static void lose(ZpRunRates *rates, const char *cause) {
-  rates->lost = rates->before->t;
-  rates->cause = cause;
+static void lose(const ZpRunRates *rates, ZpKeyRates *of, const char *cause) {
+  of->lost = rates->before->t;
+  of->cause = cause;
 }
 
-/* What station i has now => seen; is it another thing than after the step before? */
-static bool changes(const ZpRunRates *rates, bool now, bool *seen) {
-  bool other = now != *seen;
-  *seen = now;
-  return other && rates->before->t > 0;
-}
-
-/* What has happened in the run's step that has no derivative: how much a face loses where it meets another without
- * liquid, and what a meniscus leaves to a station that it passes, depend on where within a step that is. NULL: nothing.
- */
-static const char *cause_of_loss(ZpRunRates *rates) {
+/* Does the liquid of a bead fill a station that it did not fill in the step before, or the other way round? */
+static bool meniscus_passes(ZpRunRates *rates) {
   const ZpDynamics *d = &rates->sim->dynamics;
-  bool met = false, passed = false;
-  for (size_t i = 1; i < d->model->nodes && d->model->field; i++) {
-    met |= changes(rates, zp_dynamics_meets(d, i), &rates->meets[i]);
-    passed |= changes(rates, d->model->has_bead && zp_film_fills(&d->model->film, &d->eval.film, i), &rates->wet[i]);
+  bool passes = false;
+  for (size_t i = 1; i < d->model->nodes && d->model->has_bead; i++) {
+    bool wet = zp_film_fills(&d->model->film, &d->eval.film, i);
+    passes |= wet != rates->wet[i] && rates->before->t > 0;
+    rates->wet[i] = wet;
   }
+  return passes;
+}
+
+/* What has happened in the run's step that has no derivative: what a meniscus leaves to a station that it passes, and
+ * how long a supply is at its limit, depend on where within a step that is. NULL: nothing. */
+static const char *cause_of_loss(ZpRunRates *rates) {
   if (rates->sim->state->supply_mode != rates->before->supply_mode)
     return "a limit of the supply's current begins or ends";
-  if (passed) return "the meniscus of a bead passes a station";
-  return met ? "faces meet or part without liquid between them" : NULL;
+  return meniscus_passes(rates) ? "the meniscus of a bead passes a station" : NULL;
 }
 
-/* Does the damper of faces or menisci smooth velocities by the matrix of the step? */
+/* Are velocities smoothed by the matrix of the step, for faces or for menisci? */
 static bool takes_matrix(const ZpRunRates *rates) {
-  bool takes = rates->sim->model->has_bead;
-  for (size_t i = 1; i < rates->sim->model->nodes; i++)
-    takes |= rates->meets[i];
-  return takes;
+  return rates->sim->model->has_bead || rates->sim->dynamics.filters;
 }
 
 /* The dynamics of all points of a key, from where they are to where the run's step ends. */
@@ -198,10 +193,12 @@ static void arrive(ZpSim *near) {
   zp_sim_arrive(near);
 }
 
-/* Has the run counted as closed only where its step ended, since its platform touches? Then that is no event. */
-static bool closes_at_end(const ZpRunRates *rates) {
+/* The zip time of an actuator near, where the run's step has ended: of the same step, wherever its own path passes the
+ * limit. A platform that touches, or a front that arrives, is found at the end of a step only: that is no instant. */
+static double zip_time_near(const ZpRunRates *rates, const ZpSim *near) {
   const ZpState *state = rates->sim->state;
-  return isnan(rates->before->zip_time) && state->zip_time == state->t;
+  if (!isnan(rates->before->zip_time)) return near->state->zip_time;
+  return state->zip_time < state->t ? zp_sim_crossing(near) : NAN;
 }
 
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
@@ -214,18 +211,22 @@ static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
       arrive(of->near[k]);
     else
       of->near[k]->state->t = time_of(rates, of, k, sim->state->t);
-    if (closes_at_end(rates)) of->near[k]->state->zip_time = NAN;
+    of->near[k]->state->zip_time = zip_time_near(rates, of->near[k]);
   }
   take_rate(rates, of);
   return true;
 }
 
 void zp_run_rates_follow(ZpRunRates *rates) {
-  if (isfinite(rates->lost)) return;
   const char *cause = cause_of_loss(rates);
-  if (cause) lose(rates, cause);
-  for (size_t k = 0; k < rates->keys && !isfinite(rates->lost); k++)
-    if (!follow_key(rates, &rates->key[k])) lose(rates, "no derivative of a step is found");
+  for (size_t k = 0; k < rates->keys; k++) {
+    ZpKeyRates *of = &rates->key[k];
+    if (isfinite(of->lost)) continue;
+    if (cause)
+      lose(rates, of, cause);
+    else if (!follow_key(rates, of))
+      lose(rates, of, "the derivative of a step is not found");
+  }
 }
 
 double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user) {

@@ -14,21 +14,20 @@ typedef struct ZpKeyRates {
   double from[ZP_NEAR_POINTS]; /* their last corner */
   double to[ZP_NEAR_POINTS];   /* and their next one, s */
   ZpState *rate;               /* derivatives of the numbers of the run's state */
+  double lost;                 /* when they ceased to exist, s; INFINITY: they have not */
+  const char *cause;           /* and why */
 } ZpKeyRates;
 
 typedef struct ZpRunRates {
   ZpSim *sim;      /* the run */
   ZpKeyRates *key; /* [keys] */
   size_t keys;
-  ZpState *before;   /* the run's state where the step under way begins */
-  int64_t taken;     /* its steps until then */
+  ZpState *before; /* the run's state where the step under way begins */
+  int64_t taken;   /* its steps until then */
   double from, to;   /* its last corner and its next one, s */
-  bool *meets;       /* [N] stations whose faces meet without liquid between them */
-  bool *wet;         /* [N] and with a bead those that its liquid fills */
-  double lost;       /* when the derivatives ceased to exist, s; INFINITY: they have not */
-  const char *cause; /* and why */
-  double *work;      /* [4 n] */
-  double *motion;    /* [n] */
+  bool *wet;       /* [N] stations that the liquid of a bead fills */
+  double *work;    /* [6 n] */
+  double *motion;  /* [n] */
 } ZpRunRates;
 
 /* Follow a run, which has not begun, by these keys; in any case to be closed, before the run. ZP_BAD_INPUT names a key

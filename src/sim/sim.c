@@ -358,13 +358,23 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
   return (ZpStepStart){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
 }
 
-/* When within the step that has just been taken the opening fell to 1 %: on the parabola of the midpoint rule, which
- * has the start's opening and rate and the end's opening. A platform that touches at more than 1 % is closed there. */
-static double zipped_at(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), limit = ZP_CLOSED_PART * state->opening0, left = start.opening - limit;
-  if (left <= 0 || now > limit) return state->t;
-  double taken = state->t - start.t, bend = ((now - start.opening) / taken - start.rate) / taken;
+/* When the opening is 1 %: on the parabola of the midpoint rule, which has the start's opening and rate and the end's
+ * opening. */
+static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
+  double now = opening(model, state), left = start.opening - ZP_CLOSED_PART * state->opening0, taken = state->t - start.t;
+  double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
+}
+
+double zp_sim_crossing(const ZpSim *sim) {
+  return crossing(sim->model, sim->state, sim->step_start);
+}
+
+/* Has that been within the step that has just been taken? A platform that touches at more than 1 % is closed at its end.
+ */
+static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
+  double limit = ZP_CLOSED_PART * state->opening0;
+  return start.opening > limit && opening(model, state) <= limit;
 }
 
 /* Has the last step closed the actuator? */
@@ -373,7 +383,8 @@ static void note_closing(ZpSim *sim) {
   ZpState *state = sim->state;
   state->was_open |= started_open(sim) || is_open(model, state);
   if (!isnan(state->zip_time) || state->U == 0 || !reached_zip(model, state)) return;
-  state->zip_time = sim->stepping->fine ? state->t : zipped_at(model, state, sim->step_start);
+  bool within = !sim->stepping->fine && crosses(model, state, sim->step_start);
+  state->zip_time = within ? zp_sim_crossing(sim) : state->t;
 }
 
 /* Has a zip front outrun its bead? Its meniscus then is where the film is thinner than what stands for the insulators.

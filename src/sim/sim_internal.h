@@ -128,6 +128,10 @@ void zp_sim_take_states_back(ZpSim *sim);
 bool zp_sim_prepare(ZpSim *sim);
 void zp_sim_arrive(ZpSim *sim);
 
+/* When the path of the last step, of two ribbons, passes the opening that counts as closed, s; that may be a little
+ * before it or after it. */
+double zp_sim_crossing(const ZpSim *sim);
+
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);

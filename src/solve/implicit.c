@@ -429,6 +429,31 @@ static double size_of(const ZpImplicitSystem *system, const double *x) {
   return sqrt(sum / (double)system->n);
 }
 
+/* How much of the last pass a new one takes back, so that of the corrections of both least is left. A Jacobian that
+ * lacks much, as of faces that land under tension, makes them shrink slowly or turn round. */
+static double taken_back(const ZpImplicitSystem *system, const double *left, const double *before) {
+  double along = 0, square = 0;
+  for (size_t i = 0; i < system->n; i++) {
+    double scale = kind_of(system, i) == ZP_ALGEBRAIC ? INFINITY : scale_of(system, i);
+    double change = (left[i] - before[i]) / scale;
+    along += change * left[i] / scale;
+    square += change * change;
+  }
+  return square > 0 ? along / square : 0;
+}
+
+/* One pass that leaves a correction: the rate moves by it and by what the pass before has shown of it. */
+static void correct(const ZpNearSteps *steps, const Rates *r, bool first) {
+  double *left = steps->work, *before = left + 4 * r->n, *moved = left + 5 * r->n;
+  double share = first ? 0 : taken_back(steps->near[0].stepper->system, left, before);
+  for (size_t i = 0; i < r->n; i++) {
+    double back = first ? 0 : share * (moved[i] + left[i] - before[i]);
+    moved[i] = left[i] - back;
+    before[i] = left[i];
+    r->dq1[i] += moved[i];
+  }
+}
+
 /* By passes with the factored Jacobian of one of them: what it lacks of the exact tangent the next pass sees. */
 static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   enum { MOST_PASSES = 40 };
@@ -437,8 +462,7 @@ static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     if (!look(steps, r, left) || (pass == 0 && !factor(&steps->near[0]))) return false;
     zp_bordered_solve(&s->A, left);
-    for (size_t i = 0; i < r->n; i++)
-      r->dq1[i] += left[i];
+    correct(steps, r, pass == 0);
     double size = size_of(s->system, left), all = size_of(s->system, r->dq1);
     if (!isfinite(size)) return false;
     if (size <= fmax(passed * all, rounding) || (size > 0.5 * before && size < most_left * all)) return true;

@@ -100,7 +100,7 @@ typedef struct ZpNearSteps {
   int count;
   const double *q1;              /* [n] where the known step ends, */
   const ZpImplicitHistory *lead; /* with what rates */
-  double *work;                  /* [4 n] */
+  double *work;                  /* [6 n] */
 } ZpNearSteps;
 
 /* How the end of the known step moves with the number => rate [n], eq. (20.7), and all near steps, accepted at

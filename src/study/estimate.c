@@ -12,12 +12,14 @@ enum { MESHES = 3, FEWEST_NODES = 4 };
 typedef struct Estimated {
   ZpStudy study;
   const char *value, *error, *unit;
-  double factor; /* F of eq. (21.1) */
-  int order;     /* p */
+  double safety;    /* F of eq. (21.1) */
+  int order;        /* p */
+  double monotonic; /* F of eq. (21.2); 0: it does not apply */
 } Estimated;
 
 static const Estimated estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, factor, order) {enumerator, scalar, error, unit, factor, order},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, order, monotonic)                                         \
+  {enumerator, scalar, error, unit, safety, order, monotonic},
 #include <zipact/studies.def>
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
@@ -69,13 +71,31 @@ static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mes
   return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
 }
 
-/* Eq. (21.1). A number that no coarser mesh has is NAN; the coarsest may be missing. */
+/* The error of f_0 if errors go with the power -order of the number of elements; NAN where that mesh has none. */
+static double richardson(const Findings *findings, int k, int mesh, int order) {
+  const double *f = findings->f[k], *n = findings->elements;
+  double growth = 1;
+  for (int i = 0; i < order; i++)
+    growth *= n[0] / n[mesh];
+  return fabs(f[0] - f[mesh]) / (growth - 1);
+}
+
+/* Do the meshes approach from one side, with the first power of the elements' length or faster, and not with so high
+ * an order that two of them must agree by chance? */
+static bool is_monotonic(const Findings *findings, int k) {
+  static const double fastest = 32; /* ratio of both differences: order five */
+  const double *f = findings->f[k], *n = findings->elements;
+  double fine = (f[1] - f[0]) / (1 / n[1] - 1 / n[0]), coarse = (f[2] - f[1]) / (1 / n[2] - 1 / n[1]);
+  bool chance = fabs(f[2] - f[1]) > fastest * fabs(f[1] - f[0]);
+  return fine * coarse > 0 && fabs(coarse) >= fabs(fine) && !chance;
+}
+
+/* Eqs. (21.1) and (21.2). A number that no coarser mesh has is NAN; either may be missing. */
 static double error_of(const Findings *findings, int k) {
-  const double *f = findings->f[k];
-  double first = fabs(f[0] - f[1]), second = fabs(f[1] - f[2]);
-  for (int i = 0; i < estimated[k].order; i++)
-    second *= findings->elements[1] / findings->elements[0];
-  return estimated[k].factor * (isnan(second) ? first : fmax(first, second));
+  const Estimated *e = &estimated[k];
+  double first = richardson(findings, k, 1, 2), second = richardson(findings, k, 2, e->order);
+  if (e->monotonic > 0 && is_monotonic(findings, k)) return e->monotonic * first;
+  return e->safety * fmax(first, second);
 }
 
 static bool has(const ZpResult *result, const char *name) {

@@ -123,8 +123,8 @@ static double rms_of(ZpSim *sim, void *unused) {
   return zp_sim_currents(sim, sim->state->t).rms;
 }
 
-static bool is_lost(const ZpRunRates *rates) {
-  return isfinite(rates->lost);
+static double rate_at_end(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user) {
+  return isfinite(rates->key[k].lost) ? NAN : zp_run_rate_of(rates, k, number, user);
 }
 
 static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
@@ -134,12 +134,29 @@ static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
   for (size_t i = 0; i < AT_END; i++)
     if (at_end[i].has(model))
       zp_result_add_sensitivity(result, at_end[i].name, key,
-                                is_lost(rates) ? NAN : zp_run_rate_of(rates, k, signal_of, (void *)at_end[i].signal));
+                                rate_at_end(rates, k, signal_of, (void *)at_end[i].signal));
   if (!is_fed(model)) return;
-  zp_result_add_sensitivity(result, "peak_current_A", key,
-                            is_lost(rates) ? NAN : zp_run_rate_of(rates, k, peak_of, NULL));
-  zp_result_add_sensitivity(result, "rms_current_A", key,
-                            is_lost(rates) ? NAN : zp_run_rate_of(rates, k, rms_of, NULL));
+  zp_result_add_sensitivity(result, "peak_current_A", key, rate_at_end(rates, k, peak_of, NULL));
+  zp_result_add_sensitivity(result, "rms_current_A", key, rate_at_end(rates, k, rms_of, NULL));
+}
+
+/* What ends the derivatives by all keys ends them at once. */
+static bool all_lost(const ZpRunRates *rates) {
+  for (size_t k = 0; k < rates->keys; k++)
+    if (rates->key[k].lost != rates->key[0].lost) return false;
+  return isfinite(rates->key[0].lost);
+}
+
+static void note_lost(const ZpRunRates *rates, ZpResult *result) {
+  if (all_lost(rates)) {
+    zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives: %s", 1e3 * rates->key[0].lost,
+                   rates->key[0].cause);
+    return;
+  }
+  for (const ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
+    if (isfinite(of->lost))
+      zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives by %s: %s", 1e3 * of->lost,
+                     zp_key(of->by.key)->name, of->cause);
 }
 
 void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
@@ -148,7 +165,5 @@ void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
       zp_result_add(result, at_end[i].name, at_end[i].unit, zp_sim_get(rates->sim, at_end[i].signal));
   for (size_t k = 0; k < rates->keys; k++)
     add_key(rates, k, result);
-  if (rates->keys > 0 && is_lost(rates))
-    zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives: %s", 1e3 * rates->lost,
-                   rates->cause);
+  if (rates->keys > 0) note_lost(rates, result);
 }

@@ -117,28 +117,22 @@ static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResul
   return status;
 }
 
-/* Has a branch been lost where what bends has fewer elements than its note advises? */
-static bool is_too_coarse(const ZpResult *result) {
-  return result->outcome == ZP_BRANCH_LOST && result->resolution < 2;
-}
-
-/* Solve on the mesh that is asked for; where that is too coarse on one with half as long elements, and once more =>
+/* Solve on the mesh that is asked for; where the branch is lost on one with half as long elements, and once more =>
  * the result, and the mesh that it is of in `def`. */
 static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpActuatorDef *def, ZpResult **result,
                                ZpError *err) {
   enum { MOST = 2 };
   ZpStatus status = solve(run, study, task, result, err);
-  for (int k = 0; k < MOST && status == ZP_OK && is_too_coarse(*result); k++) {
+  for (int k = 0; k < MOST && status == ZP_OK && (*result)->outcome == ZP_BRANCH_LOST; k++) {
+    ZpActuatorDef finer = *def;
+    finer.mesh.nodes = 2 * def->mesh.nodes - 1;
+    if (zp_def_check(&finer, NULL) != ZP_OK) break;
+    *def = finer;
     zp_result_destroy(*result);
-    def->mesh.nodes = 2 * def->mesh.nodes - 1;
-    const ZpTask finer = {def, task->input, task->hooks};
-    status = solve(run, study, &finer, result, err);
+    status = solve(run, study, &(ZpTask){def, task->input, task->hooks}, result, err);
     if (status == ZP_OK)
-      zp_result_note(
-          *result,
-          "solved with %d nodes: with mesh.nodes = %d the branch of equilibria was lost, because the length over "
-          "which the ribbon bends has fewer than two elements",
-          def->mesh.nodes, task->def->mesh.nodes);
+      zp_result_note(*result, "solved with %d nodes: with mesh.nodes = %d the branch of equilibria was lost",
+                     def->mesh.nodes, task->def->mesh.nodes);
   }
   return status;
 }
