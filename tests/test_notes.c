@@ -84,13 +84,13 @@ END_TEST
 START_TEST(nearly_closed_start_is_noted) {
   ZpActuatorDef def = DEF({"gravity", 0}, {"mesh.nodes", 31});
   ck_assert(notes(ZP_STUDY_ACTUATE, &def, "starts closed and does not open"));
-  ck_assert(notes(ZP_STUDY_EQUILIBRIUM, &def, "nearly closed from the start"));
+  ck_assert(notes(ZP_STUDY_EQUILIBRIUM, &def, "is nearly closed"));
   def.drive.voltage = 0; /* nothing closes */
   ck_assert(!notes(ZP_STUDY_EQUILIBRIUM, &def, "nearly closed"));
   def = DEF(QUICK);
   ck_assert(!notes(ZP_STUDY_ACTUATE, &def, "nearly closed"));
   def.gravity = 5e-3; /* hangs open by some 10 um */
-  ck_assert(notes(ZP_STUDY_ACTUATE, &def, "nearly closed from the start"));
+  ck_assert(notes(ZP_STUDY_ACTUATE, &def, "is nearly closed"));
 }
 END_TEST
 
@@ -164,7 +164,7 @@ static int finest_noted(ZpActuatorDef def, int *advised) {
     quick.solver.end_time = 1e-9;
     ZpResult *result = study_of(ZP_STUDY_ACTUATE, &quick);
     const char *note = note_of(result, "longer than the zip front");
-    bool read = note && sscanf(strrchr(note, ';'), "; mesh.nodes = %d", advised) == 1;
+    bool read = note && sscanf(strrchr(note, ';'), "; with mesh.nodes = %d", advised) == 1;
     ck_assert(!note || read);
     zp_result_destroy(result);
     if (note) return def.mesh.nodes;

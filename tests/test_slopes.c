@@ -249,7 +249,7 @@ END_TEST
 START_TEST(profile_notes_that_it_has_none) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11});
   ZpResult *result = run_by(ZP_STUDY_PROFILE, &def, "gravity");
-  ck_assert_uint_eq(notes_with(result, "sensitivity.by is ignored: this study has no derivatives"), 1);
+  ck_assert_uint_eq(notes_with(result, "sensitivity.by is ignored: only stationary"), 1);
   ck_assert_uint_eq(result->sensitivities, 0);
   zp_result_destroy(result);
 }
