@@ -42,6 +42,7 @@ PICTURES = {
     "hold.svg": "hold/plots/interface.svg",
     "meter.svg": "meter/plots/sense.svg",
     "stack.svg": "stack/plots/members.svg",
+    "stack-unlike.svg": "stack-unlike/plots/members.svg",
     "stack-steps.svg": "stack-steps/plots/stroke.svg",
     "stack-modes.svg": "stack-modes/plots/modes.svg",
     "antagonists.svg": "antagonists/plots/shapes.svg",
