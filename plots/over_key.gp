@@ -7,3 +7,4 @@ set datafile columnheaders
 if (many) set key title legend(|list_key| - 1) left font ',12'
 set xlabel label(x_name, x_unit)
 x(first) = x_words ? column(0) : column(x_column)*x_factor
+word_tics = x_words ? ':xticlabels(x_column)' : ''

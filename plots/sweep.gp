@@ -23,8 +23,7 @@ nth(j) = strlen(j) ? j + 0 : 1 # of an empty list gnuplot looks at the rest of t
 mark(i) = i == 2 ? 5 : 7
 shade_of(k) = |curve| > 1 ? shade((k - 1.0)/(|curve| - 1)) : shade(0.3)
 paint(i, k) = many ? shade_of(k) : colour(i)
-plot for [k=1:|curve|] for [j in drawn] '../table.csv' every ::first[k]::last[k] using (x(0)):(column(number[nth(j)])*factor) \
+plot for [k=1:|curve|] for [j in drawn] '../table.csv' every ::first[k]::last[k] using (x(0)):(column(number[nth(j)])*factor)@word_tics \
        with linespoints lw 2 dt nth(j) pt mark(nth(j)) ps 0.8 lc rgb paint(nth(j), k) \
        title (!many ? number_name[nth(j)] : j eq word(drawn, 1) ? curve[k] : ''), \
-     for [j in named] NaN with linespoints lw 2 dt nth(j) pt mark(nth(j)) ps 0.8 lc rgb '#555555' title number_name[nth(j)], \
-     for [k=1:x_words] '../table.csv' every ::first[1]::last[1] using 0:(NaN):xticlabels(x_column) notitle
+     for [j in named] NaN with linespoints lw 2 dt nth(j) pt mark(nth(j)) ps 0.8 lc rgb '#555555' title number_name[nth(j)]

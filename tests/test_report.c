@@ -1003,8 +1003,7 @@ static void no_script(const ZpPlot *plot, FILE *file) {
 }
 
 START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
-  static const ZpPicture two[] = {
-      {"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
+  static const ZpPicture two[] = {{"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
   static const ZpPicture *const table[] = {two};
   const ZpPlot plot = {0};
   ZpError err;
@@ -1042,8 +1041,7 @@ END_TEST
 
 /* Each gnuplot waits until another one has started: drawn one after the other, they would hang. */
 START_TEST(pictures_are_drawn_at_once) {
-  static const ZpPicture two[] = {
-      {"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
+  static const ZpPicture two[] = {{"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
   static const ZpPicture *const table[] = {two};
   const ZpPlot plot = {0};
   ZpError err;

@@ -21,12 +21,12 @@ typedef struct ZpAnswer {
 /* What there is to draw. */
 typedef struct ZpPlot {
   const ZpReport *report;
-  const ZpResult *single; /* the only run; NULL for a sweep */
-  const ZpTable *table;   /* what ../table.csv has, words as their numbers; NULL if it has nothing */
-  ZpActuatorDef def;      /* of the first run */
-  ZpShows shows;          /* what its results are */
-  const ZpAnswer *answer; /* of a study that has one; else NULL */
-  char subtitle[320];     /* under what: load, voltage, N, preset */
+  const ZpResult *single;    /* the only run; NULL for a sweep */
+  const ZpTable *table;      /* what ../table.csv has, words as their numbers; NULL if it has nothing */
+  ZpActuatorDef def;         /* of the first run */
+  ZpShows shows;             /* what its results are */
+  const ZpAnswer *answer;    /* of a study that has one; else NULL */
+  char subtitle[320];        /* under what: load, voltage, N, preset */
   const struct ZpRuns *runs; /* what pictures of several reports look at; else NULL */
   bool drawn;                /* output.plots, and not too many runs */
   ZpTable *sweep;            /* `table` of a sweep, and the names of its keys */
@@ -46,11 +46,11 @@ void zp_plot_close(ZpPlot *plot);
  * (zp_plot_define_common). There is something to draw where all that is said here holds. */
 typedef struct ZpPicture {
   const char *name, *extension;
-  const char *template;   /* "stroke.gp"; NULL: what `define` writes is all */
-  unsigned one, many;     /* ZP_OF results of one run, of several; both 0: any */
-  const char *needs;      /* columns of the table with two numbers at least, between spaces; NULL: none */
-  const char *keys;       /* one of these differs from its default; NULL: none has to */
-  bool (*has)(const ZpPlot *plot);                /* what else has to be; NULL: nothing */
+  const char *template;            /* "stroke.gp"; NULL: what `define` writes is all */
+  unsigned one, many;              /* ZP_OF results of one run, of several; both 0: any */
+  const char *needs;               /* columns of the table with two numbers at least, between spaces; NULL: none */
+  const char *keys;                /* one of these differs from its default; NULL: none has to */
+  bool (*has)(const ZpPlot *plot); /* what else has to be; NULL: nothing */
   void (*define)(const ZpPlot *plot, FILE *file); /* defines more; NULL: nothing */
   void (*data)(const ZpPlot *plot, FILE *file);   /* writes the .dat; NULL: there is none */
 } ZpPicture;

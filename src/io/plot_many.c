@@ -115,8 +115,8 @@ static void define_output(const ZpPlot *plot, FILE *file, const char *name, size
   zp_plot_define_word(file, zp_plot_entry(variable, k).text, pure ? "" : unit);
 }
 
-/* An axis k: axis_name[k], axis_low[k], axis_high[k] in SI; of an output its unit, axis_si[k]; of a key axis_unit[k], in
- * which it is shown, and axis_factor[k]. */
+/* An axis k: axis_name[k], axis_low[k], axis_high[k] in SI; of an output its unit, axis_si[k]; of a key axis_unit[k],
+ * in which it is shown, and axis_factor[k]. */
 static void define_axis(const ZpPlot *plot, FILE *file, const Axis *axis, size_t k) {
   zp_plot_define_word(file, zp_plot_entry("axis_si", k).text, "");
   zp_plot_define_word(file, zp_plot_entry("axis_unit", k).text, "");

@@ -104,6 +104,7 @@ static void define_tornado(const ZpPlot *plot, FILE *file) {
 }
 
 const ZpPicture zp_sensitivity_pictures[] = {
-    {"tornado", "svg", "tornado.gp", .one = ZP_OF_ANY, .has = has_tornado, .define = define_tornado, .data = data_tornado},
+    {"tornado", "svg", "tornado.gp", .one = ZP_OF_ANY, .has = has_tornado, .define = define_tornado,
+     .data = data_tornado},
     {0},
 };

@@ -111,7 +111,8 @@ static void define_axes(const ZpPlot *plot, FILE *file) {
 
 static void define_answer(const ZpAnswer *a, const ZpPlot *plot, FILE *file) {
   char counted[96];
-  snprintf(counted, sizeof counted, "%zu of %zu runs %s", zp_plot_count(plot->table, a->scalar[0]), plot->report->count, a->count);
+  snprintf(counted, sizeof counted, "%zu of %zu runs %s", zp_plot_count(plot->table, a->scalar[0]), plot->report->count,
+           a->count);
   zp_plot_define_text(file, "answer", a->title);
   zp_plot_define_text(file, "answers", counted);
   zp_plot_define_text(file, "quantity", a->axis);
@@ -198,7 +199,7 @@ static bool has_bode(const ZpPlot *plot) {
 /* has_zip_time, has_strokes, ...: is it the picture of this study, and is there something to draw? */
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
   static bool has_##picture(const ZpPlot *plot) {                                                                      \
-    if (!plot->answer || plot->answer->study != enumerator || !zp_sweep_has_axis(plot)) return false;                   \
+    if (!plot->answer || plot->answer->study != enumerator || !zp_sweep_has_axis(plot)) return false;                  \
     return zp_plot_has(plot->table, scalar) || (scalar2 && zp_plot_has(plot->table, scalar2));                         \
   }
 #include <zipact/studies.def>

@@ -239,10 +239,9 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 
 /* -- those of a report ----------------------------------------------------------------------------- */
 
-static const ZpPicture *const all[] = {zp_run_pictures,         zp_shape_pictures,  zp_film_pictures,
-                                       zp_sweep_pictures,       zp_map_pictures,    zp_path_pictures,
-                                       zp_fit_pictures,         zp_field_pictures,  zp_sensitivity_pictures,
-                                       zp_sample_pictures,      zp_many_pictures};
+static const ZpPicture *const all[] = {zp_run_pictures,         zp_shape_pictures,  zp_film_pictures, zp_sweep_pictures,
+                                       zp_map_pictures,         zp_path_pictures,   zp_fit_pictures,  zp_field_pictures,
+                                       zp_sensitivity_pictures, zp_sample_pictures, zp_many_pictures};
 
 enum { TABLES = sizeof all / sizeof all[0] };
 
