@@ -1,7 +1,8 @@
-# The axis of states of rest along the voltage, and what their curves look like: `kinds` are those that there are, each
-# an index of the .dat.
+# The axis of states of rest along the voltage, and what their curves look like: `kinds` are those that there are.
 right = 0.76
 load 'style.gp'
+set datafile separator ','
+set datafile columnheaders
 voltage = scale(drive_voltage, 'V')
 voltage_unit = unit(drive_voltage, 'V')
 set xrange [0:drive_voltage*voltage]

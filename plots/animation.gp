@@ -1,6 +1,9 @@
 # The shapes of a run, or of the states of rest along the voltage (`path`), as a film. x counts from the middle of the
 # actuator; frame i shows now[i], potential[i], contraction[i], stroke[i], and its load hangs at end_x[i], end_y[i].
 load 'functions.gp'
+hold = 12 # how often the last frame is repeated
+delay = max(2, floor(480.0/frames + 0.5)) # of a frame, hundredths of a second
+if (delay > 40) delay = 40
 set encoding utf8
 set terminal gif animate delay delay loop 0 size 640,480 noenhanced background '#ffffff'
 set output out
@@ -58,7 +61,7 @@ if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at sc
 open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
-slower = delay/100*(frames - 1)/(end - begin)
+slower = delay/100.0*(frames - 1)/(end - begin)
 pace = path ? 'equilibria one after the other, stable or not' : 'still picture'
 if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than real', slower) }
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
@@ -84,8 +87,8 @@ do for [k=1:frames + hold] {
     if (!held) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
   } else {
     caption = sprintf('t = %.1f %s', now[i]*time, time_unit)
-    if (contracts && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', contraction[i]*100) }
-    if (!contracts && strokes && stroke[i] == stroke[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
+    if (has('contraction') && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', contraction[i]*100) }
+    if (!has('contraction') && has('stroke_m') && stroke[i] == stroke[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
     if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', potential[i]/1000.0) }
   }
   set label 1 caption at screen 0.5,0.96 center

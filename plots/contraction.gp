@@ -1,16 +1,18 @@
-# Contraction, or the stroke of a single ribbon, of all runs of a sweep over time. Some of the `runs` are named: run[i],
+# Contraction, or the stroke of a single ribbon, of all runs of a sweep over time. Some of the cases are named: run[i],
 # from 0, is name[i]. Few runs have colours that differ much, many a scale from dark to light.
 ribbon = actuator_kind eq 'ribbon'
 title = ribbon ? 'Stroke over time' : 'Contraction over time'
 foot = note
 right = 0.76
 load 'style.gp'
-set key title legend left font ',12'
-time = scale(largest_time_s, 's')
-factor = ribbon ? scale(largest_stroke_m, 'm') : 100.0
+set key title legend(|list_key|) left font ',12'
+stats 'contraction.dat' using 1:2 name 'over' nooutput
+time = scale(over_max_x, 's')
+size = max(abs(over_min_y), abs(over_max_y))
+factor = ribbon ? scale(size, 'm') : 100.0
 set xrange [0:*]
-set xlabel label('time', unit(largest_time_s, 's'))
-set ylabel (ribbon ? label('stroke', unit(largest_stroke_m, 'm')) : 'contraction / %') offset 0.5
-run_colour(k) = runs <= 8 ? colour_number(k + 1) : shade(k/(runs - 1.0))
+set xlabel label('time', unit(over_max_x, 's'))
+set ylabel (ribbon ? label('stroke', unit(size, 'm')) : 'contraction / %') offset 0.5
+run_colour(k) = cases <= 8 ? colour_number(k + 1) : shade(k/(cases - 1.0))
 plot 'contraction.dat' using ($1*time):($2*factor):(run_colour(int($3))) with lines lw 2 lc rgb variable notitle, \
      for [i=1:|run|] NaN with lines lw 2 lc rgb run_colour(run[i]) title name[i]

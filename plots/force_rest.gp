@@ -5,5 +5,5 @@ factor = scale(largest('force_N'), 'N')
 set ylabel label('force', unit(largest('force_N'), 'N')) offset 0.5
 set autoscale y noextend
 set offsets 0, 0, graph 0.05, graph 0.03
-data = 'force.dat'; number = 2
+shown = 'force_N'
 load 'states.gp'

@@ -1,5 +1,9 @@
-# What templates compute with. zipact has defined `columns`, the columns of the table that have numbers, between spaces,
-# and for each column NAME its largest absolute value, largest_NAME, in SI.
+# What templates compute with. zipact has defined `columns`, the columns of ../table.csv that have numbers, between spaces,
+# and for each column NAME its range, lowest_NAME and highest_NAME, and its largest absolute value, largest_NAME, in SI.
+# It also defines the keys and the numbers of the summary that the text of a template mentions: drive_voltage, zip_time_s.
+
+# number('zip_time_s'): the number of the summary; NaN where it has none of this name.
+number(c) = exists(c) ? value(c) : NaN
 
 # has('stroke_m'): is there such a column to draw? present(LIST): those of the list that there are; place(NAME, LIST):
 # which of the list it is.
@@ -25,6 +29,9 @@ scale(x, u) = u eq 'kg' ? 1000 * 10.0**(-3 * power(x * 1000)) : u eq '%' ? 100.0
 
 # label('stroke', 'mm') = 'stroke / mm', of a pure number 'stroke'.
 label(quantity, u) = u eq '' ? quantity : quantity.' / '.u
+
+# legend(n): the first n list keys of a sweep, each on a line so that they fit over the legend.
+legend(n) = n < 1 ? '' : n == 1 ? list_key[1] : legend(n - 1).",\n".list_key[n]
 
 # step(range, 6): the distance of tics, 1, 2 or 5 times a power of ten, of which at most 6 fit into the range.
 _ten(x) = 10.0**floor(log10(x))

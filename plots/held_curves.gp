@@ -1,7 +1,6 @@
 # What curves of held states share: of three keys the first has a line style, `alike` curves each, the second a colour.
-right = many ? 0.76 : 0.96
-load 'style.gp'
-if (many) set key title legend left font ',12'
+right = |list_key| > 1 ? 0.76 : 0.96
+load 'over_key.gp'
 set xrange [0:*]
 set yrange [*<0:*]
 set offsets 0, graph 0.03, graph 0.05, 0

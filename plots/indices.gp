@@ -1,5 +1,7 @@
 # Which share of the variance of an answer follows from which key: by itself, and with its interactions.
-title = 'What the scatter of the '.quantity.' follows from'
+what = exists('quantity') ? quantity : 'force'
+if (exists('number_name') && number_name[1] ne '') what = number_name[1].' '.what
+title = 'What the scatter of the '.what.' follows from'
 right = 0.76
 load 'style.gp'
 load 'of_keys.gp'

@@ -15,7 +15,7 @@ do for [k=1:|panel_at|] {
   set rmargin at screen panel_left + panel_width - 0.025
   set tmargin at screen panel_top - 0.035
   set bmargin at screen panel_top - panel_height + 0.03
-  set label 5 sprintf('%s = %.4g %s', z_name, panel_at[k], z_unit) at graph 0.5, graph 1.08 center font ',11'
+  set label 5 sprintf('%s = %.4g %s', z_name, panel_at[k]*z_factor, z_unit) at graph 0.5, graph 1.08 center font ',11'
   lowest = k + across > |panel_at|
   first = (k - 1) % across == 0
   set format x (lowest ? '%g' : '')

@@ -11,8 +11,8 @@ set border 0
 set yrange [-0.02:1.02]
 set xrange [-0.15:|axis_name| - 0.85]
 size(k) = max(abs(axis_low[k]), abs(axis_high[k]))
-factor(k) = scale(size(k), axis_si[k])
-name(k) = label(axis_name[k], unit(size(k), axis_si[k]))
+factor(k) = axis_factor[k]*scale(size(k), axis_si[k])
+name(k) = label(axis_name[k], axis_unit[k].unit(size(k), axis_si[k]))
 do for [k=1:|axis_name|] {
   i = k - 1
   set arrow i+10 from i,0 to i,1 nohead lw 1.2 lc rgb '#333333' front

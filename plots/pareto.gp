@@ -1,17 +1,23 @@
-# Two objectives of an optimisation against each other, with the front.
+# Two objectives of an optimisation against each other, with the front: rows front[k] of the table.
+load 'functions.gp'
 title = 'Pareto front'
-remark = sprintf('%d of %d cases are on the front; others are worse, or miss a constraint', best, cases)
+remark = sprintf('%d of %d cases are on the front; others are worse, or miss a constraint', |front|, cases)
 right = 0.80
 load 'style.gp'
-x_factor = scale(largest_value[1], si[1])
-y_factor = scale(largest_value[2], si[2])
-set xlabel label(objective[1], unit(largest_value[1], si[1]))
-set ylabel label(objective[2], unit(largest_value[2], si[2])) offset 0.5
+set datafile separator ','
+set datafile columnheaders
+x_size = largest(objective[1])
+y_size = largest(objective[2])
+x(c) = column(objective[1])*scale(x_size, objective_si[1])
+y(c) = column(objective[2])*scale(y_size, objective_si[2])
+set xlabel label(objective_name[1], unit(x_size, objective_si[1]))
+set ylabel label(objective_name[2], unit(y_size, objective_si[2])) offset 0.5
 set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.03
+on_front(i) = sum [k=1:|front|] (front[k] == i)
 if (objectives == 2) {
-  plot 'pareto.dat' index 0 using ($1*x_factor):($2*y_factor) with points pt 7 ps 0.4 lc rgb '#999999' title 'others', \
-       '' index 1 using ($1*x_factor):($2*y_factor) with linespoints lw 2 pt 7 ps 0.8 lc rgb colour(2) title 'front'
+  plot '../table.csv' using (x(0)):(y(0)) with points pt 7 ps 0.4 lc rgb '#999999' title 'others', \
+       '' using (x(0)):(on_front(column(0)) ? y(0) : NaN) smooth unique with linespoints lw 2 pt 7 ps 0.8 lc rgb colour(2) title 'front'
 } else {
-  plot 'pareto.dat' index 0 using ($1*x_factor):($2*y_factor) with points pt 7 ps 0.4 lc rgb '#999999' title 'others', \
-       '' index 1 using ($1*x_factor):($2*y_factor) with points lw 2 pt 7 ps 0.8 lc rgb colour(2) title 'front'
+  plot '../table.csv' using (x(0)):(y(0)) with points pt 7 ps 0.4 lc rgb '#999999' title 'others', \
+       '' using (x(0)):(on_front(column(0)) ? y(0) : NaN) with points lw 2 pt 7 ps 0.8 lc rgb colour(2) title 'front'
 }

@@ -11,7 +11,7 @@ force = scale(both, 'N/m')
 load 'upper_panel.gp'
 set yrange [0:*]
 set ylabel label('force per length', unit(both, 'N/m')) offset 0.5
-list = 'field_N_per_m plates_N_per_m'.(capped_length_m > 0 ? ' force_N_per_m' : '')
+list = 'field_N_per_m plates_N_per_m'.(number('capped_length_m') > 0 ? ' force_N_per_m' : '')
 titles = 'field "plates law" "with breakdown"'
 width(k) = word('4 1.5 2.5', k) + 0
 dash(k) = word('1 2 1', k) + 0

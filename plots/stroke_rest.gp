@@ -12,5 +12,5 @@ load 'jump.gp'
 set ylabel label(what, unit(largest(travel), 'm')) offset 0.5
 set autoscale y noextend
 set offsets 0, 0, graph 0.05, graph 0.03
-data = 'stroke.dat'; number = 2
+shown = travel
 load 'states.gp'

@@ -1,8 +1,8 @@
 # Torque of a held fold against its angle.
 title = 'Torque of the held fold'
 load 'held_curves.gp'
-factor = scale(largest_value, 'N m')
+factor = scale(largest('torque_N_m'), 'N m')
 set xlabel 'angle / degree'
-set ylabel label('torque', unit(largest_value, 'N m')) offset 0.5
-plot for [k=1:|curve|] 'torques.dat' index k-1 using ($2*180/pi):($3*factor) \
+set ylabel label('torque', unit(largest('torque_N_m'), 'N m')) offset 0.5
+plot for [k=1:|curve|] '../table.csv' every ::first[k]::last[k] using (column('angle_rad')*180/pi):(column('torque_N_m')*factor) \
      with linespoints lw 2 dt dash(k) pt mark(k) ps 0.6 lc rgb shade_of(k) title curve[k]

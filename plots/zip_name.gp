@@ -1,5 +1,5 @@
 # What the dashed line is, beside the axes.
-if (zip_time_s == zip_time_s) {
-  set label 5 sprintf('zip time %.4g %s', zip_time_s*time, time_unit) at screen right + 0.06, screen 0.20 left font ',12' tc rgb '#555555'
+if (zipped == zipped) {
+  set label 5 sprintf('zip time %.4g %s', zipped*time, time_unit) at screen right + 0.06, screen 0.20 left font ',12' tc rgb '#555555'
   set arrow 2 from screen right + 0.02, screen 0.20 to screen right + 0.052, screen 0.20 nohead dt 2 lw 1.5 lc rgb '#555555'
 }

@@ -6,5 +6,5 @@ factor = scale(largest('zipped_length_m'), 'm')
 set yrange [0:*]
 set ylabel label('zipped length', unit(largest('zipped_length_m'), 'm')) offset 0.5
 set offsets 0, 0, graph 0.05, 0
-data = 'zipped_length.dat'; number = 3
+shown = 'zipped_length_m'
 load 'states.gp'

@@ -997,19 +997,13 @@ START_TEST(hanging_gnuplot_is_given_up) {
 }
 END_TEST
 
-static bool always(const ZpPlot *plot) {
-  (void)plot;
-  return true;
-}
-
 static void no_script(const ZpPlot *plot, FILE *file) {
   (void)plot;
   fputs("# nothing\n", file);
 }
 
 START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
-  static const ZpPicture two[] = {
-      {"a", "svg", always, no_script, NULL, NULL}, {"b", "svg", always, no_script, NULL, NULL}, {0}};
+  static const ZpPicture two[] = {{"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
   static const ZpPicture *const table[] = {two};
   const ZpPlot plot = {0};
   ZpError err;
@@ -1047,8 +1041,7 @@ END_TEST
 
 /* Each gnuplot waits until another one has started: drawn one after the other, they would hang. */
 START_TEST(pictures_are_drawn_at_once) {
-  static const ZpPicture two[] = {
-      {"a", "svg", always, no_script, NULL, NULL}, {"b", "svg", always, no_script, NULL, NULL}, {0}};
+  static const ZpPicture two[] = {{"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
   static const ZpPicture *const table[] = {two};
   const ZpPlot plot = {0};
   ZpError err;

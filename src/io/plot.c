@@ -1,24 +1,29 @@
 /* What the pictures share: what they ask of results, and how they define it for their templates. */
 #include "io/plot.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
 #include "io/number.h"
+#include "io/units.h"
 
-/* Column number, or table->columns if there is none of this name. */
-static size_t column_of(const ZpTable *table, const char *name) {
+size_t zp_plot_column(const ZpTable *table, const char *name) {
   size_t i = 0;
   while (i < table->columns && strcmp(table->column[i].name, name) != 0)
     i++;
   return i;
 }
 
-bool zp_plot_has(const ZpTable *table, const char *name) {
-  size_t numbers = 0, column = table ? column_of(table, name) : 0;
+size_t zp_plot_count(const ZpTable *table, const char *name) {
+  size_t numbers = 0, column = table ? zp_plot_column(table, name) : 0;
   for (size_t row = 0; table && column < table->columns && row < table->rows; row++)
     numbers += isfinite(table->value[row * table->columns + column]) != 0;
-  return numbers >= 2;
+  return numbers;
+}
+
+bool zp_plot_has(const ZpTable *table, const char *name) {
+  return zp_plot_count(table, name) >= 2;
 }
 
 ZpPlotBox zp_plot_box(const ZpShapes *shapes) {
@@ -74,54 +79,40 @@ void zp_plot_define_word(FILE *file, const char *name, const char *word) {
   fprintf(file, "%s = '%s'\n", name, word);
 }
 
-void zp_plot_define_key(const ZpPlot *plot, FILE *file, const char *key) {
-  const int index = zp_key_find(key);
-  const double value = zp_def_get(&plot->def, index);
-  char name[64];
-  snprintf(name, sizeof name, "%s", key);
-  for (char *c = name; *c; c++)
-    if (*c == '.') *c = '_';
-  if (zp_key(index)->type == ZP_KEY_ENUM)
-    zp_plot_define_word(file, name, zp_key(index)->choices[(size_t)value].word);
-  else
-    zp_plot_define(file, name, value);
-}
-
-void zp_plot_define_scalar(const ZpPlot *plot, FILE *file, const char *name) {
-  zp_plot_define(file, name, zp_result_get(plot->single, name));
-}
-
 /* Variables of gnuplot have letters, digits and underscores. */
 static bool is_name(const char *text) {
   return !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
 }
 
-static void define_of_column(FILE *file, const char *what, const char *column, double value) {
-  char name[96];
-  snprintf(name, sizeof name, "%s_%.80s", what, column);
-  zp_plot_define(file, name, value);
+ZpPlotRange zp_plot_range(const ZpTable *table, const char *name) {
+  ZpPlotRange range = {NAN, NAN};
+  const size_t column = table ? zp_plot_column(table, name) : 0;
+  for (size_t row = 0; table && column < table->columns && row < table->rows; row++) {
+    const double value = table->value[row * table->columns + column];
+    if (!isfinite(value)) continue;
+    range.low = fmin(range.low, value);
+    range.high = fmax(range.high, value);
+  }
+  return range;
 }
 
-void zp_plot_define_table(FILE *file, const ZpTable *table) {
+/* The names of columns with numbers, `columns`, and the range of each. */
+static void define_table(const ZpTable *table, FILE *file) {
   fputs("columns = ' ", file);
-  for (size_t i = 0; i < table->columns; i++)
+  for (size_t i = 0; table && i < table->columns; i++)
     if (is_name(table->column[i].name) && zp_plot_has(table, table->column[i].name))
       fprintf(file, "%s ", table->column[i].name);
   fputs("'\n", file);
-  for (size_t i = 0; i < table->columns; i++) {
-    const char *column = table->column[i].name;
-    double lowest = NAN, highest = NAN;
-    if (!is_name(column)) continue;
-    for (size_t row = 0; row < table->rows; row++) {
-      const double value = table->value[row * table->columns + i];
-      if (!isfinite(value)) continue;
-      lowest = fmin(lowest, value);
-      highest = fmax(highest, value);
+  for (size_t i = 0; table && i < table->columns; i++) {
+    static const char *const what[] = {"largest", "lowest", "highest"};
+    const char *name = table->column[i].name;
+    const ZpPlotRange range = zp_plot_range(table, name);
+    const double value[] = {fmax(fabs(range.low), fabs(range.high)), range.low, range.high};
+    char variable[128];
+    for (size_t k = 0; is_name(name) && !isnan(range.low) && k < 3; k++) {
+      snprintf(variable, sizeof variable, "%s_%.80s", what[k], name);
+      zp_plot_define(file, variable, value[k]);
     }
-    if (isnan(lowest)) continue;
-    define_of_column(file, "largest", column, fmax(fabs(lowest), fabs(highest)));
-    define_of_column(file, "lowest", column, lowest);
-    define_of_column(file, "highest", column, highest);
   }
 }
 
@@ -145,21 +136,11 @@ void zp_plot_define_array(FILE *file, const char *name, size_t count) {
 
 ZpPlotEntry zp_plot_entry(const char *name, size_t k) {
   ZpPlotEntry entry;
-  snprintf(entry.text, sizeof entry.text, "%s[%zu]", name, k);
+  if (k > 0)
+    snprintf(entry.text, sizeof entry.text, "%s[%zu]", name, k);
+  else
+    snprintf(entry.text, sizeof entry.text, "%s", name);
   return entry;
-}
-
-void zp_plot_put_shape(FILE *file, const ZpShapes *shapes, const ZpShape *shape, double more) {
-  for (size_t r = 0; r < shapes->ribbons; r++) {
-    for (size_t i = 0; i < shapes->nodes; i++) {
-      zp_plot_put(file, shape->x[i * shapes->ribbons + r], ' ');
-      zp_plot_put(file, shape->y[i * shapes->ribbons + r], ' ');
-      zp_plot_put(file, more, '\n');
-      if (!zp_plot_ends_member(shapes, i)) continue;
-      fputs("NaN NaN ", file);
-      zp_plot_put(file, more, '\n');
-    }
-  }
 }
 
 double zp_plot_at_time(const ZpTable *table, const char *column, double time) {
@@ -190,9 +171,99 @@ bool zp_plot_is_half(const ZpPlot *plot) {
          def->actuator.symmetry == ZP_SYMMETRY_HALF;
 }
 
-const char *zp_plot_drag_note(const ZpPlot *plot) {
+size_t zp_plot_snapshots(const ZpShapes *shapes, size_t frame[ZP_PLOT_SNAPSHOTS]) {
+  size_t count = 0;
+  for (size_t k = 0; k < ZP_PLOT_SNAPSHOTS; k++) {
+    const size_t next = zp_plot_frame_at(shapes, (double)k / (ZP_PLOT_SNAPSHOTS - 1));
+    if (count == 0 || next != frame[count - 1]) frame[count++] = next;
+  }
+  return count;
+}
+
+bool zp_plot_has_frames(const ZpPlot *plot, size_t frames) {
+  const ZpShapes *shapes = plot->single ? plot->single->shapes : NULL;
+  return shapes && shapes->frames >= frames && isfinite(zp_plot_box(shapes).left);
+}
+
+/* -- what is defined for all ------------------------------------------------------------------------ */
+
+/* The sentence of the small print. */
+static const char *drag_note(const ZpPlot *plot) {
   if (zp_def_liquid(&plot->def) != ZP_LIQUID_NONE) return "times have not been compared with measured ones";
   return plot->def.damping.drag > 0
              ? "the only drag is c |v| v on each particle, not that of the liquid: times are not predictions"
              : "the drag of the liquid is not modelled: times are not predictions";
+}
+
+/* The shapes of the only run. */
+static void define_shapes(const ZpPlot *plot, FILE *file) {
+  const ZpShapes *shapes = plot->single->shapes;
+  const ZpPlotBox box = zp_plot_box(shapes);
+  zp_plot_define_count(file, "half", zp_plot_is_half(plot));
+  zp_plot_define_count(file, "ribbons", shapes->ribbons);
+  zp_plot_define_count(file, "members", shapes->members);
+  zp_plot_define(file, "begin", zp_shapes_get(shapes, 0).time);
+  zp_plot_define(file, "end", zp_shapes_get(shapes, shapes->frames - 1).time);
+  zp_plot_define_box(file, &box);
+}
+
+/* Has the text this word? */
+static bool mentions(const char *text, const char *word) {
+  const size_t length = strlen(word);
+  for (const char *at = text; (at = strstr(at, word)) != NULL; at += length) {
+    const bool begins = at == text || !(isalnum((unsigned char)at[-1]) || at[-1] == '_');
+    if (begins && !isalnum((unsigned char)at[length]) && at[length] != '_') return true;
+  }
+  return false;
+}
+
+/* "drive.voltage" as drive_voltage. */
+static void define_key(const ZpPlot *plot, int index, const char *text, FILE *file) {
+  const ZpKey *key = zp_key(index);
+  char name[64];
+  snprintf(name, sizeof name, "%s", key->name);
+  for (char *c = name; *c; c++)
+    if (*c == '.') *c = '_';
+  if (key->type == ZP_KEY_TEXT || key->offset == ZP_NO_FIELD || !mentions(text, name)) return;
+  const char *word = zp_key_word(index, zp_def_get(&plot->def, index));
+  if (word && key->type == ZP_KEY_ENUM)
+    zp_plot_define_word(file, name, word);
+  else
+    zp_plot_define(file, name, zp_def_get(&plot->def, index));
+}
+
+static void define_mentioned(const ZpPlot *plot, const char *text, FILE *file) {
+  for (int key = 0; key < zp_key_count(); key++)
+    define_key(plot, key, text, file);
+  for (size_t i = 0; plot->single && i < plot->single->scalars; i++)
+    if (is_name(plot->single->scalar[i].name) && mentions(text, plot->single->scalar[i].name))
+      zp_plot_define(file, plot->single->scalar[i].name, plot->single->scalar[i].value);
+}
+
+void zp_plot_define_common(const ZpPlot *plot, const char *text, FILE *file) {
+  zp_plot_define_text(file, "subtitle", plot->subtitle);
+  if (!plot->report) return;
+  zp_plot_define_text(file, "note", drag_note(plot));
+  zp_plot_define_count(file, "motion", plot->shows == ZP_SHOWS_motion);
+  zp_plot_define_count(file, "held", plot->shows == ZP_SHOWS_held_branch);
+  define_mentioned(plot, text, file);
+  define_table(plot->table, file);
+  if (zp_plot_has_frames(plot, 1)) define_shapes(plot, file);
+  if (!plot->single) zp_sweep_define(plot, file);
+}
+
+void zp_plot_define_key_axis(FILE *file, const char *name, size_t k, int index) {
+  const ZpKey *key = zp_key(index);
+  ZpUnitScale scale;
+  char part[3][40];
+  const bool shown = *key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK;
+  snprintf(part[0], sizeof part[0], "%s_name", name);
+  snprintf(part[1], sizeof part[1], "%s_unit", name);
+  snprintf(part[2], sizeof part[2], "%s_factor", name);
+  zp_plot_define_text(file, zp_plot_entry(part[0], k).text, key->name);
+  zp_plot_define_text(file, zp_plot_entry(part[1], k).text, shown ? key->shown : "");
+  zp_plot_define(file, zp_plot_entry(part[2], k).text,
+                 !shown          ? 1
+                 : scale.decimal ? pow(10, -scale.exponent)
+                                 : 1 / scale.factor);
 }

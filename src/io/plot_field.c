@@ -1,5 +1,4 @@
-/* Pictures of the electric force along the ribbons and of the field: profile.svg, field.svg, and field_tip.svg where
- * the ribbons part. */
+/* Pictures of the field: field.svg, and field_tip.svg where the ribbons part. */
 #include <math.h>
 
 #include "io/plot.h"
@@ -9,24 +8,12 @@
 #define HIGH    300
 #define DECADES 2.5
 
-static bool has_profile(const ZpPlot *plot) {
-  return plot->shows == ZP_SHOWS_field && plot->single && zp_plot_has(plot->single->series, "ratio") &&
-         plot->def.drive.voltage > 0;
-}
-
-static void define_profile(const ZpPlot *plot, FILE *file) {
-  zp_plot_define_scalar(plot, file, "capped_length_m");
-  zp_plot_define_table(file, plot->single->series);
-}
-
-/* -- the field ------------------------------------------------------------------------------------- */
-
 static const ZpFieldMap *map_of(const ZpPlot *plot) {
   return plot->single->map;
 }
 
 static bool has_field(const ZpPlot *plot) {
-  return has_profile(plot) && map_of(plot);
+  return map_of(plot) && plot->def.drive.voltage > 0;
 }
 
 static size_t node(const ZpFieldMap *map, size_t i, size_t j) {
@@ -253,29 +240,29 @@ static void data_tip(const ZpPlot *plot, FILE *file) {
   put_view(plot, file, &view);
 }
 
-static void define_view(const ZpPlot *plot, FILE *file, const View *view) {
+static void define_view(FILE *file, const View *view) {
   zp_plot_define_box(file, &view->box);
   zp_plot_define(file, "weakest", view->weakest);
   zp_plot_define(file, "strongest", view->strongest);
   zp_plot_define_count(file, "decades", view->decades);
   zp_plot_define_count(file, "pixels_across", WIDE);
   zp_plot_define_count(file, "pixels_up", HIGH);
-  zp_plot_define_key(plot, file, "drive.voltage");
 }
 
 static void define_field(const ZpPlot *plot, FILE *file) {
   const View view = whole_view(plot);
-  define_view(plot, file, &view);
+  define_view(file, &view);
 }
 
 static void define_tip(const ZpPlot *plot, FILE *file) {
   const View view = tip_view(plot);
-  define_view(plot, file, &view);
+  define_view(file, &view);
 }
 
 const ZpPicture zp_field_pictures[] = {
-    {"profile", "svg", has_profile, define_profile, NULL, "profile.gp"},
-    {"field", "svg", has_field, define_field, data_field, "field.gp"},
-    {"field_tip", "svg", has_field, define_tip, data_tip, "field_tip.gp"},
+    {"field", "svg", "field.gp", ZP_OF(field), .needs = "ratio", .has = has_field, .define = define_field,
+     .data = data_field},
+    {"field_tip", "svg", "field_tip.gp", ZP_OF(field), .needs = "ratio", .has = has_field, .define = define_tip,
+     .data = data_tip},
     {0},
 };

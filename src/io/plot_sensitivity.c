@@ -111,6 +111,7 @@ static void define_tornado(const ZpPlot *plot, FILE *file) {
 }
 
 const ZpPicture zp_sensitivity_pictures[] = {
-    {"tornado", "svg", has_tornado, define_tornado, data_tornado, "tornado.gp"},
+    {"tornado", "svg", "tornado.gp", .one = ZP_OF_ANY, .has = has_tornado, .define = define_tornado,
+     .data = data_tornado},
     {0},
 };

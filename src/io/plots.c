@@ -19,9 +19,6 @@
 #include "io/template.h"
 #include "io/writers.h"
 
-/* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
-enum { DRAWN_MOST = 10000 };
-
 /* Longest file name of a picture. */
 #define NAME_SIZE 64
 
@@ -61,22 +58,37 @@ static ZpStatus open_file(const ZpDrawing *drawing, const ZpPicture *picture, co
   return zp_atomic_open(out, drawing->folder, name, err);
 }
 
+/* The text of a picture's template, to be freed. */
+static ZpStatus read_template(const ZpDrawing *drawing, const ZpPicture *picture, char **text, ZpError *err) {
+  size_t size = 0;
+  *text = NULL;
+  FILE *file = open_memstream(text, &size);
+  if (!file) return zp_fail_memory(err);
+  ZpStatus status = zp_template_write(drawing->plot->def.output.templates, picture->template, file, err);
+  return fclose(file) != 0 && status == ZP_OK ? zp_fail_memory(err) : status;
+}
+
 /* Definitions, then the template itself: the script needs no file but its data. */
 static ZpStatus write_script(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
   const ZpPlot *plot = drawing->plot;
   ZpAtomic out;
-  ZpStatus status = open_file(drawing, picture, "gp", &out, err);
-  if (status != ZP_OK) return status;
-  if (picture->template) {
-    fprintf(out.file,
-            "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s.gp\n"
-            "if (!exists('out')) out = '%s.%s'\n",
-            picture->name, picture->name, picture->extension);
-    zp_plot_define_text(out.file, "subtitle", plot->subtitle);
+  char *text = NULL;
+  ZpStatus status = picture->template ? read_template(drawing, picture, &text, err) : ZP_OK;
+  if (status == ZP_OK) status = open_file(drawing, picture, "gp", &out, err);
+  if (status == ZP_OK) {
+    if (text) {
+      fprintf(out.file,
+              "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s.gp\n"
+              "if (!exists('out')) out = '%s.%s'\n",
+              picture->name, picture->name, picture->extension);
+      zp_plot_define_common(plot, text, out.file);
+    }
+    if (picture->define) picture->define(plot, out.file);
+    if (text) fputs(text, out.file);
+    status = zp_atomic_commit(&out, err);
   }
-  picture->define(plot, out.file);
-  if (picture->template) status = zp_template_write(plot->def.output.templates, picture->template, out.file, err);
-  return zp_atomic_finish(&out, status, err);
+  free(text);
+  return status;
 }
 
 static ZpStatus write_data(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
@@ -182,66 +194,9 @@ static ZpStatus remove_picture(const ZpDrawing *drawing, const ZpPicture *pictur
 }
 
 static ZpStatus prepare_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
-  if (!picture->has(drawing->plot)) return ZP_OK;
+  if (!zp_picture_is_drawn(picture, drawing->plot)) return ZP_OK;
   ZpStatus status = write_script(drawing, picture, err);
   return status == ZP_OK ? write_data(drawing, picture, err) : status;
-}
-
-/* Add "name value" to the subtitle unless the key is swept: then the legend tells. */
-static void add_key(ZpPlot *plot, const char *name, const char *before) {
-  size_t keys, used = strlen(plot->subtitle);
-  const int key = zp_key_find(name), *list = zp_scenario_lists(plot->report->scenario, &keys);
-  char value[64];
-  for (size_t i = 0; i < keys; i++)
-    if (list[i] == key) return;
-  zp_value_print(key, zp_def_get(&plot->def, key), value, sizeof value);
-  snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%s%s%s", used ? ", " : "", before, value);
-}
-
-/* "8 kV", "ramp to 8 kV"; of a table only that it is one. */
-static void add_drive(ZpPlot *plot) {
-  static const char *const before[ZpWaveformKind_COUNT] = {"", "ramp to ", "sine to ", "square wave to ", NULL};
-  const char *words = before[plot->def.drive.waveform];
-  size_t used = strlen(plot->subtitle);
-  if (words)
-    add_key(plot, "drive.voltage", words);
-  else
-    snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%stable of voltages", used ? ", " : "");
-}
-
-typedef struct Subtitle {
-  ZpStudy study;
-  const char *key, *alone, *swept;
-} Subtitle;
-
-static const Subtitle subtitles[] = {
-#define ZP_SUBTITLE(enumerator, key, alone, swept) {enumerator, key, alone, swept},
-#include <zipact/studies.def>
-};
-
-/* A single ribbon has no voltage. */
-static void add_subtitle(ZpPlot *plot, const Subtitle *s) {
-  if (plot->def.actuator.kind == ZP_KIND_RIBBON && strncmp(s->key, "drive.", 6) == 0) return;
-  if (s->alone)
-    add_key(plot, s->key, plot->single ? s->alone : s->swept);
-  else
-    add_drive(plot);
-}
-
-/* (report) => what there is to draw; of a report without runs, nothing. */
-static ZpStatus look_at(const ZpReport *report, ZpPlot *plot, ZpError *err) {
-  *plot = (ZpPlot){.report = report, .single = zp_report_single(report)};
-  if (report->count == 0) return ZP_OK;
-  ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
-  if (status != ZP_OK) return status;
-  plot->drawn = plot->def.output.plots && report->count <= DRAWN_MOST;
-  plot->study = zp_report_result(report, 0)->study;
-  plot->shows = zp_study_shows(plot->study);
-  for (size_t k = 0; k < sizeof subtitles / sizeof subtitles[0]; k++)
-    if (subtitles[k].study == plot->study) add_subtitle(plot, &subtitles[k]);
-  if (plot->shows != ZP_SHOWS_field || plot->def.profile.shape == ZP_PROFILE_HELD) add_key(plot, "mesh.nodes", "N = ");
-  if (plot->def.preset != ZP_PRESET_NONE) add_key(plot, "preset", "preset ");
-  return ZP_OK;
 }
 
 static ZpStatus for_all(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables,
@@ -276,7 +231,7 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
     for (const ZpPicture *picture = table[t]; picture->name; picture++) {
       while (busy == most)
         busy = tend(drawing, work, busy);
-      if (!drawing->over && picture->has(drawing->plot)) busy += begin(drawing, picture, &work[busy]);
+      if (!drawing->over && zp_picture_is_drawn(picture, drawing->plot)) busy += begin(drawing, picture, &work[busy]);
     }
   while (busy > 0)
     busy = tend(drawing, work, busy);
@@ -284,9 +239,8 @@ void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t t
 
 /* -- those of a report ----------------------------------------------------------------------------- */
 
-static const ZpPicture *const all[] = {zp_series_pictures,      zp_shape_pictures,  zp_liquid_pictures,
-                                       zp_sweep_pictures,       zp_map_pictures,    zp_path_pictures,
-                                       zp_rest_pictures,        zp_fit_pictures,    zp_field_pictures,
+static const ZpPicture *const all[] = {zp_run_pictures,         zp_shape_pictures,  zp_film_pictures, zp_sweep_pictures,
+                                       zp_map_pictures,         zp_path_pictures,   zp_fit_pictures,  zp_field_pictures,
                                        zp_sensitivity_pictures, zp_sample_pictures, zp_many_pictures};
 
 enum { TABLES = sizeof all / sizeof all[0] };
@@ -296,22 +250,26 @@ ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {
   char *folder = zp_path_join(report->directory, "plots");
   if (!folder) return zp_fail_memory(err);
   const ZpDrawing drawing = {.plot = &plot, .folder = folder};
-  ZpStatus status = look_at(report, &plot, err);
+  ZpStatus status = zp_plot_open(report, &plot, err);
   if (status == ZP_OK && plot.drawn)
     status = zp_drawing_prepare(&drawing, all, TABLES, err);
   else if (status == ZP_OK)
     status = for_all(&drawing, all, TABLES, remove_picture, err);
+  zp_plot_close(&plot);
   free(folder);
   return status;
 }
 
 void zp_plots_write(const ZpReport *report, void (*notice)(const char *message)) {
   ZpPlot plot;
-  ZpError err = {ZP_MACHINE, "no memory"};
+  ZpError err;
   char *folder = zp_path_join(report->directory, "plots");
-  ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, report->jobs, false};
-  const bool known = folder && look_at(report, &plot, &err) == ZP_OK;
-  if (known && plot.drawn) zp_drawing_draw(&drawing, all, TABLES);
-  if (!known && notice) notice(err.message);
+  ZpStatus status = folder ? zp_plot_open(report, &plot, &err) : zp_fail_memory(&err);
+  if (status == ZP_OK && plot.drawn) {
+    ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, report->jobs, false};
+    zp_drawing_draw(&drawing, all, TABLES);
+  }
+  if (status != ZP_OK && notice) notice(err.message);
+  if (folder) zp_plot_close(&plot);
   free(folder);
 }

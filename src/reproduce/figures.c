@@ -98,16 +98,11 @@ static void data_forces(const ZpPlot *plot, FILE *file) {
   put_forces(file, plot->runs, ZP_RUN_FIG_8_PAPER, 0, all / 2);
 }
 
-/* All is in the data. */
-static void define_nothing(const ZpPlot *plot, FILE *file) {
-  (void)plot, (void)file;
-}
-
 static const ZpPicture pictures[] = {
-    {"fig-6", "svg", has_shapes, define_shapes, data_shapes, "fig-6.gp"},
-    {"fig-7", "svg", has_profile, define_profile, data_profile, "fig-7.gp"},
-    {"fig-8", "svg", has_forces, define_nothing, data_forces, "fig-8.gp"},
-    {.name = NULL},
+    {"fig-6", "svg", "fig-6.gp", .has = has_shapes, .define = define_shapes, .data = data_shapes},
+    {"fig-7", "svg", "fig-7.gp", .has = has_profile, .define = define_profile, .data = data_profile},
+    {"fig-8", "svg", "fig-8.gp", .has = has_forces, .data = data_forces},
+    {0},
 };
 
 ZpStatus zp_figures_draw(const char *directory, const ZpRuns *runs, const ZpHooks *hooks,
