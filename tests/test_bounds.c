@@ -214,7 +214,8 @@ static void make_controller(ZpActuatorDef *def, const char *key, double value) {
 /* A platform that turns, long enough for the load to hang there. */
 static void make_platform_turn(ZpActuatorDef *def, const char *key, double value) {
   bool offset = strcmp(key, "load.offset") == 0;
-  if (value == 0 || !(offset || strcmp(key, "platform.rotates") == 0)) return;
+  bool turns = strcmp(key, "platform.rotates") == 0 || strcmp(key, "actuator.held_clip") == 0;
+  if (value == 0 || !(offset || turns)) return;
   def->actuator.symmetry = ZP_SYMMETRY_NONE;
   def->liquid.model = ZP_LIQUID_NONE;
   def->platform.rotates = true;
