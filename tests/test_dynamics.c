@@ -654,8 +654,8 @@ static double lateness(const ZpActuatorDef *given, double step, double exact) {
 }
 
 /* The closing instant is found on the parabola on which the platform moves within a step, so that it is late in the
- * square of the steps, wherever in a step it is: steps twice as long are four times as late. On a straight line it would
- * not be, by 2.7e-3 with some 30 steps. */
+ * square of the steps, wherever in a step it is: steps twice as long are four times as late. On a straight line it
+ * would not be, by 2.7e-3 with some 30 steps. */
 START_TEST(test_closing_instant_within_a_step) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", 300e-6},
                           {"solver.tolerance", 1.6e-5});

@@ -142,8 +142,8 @@ START_TEST(corners_move_with_their_key) {
 END_TEST
 
 /* All steps between two corners go with them alike: those of runs whose steps have one length, a part of the period,
- * do. The last step, cut by the end of the run, is shorter than the others. Rounding of positions, 1e-17 m, over the step
- * of the key, 2.5e-5 Hz, leaves 1e-5. If steps before a corner kept their lengths, it would be 4.6e-5. */
+ * do. The last step, cut by the end of the run, is shorter than the others. Rounding of positions, 1e-17 m, over the
+ * step of the key, 2.5e-5 Hz, leaves 1e-5. If steps before a corner kept their lengths, it would be 4.6e-5. */
 START_TEST(steps_go_with_their_corners) {
   static const double period = 4e-3, part = 1e-4;
   ZpActuatorDef def = motion();

@@ -108,11 +108,11 @@ struct ZpModel {
   double total_weight;  /* of what moves, of one half, N */
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
-  ZpModel *below;       /* of a series: the member that hangs on this one's lower platform; else the next one; NULL: none */
-  bool abreast;         /* its lower platform is joined to those of the others, side by side */
-  double carried;       /* mass of all members and loads below, kg, of the whole actuator */
-  double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
-  double ratio, bias;   /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
+  ZpModel *below;  /* of a series: the member that hangs on this one's lower platform; else the next one; NULL: none */
+  bool abreast;    /* its lower platform is joined to those of the others, side by side */
+  double carried;  /* mass of all members and loads below, kg, of the whole actuator */
+  double distance; /* of both antagonists: what their openings sum up to, m; 0: it has none */
+  double ratio, bias; /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
 };
 
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it

@@ -54,9 +54,9 @@ ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 /* Are the members of stack.parallel unlike, since one of them has keys of its own? */
 bool zp_def_abreast(const ZpActuatorDef *def);
 
-/* Member 1 .. zp_def_members, alone: as the others, but where member_K.* says otherwise. Of a series the last one carries
- * load.mass and load.force, the others a link; of antagonists the first one carries them, and the last one is upside
- * down; side by side each carries its share. */
+/* Member 1 .. zp_def_members, alone: as the others, but where member_K.* says otherwise. Of a series the last one
+ * carries load.mass and load.force, the others a link; of antagonists the first one carries them, and the last one is
+ * upside down; side by side each carries its share. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
 /* Are the two members of a series antagonists, between mounts at stack.distance? Voltage of the lower one where the

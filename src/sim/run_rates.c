@@ -131,7 +131,8 @@ void zp_run_rates_begin(ZpRunRates *rates, double end_time) {
   rates->taken = sim->dynamics.stepper.counts.steps;
   for (size_t j = 0; j < rates->keys; j++)
     for (int k = 0; k < ZP_NEAR_POINTS; k++)
-      if (rates->key[j].near[k] && !isfinite(rates->key[j].lost)) begin_near(rates, &rates->key[j], k, at_corner, end_time);
+      if (rates->key[j].near[k] && !isfinite(rates->key[j].lost))
+        begin_near(rates, &rates->key[j], k, at_corner, end_time);
   if (!at_corner) return;
   rates->from = sim->state->t;
   rates->to = corner_of(sim, end_time);

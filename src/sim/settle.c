@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "rest/together.h"
 #include "rest/rest.h"
+#include "rest/together.h"
 #include "ribbon/rod_plastic.h"
 #include "sim/hooks.h"
 #include "sim/sim_internal.h"

@@ -361,7 +361,8 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
 /* When the opening is 1 %: on the parabola of the midpoint rule, which has the start's opening and rate and the end's
  * opening. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - ZP_CLOSED_PART * state->opening0, taken = state->t - start.t;
+  double now = opening(model, state), left = start.opening - ZP_CLOSED_PART * state->opening0,
+         taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
@@ -370,7 +371,8 @@ double zp_sim_crossing(const ZpSim *sim) {
   return crossing(sim->model, sim->state, sim->step_start);
 }
 
-/* Has that been within the step that has just been taken? A platform that touches at more than 1 % is closed at its end.
+/* Has that been within the step that has just been taken? A platform that touches at more than 1 % is closed at its
+ * end.
  */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
   double limit = ZP_CLOSED_PART * state->opening0;

@@ -78,7 +78,8 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
 /* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
-  double pull = 0, compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
+  double pull = 0,
+         compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
   for (const ZpModel *m = zp_lowest(model); m; m = m->below) /* those that carry the load */
     pull += zp_load_pull(m);
   return pull * risen + compressed + work_on_change(sim, zp_lowest(model)) - at_end(sim, result, "load_work");

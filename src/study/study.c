@@ -2,9 +2,9 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "sim/hooks.h"
-#include "study/together.h"
 #include "study/estimate.h"
 #include "study/series.h"
+#include "study/together.h"
 
 /* What a study takes from files. */
 enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
