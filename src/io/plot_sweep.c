@@ -196,11 +196,17 @@ static bool has_bode(const ZpPlot *plot) {
   return zp_sweep_has_axis(plot) && strcmp(zp_key(zp_sweep_key(plot, 0))->name, "drive.frequency") == 0;
 }
 
-/* has_zip_time, has_strokes, ...: is it the picture of this study, and is there something to draw? */
+/* Is it the picture of this study, and is there something to draw? */
+static bool has_answer(const ZpPlot *plot, ZpStudy study) {
+  if (!plot->answer || plot->answer->study != study || !zp_sweep_has_axis(plot)) return false;
+  const char *const *scalar = plot->answer->scalar;
+  return zp_plot_has(plot->table, scalar[0]) || (scalar[1] && zp_plot_has(plot->table, scalar[1]));
+}
+
+/* has_zip_time, has_strokes, ... */
 #define ZP_SWEEP(enumerator, picture, title, axis, unit, scalar, legend, scalar2, legend2, count)                      \
   static bool has_##picture(const ZpPlot *plot) {                                                                      \
-    if (!plot->answer || plot->answer->study != enumerator || !zp_sweep_has_axis(plot)) return false;                  \
-    return zp_plot_has(plot->table, scalar) || (scalar2 && zp_plot_has(plot->table, scalar2));                         \
+    return has_answer(plot, enumerator);                                                                               \
   }
 #include <zipact/studies.def>
 
