@@ -156,7 +156,7 @@ END_TEST
 /* Over a zip, dry, in a bath and with beads, what the source gives is stored or lost; and the work of the forces on the
  * way of the load is what it gains in height and speed. Dry, rows are too few for the impacts at its end. */
 START_TEST(energy_and_forces_of_unlike_ones) {
-  static const int liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
+  static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
   ZpActuatorDef def = unlike();
   def.liquid.model = liquid[_i];
   def.solver.end_time = 2;
