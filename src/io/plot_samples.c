@@ -102,7 +102,7 @@ static void data_indices(const ZpPlot *plot, FILE *file) {
   const int *all;
   int key[KEYS_MOST];
   const size_t keys = drawn_keys(plot, &all, key);
-  double *value = calloc(d.count, sizeof *value);
+  double *value = calloc(d.count + 1, sizeof *value);
   fprintf(file, "# row, share of the variance of %s / %%: first-order, then total\n", d.curve[0].scalar);
   for (size_t i = 0; value && i < d.count; i++)
     value[i] = value_of(plot, &d.curve[0], i);

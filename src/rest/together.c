@@ -152,7 +152,7 @@ static double change(void *self, const double *step) {
 /* Each puts the load somewhere else by what is of second order: it comes to the mean of these places. */
 static void move(void *self, const double *step, double fraction) {
   ZpTogether *all = self;
-  double height[ZP_MOST_MEMBERS], missed[ZP_MOST_MEMBERS], mean = 0;
+  double height[ZP_MOST_MEMBERS] = {0}, missed[ZP_MOST_MEMBERS] = {0}, mean = 0;
   part(all, step);
   for (size_t which = 0; which < all->count; which++) {
     all->alone[which].move(member(all, which), all->step[which], fraction);
