@@ -1015,7 +1015,7 @@ static ZpStatus check_held_clip(const ZpActuatorDef *def, ZpError *err) {
   return zp_fail(err, ZP_BAD_INPUT,
                  "actuator.held_clip = %s: requires platform.rotates true; the ribbons between a held clip and a "
                  "platform that a guide keeps horizontal could only stretch",
-                 def->actuator.held_clip == ZP_HELD_LEFT ? "left" : "right");
+                 zp_word_of("actuator.held_clip", (int)def->actuator.held_clip));
 }
 
 /* Where the load hangs. */

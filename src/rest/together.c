@@ -131,22 +131,23 @@ static void stiffness(void *self, ZpBand *K, double *r) {
   }
 }
 
-static double length(void *self, const double *step) {
-  ZpTogether *all = self;
+/* The largest of a measure of a step, over all members. */
+static double largest_of(ZpTogether *all, const double *step, double (*measure)(void *self, const double *step)) {
   double largest = 0;
   part(all, step);
   for (size_t which = 0; which < all->count; which++)
-    largest = fmax(largest, all->alone[which].length(member(all, which), all->step[which]));
+    largest = fmax(largest, measure(member(all, which), all->step[which]));
   return largest;
+}
+
+static double length(void *self, const double *step) {
+  ZpTogether *all = self;
+  return largest_of(all, step, all->alone[0].length);
 }
 
 static double change(void *self, const double *step) {
   ZpTogether *all = self;
-  double largest = 0;
-  part(all, step);
-  for (size_t which = 0; which < all->count; which++)
-    largest = fmax(largest, all->alone[which].change(member(all, which), all->step[which]));
-  return largest;
+  return largest_of(all, step, all->alone[0].change);
 }
 
 /* Each puts the load somewhere else by what is of second order: it comes to the mean of these places. */
