@@ -214,9 +214,10 @@ END_TEST
 
 /* In the impact all that shares the platform is behind the damper, whichever member's faces meet first. */
 START_TEST(any_member_hits_as_hard) {
-  ZpActuatorDef def = DEF({"stack.parallel", 3}, {"load.mass", 12e-3}, {"mesh.nodes", 11}, {"drive.voltage", 10e3},
-                          {"solver.stop_when_zipped", ZP_WHEN_FALSE}, {"solver.tolerance", 1e-3},
-                          {"solver.end_time", 0.1}, {"liquid.model", ZP_LIQUID_NONE});
+  ZpActuatorDef def =
+      DEF({"stack.parallel", 3}, {"load.mass", 12e-3}, {"mesh.nodes", 11}, {"drive.voltage", 10e3},
+          {"solver.stop_when_zipped", ZP_WHEN_FALSE}, {"solver.tolerance", 1e-3}, {"solver.end_time", 0.3},
+          {"liquid.model", _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE}, {"bead.volume", 2e-9});
   double lost[3];
   for (int k = 0; k < 3; k++) {
     ZpActuatorDef one = def;
@@ -565,7 +566,7 @@ int main(void) {
   tcase_add_loop_test(motion, energy_and_forces_of_unlike_ones, 0, 3);
   tcase_add_test(motion, unlike_ones_at_rest_stay);
   tcase_add_test(motion, unlike_ones_come_to_their_equilibrium);
-  tcase_add_test(motion, any_member_hits_as_hard);
+  tcase_add_loop_test(motion, any_member_hits_as_hard, 0, 2);
   tcase_add_loop_test(motion, energy_and_links_of_a_zip, 0, 3);
   tcase_add_test(motion, members_yield);
   tcase_add_loop_test(motion, states_of_several_are_restored, 0, 2);
