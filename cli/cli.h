@@ -17,8 +17,9 @@ enum { EXIT_DONE = 0, EXIT_NUMERICS = 1, EXIT_INPUT = 2, EXIT_MACHINE = 3, EXIT_
 typedef struct Crew {
   int size;                                                    /* how many */
   ZpStatus (*begin)(const ZpScenario *scenario, ZpError *err); /* tell them which cases there are */
-  ZpStatus (*compute)(void *unused, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+  ZpStatus (*compute)(void *user, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
                       ZpError *err); /* as ZpCampaignOptions.remote */
+  void *user;                        /* of `compute` */
 } Crew;
 
 /* What the words of the command line say. */

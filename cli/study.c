@@ -109,7 +109,8 @@ static ZpCampaignOptions campaign_options(const Options *o, Progress *progress) 
                              .user = progress,
                              .progress = on_campaign,
                              .clock = cli_wall_clock,
-                             .remote = o->crew ? o->crew->compute : NULL};
+                             .remote = o->crew ? o->crew->compute : NULL,
+                             .remote_user = o->crew ? o->crew->user : NULL};
 }
 
 static int report_campaign(ZpCampaign *campaign, const ZpScenario *scenario, const Options *o, const char *directory,

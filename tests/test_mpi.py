@@ -70,6 +70,21 @@ def check_lost_process(zipact_mpi, scratch):
        subprocess.run([*MPIRUN, zipact_mpi, *words("limits", torn, "--resume")]).returncode == 0 and results(torn) == results(scratch / "limits-alone"))
 
 
+def check_lost_worker(zipact_mpi, scratch):
+    """One of those that compute is killed under an mpirun that goes on: the others compute its cases too."""
+    whole = scratch / "limits-whole"
+    process = subprocess.Popen([*MPIRUN, "--enable-recovery", zipact_mpi, *words("limits", whole)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    while not (whole / "journal.sqlite-wal").exists() and process.poll() is None:
+        time.sleep(0.02)
+    members = of_group(process.pid)
+    killed = len(members) == 3
+    if killed:
+        os.kill(members[-1], signal.SIGKILL)
+    said = process.communicate()[1]
+    ok("a process is lost, the others compute its cases: the same bytes", process.returncode == 0 and results(whole) == results(scratch / "limits-alone"))
+    ok("that is said", not killed or "process 2 of the job is lost" in said)
+
+
 def check_refusal(zipact_mpi, scratch):
     wrong = subprocess.run([*MPIRUN, zipact_mpi, "limits", "--set", "load.mass=[1 m, 2 g]", "-o", str(scratch / "wrong")], stderr=subprocess.PIPE, text=True)
     ok("wrong input: status 2, said once, all processes end", wrong.returncode == 2 and wrong.stderr.count("not a mass") == 1)
@@ -81,6 +96,7 @@ def main():
     scratch.mkdir(parents=True)
     check_bytes(zipact, zipact_mpi, scratch)
     check_lost_process(zipact_mpi, scratch)
+    check_lost_worker(zipact_mpi, scratch)
     check_refusal(zipact_mpi, scratch)
     return finish()
 

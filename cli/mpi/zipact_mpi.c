@@ -3,21 +3,27 @@
  *
  * The first has a thread per other process, which asks that process for some cases and waits. The others know the
  * scenario from a message, so that only the first reads files; those that keys name must be found by all. Waiting
- * processes look for messages from time to time: MPI's own waiting would take a processor each. */
+ * processes look for messages from time to time: MPI's own waiting would take a processor each.
+ *
+ * MPI does not say that a process has died, so the first and all that compute send a sign of life every second. A
+ * process that has been silent for SILENT_MOST seconds is lost, and others compute its cases (if mpirun keeps them:
+ * --enable-recovery). MPI_Finalize would wait for it, so the others end without. */
 #include <mpi.h>
 
 #include <limits.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "cli.h"
 
-enum { FIRST = 0 };
+enum { FIRST = 0, SILENT_MOST = 10 };
 
-/* Messages: a scenario as YAML; cases from .. to - 1, none at the end; their results after a byte for the status, or
- * the message of an error. */
-enum { TAG_SCENARIO = 1, TAG_CASES, TAG_RESULTS };
+/* Messages: a scenario as YAML; cases from .. to - 1; their results after a byte for the status, or the message of an
+ * error; a sign of life, nothing; a call, nothing, to be answered by another; the end, with 1 if a process is lost. */
+enum { TAG_SCENARIO = 1, TAG_CASES, TAG_RESULTS, TAG_ALIVE, TAG_CALL, TAG_END };
 
 static ZpStatus fail(ZpError *err, const char *message) {
   *err = (ZpError){.status = ZP_MACHINE};
@@ -25,14 +31,40 @@ static ZpStatus fail(ZpError *err, const char *message) {
   return ZP_MACHINE;
 }
 
-/* Receive the next message of a process, of any length, to be freed; NULL if that fails. One byte longer, 0. */
-static char *receive(int rank, int *tag, int *size) {
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void pause_shortly(void) {
   const struct timespec pause = {.tv_nsec = 100000};
+  nanosleep(&pause, NULL);
+}
+
+/* False if the process does not take the message in SILENT_MOST seconds. */
+static bool send(const void *byte, size_t size, int rank, int tag) {
+  const double start = seconds();
+  MPI_Request request;
+  int sent = 0;
+  if (size > INT_MAX) return false;
+  if (MPI_Isend(byte, (int)size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, &request) != MPI_SUCCESS) return false;
+  while (MPI_Test(&request, &sent, MPI_STATUS_IGNORE) == MPI_SUCCESS && !sent && seconds() - start < SILENT_MOST)
+    pause_shortly();
+  return sent;
+}
+
+/* Receive the next message of a process, of any length, to be freed; NULL if that fails or none comes in
+ * SILENT_MOST seconds. One byte longer, 0. */
+static char *receive(int rank, int *tag, int *size) {
+  const double start = seconds();
   MPI_Status status;
   int there = 0;
   while (!there) {
     if (MPI_Iprobe(rank, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status) != MPI_SUCCESS) return NULL;
-    if (!there) nanosleep(&pause, NULL);
+    if (there) break;
+    if (seconds() - start > SILENT_MOST) return NULL;
+    pause_shortly();
   }
   *tag = status.MPI_TAG;
   MPI_Get_count(&status, MPI_BYTE, size);
@@ -42,6 +74,61 @@ static char *receive(int rank, int *tag, int *size) {
   if (MPI_Recv(byte, *size, MPI_BYTE, rank, *tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE) == MPI_SUCCESS) return byte;
   free(byte);
   return NULL;
+}
+
+/* The next message of a process that is no sign of life, to be freed; NULL if the process is lost. */
+static char *receive_next(int rank, int *tag, int *size) {
+  char *message = receive(rank, tag, size);
+  while (message && *tag == TAG_ALIVE) {
+    free(message);
+    message = receive(rank, tag, size);
+  }
+  return message;
+}
+
+/* -- signs of life ---------------------------------------------------------------------------------- */
+
+typedef struct Beat {
+  int from, to;            /* processes that are told: from .. to - 1 */
+  const atomic_bool *lost; /* [to] those that are not, since they are lost; NULL: none is */
+  pthread_t thread;
+  pthread_mutex_t lock;
+  pthread_cond_t ends;
+  bool ended;
+} Beat;
+
+static void *beat(void *self) {
+  Beat *b = self;
+  struct timespec next;
+  clock_gettime(CLOCK_REALTIME, &next);
+  pthread_mutex_lock(&b->lock);
+  while (!b->ended) {
+    next.tv_sec++;
+    while (!b->ended && pthread_cond_timedwait(&b->ends, &b->lock, &next) == 0) {
+    }
+    for (int rank = b->from; rank < b->to && !b->ended; rank++)
+      if (!b->lost || !atomic_load(&b->lost[rank])) MPI_Send(NULL, 0, MPI_BYTE, rank, TAG_ALIVE, MPI_COMM_WORLD);
+  }
+  pthread_mutex_unlock(&b->lock);
+  return NULL;
+}
+
+/* False if there is no thread for it: then messages must come in SILENT_MOST seconds. */
+static bool start_beat(Beat *b, int from, int to, const atomic_bool *lost) {
+  *b = (Beat){.from = from, .to = to, .lost = lost};
+  pthread_mutex_init(&b->lock, NULL);
+  pthread_cond_init(&b->ends, NULL);
+  return pthread_create(&b->thread, NULL, beat, b) == 0;
+}
+
+static void end_beat(Beat *b, bool started) {
+  pthread_mutex_lock(&b->lock);
+  b->ended = true;
+  pthread_cond_signal(&b->ends);
+  pthread_mutex_unlock(&b->lock);
+  if (started) pthread_join(b->thread, NULL);
+  pthread_cond_destroy(&b->ends);
+  pthread_mutex_destroy(&b->lock);
 }
 
 /* -- the first process ------------------------------------------------------------------------------ */
@@ -56,22 +143,28 @@ static ZpStatus begin(const ZpScenario *scenario, ZpError *err) {
   if (fclose(file) != 0 && status == ZP_OK) status = fail(err, "no memory");
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   for (int rank = FIRST + 1; rank < size && status == ZP_OK; rank++)
-    if (MPI_Send(text, (int)length, MPI_BYTE, rank, TAG_SCENARIO, MPI_COMM_WORLD) != MPI_SUCCESS)
-      status = fail(err, "a process cannot be reached");
+    if (!send(text, length, rank, TAG_SCENARIO)) status = fail(err, "a process cannot be reached");
   free(text);
   return status;
 }
 
-static ZpStatus compute(void *unused, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
+static void say_lost(int rank) {
+  char text[128];
+  snprintf(text, sizeof text, "process %d of the job is lost; the others compute its cases", rank);
+  cli_notice(text);
+}
+
+static ZpStatus compute(void *lost, size_t worker, size_t from, size_t to, unsigned char **byte, size_t *size,
                         ZpError *err) {
   const int rank = FIRST + 1 + (int)worker;
   const unsigned long long cases[2] = {from, to};
   int length = 0, tag;
-  (void)unused;
   *byte = NULL;
-  if (MPI_Send(cases, 2, MPI_UNSIGNED_LONG_LONG, rank, TAG_CASES, MPI_COMM_WORLD) != MPI_SUCCESS) return ZP_OK;
-  char *answer = receive(rank, &tag, &length);
-  if (!answer || length == 0) { /* that process is lost */
+  bool sent = send(cases, sizeof cases, rank, TAG_CASES);
+  char *answer = sent ? receive_next(rank, &tag, &length) : NULL;
+  if (!answer || length == 0) {
+    atomic_store(&((atomic_bool *)lost)[rank], true);
+    say_lost(rank);
     free(answer);
     return ZP_OK;
   }
@@ -86,10 +179,37 @@ static ZpStatus compute(void *unused, size_t worker, size_t from, size_t to, uns
   return ZP_OK;
 }
 
-static void end_others(int size) {
-  const unsigned long long none[2] = {0, 0};
+/* Does a process that computes nothing answer? */
+static bool is_there(int rank) {
+  int tag, size;
+  MPI_Send(NULL, 0, MPI_BYTE, rank, TAG_CALL, MPI_COMM_WORLD);
+  char *message = receive_next(rank, &tag, &size);
+  free(message);
+  return message != NULL;
+}
+
+/* => is one of them lost? */
+static bool end_others(int size, const atomic_bool *lost) {
+  char any = 0;
   for (int rank = FIRST + 1; rank < size; rank++)
-    MPI_Send(none, 2, MPI_UNSIGNED_LONG_LONG, rank, TAG_CASES, MPI_COMM_WORLD);
+    any = any || atomic_load(&lost[rank]) || !is_there(rank);
+  for (int rank = FIRST + 1; rank < size; rank++)
+    MPI_Send(&any, 1, MPI_BYTE, rank, TAG_END, MPI_COMM_WORLD);
+  return any;
+}
+
+/* => is another process lost? */
+static bool lead(int argc, char **argv, int size, int *status) {
+  atomic_bool *lost = calloc((size_t)size, sizeof *lost);
+  if (!lost) MPI_Abort(MPI_COMM_WORLD, EXIT_MACHINE);
+  const Crew crew = {size - 1, begin, compute, lost};
+  Beat life;
+  bool beats = start_beat(&life, FIRST + 1, size, lost);
+  *status = cli_main(argc, argv, size > 1 ? &crew : NULL);
+  bool any = end_others(size, lost);
+  end_beat(&life, beats);
+  free(lost);
+  return any;
 }
 
 /* -- the others ------------------------------------------------------------------------------------- */
@@ -103,8 +223,7 @@ static void answer(ZpStatus status, const void *byte, size_t size) {
   }
   message[0] = (char)status;
   memcpy(message + 1, byte, size);
-  MPI_Send(message, (int)size + 1, MPI_BYTE, FIRST, TAG_RESULTS, MPI_COMM_WORLD);
-  free(message);
+  if (send(message, size + 1, FIRST, TAG_RESULTS)) free(message); /* else MPI may still read it */
 }
 
 static void answer_cases(const ZpScenario *scenario, size_t from, size_t to) {
@@ -112,7 +231,10 @@ static void answer_cases(const ZpScenario *scenario, size_t from, size_t to) {
   ZpError err = {ZP_OK, ""};
   unsigned char *byte = NULL;
   size_t size = 0;
+  Beat life;
+  bool beats = start_beat(&life, FIRST, FIRST + 1, NULL);
   ZpStatus status = zp_campaign_compute(scenario, from, to, &hooks, &byte, &size, &err);
+  end_beat(&life, beats);
   if (status == ZP_OK)
     answer(ZP_OK, byte, size);
   else
@@ -129,48 +251,46 @@ static ZpScenario *read_scenario(const char *text, int size) {
   return NULL;
 }
 
-/* Do what a message says. False if it is the last. */
-static bool heed(const char *message, int tag, int size, ZpScenario **scenario) {
+static void compute_for_first(const ZpScenario *scenario, const char *message) {
   unsigned long long cases[2];
-  if (tag == TAG_SCENARIO) {
-    *scenario = read_scenario(message, size);
-    return true;
-  }
   memcpy(cases, message, sizeof cases);
-  if (cases[0] == cases[1]) return false;
-  if (*scenario)
-    answer_cases(*scenario, (size_t)cases[0], (size_t)cases[1]);
+  if (scenario)
+    answer_cases(scenario, (size_t)cases[0], (size_t)cases[1]);
   else
     answer(ZP_MACHINE, "no memory", sizeof "no memory");
-  return true;
 }
 
-static void serve(void) {
+/* Do what the messages of the first say, until the last => is a process lost? If that is the first, the job fails. */
+static bool serve(int *status) {
   ZpScenario *scenario = NULL;
-  int size, tag;
-  bool open = true;
-  while (open) {
-    char *message = receive(FIRST, &tag, &size);
-    open = message && heed(message, tag, size, &scenario);
+  int size, tag = TAG_ALIVE;
+  bool lost = false;
+  while (tag != TAG_END && !lost) {
+    char *message = receive_next(FIRST, &tag, &size);
+    if (message && tag == TAG_SCENARIO) scenario = read_scenario(message, size);
+    if (message && tag == TAG_CASES) compute_for_first(scenario, message);
+    if (message && tag == TAG_CALL) MPI_Send(NULL, 0, MPI_BYTE, FIRST, TAG_CALL, MPI_COMM_WORLD);
+    if (!message) *status = EXIT_MACHINE;
+    lost = !message || (tag == TAG_END && message[0]);
     free(message);
   }
   zp_scenario_destroy(scenario);
+  return lost;
 }
 
 int main(int argc, char **argv) {
   int threads, rank, size, status = EXIT_DONE;
+  bool lost = false;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &threads);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
-  const Crew crew = {size - 1, begin, compute};
   if (threads < MPI_THREAD_MULTIPLE)
     status = cli_fail(&(ZpError){ZP_MACHINE, "this MPI does not allow threads to send messages"});
   else if (rank == FIRST)
-    status = cli_main(argc, argv, size > 1 ? &crew : NULL);
+    lost = lead(argc, argv, size, &status);
   else
-    serve();
-  if (rank == FIRST) end_others(size);
-  MPI_Finalize();
+    lost = serve(&status);
+  if (!lost) MPI_Finalize();
   return status;
 }
