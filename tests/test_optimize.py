@@ -148,6 +148,15 @@ def check_empty_box(zipact, scratch):
         ok("%g of the least stroke: not excluded" % part, code == 0 and (found["optimum"]["feasible"] or found["optimum"]["excluded_share"] < 1))
 
 
+def check_search_after_exclusion(zipact, scratch):
+    """Ten cases find no strip in the window, cells of the box do, and what is left of the cases goes towards its upper end."""
+    least = 10e-6 * 9.81 * 0.1**3 * (1 - 0.285**2) / (200e9 * 20e-3 * 60e-6**3)
+    window = "stroke_m <= %.7g um; stroke_m >= %.7g um" % (1.02e6 * 3 * least, 0.98e6 * 3 * least)
+    code, found = optimum_of(zipact, [*STRIP, "optimize.method=cobyla", "optimize.evaluations=10", "optimize.constraints=" + window], scratch / "onwards")
+    first = [case["stroke_m"] / (3 * least) for case in found["optimum"]["cases"]][0]
+    ok("from a case of a cell towards the bound", code == 0 and found["optimum"]["feasible"] and 1.01 < first < 1.02)
+
+
 def check_refusals(zipact, scratch):
     wrong = {"optimize.variables=": "empty", "optimize.variables=ribbon.thikness = 1 um .. 2 um": "did you mean ribbon.thickness", "optimize.variables=mesh.nodes = 11 .. 21": "not a real number",
              "optimize.variables=ribbon.width = 5 mm .. 4 mm": "upper end", "optimize.variables=ribbon.width = 5 mm .. 4 kg": "not a length", "optimize.variables=ribbon.width": "write",
@@ -178,6 +187,7 @@ def main():
     check_kills(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_empty_box(zipact, scratch)
+    check_search_after_exclusion(zipact, scratch)
     check_refusals(zipact, scratch)
     return finish()
 

@@ -193,10 +193,17 @@ static ZpStatus cut_box(Exclusion *e, ZpError *err) {
   return status;
 }
 
+/* The best case in the middle of a cell. */
+static size_t best_of(const Exclusion *e) {
+  const ZpSearch *s = e->search;
+  size_t best = e->cell[0].number;
+  for (size_t k = 1; k < e->cells; k++)
+    if (zp_is_better(&s->problem, s->point[e->cell[k].number].value, s->point[best].value)) best = e->cell[k].number;
+  return best;
+}
+
 static bool holds_one(const Exclusion *e) {
-  for (size_t k = 0; k < e->cells; k++)
-    if (zp_violation(&e->search->problem, e->search->point[e->cell[k].number].value) == 0) return true;
-  return false;
+  return zp_violation(&e->search->problem, e->search->point[best_of(e)].value) == 0;
 }
 
 /* Until all cells are excluded, one holds a design, or there are no more cases. */
@@ -235,7 +242,10 @@ ZpStatus zp_search_exclude(ZpSearch *s, ZpError *err) {
       e.slope[b][i] = INFINITY;
   s->derivatives = false;
   ZpStatus status = exclude(&e, err);
-  if (status == ZP_OK && !atomic_load(&s->stop) && !holds_one(&e)) s->excluded = excluded_share(&e);
+  const bool ends = status != ZP_OK || atomic_load(&s->stop), found = !ends && holds_one(&e);
+  if (!ends && !found) s->excluded = excluded_share(&e);
+  if (found && s->problem.objectives == 1)
+    status = zp_search_local_from(s, best_of(&e), s->problem.evaluations + e.cells, err);
   free(e.cell);
   return status;
 }

@@ -147,20 +147,31 @@ static size_t choose_starts(const ZpSearch *s, size_t sampled, size_t chosen[STA
   return count;
 }
 
+/* A search with `count` cases from `first` on, which begins at case `start`. */
+static Local from_case(ZpSearch *s, size_t start, size_t first, size_t count) {
+  const ZpPoint *point = &s->point[start];
+  const double size = fabs(point->value[0]);
+  Local local = {.search = s, .first = first, .count = count, .scale = size > 0 ? size : 1};
+  memcpy(local.z, point->z, sizeof point->z);
+  return local;
+}
+
+static ZpStatus run_all(ZpSearch *s, Local *local, size_t starts, ZpError *err) {
+  s->derivatives = s->problem.method == ZP_OPTIMIZER_SLSQP;
+  return zp_search_parallel(s, starts, search_from, local, err);
+}
+
 ZpStatus zp_search_local(ZpSearch *s, size_t sampled, ZpError *err) {
   size_t chosen[STARTS];
   const size_t starts = choose_starts(s, sampled, chosen);
   const size_t share = starts > 0 ? (s->problem.evaluations - sampled) / starts : 0;
-  Local *local = calloc(STARTS, sizeof *local);
-  if (!local) return zp_fail_memory(err);
-  for (size_t k = 0; k < starts; k++) {
-    const ZpPoint *start = &s->point[chosen[k]];
-    const double size = fabs(start->value[0]);
-    local[k] = (Local){.search = s, .first = sampled + k * share, .count = share, .scale = size > 0 ? size : 1};
-    memcpy(local[k].z, start->z, sizeof start->z);
-  }
-  s->derivatives = s->problem.method == ZP_OPTIMIZER_SLSQP;
-  ZpStatus status = zp_search_parallel(s, starts, search_from, local, err);
-  free(local);
-  return status;
+  Local local[STARTS];
+  for (size_t k = 0; k < starts; k++)
+    local[k] = from_case(s, chosen[k], sampled + k * share, share);
+  return run_all(s, local, starts, err);
+}
+
+ZpStatus zp_search_local_from(ZpSearch *s, size_t start, size_t first, ZpError *err) {
+  Local local = from_case(s, start, first, s->room - first);
+  return run_all(s, &local, 1, err);
 }

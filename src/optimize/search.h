@@ -57,8 +57,12 @@ ZpStatus zp_search_sample(ZpSearch *search, size_t count, ZpError *err);
 /* NLopt's searches from the best of `sampled` points, with cases up to problem.evaluations. */
 ZpStatus zp_search_local(ZpSearch *search, size_t sampled, ZpError *err);
 
+/* The same from case `start` alone, with cases `first` .. room - 1. */
+ZpStatus zp_search_local_from(ZpSearch *search, size_t start, size_t first, ZpError *err);
+
 /* Is there a design that satisfies all constraints, where no case does? With cases problem.evaluations .. room - 1: a
- * case that does, or the share of the box of which is known that it holds none => search->excluded. */
+ * case that does, and better ones beyond it if there is one objective, or the share of the box of which is known that
+ * it holds none => search->excluded. */
 ZpStatus zp_search_exclude(ZpSearch *search, ZpError *err);
 
 /* NSGA-II. */
