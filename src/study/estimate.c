@@ -15,12 +15,14 @@ typedef enum Law { POWERS, RIPPLE, EITHER } Law;
 typedef struct Estimated {
   ZpStudy study;
   const char *value, *error, *unit;
+  double safety; /* F */
   Law law;
   int order; /* p of eq. (21.3) */
 } Estimated;
 
 static const Estimated estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, law, order) {enumerator, scalar, error, unit, law, order},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order)                                               \
+  {enumerator, scalar, error, unit, safety, law, order},
 #include <zipact/studies.def>
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
@@ -123,11 +125,10 @@ static double of_either(const Findings *findings, int k, int order) {
 }
 
 static double error_of(const Findings *findings, int k) {
-  static const double safety = 1.75; /* F */
   const Estimated *e = &estimated[k];
-  if (e->law == POWERS) return safety * of_powers(findings, k);
-  if (e->law == EITHER) return safety * of_either(findings, k, e->order);
-  return safety * larger(findings, k, e->order);
+  if (e->law == POWERS) return e->safety * of_powers(findings, k);
+  if (e->law == EITHER) return e->safety * of_either(findings, k, e->order);
+  return e->safety * larger(findings, k, e->order);
 }
 
 static bool has(const ZpResult *result, const char *name) {
