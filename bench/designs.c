@@ -4,7 +4,7 @@
  *                                        other one as a command that can be pasted. Status 1 if there is one
  *   designs agree [COUNT [SEED [PART]]]  do `limits`, which finds its limits as such, and `equilibrium`, which follows
  *                                        the curve, agree to PART (1e-3)?
- *   designs errors [COUNT [SEED]]        the estimated errors of limits, stationary, modes and isometric beside the
+ *   designs errors [COUNT [SEED [STUDY]]]   the estimated errors of limits, stationary, modes and isometric beside the
  *                                        true ones, which a mesh of 481 nodes shows, and one of
  *                                        361 how well
  *   designs times [COUNT [SEED]]         that of the zip time beside the one that 121 nodes and a tolerance of 3e-5
@@ -481,6 +481,16 @@ static int check_errors(const ZpStudy *studies, int count, int designs, uint64_t
   return bad;
 }
 
+enum { MOST_NODES = 242 };
+
+/* Of one study alone. */
+static int check_errors_of(const char *word, const ZpStudy *studies, int count, int designs, uint64_t seed) {
+  for (int s = 0; s < count; s++)
+    if (strcmp(word, zp_study_name(studies[s])) == 0) return check_errors(&studies[s], 1, designs, seed, MOST_NODES);
+  fprintf(stderr, "%s: no study with estimated errors at rest\n", word);
+  return 1;
+}
+
 /* -- limits against a slow ramp ------------------------------------------------------------------------ */
 
 /* A simulation whose voltage is a ramp; times in units of the first mode's period. */
@@ -645,7 +655,8 @@ int main(int argc, char **argv) {
   uint64_t seed = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
   static const ZpStudy still[] = {ZP_STUDY_LIMITS, ZP_STUDY_STATIONARY, ZP_STUDY_MODES, ZP_STUDY_ISOMETRIC};
   static const ZpStudy moving[] = {ZP_STUDY_ACTUATE};
-  if (strcmp(word, "errors") == 0) return check_errors(still, 4, designs, seed, 242) > 0;
+  if (strcmp(word, "errors") == 0 && argc > 4) return check_errors_of(argv[4], still, 4, designs, seed) > 0;
+  if (strcmp(word, "errors") == 0) return check_errors(still, 4, designs, seed, MOST_NODES) > 0;
   if (strcmp(word, "times") == 0) return check_errors(moving, 1, designs, seed, 61) > 0;
   if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
   if (strcmp(word, "liquid") == 0) return check_liquid(designs, seed, argc > 4 ? atoi(argv[4]) : 0) > 0;

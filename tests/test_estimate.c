@@ -38,23 +38,24 @@ typedef struct Number {
   ZpStudy study;
   const char *value, *error;
   double most; /* times the error that the estimate may be */
+  double safety;
   Law law;
   int order; /* of a ripple */
 } Number;
 
 static const Number numbers[] = {
-    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 12, EITHER, 2},
-    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 12, EITHER, 2},
-    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 12, RIPPLE, 3},
-    {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 2.5, POWERS, 2},
-    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 12, RIPPLE, 2},
-    {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 2.5, POWERS, 2},
-    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 15, POWERS, 2},
+    {ZP_STUDY_LIMITS, "pull_in_voltage_V", "pull_in_voltage_error_V", 15, 2, EITHER, 2},
+    {ZP_STUDY_LIMITS, "closing_voltage_V", "closing_voltage_error_V", 15, 2, EITHER, 2},
+    {ZP_STUDY_LIMITS, "release_voltage_V", "release_voltage_error_V", 12, 1.4, RIPPLE, 3},
+    {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 2.5, 1.75, POWERS, 2},
+    {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 12, 1.75, RIPPLE, 2},
+    {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 2.5, 1.75, POWERS, 2},
+    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 20, 1.75, POWERS, 2},
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
- * covers the error. Measured: 1.9 times (opening, frequency), 10 times (pull-in, closing), 3.7 (release), 7 (held
- * force), 10 (zip time), whose errors depend on where among the nodes the front is. */
+ * covers the error. Measured: 1.9 times (opening, frequency), 14 times (pull-in, closing), 3 times (release), 7 times
+ * (held force, zip time), whose errors depend on where among the nodes the front is. */
 START_TEST(estimate_covers_the_error) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});
@@ -119,10 +120,15 @@ static double larger(const Three *t, double p) {
   return fmax(fabs(by_mesh(t, 1, p)), fabs(by_mesh(t, 2, p)));
 }
 
+/* (21.3) */
+static double by_ripple(const Three *t, int p) {
+  return larger(t, order_of(t) < p ? 2 : p);
+}
+
 /* (21.4) with order two for a ripple. */
 static double by_either(const Three *t) {
   double order = order_of(t);
-  if (!(order >= 2 && order < 5)) return larger(t, 2);
+  if (!(order >= 2 && order < 5)) return 1.25 * larger(t, 2);
   return fabs(by_mesh(t, 1, order >= 4 ? 3 : 2));
 }
 
@@ -142,12 +148,12 @@ START_TEST(estimate_is_that_of_three_meshes) {
       DEF({"output.errors", 1}, {"ribbon.thickness", cases[_i].thickness}, {"mesh.nodes", cases[_i].nodes});
   double error = value_of(number->study, &def, number->error);
   Three t = three_of(number, def);
-  double order = order_of(&t), expected = larger(&t, number->order);
+  double order = order_of(&t), expected = by_ripple(&t, number->order);
   if (number->law == POWERS) expected = fmax(larger(&t, 2), fabs(by_powers(&t)));
   if (number->law == EITHER) expected = by_either(&t);
   printf("%s: %.9g, %.9g, %.9g, order %.2f, estimated %.3g\n", number->value, t.f[0], t.f[1], t.f[2], order, error);
   ck_assert(cases[_i].most > 0 ? order > cases[_i].least && order < cases[_i].most : isnan(order));
-  ck_near(error, 1.75 * expected, 1e-6);
+  ck_near(error, number->safety * expected, 1e-6);
 }
 END_TEST
 

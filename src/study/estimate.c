@@ -110,25 +110,35 @@ static double of_powers(const Findings *findings, int k) {
   return fmax(larger(findings, k, 2), fabs(both));
 }
 
+static bool on_one_side(const Findings *findings, int k) {
+  return richardson(findings, k, 1, 2) * richardson(findings, k, 2, 2) > 0;
+}
+
 /* Is the order that the three meshes show this one or a higher one? */
 static bool shows_order(const Findings *findings, int k, int order) {
   return fabs(richardson(findings, k, 2, order)) >= fabs(richardson(findings, k, 1, order));
 }
 
+/* Eq. (21.3). Where meshes on one side show a lower order than the ripple's, it is small beside what has order two. */
+static double of_ripple(const Findings *findings, int k, int order) {
+  bool small = on_one_side(findings, k) && !shows_order(findings, k, order);
+  return larger(findings, k, small ? 2 : order);
+}
+
 /* Eq. (21.4). Meshes that follow one another show an order, of which the nearer one takes no more than is left on finer
  * meshes. An order above five is one by chance: two meshes agree. */
 static double of_either(const Findings *findings, int k, int order) {
-  bool one_side = richardson(findings, k, 1, 2) * richardson(findings, k, 2, 2) > 0;
-  bool follow = one_side && shows_order(findings, k, 2) && !shows_order(findings, k, 5);
-  if (!follow) return larger(findings, k, order);
+  static const double unordered = 1.25;
+  bool follow = on_one_side(findings, k) && shows_order(findings, k, 2) && !shows_order(findings, k, 5);
+  if (!follow) return unordered * larger(findings, k, order);
   return fabs(richardson(findings, k, 1, shows_order(findings, k, 4) ? 3 : 2));
 }
 
 static double error_of(const Findings *findings, int k) {
   const Estimated *e = &estimated[k];
   if (e->law == POWERS) return e->safety * of_powers(findings, k);
-  if (e->law == EITHER) return e->safety * of_either(findings, k, e->order);
-  return e->safety * larger(findings, k, e->order);
+  if (e->law == RIPPLE) return e->safety * of_ripple(findings, k, e->order);
+  return e->safety * of_either(findings, k, e->order);
 }
 
 static bool has(const ZpResult *result, const char *name) {
