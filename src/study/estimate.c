@@ -1,5 +1,5 @@
-/* Letters of docs/theory.md, section 21: f a number of the summary; 0, 1, 2 the mesh that was asked for and two coarser
- * ones, each with half as many elements as the one before. */
+/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0, 1, 2 the mesh that was
+ * asked for and two coarser ones. */
 #include "study/estimate.h"
 
 #include <math.h>
@@ -7,19 +7,22 @@
 
 #include "base/fail.h"
 
-enum { MESHES = 3, FEWEST_NODES = 4 };
+enum { MESHES = 3, FEWEST_ELEMENTS = 3 };
+
+/* How errors fall with more elements: as two powers, eq. (21.2); as a ripple, eq. (21.3); as either, eq. (21.4). */
+typedef enum Law { POWERS, RIPPLE, EITHER } Law;
 
 typedef struct Estimated {
   ZpStudy study;
   const char *value, *error, *unit;
-  double safety;    /* F of eq. (21.1) */
-  int order;        /* p */
-  double monotonic; /* F of eq. (21.2); 0: it does not apply */
+  double safety; /* F */
+  Law law;
+  int order; /* p of eq. (21.3) */
 } Estimated;
 
 static const Estimated estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, order, monotonic)                                         \
-  {enumerator, scalar, error, unit, safety, order, monotonic},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order)                                               \
+  {enumerator, scalar, error, unit, safety, law, order},
 #include <zipact/studies.def>
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
@@ -41,14 +44,22 @@ static bool has_coarser(const ZpActuatorDef *def, bool moves) {
   return !moves || (def->solver.integrator == ZP_INTEGRATOR_IMPLICIT && def->initial.state != ZP_INITIAL_CHECKPOINT);
 }
 
-/* Half as many elements; in motion, steps twice as long. Only numbers of the summary are asked for. */
-static ZpActuatorDef coarser(ZpActuatorDef def, bool moves) {
-  def.mesh.nodes = (def.mesh.nodes + 1) / 2;
+/* Three fifths and two fifths of the elements: together as dear as the study itself, near enough to it that the order
+ * matters little, and so far from each other that the front is elsewhere among their nodes. */
+static int elements_of(int mesh, int elements) {
+  static const int fifths[MESHES] = {5, 3, 2};
+  return (2 * fifths[mesh] * elements + 5) / 10;
+}
+
+/* In motion, steps are longer by as much as the elements. Only numbers of the summary are asked for. */
+static ZpActuatorDef coarser(ZpActuatorDef def, int elements, bool moves) {
+  double longer = (def.mesh.nodes - 1) / (double)elements;
+  def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
-  if (moves) def.solver.tolerance *= 4; /* a tolerance goes with the square of the steps, eq. (18.12) */
-  if (moves) def.solver.time_step *= 2; /* NAN, auto, stays */
+  if (moves) def.solver.tolerance *= longer * longer; /* it goes with the square of the steps, eq. (18.12) */
+  if (moves) def.solver.time_step *= longer;          /* NAN, auto, stays */
   return def;
 }
 
@@ -71,31 +82,63 @@ static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mes
   return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
 }
 
-/* The error of f_0 if errors go with the power -order of the number of elements; NAN where that mesh has none. */
+static double square(double x) {
+  return x * x;
+}
+
+/* Eq. (21.1): f_0 less the converged number, if errors go with the power -order of the number of elements. NAN where
+ * the mesh has no such number. */
 static double richardson(const Findings *findings, int k, int mesh, int order) {
   const double *f = findings->f[k], *n = findings->elements;
   double growth = 1;
   for (int i = 0; i < order; i++)
     growth *= n[0] / n[mesh];
-  return fabs(f[0] - f[mesh]) / (growth - 1);
+  return (f[mesh] - f[0]) / (growth - 1);
 }
 
-/* Do the meshes approach from one side, with the first power of the elements' length or faster, and not with so high
- * an order that two of them must agree by chance? */
-static bool is_monotonic(const Findings *findings, int k) {
-  static const double fastest = 32; /* ratio of both differences: order five */
-  const double *f = findings->f[k], *n = findings->elements;
-  double fine = (f[1] - f[0]) / (1 / n[1] - 1 / n[0]), coarse = (f[2] - f[1]) / (1 / n[2] - 1 / n[1]);
-  bool chance = fabs(f[2] - f[1]) > fastest * fabs(f[1] - f[0]);
-  return fine * coarse > 0 && fabs(coarse) >= fabs(fine) && !chance;
+/* The larger of what both meshes give; either may have none. */
+static double larger(const Findings *findings, int k, int order) {
+  return fmax(fabs(richardson(findings, k, 1, order)), fabs(richardson(findings, k, 2, order)));
 }
 
-/* Eqs. (21.1) and (21.2). A number that no coarser mesh has is NAN; either may be missing. */
+/* Eq. (21.2): what is left of both orders, two and four, or of the lower one alone. */
+static double of_powers(const Findings *findings, int k) {
+  double near = richardson(findings, k, 1, 2), far = richardson(findings, k, 2, 2);
+  double to_near = square(findings->elements[0] / findings->elements[1]);
+  double to_far = square(findings->elements[0] / findings->elements[2]);
+  double both = (near * to_far - far * to_near) / (to_far - to_near);
+  return fmax(larger(findings, k, 2), fabs(both));
+}
+
+static bool on_one_side(const Findings *findings, int k) {
+  return richardson(findings, k, 1, 2) * richardson(findings, k, 2, 2) > 0;
+}
+
+/* Is the order that the three meshes show this one or a higher one? */
+static bool shows_order(const Findings *findings, int k, int order) {
+  return fabs(richardson(findings, k, 2, order)) >= fabs(richardson(findings, k, 1, order));
+}
+
+/* Eq. (21.3). Where meshes on one side show a lower order than the ripple's, it is small beside what has order two. */
+static double of_ripple(const Findings *findings, int k, int order) {
+  bool small = on_one_side(findings, k) && !shows_order(findings, k, order);
+  return larger(findings, k, small ? 2 : order);
+}
+
+/* Eq. (21.4). Meshes that follow one another show an order, of which the nearer one takes no more than is left on finer
+ * meshes. An order above five is one by chance: two meshes agree. */
+static double of_either(const Findings *findings, int k, int order) {
+  static const double unordered = 1.25;
+  bool follow = on_one_side(findings, k) && shows_order(findings, k, 2) && !shows_order(findings, k, 5);
+  if (!follow) return unordered * larger(findings, k, order);
+  return fabs(richardson(findings, k, 1, shows_order(findings, k, 4) ? 3 : 2));
+}
+
 static double error_of(const Findings *findings, int k) {
   const Estimated *e = &estimated[k];
-  double first = richardson(findings, k, 1, 2), second = richardson(findings, k, 2, e->order);
-  if (e->monotonic > 0 && is_monotonic(findings, k)) return e->monotonic * first;
-  return e->safety * fmax(first, second);
+  if (e->law == POWERS) return e->safety * of_powers(findings, k);
+  if (e->law == RIPPLE) return e->safety * of_ripple(findings, k, e->order);
+  return e->safety * of_either(findings, k, e->order);
 }
 
 static bool has(const ZpResult *result, const char *name) {
@@ -137,12 +180,11 @@ ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpRe
   Findings findings;
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
-  ZpActuatorDef def = *task->def;
   ZpStatus status = ZP_OK;
-  bool wanted = zp_outcome_good(result->outcome) && any_found(&findings) && is_resolved(task->def, result);
+  bool enough = elements_of(MESHES - 1, task->def->mesh.nodes - 1) >= FEWEST_ELEMENTS;
+  bool wanted = enough && zp_outcome_good(result->outcome) && any_found(&findings) && is_resolved(task->def, result);
   for (int mesh = 1; mesh < MESHES && status == ZP_OK && wanted; mesh++) {
-    def = coarser(def, moves);
-    if (def.mesh.nodes < FEWEST_NODES) break;
+    const ZpActuatorDef def = coarser(*task->def, elements_of(mesh, task->def->mesh.nodes - 1), moves);
     status = solve(task, run, study, mesh, &def, &findings, err);
   }
   for (int k = 0; k < COUNT && status == ZP_OK; k++)
