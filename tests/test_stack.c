@@ -4,6 +4,7 @@
 
 #include "actuator/model.h"
 #include "def/check.h"
+#include "rest/chain.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
 START_TEST(weightless_series_pulls_in_as_one) {
@@ -421,6 +422,34 @@ START_TEST(chain_of_springs_and_masses) {
 }
 END_TEST
 
+/* However far the voltage goes in one change, a member stays on its branch as long as that lasts: hanging up to its
+ * pull-in, closed down to its release. Newton's method alone may end on another branch. */
+START_TEST(large_changes_stay_on_their_branch) {
+  static const double share[] = {0.3, 0.6, 0.9, 0.97, 0.99, 0.999, 0.9999};
+  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 21}, {"load.mass", 6e-3}, {"drive.voltage", 8e3});
+  ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  double pull_in = zp_result_get(limits, "pull_in_voltage_V"), release = zp_result_get(limits, "release_voltage_V");
+  zp_result_destroy(limits);
+  ZpModel *model = model_of(&def);
+  ZpChain chain;
+  ck_assert(zp_chain_open(&chain, model, NULL) == ZP_OK);
+  for (size_t k = 0; k < LENGTH_OF(share); k++) {
+    double hanging[2];
+    ck_assert(zp_chain_hang(&chain) && zp_chain_raise(&chain, share[k] * pull_in));
+    for (size_t i = 0; i < 2; i++)
+      hanging[i] = zp_statics_opening(&chain.of[i].statics);
+    ck_assert(zp_chain_hang(&chain) && zp_chain_change(&chain, share[k] * pull_in));
+    for (size_t i = 0; i < 2; i++)
+      ck_near(zp_statics_opening(&chain.of[i].statics), hanging[i], 1e-6);
+    ck_assert(zp_chain_change(&chain, 8e3) && zp_chain_change(&chain, release / share[k]));
+    for (size_t i = 0; i < 2; i++)
+      ck_assert_double_lt(zp_statics_opening(&chain.of[i].statics), 0.3e-3);
+  }
+  zp_chain_close(&chain);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A member that hardly bends is a mass on the one above it. */
 START_TEST(stiff_member_is_a_mass) {
   ZpActuatorDef series = DEF({"stack.series", 2}, {"member_2.ribbon.thickness", 2e-3}, {"mesh.nodes", 31}),
@@ -559,6 +588,7 @@ int main(void) {
   tcase_add_test(rest, what_unlike_ones_lack_is_said);
   tcase_add_test(rest, members_rest_together_as_alone);
   tcase_add_test(rest, members_close_and_open_one_by_one);
+  tcase_add_test(rest, large_changes_stay_on_their_branch);
   tcase_add_test(rest, chain_of_springs_and_masses);
   tcase_add_test(rest, stiff_member_is_a_mass);
   tcase_add_test(rest, voltage_softens_a_series);
