@@ -51,6 +51,8 @@ PICTURES = {
     "hinge.svg": "hinge-torque/plots/torques.svg",
     "yielding.svg": "yielding/plots/plastic.svg",
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
+    "off-centre.svg": "off-centre/plots/profiles.svg",
+    "held-clip.svg": "held-clip/plots/profiles.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 

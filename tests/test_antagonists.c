@@ -246,8 +246,8 @@ END_TEST
 
 /* While it is closed, and as it opens, the numbers of the limits are those of the states that they have. */
 START_TEST(limits_have_their_states) {
-  ZpActuatorDef def = DEF(BOTH, {"mesh.nodes", 61}, {"load.mass", 1e-3}, {"drive.voltage", 5e3},
-                          {"stack.voltage_ratio", 0});
+  ZpActuatorDef def =
+      DEF(BOTH, {"mesh.nodes", 61}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
   ZpResult *result = answer_of(ZP_STUDY_LIMITS, &def);
   ck_as_curve(&def, result);
   ck_assert_uint_eq(result->series->rows, 3);
@@ -275,8 +275,8 @@ START_TEST(two_swing_as_one_with_half_the_load) {
                 one = alone(&both, false);
   one.load.force = voltage[_i] > 0 ? pull_of(one, 10e-3, voltage[_i]) : pull_without_voltage(one, 10e-3);
   one.load.mass = 0.5 * both.load.mass;
-  ck_near(answered_value(ZP_STUDY_MODES, &both, "frequency_1_Hz"), answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"),
-          1e-6);
+  ck_near(answered_value(ZP_STUDY_MODES, &both, "frequency_1_Hz"),
+          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 1e-6);
 }
 END_TEST
 
@@ -300,9 +300,9 @@ END_TEST
 /* A small voltage makes the load swing about where it is then at rest: after one and a quarter periods of the lowest
  * mode it passes there. Ribbons and load have their masses, so the period is that of all. */
 START_TEST(period_of_a_swing_is_that_of_the_mode) {
-  ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 500}, {"modes.voltage", 500},
-                          {"stack.voltage_ratio", 0}, {"member_2.ribbon.thickness", 60e-6},
-                          {"liquid.model", ZP_LIQUID_NONE}, {"solver.tolerance", 1e-6});
+  ZpActuatorDef def =
+      DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 500}, {"modes.voltage", 500}, {"stack.voltage_ratio", 0},
+          {"member_2.ribbon.thickness", 60e-6}, {"liquid.model", ZP_LIQUID_NONE}, {"solver.tolerance", 1e-6});
   ZpResult *curve = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   double start = zp_table_get(curve->series, 0, "opening_m"),
          rest = zp_table_get(curve->series, curve->series->rows - 1, "opening_m");

@@ -996,9 +996,11 @@ static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
     bool acts;
     const char *needed, *reason;
   } refused[] = {
-      {def->actuator.symmetry != ZP_SYMMETRY_NONE, "actuator.symmetry none", "the platform of a symmetric half is level"},
+      {def->actuator.symmetry != ZP_SYMMETRY_NONE, "actuator.symmetry none",
+       "the platform of a symmetric half is level"},
       {def->platform.length == 0, "platform.length above 0 m", "a platform without length has no angle"},
-      {def->platform.electrode, "platform.electrode false", "the attraction of platforms is modelled for level ones only"},
+      {def->platform.electrode, "platform.electrode false",
+       "the attraction of platforms is modelled for level ones only"},
       {zp_def_liquid(def) != ZP_LIQUID_NONE, "liquid.model none",
        "the liquid between the platforms is modelled for level ones only"},
       {def->ribbon.plane == ZP_PLANE_ANTICLASTIC, "ribbon.plane strain or stress",

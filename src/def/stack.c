@@ -161,9 +161,9 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
     if (unknown[k].given)
-      return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s; the stack does not support %s",
-                     stack_of(def), zp_def_members(def), zp_def_abreast(def) ? " of unlike members" : "",
-                     unknown[k].key, unknown[k].instead, unknown[k].what);
+      return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s; the stack does not support %s", stack_of(def),
+                     zp_def_members(def), zp_def_abreast(def) ? " of unlike members" : "", unknown[k].key,
+                     unknown[k].instead, unknown[k].what);
   for (int member = 1; member <= zp_def_members(def); member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;

@@ -50,8 +50,8 @@ void zp_together_start(ZpTogether *all);
 /* How far the nearer one of two antagonists, of those side by side the farthest one, is from counting as closed, m. */
 double zp_together_left(const ZpTogether *all);
 
-/* From the present point, which is near, to a limit point of the voltage, or to where zp_together_left is 0 at a voltage
- * from `least` to `most`. False if there is none: the present point is then where it was. */
+/* From the present point, which is near, to a limit point of the voltage, or to where zp_together_left is 0 at a
+ * voltage from `least` to `most`. False if there is none: the present point is then where it was. */
 bool zp_together_limit(ZpTogether *all);
 bool zp_together_closing(ZpTogether *all, double least, double most);
 

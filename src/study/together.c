@@ -1,6 +1,6 @@
-/* Studies `stationary`, `equilibrium` and `limits` of members that share one load: where it is at rest, how stiffly they
- * hold it, and where it jumps. Numbers without a name of their own are of the first one: of antagonists the upper one, which the
- * voltage is of; those side by side have one opening and one voltage. */
+/* Studies `stationary`, `equilibrium` and `limits` of members that share one load: where it is at rest, how stiffly
+ * they hold it, and where it jumps. Numbers without a name of their own are of the first one: of antagonists the upper
+ * one, which the voltage is of; those side by side have one opening and one voltage. */
 #include "study/together.h"
 
 #include <math.h>
@@ -70,16 +70,17 @@ typedef struct Follower {
   ZpResult *result;
   ZpTogether all;
   int points;
-  bool was_stable; /* at the last point */
-  bool crossed;    /* the branch ends where another one crosses it */
-  double crest;    /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
-  double highest;  /* of the voltage on the way, V, */
-  double before;   /* and until the last step */
-  double trough;   /* of the voltage, from which it has not yet gone far up, V; NAN: there is none */
-  double pull_in;  /* V; NAN: there is none */
-  double release;  /* V; the last trough: where one that is closed opens as the voltage falls */
-  double closing;  /* V; NAN: neither has closed */
-  double start;    /* opening of the first one without voltage, m */
+  bool limits_only; /* rows are of limits, not of the branch */
+  bool was_stable;  /* at the last point */
+  bool crossed;     /* the branch ends where another one crosses it */
+  double crest;     /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
+  double highest;   /* of the voltage on the way, V, */
+  double before;    /* and until the last step */
+  double trough;    /* of the voltage, from which it has not yet gone far up, V; NAN: there is none */
+  double pull_in;   /* V; NAN: there is none */
+  double release;   /* V; the last trough: where one that is closed opens as the voltage falls */
+  double closing;   /* V; NAN: neither has closed */
+  double start;     /* opening of the first one without voltage, m */
   double *kept[KEPT], *here;
   ZpMargins margins;
   ZpManyShapes shapes; /* of all */
@@ -160,7 +161,7 @@ static void put_members(Follower *f, double stiffness, double *place) {
 
 static void record(Follower *f) {
   f->was_stable = zp_together_stable(&f->all);
-  if (f->result->study == ZP_STUDY_LIMITS) { /* it tells of its limits; materials see the whole branch */
+  if (f->limits_only) { /* materials see the whole branch */
     shape_of(f);
     return;
   }
@@ -227,7 +228,7 @@ static bool hang(Follower *f) {
 static bool open_follower(Follower *f, size_t rows, size_t frames) {
   size_t members = zp_members(f->model), count = MOST_COLUMNS - OF_EACH * (ZP_MOST_MEMBERS - members);
   bool abreast = f->model->abreast;
-  if (f->result->study == ZP_STUDY_LIMITS)
+  if (f->limits_only)
     f->result->series = zp_table_create(columns_limits, LIMIT_COLUMNS - (abreast ? OF_LOWER : 0), rows);
   else
     f->result->series = zp_table_create(abreast ? columns_abreast : columns_opposed, abreast ? count : OPPOSED, rows);
@@ -239,23 +240,29 @@ static bool open_follower(Follower *f, size_t rows, size_t frames) {
   return true;
 }
 
-/* What a study does once there is a place for its results. */
-static ZpStatus run(const ZpTask *task, size_t rows, size_t frames, void (*find)(Follower *f), ZpResult *result,
-                    ZpError *err) {
+/* What a study does once there is a place for its results, and how large that is. */
+typedef struct Plan {
+  void (*find)(Follower *f);
+  size_t rows, frames;
+  bool limits_only;
+} Plan;
+
+static ZpStatus run(Plan plan, const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Follower f = {.model = model,
                 .task = task,
                 .result = result,
+                .limits_only = plan.limits_only,
                 .crest = NAN,
                 .trough = NAN,
                 .release = NAN,
                 .pull_in = NAN,
                 .closing = NAN,
                 .margins = zp_margins_none()};
-  if (open_follower(&f, rows, frames))
-    find(&f);
+  if (open_follower(&f, plan.rows, plan.frames))
+    plan.find(&f);
   else
     status = zp_fail_memory(err);
   zp_together_close(&f.all);
@@ -274,7 +281,7 @@ static void find_rest(Follower *f) {
 }
 
 ZpStatus zp_together_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  return run(task, 2, 2, find_rest, result, err);
+  return run((Plan){find_rest, 2, 2, false}, task, result, err);
 }
 
 /* -- equilibrium ------------------------------------------------------------------------------------ */
@@ -294,22 +301,18 @@ static double pass_limit(Follower *f) {
   return zp_branch_limit(&f->all.branch, visit_limit, f);
 }
 
-/* Where the voltage was highest before it began to fall, V; NAN: it does not fall. */
-static double crest_of(Follower *f, double last, bool rose) {
-  if (!(f->all.branch.direction_m < 0)) return NAN;
-  return rose ? pass_limit(f) : last;
-}
-
 /* A limit point is a crest of the voltage. The load pulls in at the first one from which the branch goes down by more
  * than the ripple of a mesh => pull_in. */
-static void look_for_crest(Follower *f, double last, bool rose) {
-  double voltage = upper(f)->U, crest = crest_of(f, last, rose);
+static void look_for_crest(Follower *f, bool rose) {
+  double voltage = upper(f)->U, crest = rose && f->all.branch.direction_m < 0 ? pass_limit(f) : NAN;
   if (crest > f->highest) keep(f, PASSED, HIGHEST);
   f->highest = fmax(f->highest, fmax(voltage, crest));
   if (!isnan(f->pull_in)) return;
-  if (isnan(f->crest) && !isnan(crest)) keep(f, PASSED, CREST);
-  if (isnan(f->crest)) f->crest = crest;
-  if (voltage > f->crest) f->crest = NAN;
+  if (fmax(voltage, crest) > f->crest) f->crest = NAN;
+  if (isnan(f->crest) && !isnan(crest)) {
+    f->crest = crest;
+    keep(f, PASSED, CREST);
+  }
   if (!(voltage < (1 - ZP_FOLD_RIPPLE) * f->crest)) return;
   f->pull_in = f->crest;
   keep(f, CREST, PULL_IN);
@@ -317,14 +320,16 @@ static void look_for_crest(Follower *f, double last, bool rose) {
 
 /* A limit point may be a trough of the voltage, too. Where one of both is closed at drive.voltage, a slowly falling
  * voltage comes to the last one from which the branch goes up by more than the ripple of a mesh => release. */
-static void look_for_trough(Follower *f, double last, bool rose) {
-  double voltage = upper(f)->U;
-  bool turned = !rose && f->all.branch.direction_m > 0;
-  if (turned) f->trough = fmin(pass_limit(f), fmin(last, voltage));
-  if (turned) keep(f, PASSED, TROUGH);
-  if (voltage < f->trough) f->trough = NAN;
+static void look_for_trough(Follower *f, bool rose) {
+  double voltage = upper(f)->U, trough = !rose && f->all.branch.direction_m > 0 ? pass_limit(f) : NAN;
+  if (fmin(voltage, trough) < f->trough) f->trough = NAN;
+  if (isnan(f->trough) && !isnan(trough)) {
+    f->trough = trough;
+    keep(f, PASSED, TROUGH);
+  }
   if (!(voltage * (1 - ZP_FOLD_RIPPLE) > f->trough)) return;
   f->release = f->trough;
+  f->trough = NAN;
   keep(f, TROUGH, RELEASE);
 }
 
@@ -384,8 +389,8 @@ static bool advance(Follower *f) {
     return true;
   }
   if (upper(f)->U < 0) return true;
-  look_for_crest(f, last, rose);
-  look_for_trough(f, last, rose);
+  look_for_crest(f, rose);
+  look_for_trough(f, rose);
   look_for_closing(f, last, left);
   bool top = is_beyond_top(f);
   if (top) arrive(f);
@@ -474,7 +479,8 @@ static void find_equilibria(Follower *f) {
 
 ZpStatus zp_together_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = task->def;
-  return run(task, (size_t)def->output.samples, (size_t)def->output.shapes, find_equilibria, result, err);
+  const Plan plan = {find_equilibria, (size_t)def->output.samples, (size_t)def->output.shapes, false};
+  return run(plan, task, result, err);
 }
 
 /* -- limits ------------------------------------------------------------------------------------------- */
@@ -522,5 +528,5 @@ static void find_limits(Follower *f) {
 }
 
 ZpStatus zp_together_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
-  return run(task, LIMITS, LIMITS, find_limits, result, err);
+  return run((Plan){find_limits, LIMITS, LIMITS, true}, task, result, err);
 }
