@@ -264,6 +264,24 @@ START_TEST(limits_have_their_states) {
 }
 END_TEST
 
+/* Thick ribbons close without a jump, the upper one or the lower one: where the opening is a hundredth of that without
+ * voltage. */
+START_TEST(one_closes_gradually) {
+  static const double ratio[] = {0, 3};
+  ZpActuatorDef def =
+      DEF({"stack.series", 2}, {"stack.distance", 0.2e-3}, {"ribbon.thickness", 300e-6}, {"load.mass", 1e-3},
+          {"mesh.nodes", 31}, {"drive.voltage", 3e3}, {"stack.voltage_ratio", ratio[_i]});
+  static const char *const names[] = {"opening_m", "lower_opening_m"};
+  ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_assert_uint_eq(limits->series->rows, 1);
+  ck_assert_double_eq(zp_table_get(limits->series, 0, "limit"), 1);
+  ck_assert_double_eq(zp_table_get(limits->series, 0, "voltage_V"), zp_result_get(limits, "closing_voltage_V"));
+  ck_near(zp_table_get(limits->series, 0, names[_i]), 0.01 * answered_value(ZP_STUDY_STATIONARY, &def, names[_i]),
+          1e-9);
+  zp_result_destroy(limits);
+}
+END_TEST
+
 /* -- small motions --------------------------------------------------------------------------------- */
 
 /* Two alike in the middle move with the load as one does with half of it, held at that opening by a constant force:
@@ -477,6 +495,7 @@ int main(void) {
   tcase_add_test(rest, it_opens_as_alone_under_the_pull_of_the_other);
   tcase_add_test(rest, pull_in_is_where_slopes_cancel);
   tcase_add_test(rest, limits_have_their_states);
+  tcase_add_loop_test(rest, one_closes_gradually, 0, 2);
   tcase_add_loop_test(rest, two_swing_as_one_with_half_the_load, 0, 2);
   tcase_add_test(rest, heavy_load_swings_on_both_stiffnesses);
   tcase_add_test(rest, voltage_softens_both);

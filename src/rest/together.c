@@ -456,9 +456,12 @@ bool zp_together_limit(ZpTogether *all) {
 }
 
 bool zp_together_closing(ZpTogether *all, double least, double most) {
+  enum { MOST = 4 }; /* tries: where faces meet, Newton's method takes more steps than one has */
+  bool found = false;
   all->fold.tolerance = tolerance_of(all);
   save(all, all->branch.saved_before);
-  bool found = zp_fold_event(&all->fold, left_by_load, 0, ZP_FOLD_EXACT);
+  for (int k = 0; k < MOST && !found; k++)
+    found = zp_fold_event(&all->fold, left_by_load, 0, ZP_FOLD_EXACT);
   return keep_near(all, found, least, most);
 }
 

@@ -60,8 +60,9 @@ enum {
 };
 _Static_assert((int)MOST_COLUMNS > (int)OPPOSED, "a row has room for the columns of either");
 
-/* States that are kept: where the limits are, and limit points of which it is not yet known whether they are one. */
-typedef enum Kept { PULL_IN, CLOSING, RELEASE, PASSED, CREST, HIGHEST, TROUGH, KEPT } Kept;
+/* States that are kept: where the limits are, limit points of which it is not yet known whether they are one, and where
+ * the last step began. */
+typedef enum Kept { PULL_IN, CLOSING, RELEASE, PASSED, CREST, HIGHEST, TROUGH, BEFORE, KEPT } Kept;
 enum { LIMITS = RELEASE + 1 };
 
 typedef struct Follower {
@@ -333,11 +334,19 @@ static void look_for_trough(Follower *f, bool rose) {
   keep(f, TROUGH, RELEASE);
 }
 
+/* Solve for where one has closed, from the end of the last step, or else from its beginning. */
+static bool solve_closing(Follower *f, double last, double here) {
+  double least = fmin(last, here), most = fmax(last, here);
+  if (zp_together_closing(&f->all, least, most)) return true;
+  zp_together_go_to(&f->all, f->kept[BEFORE]);
+  return zp_together_closing(&f->all, least, most);
+}
+
 /* Within the last step, which began with so much left, one has closed => CLOSING; the voltage there, V. */
 static double voltage_of_closing(Follower *f, double last, double was_left) {
   double here = upper(f)->U, share = was_left / (was_left - zp_together_left(&f->all));
   zp_together_save(&f->all, f->here);
-  bool solved = zp_together_closing(&f->all, fmin(last, here), fmax(last, here));
+  bool solved = solve_closing(f, last, here);
   double voltage = solved ? upper(f)->U : last + share * (here - last);
   zp_together_save(&f->all, f->kept[CLOSING]);
   zp_together_go_to(&f->all, f->here);
@@ -384,6 +393,7 @@ static bool advance(Follower *f) {
   double last = upper(f)->U, left = zp_together_left(&f->all);
   bool rose = f->all.branch.direction_m > 0;
   f->before = f->highest;
+  zp_together_save(&f->all, f->kept[BEFORE]);
   if (!zp_branch_advance(&f->all.branch)) {
     end_at_crossing(f);
     return true;
