@@ -47,10 +47,13 @@ PICTURES = {
     "stack-modes.svg": "stack-modes/plots/modes.svg",
     "antagonists.svg": "antagonists/plots/shapes.svg",
     "pre-opened.svg": "pre-opened/plots/shapes.svg",
+    "coil-set.svg": "coil-set/plots/strokes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
     "hinge.svg": "hinge-torque/plots/torques.svg",
     "yielding.svg": "yielding/plots/plastic.svg",
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
+    "off-centre.svg": "off-centre/plots/profiles.svg",
+    "held-clip.svg": "held-clip/plots/profiles.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 

@@ -167,10 +167,13 @@ START_TEST(forces_of_each_alone_balance) {
 }
 END_TEST
 
-/* Half the difference of the force of one alone over a small way, N/m. */
-static double slope_of(const ZpActuatorDef *one, double opening, double voltage) {
-  static const double way = 20e-6; /* m */
+/* Half the difference of the force of one alone over a small way (m), N/m. */
+static double slope_over(const ZpActuatorDef *one, double opening, double voltage, double way) {
   return (pull_of(*one, opening + way, voltage) - pull_of(*one, opening - way, voltage)) / (2 * way);
+}
+
+static double slope_of(const ZpActuatorDef *one, double opening, double voltage) {
+  return slope_over(one, opening, voltage, 20e-6);
 }
 
 /* In the middle the stiffness is the sum of both, less what the field takes: twice that of one alone, with the other
@@ -209,6 +212,138 @@ START_TEST(it_opens_as_alone_under_the_pull_of_the_other) {
   upper.load.force = pull_without_voltage(alone(&def, true), 20e-3);
   ck_near(answered_value(ZP_STUDY_EQUILIBRIUM, &def, "release_voltage_V"),
           answered_value(ZP_STUDY_LIMITS, &upper, "release_voltage_V"), 1e-3);
+}
+END_TEST
+
+/* Limits are those of the curve. */
+static void ck_as_curve(const ZpActuatorDef *def, const ZpResult *limits) {
+  static const char *const names[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
+  ZpResult *curve = answer_of(ZP_STUDY_EQUILIBRIUM, def);
+  for (size_t k = 0; k < LENGTH_OF(names); k++)
+    ck_near(zp_result_get(limits, names[k]), zp_result_get(curve, names[k]), 1e-6);
+  ck_near(zp_result_get(limits, "max_stress_Pa"), zp_result_get(curve, "max_stress_Pa"), 1e-9);
+  zp_result_destroy(curve);
+}
+
+/* The load jumps where the forces of both, each of that one alone by study isometric, are equal and have slopes that
+ * cancel: the pull-in of the upper one while the lower one has its own voltage. Eqs. (31.2), (31.4). */
+START_TEST(pull_in_is_where_slopes_cancel) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.lower_voltage", 1.5e3},
+                          {"member_2.ribbon.thickness", 60e-6}),
+                upper = alone(&def, false), lower = alone(&def, true);
+  ZpResult *result = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_as_curve(&def, result);
+  double voltage = zp_table_get(result->series, 0, "voltage_V"), x = zp_table_get(result->series, 0, "opening_m"),
+         y = zp_table_get(result->series, 0, "lower_opening_m");
+  ck_assert_double_eq(voltage, zp_result_get(result, "pull_in_voltage_V"));
+  ck_assert_double_eq(zp_table_get(result->series, 0, "lower_voltage_V"), 1.5e3);
+  ck_near(pull_of(upper, x, voltage) - pull_of(lower, y, 1.5e3), def.load.mass * def.gravity, 1e-5);
+  static const double way = 1e-6; /* m: where one begins to zip the slope changes within a hundredth of a millimetre */
+  ck_near(slope_over(&upper, x, voltage, way), -slope_over(&lower, y, 1.5e3, way), 1e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* While it is closed, and as it opens, the numbers of the limits are those of the states that they have. */
+START_TEST(limits_have_their_states) {
+  ZpActuatorDef def =
+      DEF(BOTH, {"mesh.nodes", 61}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
+  ZpResult *result = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_as_curve(&def, result);
+  ck_assert_uint_eq(result->series->rows, 3);
+  ck_assert_double_eq(zp_table_get(result->series, 1, "voltage_V"), zp_result_get(result, "closing_voltage_V"));
+  ck_assert_double_eq(zp_table_get(result->series, 2, "voltage_V"), zp_result_get(result, "release_voltage_V"));
+  ck_assert_double_lt(zp_table_get(result->series, 2, "opening_m"), 0.2e-3);
+  for (size_t row = 0; row < 3; row++)
+    ck_near(zp_table_get(result->series, row, "opening_m") + zp_table_get(result->series, row, "lower_opening_m"),
+            20e-3, 1e-9);
+  ck_assert_double_gt(zp_result_get(result, "travel_m"), 12e-3);
+  ZpActuatorDef one = alone(&def, false);
+  ck_near(zp_result_get(result, "mass_kg"), 2 * answered_value(ZP_STUDY_LIMITS, &one, "mass_kg"), 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Thick ribbons close without a jump, the upper one or the lower one: where the opening is a hundredth of that without
+ * voltage. */
+START_TEST(one_closes_gradually) {
+  static const double ratio[] = {0, 3};
+  ZpActuatorDef def =
+      DEF({"stack.series", 2}, {"stack.distance", 0.2e-3}, {"ribbon.thickness", 300e-6}, {"load.mass", 1e-3},
+          {"mesh.nodes", 31}, {"drive.voltage", 3e3}, {"stack.voltage_ratio", ratio[_i]});
+  static const char *const names[] = {"opening_m", "lower_opening_m"};
+  ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_assert_uint_eq(limits->series->rows, 1);
+  ck_assert_double_eq(zp_table_get(limits->series, 0, "limit"), 1);
+  ck_assert_double_eq(zp_table_get(limits->series, 0, "voltage_V"), zp_result_get(limits, "closing_voltage_V"));
+  ck_near(zp_table_get(limits->series, 0, names[_i]), 0.01 * answered_value(ZP_STUDY_STATIONARY, &def, names[_i]),
+          1e-9);
+  zp_result_destroy(limits);
+}
+END_TEST
+
+/* -- small motions --------------------------------------------------------------------------------- */
+
+/* Two alike in the middle move with the load as one does with half of it, held at that opening by a constant force:
+ * without and with a voltage. */
+START_TEST(two_swing_as_one_with_half_the_load) {
+  static const double voltage[] = {0, 2e3};
+  ZpActuatorDef both = DEF(BOTH, {"gravity", 0}, {"load.mass", 1e-3}, {"liquid.model", ZP_LIQUID_NONE},
+                           {"modes.voltage", voltage[_i]}),
+                one = alone(&both, false);
+  one.load.force = voltage[_i] > 0 ? pull_of(one, 10e-3, voltage[_i]) : pull_without_voltage(one, 10e-3);
+  one.load.mass = 0.5 * both.load.mass;
+  ck_near(answered_value(ZP_STUDY_MODES, &both, "frequency_1_Hz"),
+          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 1e-6);
+}
+END_TEST
+
+/* A heavy load between unlike light ones is a mass on the stiffness that study equilibrium finds, whose two terms the
+ * voltages reduce; for small openings it is that of beams. Eqs. (31.4), (31.6). */
+START_TEST(heavy_load_swings_on_both_stiffnesses) {
+  ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"ribbon.density", 1}, {"insulator.density", 0}, {"load.mass", 1},
+                          {"drive.voltage", 1.5e3}, {"modes.voltage", 1.5e3}, {"stack.voltage_ratio", 0.6},
+                          {"member_2.ribbon.thickness", 60e-6}, {"liquid.model", ZP_LIQUID_NONE});
+  double stiffness = last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m");
+  ck_near(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), sqrt(stiffness / def.load.mass) / (2 * pi), 1e-5);
+  ZpActuatorDef beams = DEF({"stack.series", 2}, {"stack.distance", 0.4e-3}, {"ribbon.density", 1},
+                            {"insulator.density", 0}, {"insulator.young_modulus", 0}, {"load.mass", 1}, {"gravity", 0});
+  const double nu = beams.ribbon.poisson_ratio, b = beams.ribbon.thickness,
+               L = 0.5 * (beams.ribbon.length - beams.platform.length);
+  double EI = beams.ribbon.young_modulus / (1 - nu * nu) * beams.ribbon.width * b * b * b / 12;
+  ck_near(answered_value(ZP_STUDY_MODES, &beams, "frequency_1_Hz"), sqrt(24 * EI / (L * L * L)) / (2 * pi), 1e-3);
+}
+END_TEST
+
+/* A small voltage makes the load swing about where it is then at rest: after one and a quarter periods of the lowest
+ * mode it passes there. Ribbons and load have their masses, so the period is that of all. */
+START_TEST(period_of_a_swing_is_that_of_the_mode) {
+  ZpActuatorDef def =
+      DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 500}, {"modes.voltage", 500}, {"stack.voltage_ratio", 0},
+          {"member_2.ribbon.thickness", 60e-6}, {"liquid.model", ZP_LIQUID_NONE}, {"solver.tolerance", 1e-6});
+  ZpResult *curve = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  double start = zp_table_get(curve->series, 0, "opening_m"),
+         rest = zp_table_get(curve->series, curve->series->rows - 1, "opening_m");
+  zp_result_destroy(curve);
+  def.solver.end_time = 1.25 / answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz");
+  ck_assert_double_eq_tol((answered_value(ZP_STUDY_ACTUATE, &def, "opening_m") - rest) / (rest - start), 0, 0.02);
+}
+END_TEST
+
+/* Above the pull-in there are no modes, and the message names the voltage; below they fall towards it. */
+START_TEST(voltage_softens_both) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0},
+                          {"liquid.model", ZP_LIQUID_NONE});
+  double without = answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"),
+         pull_in = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
+  def.modes.voltage = 0.9999 * pull_in;
+  ck_assert_double_lt(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), 0.5 * without);
+  def.modes.voltage = 1.001 * pull_in;
+  ZpResult *result = study_of(ZP_STUDY_MODES, &def);
+  ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
+  ck_assert_double_nan(zp_result_get(result, "frequency_1_Hz"));
+  ck_assert_msg(strstr(result->message, "modes.voltage"), "%s", result->message);
+  zp_result_destroy(result);
 }
 END_TEST
 
@@ -327,8 +462,8 @@ START_TEST(what_antagonists_lack_is_said) {
       {{{"stack.lower_voltage", 1e3}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
       {{{"stack.voltage_ratio", 0.5}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
       {{{"stack.series", 2}, {"stack.distance", 0.2}}, ZP_STUDY_STATIONARY, "span at most"},
-      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_LIMITS, "study limits"},
-      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_MODES, "study modes"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_CYCLE, "study cycle"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_ISOMETRIC, "study isometric"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"stack.link_mass", 1e-3}}, ZP_STUDY_ACTUATE, "load.mass"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"initial.state", ZP_INITIAL_STRAIGHT}},
        ZP_STUDY_ACTUATE,
@@ -358,6 +493,12 @@ int main(void) {
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
   tcase_add_test(rest, one_closes_where_the_way_is_highest);
   tcase_add_test(rest, it_opens_as_alone_under_the_pull_of_the_other);
+  tcase_add_test(rest, pull_in_is_where_slopes_cancel);
+  tcase_add_test(rest, limits_have_their_states);
+  tcase_add_loop_test(rest, one_closes_gradually, 0, 2);
+  tcase_add_loop_test(rest, two_swing_as_one_with_half_the_load, 0, 2);
+  tcase_add_test(rest, heavy_load_swings_on_both_stiffnesses);
+  tcase_add_test(rest, voltage_softens_both);
   tcase_add_test(rest, upside_down_they_change_places);
   tcase_add_test(rest, constant_voltage_is_that_ratio);
   tcase_add_test(rest, what_antagonists_lack_is_said);
@@ -365,6 +506,7 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, at_rest_they_stay, 0, 2);
   tcase_add_test(motion, load_swings_on_both);
+  tcase_add_test(motion, period_of_a_swing_is_that_of_the_mode);
   tcase_add_test(motion, either_one_may_close);
   tcase_add_test(motion, either_one_hits_as_hard);
   tcase_add_loop_test(motion, energy_of_a_zip_against_the_other, 0, 3);

@@ -31,6 +31,16 @@ START_TEST(bowed_ribbons_open) {
 }
 END_TEST
 
+/* A bow in three segments, one after the other, is the same bow: of both ribbons, which are mirror images. */
+START_TEST(segments_follow_each_other) {
+  static const double k = 0.2, a = 9e-3;
+  ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a / 3}, {"segment_1.curvature", k}, {"segment_2.length", a / 3},
+                          {"segment_2.curvature", k}, {"segment_3.length", a / 3}, {"segment_3.curvature", k},
+                          {"segment_2.thickness", 500e-6}, {"segment_3.thickness", 500e-6});
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-5);
+}
+END_TEST
+
 /* Each ribbon has its own curvature; one alone opens by half, and parallel ones do not part. (So little that the clips
  * need not pull the straight one.) */
 START_TEST(each_ribbon_has_its_own_curvature) {
@@ -127,6 +137,7 @@ int main(void) {
   Suite *suite = suite_create("lower");
   TCase *bowed = tcase_create("bowed");
   tcase_add_loop_test(bowed, bowed_ribbons_open, 0, 2);
+  tcase_add_test(bowed, segments_follow_each_other);
   tcase_add_test(bowed, each_ribbon_has_its_own_curvature);
   tcase_add_test(bowed, ribbons_can_be_exchanged);
   suite_add_tcase(suite, bowed);

@@ -174,13 +174,14 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
     Setting setting;
     const char *words;
   } refused[] = {
-      {{"actuator.symmetry", ZP_SYMMETRY_HALF}, "platform.rotates: requires actuator.symmetry none"},
-      {{"platform.length", 0}, "platform.rotates: requires platform.length above 0 m"},
-      {{"platform.electrode", 1}, "platform.rotates: requires platform.electrode false"},
-      {{"liquid.model", ZP_LIQUID_SUBMERGED}, "platform.rotates: requires liquid.model none"},
-      {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates: requires ribbon.plane strain or stress"},
-      {{"ribbon.plasticity", 1}, "platform.rotates: requires ribbon.plasticity false"},
-      {{"load.stop_opening", 5e-3}, "platform.rotates: requires load.stop_opening none"},
+      {{"actuator.symmetry", ZP_SYMMETRY_HALF}, "platform.rotates = true: requires actuator.symmetry none"},
+      {{"platform.length", 0}, "platform.rotates = true: requires platform.length above 0 m"},
+      {{"platform.electrode", 1}, "platform.rotates = true: requires platform.electrode false"},
+      {{"liquid.model", ZP_LIQUID_SUBMERGED},
+       "requires liquid.model none; the liquid between the platforms is modelled for level ones only"},
+      {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates = true: requires ribbon.plane strain or stress"},
+      {{"ribbon.plasticity", 1}, "platform.rotates = true: requires ribbon.plasticity false"},
+      {{"load.stop_opening", 5e-3}, "platform.rotates = true: requires load.stop_opening none"},
       {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: beyond the platform, allowed -0.005 to 0.005 m"},
       {{"platform.rotates", 0}, "load.offset = 0.001 m: requires platform.rotates true"},
   };
@@ -192,10 +193,10 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
   ck_refused(&fixed, "actuator.held_clip = right: requires platform.rotates true");
   ZpActuatorDef def = turning(21, 0);
   def.load.stiffness = 1, def.load.rest_opening = 1e-3;
-  ck_refused(&def, "platform.rotates: requires load.stiffness 0 N/m");
+  ck_refused(&def, "platform.rotates = true: requires load.stiffness 0 N/m");
   def.load.stiffness = 0, def.load.rest_opening = NAN;
   def.load.change_mass = 1e-3, def.load.change_time = 1e-3;
-  ck_refused(&def, "platform.rotates: requires load.change_mass 0 kg");
+  ck_refused(&def, "platform.rotates = true: requires load.change_mass 0 kg");
   ZpActuatorDef held = turning(21, 0);
   ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates: study isometric requires false");
 }

@@ -4,6 +4,7 @@
 
 #include "actuator/model.h"
 #include "def/check.h"
+#include "rest/chain.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
 START_TEST(weightless_series_pulls_in_as_one) {
@@ -28,6 +29,7 @@ START_TEST(members_carry_those_below) {
   one.stack.link_mass = 0;
   double own = answered_value(ZP_STUDY_LIMITS, &one, "mass_kg"), openings = 0;
   const ZpActuatorDef *def = &one;
+  ck_near(answered_value(ZP_STUDY_LIMITS, &series, "mass_kg"), 3 * own + 2 * series.stack.link_mass, 1e-9);
   /* the platforms' strips are in the mass, but without weight */
   own -= 2 * def->ribbon.density * def->ribbon.width * def->ribbon.thickness * def->platform.length;
   own -= 2 * def->insulator.density * def->ribbon.width * def->insulator.thickness * def->platform.length;
@@ -87,6 +89,12 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
   } same[] = {{ZP_STUDY_STATIONARY, "opening_m", 1e-12},
               {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", 1e-9},
               {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", 1e-5}, /* points of the branch lie elsewhere */
+              {ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-8},      /* of equal ones without following the curve */
+              {ZP_STUDY_LIMITS, "closing_voltage_V", 1e-8},
+              {ZP_STUDY_LIMITS, "release_voltage_V", 1e-8},
+              {ZP_STUDY_LIMITS, "travel_m", 1e-8},
+              {ZP_STUDY_LIMITS, "mass_kg", 1e-12},
+              {ZP_STUDY_MODES, "frequency_1_Hz", 1e-9},
               {ZP_STUDY_ACTUATE, "opening_m", 1e-9}};
   ZpActuatorDef all = alike(counts[_i], 4e-3 * counts[_i]);
   all.mesh.nodes = 61; /* without ripples on the branch */
@@ -241,8 +249,6 @@ START_TEST(what_unlike_ones_lack_is_said) {
     ZpStudy study;
     const char *says;
   } refused[] = {
-      {{"mesh.nodes", 21}, ZP_STUDY_LIMITS, "study limits does not know them"},
-      {{"mesh.nodes", 21}, ZP_STUDY_MODES, "study modes does not know them"},
       {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not know them"},
       {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "study isometric does not know them"},
       {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not know them"},
@@ -417,6 +423,67 @@ START_TEST(chain_of_springs_and_masses) {
 }
 END_TEST
 
+/* The numbers of limits are those of the states at them: where a mesh that zips joint by joint makes ripples on the
+ * branch the pull-in is the highest of these, and one that closes gradually has then a hundredth of its opening. */
+START_TEST(limits_of_unlike_ones_are_at_their_states) {
+  static const double thickness[] = {100e-6, 200e-6};
+  ZpActuatorDef def = DEF({"stack.parallel", 2 + !_i}, {"member_2.ribbon.thickness", thickness[_i]}, {"mesh.nodes", 31},
+                          {"drive.voltage", 8e3});
+  ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  static const char *const names[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
+  ck_assert_uint_eq(limits->series->rows, LENGTH_OF(names));
+  for (size_t k = 0; k < LENGTH_OF(names); k++)
+    ck_assert_double_eq(zp_table_get(limits->series, k, "voltage_V"), zp_result_get(limits, names[k]));
+  double hanging = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
+  if (_i) ck_near(zp_table_get(limits->series, 1, "opening_m"), 0.01 * hanging, 1e-9);
+  zp_result_destroy(limits);
+}
+END_TEST
+
+/* Gaps in the shapes of modes are those of the moved ribbons, of each member. */
+START_TEST(gaps_of_modes_are_those_of_their_shapes) {
+  ZpActuatorDef def =
+      DEF({_i ? "stack.parallel" : "stack.series", 2}, {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 21});
+  ZpResult *modes = answer_of(ZP_STUDY_MODES, &def);
+  const ZpShapes *film = modes->shapes;
+  ck_assert_uint_ge(film->frames, 2);
+  for (size_t frame = 0; frame < film->frames; frame++) {
+    ZpShape shape = zp_shapes_get(film, frame);
+    for (size_t i = 0; i < film->nodes; i++)
+      ck_assert_double_eq_tol(shape.gap[i], shape.y[2 * i] - shape.y[2 * i + 1], 1e-12);
+  }
+  zp_result_destroy(modes);
+}
+END_TEST
+
+/* However far the voltage goes in one change, a member stays on its branch as long as that lasts: hanging up to its
+ * pull-in, closed down to its release. Newton's method alone may end on another branch. */
+START_TEST(large_changes_stay_on_their_branch) {
+  static const double share[] = {0.3, 0.6, 0.9, 0.97, 0.99, 0.999, 0.9999};
+  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 21}, {"load.mass", 6e-3}, {"drive.voltage", 8e3});
+  ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  double pull_in = zp_result_get(limits, "pull_in_voltage_V"), release = zp_result_get(limits, "release_voltage_V");
+  zp_result_destroy(limits);
+  ZpModel *model = model_of(&def);
+  ZpChain chain;
+  ck_assert(zp_chain_open(&chain, model, NULL) == ZP_OK);
+  for (size_t k = 0; k < LENGTH_OF(share); k++) {
+    double hanging[2];
+    ck_assert(zp_chain_hang(&chain) && zp_chain_raise(&chain, share[k] * pull_in));
+    for (size_t i = 0; i < 2; i++)
+      hanging[i] = zp_statics_opening(&chain.of[i].statics);
+    ck_assert(zp_chain_hang(&chain) && zp_chain_change(&chain, share[k] * pull_in));
+    for (size_t i = 0; i < 2; i++)
+      ck_near(zp_statics_opening(&chain.of[i].statics), hanging[i], 1e-6);
+    ck_assert(zp_chain_change(&chain, 8e3) && zp_chain_change(&chain, release / share[k]));
+    for (size_t i = 0; i < 2; i++)
+      ck_assert_double_lt(zp_statics_opening(&chain.of[i].statics), 0.3e-3);
+  }
+  zp_chain_close(&chain);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A member that hardly bends is a mass on the one above it. */
 START_TEST(stiff_member_is_a_mass) {
   ZpActuatorDef series = DEF({"stack.series", 2}, {"member_2.ribbon.thickness", 2e-3}, {"mesh.nodes", 31}),
@@ -555,6 +622,9 @@ int main(void) {
   tcase_add_test(rest, what_unlike_ones_lack_is_said);
   tcase_add_test(rest, members_rest_together_as_alone);
   tcase_add_test(rest, members_close_and_open_one_by_one);
+  tcase_add_loop_test(rest, limits_of_unlike_ones_are_at_their_states, 0, 2);
+  tcase_add_loop_test(rest, gaps_of_modes_are_those_of_their_shapes, 0, 2);
+  tcase_add_test(rest, large_changes_stay_on_their_branch);
   tcase_add_test(rest, chain_of_springs_and_masses);
   tcase_add_test(rest, stiff_member_is_a_mass);
   tcase_add_test(rest, voltage_softens_a_series);

@@ -156,12 +156,25 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   return say(web, ZP_BAD_INPUT, message);
 }
 
+/* Does gravity pull both halves to one side? */
+static bool halves_differ(const ZpActuatorDef *def) {
+  static const double rounding = 1e-6; /* of its sideways part */
+  return fabs(sin(def->mount.tilt)) > rounding;
+}
+
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "this page shows actuator.kind electro_ribbon; the command knows the others");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs study actuate, and equilibrium beside it; the command knows more");
+  if (zp_def_members(def) > 1)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page shows one actuator; the command knows stack.series, stack.distance and keys of member_K");
+  if (def->platform.rotates || halves_differ(def))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page draws one half and its mirror image; the command knows platform.rotates and a mount.tilt "
+                   "other than 0 and 180 degree");
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page has buttons for the voltage; the command knows more of drive.waveform");

@@ -994,18 +994,25 @@ static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
   const struct {
     bool acts;
-    const char *needed;
-  } refused[] = {{def->actuator.symmetry != ZP_SYMMETRY_NONE, "actuator.symmetry none"},
-                 {def->platform.length == 0, "platform.length above 0 m"},
-                 {def->platform.electrode, "platform.electrode false"},
-                 {zp_def_liquid(def) != ZP_LIQUID_NONE, "liquid.model none"},
-                 {def->ribbon.plane == ZP_PLANE_ANTICLASTIC, "ribbon.plane strain or stress"},
-                 {def->ribbon.plasticity, "ribbon.plasticity false"},
-                 {def->load.stiffness > 0, "load.stiffness 0 N/m"},
-                 {!isnan(def->load.stop_opening), "load.stop_opening none"},
-                 {def->load.change_mass != 0, "load.change_mass 0 kg"}};
+    const char *needed, *reason;
+  } refused[] = {
+      {def->actuator.symmetry != ZP_SYMMETRY_NONE, "actuator.symmetry none",
+       "the platform of a symmetric half is level"},
+      {def->platform.length == 0, "platform.length above 0 m", "a platform without length has no angle"},
+      {def->platform.electrode, "platform.electrode false",
+       "the attraction of platforms is modelled for level ones only"},
+      {zp_def_liquid(def) != ZP_LIQUID_NONE, "liquid.model none",
+       "the liquid between the platforms is modelled for level ones only"},
+      {def->ribbon.plane == ZP_PLANE_ANTICLASTIC, "ribbon.plane strain or stress",
+       "the curl across the strip is modelled beside level platforms only"},
+      {def->ribbon.plasticity, "ribbon.plasticity false", "yielding is modelled beside level platforms only"},
+      {def->load.stiffness > 0, "load.stiffness 0 N/m", "the spring is modelled for level platforms only"},
+      {!isnan(def->load.stop_opening), "load.stop_opening none", "the stop is modelled for level platforms only"},
+      {def->load.change_mass != 0, "load.change_mass 0 kg", "the impact is modelled for level platforms only"}};
   for (size_t k = 0; def->platform.rotates && k < sizeof refused / sizeof refused[0]; k++)
-    if (refused[k].acts) return zp_fail(err, ZP_BAD_INPUT, "platform.rotates: requires %s", refused[k].needed);
+    if (refused[k].acts)
+      return zp_fail(err, ZP_BAD_INPUT, "platform.rotates = true: requires %s; %s", refused[k].needed,
+                     refused[k].reason);
   return ZP_OK;
 }
 

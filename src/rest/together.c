@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "def/check.h"
+#include "rest/closing.h"
 #include "solve/descend.h"
 
 static ZpStatics *member(const ZpTogether *all, size_t which) {
@@ -62,8 +63,7 @@ static void add(const ZpTogether *all, size_t which, const double *own, double *
     r[place_of(all, which, i)] += sign_of(all, which, i) * own[i];
 }
 
-/* A step of all as one of each. */
-static void part(const ZpTogether *all, const double *step) {
+void zp_together_part(const ZpTogether *all, const double *step) {
   for (size_t which = 0; which < all->count; which++)
     for (size_t i = 0; i < own_count(all, which); i++)
       all->step[which][i] = sign_of(all, which, i) * step[place_of(all, which, i)];
@@ -134,7 +134,7 @@ static void stiffness(void *self, ZpBand *K, double *r) {
 /* The largest of a measure of a step, over all members. */
 static double largest_of(ZpTogether *all, const double *step, double (*measure)(void *self, const double *step)) {
   double largest = 0;
-  part(all, step);
+  zp_together_part(all, step);
   for (size_t which = 0; which < all->count; which++)
     largest = fmax(largest, measure(member(all, which), all->step[which]));
   return largest;
@@ -154,7 +154,7 @@ static double change(void *self, const double *step) {
 static void move(void *self, const double *step, double fraction) {
   ZpTogether *all = self;
   double height[ZP_MOST_MEMBERS] = {0}, missed[ZP_MOST_MEMBERS] = {0}, mean = 0;
-  part(all, step);
+  zp_together_part(all, step);
   for (size_t which = 0; which < all->count; which++) {
     all->alone[which].move(member(all, which), all->step[which], fraction);
     height[which] = -zp_statics_opening(member(all, which));
@@ -254,6 +254,7 @@ static void carve_all(ZpTogether *all, ZpCarver *carver) {
     form.rank += member(all, which)->form.rank;
   }
   zp_branch_carve(&all->branch, &all->system, form, carver);
+  zp_fold_carve(&all->fold, &all->system, form, &all->branch.newton, carver);
 }
 
 bool zp_together_open(ZpTogether *all, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user) {
@@ -348,18 +349,21 @@ ZpNewtonInfo zp_together_hang(ZpTogether *all) {
 
 /* Has the load gone so far that this is another branch? */
 static bool has_jumped(const ZpTogether *all, double opening) {
-  static const double part = 0.02; /* of what all openings sum up to */
-  return fabs(zp_statics_opening(member(all, 0)) - opening) > part * all->distance;
+  static const double part = 0.02; /* of what the openings of antagonists sum up to, else of the length */
+  double whole = all->distance > 0 ? all->distance : first_model(all)->L;
+  return fabs(zp_statics_opening(member(all, 0)) - opening) > part * whole;
 }
 
-bool zp_together_bias(ZpTogether *all) {
+/* From a stable state along its branch, as the voltage that `put` sets grows from 0 to `whole`. False if the branch
+ * ends before. */
+static bool grow(ZpTogether *all, void (*put)(void *all, double voltage), double whole) {
   static const double longest = 0.05, shortest = 1e-6; /* shares of the square of the voltage */
-  double whole = zp_opposed_voltage(member(all, 0)->model, 0), reached = 0, step = longest;
+  double reached = 0, step = longest;
   void *good = all->branch.saved;
   save(all, good);
   while (whole > 0 && reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1), opening = zp_statics_opening(member(all, 0));
-    member(all, 1)->U = whole * sqrt(share);
+    put(all, whole * sqrt(share));
     bool found = zp_newton_good(newton(all).end) && !has_jumped(all, opening);
     if (found && zp_together_stable(all)) {
       reached = share;
@@ -373,6 +377,18 @@ bool zp_together_bias(ZpTogether *all) {
   return whole == 0 || reached == 1;
 }
 
+static void set_lower(void *self, double voltage) {
+  member(self, 1)->U = voltage;
+}
+
+bool zp_together_bias(ZpTogether *all) {
+  return grow(all, set_lower, zp_opposed_voltage(first_model(all), 0));
+}
+
+bool zp_together_raise(ZpTogether *all, double voltage) {
+  return grow(all, set, voltage) && zp_together_stable(all);
+}
+
 ZpNewtonInfo zp_together_settle(ZpTogether *all, double voltage) {
   set(all, voltage);
   return newton(all);
@@ -381,6 +397,87 @@ ZpNewtonInfo zp_together_settle(ZpTogether *all, double voltage) {
 bool zp_together_follow(ZpTogether *all) {
   static const double first = 0.01, longest = 0.1; /* as of one alone, rest/rest.c */
   return zp_branch_start(&all->branch, true, first, longest, 2 * tolerance_of(all));
+}
+
+/* -- limits of the branch ----------------------------------------------------------------------------- */
+
+void zp_together_start(ZpTogether *all) {
+  for (size_t which = 0; which < all->count; which++)
+    all->closed[which] = zp_closing_limit(member(all, which), zp_statics_opening(member(all, which)));
+}
+
+/* Whose closing counts => how far it is from that. */
+static size_t closing_one(const ZpTogether *all, double *left) {
+  size_t found = 0;
+  for (size_t which = 0; which < all->count; which++) {
+    double own = zp_statics_opening(member(all, which)) - all->closed[which];
+    bool counts = which == 0 || (own < *left) == (all->distance > 0);
+    if (counts) found = which;
+    if (counts) *left = own;
+  }
+  return found;
+}
+
+double zp_together_left(const ZpTogether *all) {
+  double left = 0;
+  closing_one(all, &left);
+  return left;
+}
+
+/* An opening is the load's height below the platform, or above that of an antagonist. */
+static double left_by_load(void *self, double *row) {
+  ZpTogether *all = self;
+  double left = 0;
+  size_t which = closing_one(all, &left);
+  memset(row, 0, all->system.at_rest.n * sizeof *row);
+  row[place_of(all, 0, own_load(all, 0))] = -turn_of(all, which);
+  return left;
+}
+
+static bool solve_limit(ZpFold *fold) {
+  if (!zp_fold_tangent(fold)) return false;
+  zp_fold_guess(fold);
+  return zp_fold_solve(fold);
+}
+
+/* Is this what was near, or another one? */
+static bool keep_near(ZpTogether *all, bool found, double least, double most) {
+  if (found && get(all) >= least && get(all) <= most) return true;
+  restore(all, all->branch.saved_before);
+  return false;
+}
+
+bool zp_together_limit(ZpTogether *all) {
+  static const double near = 1e-3; /* of the voltage */
+  double voltage = get(all);
+  all->fold.tolerance = tolerance_of(all);
+  save(all, all->branch.saved_before);
+  return keep_near(all, solve_limit(&all->fold), (1 - near) * voltage, (1 + near) * voltage);
+}
+
+bool zp_together_closing(ZpTogether *all, double least, double most) {
+  enum { MOST = 4 }; /* tries: where faces meet, Newton's method takes more steps than one has */
+  bool found = false;
+  all->fold.tolerance = tolerance_of(all);
+  save(all, all->branch.saved_before);
+  for (int k = 0; k < MOST && !found; k++)
+    found = zp_fold_event(&all->fold, left_by_load, 0, ZP_FOLD_EXACT);
+  return keep_near(all, found, least, most);
+}
+
+/* -- at a point --------------------------------------------------------------------------------------- */
+
+size_t zp_together_save_size(const ZpTogether *all) {
+  return all->system.save_size / sizeof(double);
+}
+
+void zp_together_save(ZpTogether *all, double *state) {
+  save(all, state);
+}
+
+void zp_together_go_to(ZpTogether *all, const double *state) {
+  restore(all, state);
+  zp_together_stable(all);
 }
 
 /* Factor the stiffness at the present point. */
@@ -407,6 +504,17 @@ double zp_together_stiffness(ZpTogether *all) {
   work->r[load] = 1;
   zp_band_solve(&work->K, work->r);
   return member(all, 0)->model->parts / work->r[load];
+}
+
+void zp_together_masses(const ZpTogether *all, double *mass) {
+  memset(mass, 0, all->system.at_rest.n * sizeof *mass);
+  for (size_t which = 0; which < all->count; which++) {
+    const ZpStatics *s = member(all, which);
+    double *own = all->step[which];
+    zp_assembly_masses(&s->assembly, s->model->mass, own);
+    for (size_t i = 0; i < own_count(all, which); i++)
+      mass[place_of(all, which, i)] += own[i];
+  }
 }
 
 double zp_together_force(ZpTogether *all, size_t which) {

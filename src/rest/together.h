@@ -6,6 +6,7 @@
 
 #include "def/check.h"
 #include "rest/rest.h"
+#include "solve/fold.h"
 
 typedef struct ZpTogether {
   size_t count;
@@ -15,6 +16,8 @@ typedef struct ZpTogether {
   double *step[ZP_MOST_MEMBERS]; /* a step of all as one of each */
   ZpBranchSystem system;         /* of all, along the voltage of the first one */
   ZpBranch branch;
+  ZpFold fold;                    /* limit points and events of the branch */
+  double closed[ZP_MOST_MEMBERS]; /* openings below which each counts as closed, m; zp_together_start */
   void *memory;
 } ZpTogether;
 
@@ -34,8 +37,28 @@ ZpNewtonInfo zp_together_hang(ZpTogether *all);
  * way there. */
 bool zp_together_bias(ZpTogether *all);
 
+/* From there on, along the branch, to a voltage of the first one, V, where its stiffness is then factored. False if the
+ * branch ends on the way there. */
+bool zp_together_raise(ZpTogether *all, double voltage);
+
 /* From the present point, which is near, to the equilibrium at a voltage of the upper one, V. */
 ZpNewtonInfo zp_together_settle(ZpTogether *all, double voltage);
+
+/* What counts as closed, from the present openings, which are without voltage. */
+void zp_together_start(ZpTogether *all);
+
+/* How far the nearer one of two antagonists, of those side by side the farthest one, is from counting as closed, m. */
+double zp_together_left(const ZpTogether *all);
+
+/* From the present point, which is near, to a limit point of the voltage, or to where zp_together_left is 0 at a
+ * voltage from `least` to `most`. False if there is none: the present point is then where it was. */
+bool zp_together_limit(ZpTogether *all);
+bool zp_together_closing(ZpTogether *all, double least, double most);
+
+/* A copy of the present point takes so many doubles; the copy; back to it, stiffness factored. */
+size_t zp_together_save_size(const ZpTogether *all);
+void zp_together_save(ZpTogether *all, double *state);
+void zp_together_go_to(ZpTogether *all, const double *state);
 
 /* Start to follow the branch towards a growing voltage; then zp_branch_advance. */
 bool zp_together_follow(ZpTogether *all);
@@ -46,6 +69,12 @@ bool zp_together_stable(ZpTogether *all);
 /* Force per way by which the load comes back, of the whole actuators, all else being at rest, N/m; at the present
  * point. NAN where the stiffness is singular. */
 double zp_together_stiffness(ZpTogether *all);
+
+/* Masses that move, by equation of all => mass [n], kg. */
+void zp_together_masses(const ZpTogether *all, double *mass);
+
+/* A step of all as one of each => step. */
+void zp_together_part(const ZpTogether *all, const double *step);
 
 /* What one of them pulls the load up with at the present point, N; not of antagonists. */
 double zp_together_force(ZpTogether *all, size_t which);

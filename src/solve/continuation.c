@@ -294,7 +294,7 @@ static bool never(void *user) {
   return false;
 }
 
-double zp_branch_limit(ZpBranch *b) {
+double zp_branch_limit(ZpBranch *b, void (*visit)(void *user), void *user) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
   size_t bytes = sys->at_rest.n * sizeof *b->direction;
@@ -302,6 +302,7 @@ double zp_branch_limit(ZpBranch *b) {
   sys->save(self, b->saved);
   memcpy(b->direction_after, b->direction, bytes);
   zp_branch_approach(b, never, NULL);
+  if (visit) visit(user);
   double where = sys->get(self);
   sys->restore(self, b->saved);
   sys->at_rest.residual(self, b->newton.r, NULL);

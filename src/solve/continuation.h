@@ -45,8 +45,9 @@ bool zp_branch_start(ZpBranch *branch, bool growing, double first_step, double l
 bool zp_branch_advance(ZpBranch *branch);
 
 /* After a step over a limit point (direction_m has changed its sign): the parameter at the limit point, to
- * about a millionth. The present point stays. */
-double zp_branch_limit(ZpBranch *branch);
+ * about a millionth. `visit` (may be NULL), with `user`, is called where the present point is as near to it, and may
+ * leave it nearer. Then the present point is where it was. */
+double zp_branch_limit(ZpBranch *branch, void (*visit)(void *user), void *user);
 
 /* After a step within which `passed` (of `user`, who knows the present point) has become true: back to just before it
  * did, or before the limit point if that came first. */

@@ -132,7 +132,7 @@ static void look_at(Holder *h, double direction, bool *turned) {
   if (direction > 0 && h->rest.branch.direction_m < 0) {
     if (!*turned) memcpy(h->edge, h->before, h->rest.system.save_size);
     *turned = true;
-    h->highest = fmax(h->highest, zp_branch_limit(&h->rest.branch));
+    h->highest = fmax(h->highest, zp_branch_limit(&h->rest.branch, NULL, NULL));
   }
   if (h->rest.statics.U <= h->highest || !is_stable(h)) return;
   pass(h, *turned);

@@ -224,8 +224,7 @@ static bool find(Finder *f) {
 
 /* -- the actuator ----------------------------------------------------------------------------------- */
 
-/* Mass of strips and insulators, the platform's included, kg. */
-static double mass_of(const ZpModel *model) {
+double zp_limits_mass(const ZpModel *model) {
   double sum = -zp_load_share(model) * model->def.load.mass, platform = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
@@ -366,7 +365,7 @@ static void derive_all(void *user, ZpSlope *slope, ZpResult *result) {
   double mass = 0, travel = NAN;
   zp_derive_limits(&f->list, slope, result);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
-    if (slope->by.model[k]) mass += slope->by.weight[k] * mass_of(slope->by.model[k]);
+    if (slope->by.model[k]) mass += slope->by.weight[k] * zp_limits_mass(slope->by.model[k]);
   if (f->limits->closes)
     travel = slope_of_opening(f, slope, f->limits->start, zp_pose_load) -
              slope_of_opening(f, slope, f->limits->closed, pose_closed);
@@ -388,7 +387,7 @@ static void run(Finder *f, ZpResult *r) {
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_result_add(r, scalars[k].name, scalars[k].unit, f->limits->limit[k].value);
   zp_result_add(r, "travel_m", "m", travel_of(f));
-  zp_result_add(r, "mass_kg", "kg", mass_of(f->model));
+  zp_result_add(r, "mass_kg", "kg", zp_limits_mass(f->model));
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
   r->outcome = hangs || f->rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);

@@ -27,4 +27,7 @@ struct ZpLimits {
   void *memory;
 };
 
+/* Mass of an actuator's strips and insulators, the platform's included, kg. */
+double zp_limits_mass(const ZpModel *model);
+
 #endif

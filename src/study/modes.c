@@ -72,6 +72,15 @@ double zp_modes_amplitude(const ZpVibration *v, size_t j, double length) {
   return 0.1 * length / largest;
 }
 
+void zp_modes_move(ZpStatics *s, const double *q, const double *u, double amplitude) {
+  const ZpModel *model = s->model;
+  memset(s->q, 0, 2 * model->stride * sizeof *s->q);
+  zp_assembly_scatter(&s->assembly, u, s->q);
+  for (size_t i = 0; i < 2 * model->stride; i++)
+    s->q[i] = q[i] + amplitude * s->q[i];
+  if (model->field) zp_plates_gaps(&model->plates, s->q, s->q + model->stride, &s->eval.plates);
+}
+
 /* -- one actuator ------------------------------------------------------------------------------------ */
 
 typedef struct Problem {
@@ -96,15 +105,9 @@ static void refine(Problem *p) {
 
 /* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
-  const ZpModel *model = p->rest.statics.model;
-  double *q = p->rest.statics.q;
-  memset(q, 0, 2 * model->stride * sizeof *q);
-  zp_assembly_scatter(&p->rest.statics.assembly, p->vibration.u + j * p->vibration.n, q);
-  for (size_t k = 0; k < 2 * model->stride; k++)
-    q[k] = p->q[k] + amplitude * q[k];
-  if (model->field) zp_plates_gaps(&model->plates, q, q + model->stride, &p->rest.statics.eval.plates);
+  zp_modes_move(&p->rest.statics, p->q, p->vibration.u + j * p->vibration.n, amplitude);
   ZpShape shape = zp_statics_shape(&p->rest.statics, frame, &p->rest.shape_room);
-  if (frame == 0) p->margins = zp_margins_of(model, &shape);
+  if (frame == 0) p->margins = zp_margins_of(p->rest.statics.model, &shape);
   zp_shapes_offer(shapes, &shape);
 }
 

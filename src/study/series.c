@@ -200,7 +200,7 @@ void zp_members_say(const ZpMembers *members, const char *words, const char *nam
   size_t used = strlen(text);
   const char *between = used > 0 ? ", " : "";
   if (isnan(least))
-    snprintf(text + used, size - used, "%sno member %s", between, words);
+    snprintf(text + used, size - used, "%sno members %s", between, words);
   else
     snprintf(text + used, size - used, "%smembers %s at %.4g V to %.4g V", between, words, least, most);
 }

@@ -36,21 +36,12 @@ static bool allocate(Problem *p) {
   return p->memory != NULL;
 }
 
-/* A member moved from where it is at rest by `amplitude` times its part of mode j. */
-static void move(Problem *p, size_t k, size_t j, double amplitude) {
-  ZpStatics *s = &p->chain.of[k].statics;
-  memset(s->q, 0, 2 * s->model->stride * sizeof *s->q);
-  zp_assembly_scatter(&s->assembly, p->vibration.u + j * p->vibration.n + p->chain.at[k], s->q);
-  for (size_t i = 0; i < 2 * s->model->stride; i++)
-    s->q[i] = p->q[k][i] + amplitude * s->q[i];
-}
-
 /* Frame 0 is the equilibrium, frame j + 1 mode j. */
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
   ZpShape shape = {0};
   for (size_t k = 0; k < p->chain.count; k++) {
     ZpRest *rest = &p->chain.of[k];
-    move(p, k, j, amplitude);
+    zp_modes_move(&rest->statics, p->q[k], p->vibration.u + j * p->vibration.n + p->chain.at[k], amplitude);
     ZpShape one = zp_statics_shape(&rest->statics, frame, &rest->shape_room);
     if (frame == 0) zp_margins_join(&p->margins, zp_margins_of(rest->statics.model, &one));
     zp_many_put(&p->shapes, k, &one);

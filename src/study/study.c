@@ -80,12 +80,13 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
   if (!run_of(study, def) && zp_def_opposed(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.distance = %g m: study %s does not know antagonists; stationary, equilibrium and actuate do",
+                   "stack.distance = %g m: study %s does not know antagonists; stationary, equilibrium, limits, modes "
+                   "and actuate do",
                    def->stack.distance, table[study].word);
   if (!run_of(study, def) && zp_def_abreast(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.parallel = %d of unlike members: study %s does not know them; stationary, equilibrium and "
-                   "actuate do, and all studies know equal members, without keys of member_K",
+                   "stack.parallel = %d of unlike members: study %s does not know them; stationary, equilibrium, "
+                   "limits, modes and actuate do, and all studies know equal members, without keys of member_K",
                    def->stack.parallel, table[study].word);
   if (!run_of(study, def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; %s", def->stack.series,

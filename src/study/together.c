@@ -1,6 +1,6 @@
-/* Studies `stationary` and `equilibrium` of members that share one load: where it is at rest, how stiffly they hold it,
- * and where it jumps. Numbers without a name of their own are of the first one: of antagonists the upper one, which the
- * voltage is of; those side by side have one opening and one voltage. */
+/* Studies `stationary`, `equilibrium` and `limits` of members that share one load: where it is at rest, how stiffly
+ * they hold it, and where it jumps. Numbers without a name of their own are of the first one: of antagonists the upper
+ * one, which the voltage is of; those side by side have one opening and one voltage. */
 #include "study/together.h"
 
 #include <math.h>
@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "rest/closing.h"
 #include "rest/together.h"
 #include "solve/fold.h"
+#include "study/limits.h"
 #include "study/notes.h"
 
 #define COMMON                                                                                                         \
@@ -37,7 +37,22 @@ static const ZpColumn columns_opposed[] = {
   }
 static const ZpColumn columns_abreast[] = {COMMON,       STIFFNESS,    OF_MEMBER(1), OF_MEMBER(2), OF_MEMBER(3),
                                            OF_MEMBER(4), OF_MEMBER(5), OF_MEMBER(6), OF_MEMBER(7), OF_MEMBER(8)};
+static const ZpColumn columns_limits[] = {
+    {"limit", "1", "0: pull-in, 1: closing, 2: release"},
+    {"voltage_V", "V", "potential difference of the electrodes, of antagonists of the upper one's"},
+    {"load_kg", "kg", "mass hung on the actuators"},
+    {"stroke_m", "m", "height of the clip over the load, of antagonists of the upper one's, signed"},
+    {"opening_m", "m", "distance of the platforms' faces, of antagonists of the upper one's"},
+    {"zipped_length_m", "m", "closed length from the clip, one half, of antagonists of the upper one, else of all"},
+    {"charge_C", "C", "charge on the electrodes of all members"},
+    {"capacitance_F", "F", "capacitance of the electrodes of all members"},
+    ZP_MARGIN_COLUMNS,
+    {"lower_voltage_V", "V", "potential difference of the lower one's electrodes"},
+    {"lower_opening_m", "m", "distance of the lower one's platforms' faces"},
+};
 enum {
+  OF_LOWER = 2, /* columns of limits that only antagonists have */
+  LIMIT_COLUMNS = sizeof columns_limits / sizeof columns_limits[0],
   OPPOSED = sizeof columns_opposed / sizeof columns_opposed[0],
   MOST_COLUMNS = sizeof columns_abreast / sizeof columns_abreast[0],
   OF_EACH = 2, /* numbers of each member side by side */
@@ -45,22 +60,29 @@ enum {
 };
 _Static_assert((int)MOST_COLUMNS > (int)OPPOSED, "a row has room for the columns of either");
 
+/* States that are kept: where the limits are, limit points of which it is not yet known whether they are one, and where
+ * the last step began. */
+typedef enum Kept { PULL_IN, CLOSING, RELEASE, PASSED, CREST, HIGHEST, TROUGH, BEFORE, KEPT } Kept;
+enum { LIMITS = RELEASE + 1 };
+
 typedef struct Follower {
   const ZpModel *model;
   const ZpTask *task;
   ZpResult *result;
   ZpTogether all;
   int points;
-  bool was_stable; /* at the last point */
-  bool crossed;    /* the branch ends where another one crosses it */
-  double crest;    /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
-  double highest;  /* of the voltage on the way, V, */
-  double before;   /* and until the last step */
-  double trough;   /* of the voltage, from which it has not yet gone far up, V; NAN: there is none */
-  double pull_in;  /* V; NAN: there is none */
-  double release;  /* V; the last trough: where one that is closed opens as the voltage falls */
-  double closing;  /* V; NAN: neither has closed */
-  double start[ZP_MOST_MEMBERS]; /* openings without voltage, m */
+  bool limits_only; /* rows are of limits, not of the branch */
+  bool was_stable;  /* at the last point */
+  bool crossed;     /* the branch ends where another one crosses it */
+  double crest;     /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
+  double highest;   /* of the voltage on the way, V, */
+  double before;    /* and until the last step */
+  double trough;    /* of the voltage, from which it has not yet gone far up, V; NAN: there is none */
+  double pull_in;   /* V; NAN: there is none */
+  double release;   /* V; the last trough: where one that is closed opens as the voltage falls */
+  double closing;   /* V; NAN: neither has closed */
+  double start;     /* opening of the first one without voltage, m */
+  double *kept[KEPT], *here;
   ZpMargins margins;
   ZpManyShapes shapes; /* of all */
 } Follower;
@@ -68,6 +90,9 @@ typedef struct Follower {
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
   zp_many_carve(&f->shapes, zp_members(f->model), f->model->count, f->model->nodes, carver);
+  for (int k = 0; k < KEPT; k++)
+    f->kept[k] = zp_carve(carver, zp_together_save_size(&f->all));
+  f->here = zp_carve(carver, zp_together_save_size(&f->all));
 }
 
 /* -- a point ---------------------------------------------------------------------------------------- */
@@ -136,9 +161,13 @@ static void put_members(Follower *f, double stiffness, double *place) {
 }
 
 static void record(Follower *f) {
+  f->was_stable = zp_together_stable(&f->all);
+  if (f->limits_only) { /* materials see the whole branch */
+    shape_of(f);
+    return;
+  }
   ZpMargins all = f->margins;
   f->margins = zp_margins_none();
-  f->was_stable = zp_together_stable(&f->all);
   double stiffness = zp_together_stiffness(&f->all);
   ZpShape shape = shape_of(f);
   const double common[] = {upper(f)->U,
@@ -200,7 +229,10 @@ static bool hang(Follower *f) {
 static bool open_follower(Follower *f, size_t rows, size_t frames) {
   size_t members = zp_members(f->model), count = MOST_COLUMNS - OF_EACH * (ZP_MOST_MEMBERS - members);
   bool abreast = f->model->abreast;
-  f->result->series = zp_table_create(abreast ? columns_abreast : columns_opposed, abreast ? count : OPPOSED, rows);
+  if (f->limits_only)
+    f->result->series = zp_table_create(columns_limits, LIMIT_COLUMNS - (abreast ? OF_LOWER : 0), rows);
+  else
+    f->result->series = zp_table_create(abreast ? columns_abreast : columns_opposed, abreast ? count : OPPOSED, rows);
   f->result->shapes = zp_shapes_create(f->model->s, members * f->model->nodes, frames);
   if (!f->result->series || !f->result->shapes) return false;
   f->result->shapes->members = members;
@@ -209,23 +241,29 @@ static bool open_follower(Follower *f, size_t rows, size_t frames) {
   return true;
 }
 
-/* What a study does once there is a place for its results. */
-static ZpStatus run(const ZpTask *task, size_t rows, size_t frames, void (*find)(Follower *f), ZpResult *result,
-                    ZpError *err) {
+/* What a study does once there is a place for its results, and how large that is. */
+typedef struct Plan {
+  void (*find)(Follower *f);
+  size_t rows, frames;
+  bool limits_only;
+} Plan;
+
+static ZpStatus run(Plan plan, const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Follower f = {.model = model,
                 .task = task,
                 .result = result,
+                .limits_only = plan.limits_only,
                 .crest = NAN,
                 .trough = NAN,
                 .release = NAN,
                 .pull_in = NAN,
                 .closing = NAN,
                 .margins = zp_margins_none()};
-  if (open_follower(&f, rows, frames))
-    find(&f);
+  if (open_follower(&f, plan.rows, plan.frames))
+    plan.find(&f);
   else
     status = zp_fail_memory(err);
   zp_together_close(&f.all);
@@ -244,55 +282,84 @@ static void find_rest(Follower *f) {
 }
 
 ZpStatus zp_together_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  return run(task, 2, 2, find_rest, result, err);
+  return run((Plan){find_rest, 2, 2, false}, task, result, err);
 }
 
 /* -- equilibrium ------------------------------------------------------------------------------------ */
 
-/* Where the voltage was highest before it began to fall, V; NAN: it does not fall. */
-static double crest_of(Follower *f, double last, bool rose) {
-  if (!(f->all.branch.direction_m < 0)) return NAN;
-  return rose ? zp_branch_limit(&f->all.branch) : last;
+static void keep(Follower *f, Kept from, Kept to) {
+  memcpy(f->kept[to], f->kept[from], zp_together_save_size(&f->all) * sizeof *f->here);
+}
+
+static void visit_limit(void *user) {
+  Follower *f = user;
+  zp_together_limit(&f->all);
+  zp_together_save(&f->all, f->kept[PASSED]);
+}
+
+/* The limit point that the last step passed => PASSED; its voltage, V. */
+static double pass_limit(Follower *f) {
+  return zp_branch_limit(&f->all.branch, visit_limit, f);
 }
 
 /* A limit point is a crest of the voltage. The load pulls in at the first one from which the branch goes down by more
  * than the ripple of a mesh => pull_in. */
-static void look_for_crest(Follower *f, double last, bool rose) {
-  double voltage = upper(f)->U, crest = crest_of(f, last, rose);
+static void look_for_crest(Follower *f, bool rose) {
+  double voltage = upper(f)->U, crest = rose && f->all.branch.direction_m < 0 ? pass_limit(f) : NAN;
+  if (crest > f->highest) keep(f, PASSED, HIGHEST);
   f->highest = fmax(f->highest, fmax(voltage, crest));
   if (!isnan(f->pull_in)) return;
-  if (isnan(f->crest)) f->crest = crest;
-  if (voltage > f->crest) f->crest = NAN;
-  if (voltage < (1 - ZP_FOLD_RIPPLE) * f->crest) f->pull_in = f->crest;
+  if (fmax(voltage, crest) > f->crest) f->crest = NAN;
+  if (isnan(f->crest) && !isnan(crest)) {
+    f->crest = crest;
+    keep(f, PASSED, CREST);
+  }
+  if (!(voltage < (1 - ZP_FOLD_RIPPLE) * f->crest)) return;
+  f->pull_in = f->crest;
+  keep(f, CREST, PULL_IN);
 }
 
 /* A limit point may be a trough of the voltage, too. Where one of both is closed at drive.voltage, a slowly falling
  * voltage comes to the last one from which the branch goes up by more than the ripple of a mesh => release. */
-static void look_for_trough(Follower *f, double last, bool rose) {
-  double voltage = upper(f)->U;
-  bool turned = !rose && f->all.branch.direction_m > 0;
-  if (turned) f->trough = fmin(zp_branch_limit(&f->all.branch), fmin(last, voltage));
-  if (voltage < f->trough) f->trough = NAN;
-  if (voltage * (1 - ZP_FOLD_RIPPLE) > f->trough) f->release = f->trough;
+static void look_for_trough(Follower *f, bool rose) {
+  double voltage = upper(f)->U, trough = !rose && f->all.branch.direction_m > 0 ? pass_limit(f) : NAN;
+  if (fmin(voltage, trough) < f->trough) f->trough = NAN;
+  if (isnan(f->trough) && !isnan(trough)) {
+    f->trough = trough;
+    keep(f, PASSED, TROUGH);
+  }
+  if (!(voltage * (1 - ZP_FOLD_RIPPLE) > f->trough)) return;
+  f->release = f->trough;
+  f->trough = NAN;
+  keep(f, TROUGH, RELEASE);
 }
 
-/* How far the nearer one of two antagonists is from counting as closed, of those side by side the farthest one, m. */
-static double left_to_close(Follower *f) {
-  double found = 0;
-  for (size_t which = 0; which < f->all.count; which++) {
-    const ZpStatics *s = member(f, which);
-    double left = zp_statics_opening(s) - zp_closing_limit(s, f->start[which]);
-    bool counts = which == 0 || (left > found) == f->model->abreast;
-    if (counts) found = left;
-  }
-  return found;
+/* Solve for where one has closed, from the end of the last step, or else from its beginning. */
+static bool solve_closing(Follower *f, double last, double here) {
+  double least = fmin(last, here), most = fmax(last, here);
+  if (zp_together_closing(&f->all, least, most)) return true;
+  zp_together_go_to(&f->all, f->kept[BEFORE]);
+  return zp_together_closing(&f->all, least, most);
+}
+
+/* Within the last step, which began with so much left, one has closed => CLOSING; the voltage there, V. */
+static double voltage_of_closing(Follower *f, double last, double was_left) {
+  double here = upper(f)->U, share = was_left / (was_left - zp_together_left(&f->all));
+  zp_together_save(&f->all, f->here);
+  bool solved = solve_closing(f, last, here);
+  double voltage = solved ? upper(f)->U : last + share * (here - last);
+  zp_together_save(&f->all, f->kept[CLOSING]);
+  zp_together_go_to(&f->all, f->here);
+  return voltage;
 }
 
 /* As the voltage rises slowly one has closed once it is as high as it was anywhere on the way to there => closing. */
 static void look_for_closing(Follower *f, double last, double was_left) {
-  double left = left_to_close(f), share = was_left / (was_left - left);
-  if (!isnan(f->closing) || left > 0 || !(was_left > 0)) return;
-  f->closing = fmax(f->before, last + share * (upper(f)->U - last));
+  if (!isnan(f->closing) || zp_together_left(&f->all) > 0 || !(was_left > 0)) return;
+  f->closing = voltage_of_closing(f, last, was_left);
+  if (f->before <= f->closing) return;
+  f->closing = f->before;
+  keep(f, HIGHEST, CLOSING);
 }
 
 static bool is_beyond_top(void *user) {
@@ -314,6 +381,7 @@ static void arrive(Follower *f) {
 /* The branch does not go on: another one crosses it where the state loses its stability, or it was lost. */
 static void end_at_crossing(Follower *f) {
   f->crossed = f->all.branch.reversed && f->was_stable;
+  if (f->crossed) zp_together_save(&f->all, f->kept[PULL_IN]);
   if (f->crossed)
     f->pull_in = upper(f)->U;
   else
@@ -322,16 +390,17 @@ static void end_at_crossing(Follower *f) {
 
 /* One step along the branch. => has it come to its end? */
 static bool advance(Follower *f) {
-  double last = upper(f)->U, left = left_to_close(f);
+  double last = upper(f)->U, left = zp_together_left(&f->all);
   bool rose = f->all.branch.direction_m > 0;
   f->before = f->highest;
+  zp_together_save(&f->all, f->kept[BEFORE]);
   if (!zp_branch_advance(&f->all.branch)) {
     end_at_crossing(f);
     return true;
   }
   if (upper(f)->U < 0) return true;
-  look_for_crest(f, last, rose);
-  look_for_trough(f, last, rose);
+  look_for_crest(f, rose);
+  look_for_trough(f, rose);
   look_for_closing(f, last, left);
   bool top = is_beyond_top(f);
   if (top) arrive(f);
@@ -366,14 +435,14 @@ static void describe(Follower *f) {
 
 static void follow(Follower *f) {
   f->result->outcome = ZP_FOLLOWED;
-  for (size_t which = 0; which < f->all.count; which++)
-    f->start[which] = zp_statics_opening(member(f, which));
+  f->start = zp_statics_opening(upper(f));
+  zp_together_start(&f->all);
   record(f);
   bool ends = f->model->def.drive.voltage == 0 || !zp_together_follow(&f->all);
   for (int k = 0; k < MOST_POINTS && !ends; k++)
     ends = advance(f);
   bool arrived = f->result->outcome == ZP_FOLLOWED && is_at_top(f);
-  if (!arrived || left_to_close(f) > 0) f->release = NAN;
+  if (!arrived || zp_together_left(&f->all) > 0) f->release = NAN;
   describe(f);
   if (zp_together_stopped(&f->all)) f->result->outcome = ZP_INTERRUPTED;
 }
@@ -388,7 +457,8 @@ static void find_branch(Follower *f) {
   }
 }
 
-static void find_equilibria(Follower *f) {
+/* The branch, and the voltages of its limits. */
+static void find_voltages(Follower *f) {
   ZpResult *r = f->result;
   const size_t first = r->scalars;
   zp_result_add(r, "pull_in_voltage_V", "V", NAN);
@@ -398,7 +468,10 @@ static void find_equilibria(Follower *f) {
   r->scalar[first].value = f->pull_in;
   r->scalar[first + 1].value = f->closing;
   r->scalar[first + 2].value = f->release;
-  zp_result_add(r, "points", "count", f->points);
+}
+
+static void note(Follower *f) {
+  ZpResult *r = f->result;
   for (size_t which = 0; which < f->all.count; which++) {
     const ZpStatics *s = member(f, which);
     zp_margins_join(&f->margins, zp_margins_at_clip(s->model, which == 0 ? f->model->def.drive.voltage : s->U));
@@ -408,7 +481,62 @@ static void find_equilibria(Follower *f) {
   zp_note_rest(r, f->model);
 }
 
+static void find_equilibria(Follower *f) {
+  find_voltages(f);
+  zp_result_add(f->result, "points", "count", f->points);
+  note(f);
+}
+
 ZpStatus zp_together_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = task->def;
-  return run(task, (size_t)def->output.samples, (size_t)def->output.shapes, find_equilibria, result, err);
+  const Plan plan = {find_equilibria, (size_t)def->output.samples, (size_t)def->output.shapes, false};
+  return run(plan, task, result, err);
+}
+
+/* -- limits ------------------------------------------------------------------------------------------- */
+
+static void record_limit(Follower *f, Kept limit) {
+  ZpMargins all = f->margins;
+  zp_together_go_to(&f->all, f->kept[limit]);
+  f->margins = zp_margins_none();
+  f->points = (int)limit; /* the number of the frame */
+  ZpShape shape = shape_of(f);
+  const double row[LIMIT_COLUMNS] = {limit,
+                                     upper(f)->U,
+                                     f->task->def->load.mass,
+                                     zp_statics_stroke(upper(f)),
+                                     zp_statics_opening(upper(f)),
+                                     common_length(f),
+                                     charge_of(f),
+                                     capacitance_of(f),
+                                     ZP_MARGIN_VALUES(f->margins),
+                                     lower(f)->U,
+                                     zp_statics_opening(lower(f))};
+  zp_margins_join(&f->margins, all);
+  zp_table_offer(f->result->series, row);
+  zp_shapes_offer(f->result->shapes, &shape);
+}
+
+/* By which the load moves from rest without voltage to drive.voltage, where one is closed, m; NAN where none is. */
+static double travel_of(Follower *f) {
+  bool closed = f->result->outcome == ZP_FOLLOWED && is_at_top(f) && zp_together_left(&f->all) <= 0;
+  return closed ? fabs(f->start - zp_statics_opening(upper(f))) : NAN;
+}
+
+static void find_limits(Follower *f) {
+  ZpResult *r = f->result;
+  double mass = 0;
+  find_voltages(f);
+  zp_result_add(r, "travel_m", "m", travel_of(f));
+  for (const ZpModel *m = f->model; m; m = m->below)
+    mass += zp_limits_mass(m);
+  zp_result_add(r, "mass_kg", "kg", mass);
+  for (int k = 0; k < LIMITS; k++)
+    if (!isnan(r->scalar[k].value)) record_limit(f, (Kept)k);
+  if (r->outcome == ZP_FOLLOWED) r->outcome = ZP_CONVERGED;
+  note(f);
+}
+
+ZpStatus zp_together_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
+  return run((Plan){find_limits, LIMITS, LIMITS, true}, task, result, err);
 }

@@ -7,5 +7,7 @@
 
 ZpStatus zp_together_stationary(const ZpTask *task, ZpResult *result, ZpError *err);
 ZpStatus zp_together_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err);
+ZpStatus zp_together_limits(const ZpTask *task, ZpResult *result, ZpError *err);
+ZpStatus zp_together_modes(const ZpTask *task, ZpResult *result, ZpError *err);
 
 #endif

@@ -129,7 +129,9 @@ test('after a refusal the scenario is what it was', () => {
 
 const leftOut = [
   {'electro.model': 'field'}, {'electro.edges': 'true'}, {'actuator.kind': 'ribbon'}, {study: 'modes'},
-  {'drive.waveform': 'sine'}, {'initial.state': 'checkpoint'},
+  {'stack.series': '2'}, {'stack.series': '2', 'stack.distance': '20 mm'}, {'stack.parallel': '3', 'member_2.ribbon.thickness': '80 um'},
+  {'platform.rotates': 'true', 'actuator.held_clip': 'left', 'actuator.symmetry': 'none', 'platform.electrode': 'false', 'liquid.model': 'none'},
+  {'mount.tilt': '30 degree', 'actuator.symmetry': 'none'}, {'drive.waveform': 'sine'}, {'initial.state': 'checkpoint'},
   {'solver.integrator': 'explicit', 'contact.model': 'sequential'},
 ];
 
