@@ -1,5 +1,5 @@
 # The axis of states of rest along the voltage, and what their curves look like: `kinds` are those that there are.
-right = 0.76
+letters = 16
 load 'style.gp'
 set datafile separator ','
 set datafile columnheaders

@@ -2,8 +2,7 @@
 what = exists('quantity') ? quantity : 'force'
 if (exists('number_name') && number_name[1] ne '') what = number_name[1].' '.what
 title = 'What the scatter of the '.what.' follows from'
-right = 0.76
-load 'style.gp'
+letters = 17
 load 'of_keys.gp'
 set xlabel 'share of the variance / %'
 set xrange [*<0:100<*]

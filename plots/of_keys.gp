@@ -1,7 +1,10 @@
-# Bars for keys: key_name[1] is on top. A bar of row n is between n + low and n + high.
-set lmargin at screen 0.29
+# Bars for keys: key_name[1] is on top. A bar of row n is between n + low and n + high. Loaded before style.gp, which it loads.
+load 'functions.gp'
+keys = |key_name|
+left = 0
+do for [k=1:keys] { left = max(left, 0.03 + 0.0115*strlen(key_name[k])) }
+load 'style.gp'
 set style fill solid noborder
 set ytics () font ',12'
-keys = |key_name|
 do for [k=1:keys] { set ytics add (key_name[k] keys - k + 1) }
 set yrange [0.4:keys + 0.6]

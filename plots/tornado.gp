@@ -1,7 +1,8 @@
 # Derivatives of a run: by how many percent output[k] changes where a key changes by one.
 title = 'What counts: percent of the outputs per percent of a key'
-right = 0.775
-load 'style.gp'
+load 'functions.gp'
+letters = 0
+do for [k=1:|output|] { letters = max(letters, strlen(output[k])) }
 load 'of_keys.gp'
 set xlabel 'change of an output for 1 % of the key / %'
 set yzeroaxis lt 1 lw 1 lc rgb '#555555'
