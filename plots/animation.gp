@@ -5,7 +5,7 @@ hold = 12 # how often the last frame is repeated
 delay = max(2, floor(480.0/frames + 0.5)) # of a frame, hundredths of a second
 if (delay > 40) delay = 40
 set encoding utf8
-set terminal gif animate delay delay loop 0 size 640,480 noenhanced background '#ffffff'
+set terminal gif animate delay delay loop 0 size 640,480 noenhanced font ',13' background '#ffffff'
 set output out
 unset key
 set grid lc rgb '#dddddd' lw 1 lt 1
@@ -38,10 +38,10 @@ if (coloured) {
   do for [k=0:19] {
     set object 20+k rectangle from screen 0.70+0.012*k,0.045 to screen 0.712+0.012*k,0.06 fc rgb field_colour(k/19.0) fs solid noborder
   }
-  set label 20 '0' at screen 0.70,0.03 font ',10' tc rgb '#555555'
-  set label 21 sprintf('%.3g', strongest/4e6) at screen 0.82,0.03 center font ',10' tc rgb '#555555'
-  set label 22 sprintf('%.3g MV/m', strongest/1e6) at screen 0.94,0.03 center font ',10' tc rgb '#555555'
-  set label 4 note at screen 0.02,0.03 left font ',10' tc rgb '#555555'
+  set label 20 '0' at screen 0.70,0.03 font ',11' tc rgb '#555555'
+  set label 21 sprintf('%.3g', strongest/4e6) at screen 0.82,0.03 center font ',11' tc rgb '#555555'
+  set label 22 sprintf('%.3g MV/m', strongest/1e6) at screen 0.94,0.03 center font ',11' tc rgb '#555555'
+  set label 4 note at screen 0.02,0.03 left font ',11' tc rgb '#555555'
 }
 
 # The lens shows the front of the left half, so many times larger: where, from the clip on, the gap is as thick as an
@@ -51,13 +51,14 @@ magnified = 25
 # A block of liquid has its lower face in column `low`, straight below; one of shapes has x and y of the lower station.
 low = bead ? 3 : 4
 aside(x) = bead ? 0 : column(3) - x
+block = 2 + 560/(has_platform ? 2*mesh_nodes : mesh_nodes) # width of a block in pixels: they touch
 
 lensed = coloured && has_platform && members == 1
 lens_size = 0.17
 thick = insulator_thickness + ribbon_thickness
 set object 4 rectangle from graph 0,0 to graph 1,1 behind fc rgb (bath ? '#edf3f0' : '#ffffff') fs solid noborder
-if (bath) set label 6 'in a bath of liquid' at screen 0.97,0.835 right front font ',10' tc rgb '#555555'
-if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at screen 0.05,0.09 front font ',10' tc rgb '#555555'
+if (bath) set label 6 'in a bath of liquid' at screen 0.97,0.835 right front font ',11' tc rgb '#555555'
+if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at screen 0.05,0.09 front font ',11' tc rgb '#555555'
 open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
@@ -67,7 +68,7 @@ if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than 
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
 set label 2 subtitle at screen 0.5,0.91 center
 set label 3 pace at screen 0.5,0.865 center
-if (!path && !coloured) set label 4 note at screen 0.5,0.025 center font ',10' tc rgb '#555555'
+if (!path && !coloured) set label 4 note at screen 0.5,0.025 center font ',11' tc rgb '#555555'
 
 load 'stage.gp'
 
@@ -87,7 +88,7 @@ do for [k=1:frames + hold] {
     if (!held) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
   } else {
     caption = sprintf('t = %.1f %s', now[i]*time, time_unit)
-    if (has('contraction') && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', contraction[i]*100) }
+    if (has('contraction') && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction[i]) < 0.005 ? 0 : contraction[i]*100) }
     if (!has('contraction') && has('stroke_m') && stroke[i] == stroke[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
     if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', potential[i]/1000.0) }
   }
@@ -112,7 +113,7 @@ do for [k=1:frames + hold] {
   if (lensed) { set multiplot }
   if (ribbons > 1) {
     plot 'animation.dat' index liquid using ($1*length):($2*length):(aside($1)*length):((column(low) - $2)*length):(coloured ? shown($2 - column(low), volts) : 0xe2f1fa) \
-           with vectors nohead lw 5 lc rgb variable notitle, \
+           with vectors nohead lw block lc rgb variable notitle, \
          '' index shapes using ($1*length):($2*length) with lines lw 2 lc rgb metal notitle, \
          '' index shapes using ($3*length):($4*length) with lines lw 2 lc rgb metal notitle, \
          '' index shapes every platform_point using ($3*length):($4*length) with points pt 5 ps 1.5 lc rgb metal notitle

@@ -8,7 +8,7 @@ foot = note
 letters = letters_of(|list_key|)
 do for [i=1:|run|] { letters = max(letters, strlen(name[i])) }
 load 'style.gp'
-set key title legend(|list_key|) left font ',12'
+set key spacing 1 title legend(|list_key|) left font ',12'
 stats 'contraction.dat' using 1:2 name 'over' nooutput
 time = scale(over_max_x, 's')
 size = max(abs(over_min_y), abs(over_max_y))

@@ -29,8 +29,9 @@ do for [k=1:|panel_at|] {
   set format y (first ? '%g' : '')
   if (k > 1) { unset colorbox }
   splot 'maps.dat' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with pm3d nocontour, \
-        'maps.dat' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 1.2 lc rgb '#ffffff' nosurface, \
-        'maps.dat' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with labels tc rgb '#ffffff' nosurface
+        '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 2.4 lc rgb '#ffffff' nosurface, \
+        '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 0.8 lc rgb '#000000' nosurface, \
+        '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with labels boxed tc rgb '#000000' nosurface
   unset label
 }
 unset multiplot

@@ -26,7 +26,7 @@ unset key
 set tics front out
 set xrange [box_left*length:box_right*length]
 set yrange [box_bottom*length:box_top*length]
-set xlabel label('x from the clip', unit(box_right, 'm'))
+set xlabel label('x from the clip', unit(box_right, 'm')) offset 0,0.5
 set ylabel label('y', unit(box_right, 'm')) offset 0.5
 dx = (box_right - box_left)/pixels_across*length
 dy = (box_top - box_bottom)/pixels_up*length

@@ -46,3 +46,4 @@ set view map
 set pm3d interpolate 1 + 60/rows, 1 + 60/columns_across # cells so fine that they look smooth
 set contour base
 set cntrlabel onecolor start 2 interval -1 font ',11'
+set style textbox opaque margins 0.4,0.4 fc rgb '#ffffff' noborder

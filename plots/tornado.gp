@@ -11,4 +11,4 @@ set offsets graph 0.03, graph 0.03, 0, 0
 high = 0.8/|output|
 top(k) = 0.4 - high*(k - 1)
 plot for [k=1:|output|] 'tornado.dat' index k-1 using (0):1:(0):2:($1+top(k)-0.9*high):($1+top(k)) \
-     with boxxyerror fc rgb colour(k) title output[k]
+     with boxxyerror fc rgb colour(k) fs solid solid(k) border lc rgb colour(k) title output[k]
