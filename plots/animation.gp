@@ -36,12 +36,12 @@ shown(gap, volts) = field_colour(share(between(gap, volts)))
 coloured = ribbons > 1 && insulator_offset > 0
 if (coloured) {
   do for [k=0:19] {
-    set object 20+k rectangle from screen 0.70+0.012*k,0.045 to screen 0.712+0.012*k,0.06 fc rgb field_colour(k/19.0) fs solid noborder
+    set object 20+k rectangle from screen 0.70+0.012*k,0.08 to screen 0.712+0.012*k,0.095 fc rgb field_colour(k/19.0) fs solid noborder
   }
-  set label 20 '0' at screen 0.70,0.03 font ',11' tc rgb '#555555'
-  set label 21 sprintf('%.3g', strongest/4e6) at screen 0.82,0.03 center font ',11' tc rgb '#555555'
-  set label 22 sprintf('%.3g MV/m', strongest/1e6) at screen 0.94,0.03 center font ',11' tc rgb '#555555'
-  set label 4 note at screen 0.02,0.03 left font ',11' tc rgb '#555555'
+  set label 20 '0' at screen 0.70,0.06 font ',11' tc rgb '#555555'
+  set label 21 sprintf('%.3g', strongest/4e6) at screen 0.82,0.06 center font ',11' tc rgb '#555555'
+  set label 22 sprintf('%.3g MV/m', strongest/1e6) at screen 0.94,0.06 center font ',11' tc rgb '#555555'
+  set label 4 note at screen 0.02,0.022 left font ',11' tc rgb '#555555'
 }
 
 # The lens shows the front of the left half, so many times larger: where, from the clip on, the gap is as thick as an
@@ -51,14 +51,13 @@ magnified = 25
 # A block of liquid has its lower face in column `low`, straight below; one of shapes has x and y of the lower station.
 low = bead ? 3 : 4
 aside(x) = bead ? 0 : column(3) - x
-block = 2 + 560/(has_platform ? 2*mesh_nodes : mesh_nodes) # width of a block in pixels: they touch
 
 lensed = coloured && has_platform && members == 1
 lens_size = 0.17
 thick = insulator_thickness + ribbon_thickness
 set object 4 rectangle from graph 0,0 to graph 1,1 behind fc rgb (bath ? '#edf3f0' : '#ffffff') fs solid noborder
 if (bath) set label 6 'in a bath of liquid' at screen 0.97,0.835 right front font ',11' tc rgb '#555555'
-if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at screen 0.05,0.09 front font ',11' tc rgb '#555555'
+if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at screen 0.05,0.08 front font ',11' tc rgb '#555555'
 open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
@@ -66,8 +65,8 @@ slower = delay/100.0*(frames - 1)/(end - begin)
 pace = path ? 'equilibria one after the other, stable or not' : 'still picture'
 if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than real', slower) }
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
-set label 2 subtitle at screen 0.5,0.91 center
-set label 3 pace at screen 0.5,0.865 center
+set label 2 subtitle at screen 0.5,0.925 center
+set label 3 pace at screen 0.5,0.885 center
 if (!path && !coloured) set label 4 note at screen 0.5,0.025 center font ',11' tc rgb '#555555'
 
 load 'stage.gp'
@@ -92,7 +91,7 @@ do for [k=1:frames + hold] {
     if (!has('contraction') && has('stroke_m') && stroke[i] == stroke[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
     if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', potential[i]/1000.0) }
   }
-  set label 1 caption at screen 0.5,0.96 center
+  set label 1 caption at screen 0.5,0.965 center
   # the platform, and the string with the load on it
   h = has_platform ? 0 : (end_x[i] - middle)*length
   v = end_y[i]*length
@@ -113,7 +112,7 @@ do for [k=1:frames + hold] {
   if (lensed) { set multiplot }
   if (ribbons > 1) {
     plot 'animation.dat' index liquid using ($1*length):($2*length):(aside($1)*length):((column(low) - $2)*length):(coloured ? shown($2 - column(low), volts) : 0xe2f1fa) \
-           with vectors nohead lw block lc rgb variable notitle, \
+           with vectors nohead lw 5 lc rgb variable notitle, \
          '' index shapes using ($1*length):($2*length) with lines lw 2 lc rgb metal notitle, \
          '' index shapes using ($3*length):($4*length) with lines lw 2 lc rgb metal notitle, \
          '' index shapes every platform_point using ($3*length):($4*length) with points pt 5 ps 1.5 lc rgb metal notitle
