@@ -1,5 +1,5 @@
 # The axis of states of rest along the voltage, and what their curves look like: `kinds` are those that there are.
-right = 0.76
+letters = 16
 load 'style.gp'
 set datafile separator ','
 set datafile columnheaders
@@ -16,4 +16,4 @@ if (has('closed_members')) {
 kind_title(k) = word(kind_titles, place(word(kinds, k), kind_list))
 kind_colour(k) = word('#0072b2 #d55e00 #009e73 #b8a800', place(word(kinds, k), kind_list))
 kind_width(k) = word('2.5 1.5 2.5 1.5', place(word(kinds, k), kind_list)) + 0
-kind_dash(k) = word('1 2 1 2', place(word(kinds, k), kind_list)) + 0
+kind_dash(k) = word('1 2 6 3', place(word(kinds, k), kind_list)) + 0

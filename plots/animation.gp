@@ -5,7 +5,7 @@ hold = 12 # how often the last frame is repeated
 delay = max(2, floor(480.0/frames + 0.5)) # of a frame, hundredths of a second
 if (delay > 40) delay = 40
 set encoding utf8
-set terminal gif animate delay delay loop 0 size 640,480 noenhanced background '#ffffff'
+set terminal gif animate delay delay loop 0 size 640,480 noenhanced font ',13' background '#ffffff'
 set output out
 unset key
 set grid lc rgb '#dddddd' lw 1 lt 1
@@ -36,12 +36,12 @@ shown(gap, volts) = field_colour(share(between(gap, volts)))
 coloured = ribbons > 1 && insulator_offset > 0
 if (coloured) {
   do for [k=0:19] {
-    set object 20+k rectangle from screen 0.70+0.012*k,0.045 to screen 0.712+0.012*k,0.06 fc rgb field_colour(k/19.0) fs solid noborder
+    set object 20+k rectangle from screen 0.70+0.012*k,0.08 to screen 0.712+0.012*k,0.095 fc rgb field_colour(k/19.0) fs solid noborder
   }
-  set label 20 '0' at screen 0.70,0.03 font ',10' tc rgb '#555555'
-  set label 21 sprintf('%.3g', strongest/4e6) at screen 0.82,0.03 center font ',10' tc rgb '#555555'
-  set label 22 sprintf('%.3g MV/m', strongest/1e6) at screen 0.94,0.03 center font ',10' tc rgb '#555555'
-  set label 4 note at screen 0.02,0.03 left font ',10' tc rgb '#555555'
+  set label 20 '0' at screen 0.70,0.06 font ',11' tc rgb '#555555'
+  set label 21 sprintf('%.3g', strongest/4e6) at screen 0.82,0.06 center font ',11' tc rgb '#555555'
+  set label 22 sprintf('%.3g MV/m', strongest/1e6) at screen 0.94,0.06 center font ',11' tc rgb '#555555'
+  set label 4 note at screen 0.02,0.022 left font ',11' tc rgb '#555555'
 }
 
 # The lens shows the front of the left half, so many times larger: where, from the clip on, the gap is as thick as an
@@ -56,8 +56,8 @@ lensed = coloured && has_platform && members == 1
 lens_size = 0.17
 thick = insulator_thickness + ribbon_thickness
 set object 4 rectangle from graph 0,0 to graph 1,1 behind fc rgb (bath ? '#edf3f0' : '#ffffff') fs solid noborder
-if (bath) set label 6 'in a bath of liquid' at screen 0.97,0.835 right front font ',10' tc rgb '#555555'
-if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at screen 0.05,0.09 front font ',10' tc rgb '#555555'
+if (bath) set label 6 'in a bath of liquid' at screen 0.97,0.835 right front font ',11' tc rgb '#555555'
+if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at screen 0.05,0.08 front font ',11' tc rgb '#555555'
 open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
@@ -65,9 +65,9 @@ slower = delay/100.0*(frames - 1)/(end - begin)
 pace = path ? 'equilibria one after the other, stable or not' : 'still picture'
 if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than real', slower) }
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
-set label 2 subtitle at screen 0.5,0.91 center
-set label 3 pace at screen 0.5,0.865 center
-if (!path && !coloured) set label 4 note at screen 0.5,0.025 center font ',10' tc rgb '#555555'
+set label 2 subtitle at screen 0.5,0.925 center
+set label 3 pace at screen 0.5,0.885 center
+if (!path && !coloured) set label 4 note at screen 0.5,0.025 center font ',11' tc rgb '#555555'
 
 load 'stage.gp'
 
@@ -87,11 +87,11 @@ do for [k=1:frames + hold] {
     if (!held) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
   } else {
     caption = sprintf('t = %.1f %s', now[i]*time, time_unit)
-    if (has('contraction') && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', contraction[i]*100) }
+    if (has('contraction') && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction[i]) < 0.005 ? 0 : contraction[i]*100) }
     if (!has('contraction') && has('stroke_m') && stroke[i] == stroke[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
     if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', potential[i]/1000.0) }
   }
-  set label 1 caption at screen 0.5,0.96 center
+  set label 1 caption at screen 0.5,0.965 center
   # the platform, and the string with the load on it
   h = has_platform ? 0 : (end_x[i] - middle)*length
   v = end_y[i]*length

@@ -1,7 +1,6 @@
 # Amplitude and phase of the stroke against the frequency of a drive.
 title = 'Amplitude and phase of the stroke'
 foot = note
-right = 0.76
 load 'over_key.gp'
 set logscale x
 set autoscale x noextend
@@ -10,12 +9,13 @@ load 'upper_panel.gp'
 set logscale y
 set ylabel label('amplitude', unit(largest('stroke_amplitude_m'), 'm')) offset 0.5
 plot for [k=1:|curve|] '../table.csv' every ::first[k]::last[k] using (x(0)):(column('stroke_amplitude_m')*factor) \
-     with linespoints lw 2 dt dash(k) pt 7 ps 0.8 lc rgb colour(k) title curve[k]
+     with linespoints lw 2 dt dash(k) pt mark(k) ps 0.8 lc rgb shade_of(k) title curve[k]
 xlabel = 'frequency / Hz'
 load 'lower_panel.gp'
+unset key
 unset logscale y
 set ytics 45
 set ylabel 'phase / deg' offset 0.5
 plot for [k=1:|curve|] '../table.csv' every ::first[k]::last[k] using (x(0)):(column('phase_rad')*180/pi) \
-     with linespoints lw 2 dt dash(k) pt 7 ps 0.8 lc rgb colour(k) title ''
+     with linespoints lw 2 dt dash(k) pt mark(k) ps 0.8 lc rgb shade_of(k) notitle
 unset multiplot

@@ -1,7 +1,7 @@
 # Charge and capacitance at rest against voltage.
 title = 'Charge and capacitance at rest against voltage'
 load 'along_voltage.gp'
-set yrange [0:*]
+from_zero = 1
 set offsets 0, 0, graph 0.05, 0
 load 'upper_panel.gp'
 factor = scale(largest('charge_C'), 'C')

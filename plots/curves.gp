@@ -1,9 +1,10 @@
 # One panel of curves over time. A template sets first
-#   list       columns; those that the table lacks are left out
+#   list       columns; those that the table lacks are left out. The first has a whole line, the others are drawn over it
 #   titles     what the legend calls them
 #   quantity   what the y axis shows, in the SI unit `si`
 #   sized      columns whose largest value says the prefix
 factor = scale(largest(sized), si)
 set ylabel label(quantity, unit(largest(sized), si)) offset 0.5
+load 'y_tics.gp'
 plot for [c in present(list)] '../table.csv' using (column('time_s')*time):(column(c)*factor) \
      with lines lw 2 dt dash(place(c, list)) lc rgb colour(place(c, list)) title word(titles, place(c, list))

@@ -3,8 +3,11 @@
 load 'functions.gp'
 title = 'Distribution over the samples'
 remark = sprintf('%d samples per curve; those without a value are left out', samples)
-right = 0.76
+letters = 0
+do for [k=1:|curve|] { letters = max(letters, strlen(curve[k])) }
+if (|curve| == 1) right = 0.96
 load 'style.gp'
+set datafile missing NaN
 set datafile separator ','
 set datafile columnheaders
 if (!exists('quantity')) { quantity = 'force'; si = 'N' }
@@ -17,4 +20,4 @@ set yrange [0:100]
 alone(i) = int(i) % blocks < independent
 plot for [k=1:|curve|] '../table.csv' every ::start[k]::start[k]+rows-1 \
      using (alone(column(0)) ? column(scalar[k])*factor : NaN):(100.0/found[k]) smooth cumulative \
-     with lines lw 2 dt dash(k) lc rgb colour(k) title (curve[k] eq '' ? quantity : curve[k])
+     with lines lw 2 dt dash(k) lc rgb colour(k) title (|curve| == 1 ? '' : curve[k])

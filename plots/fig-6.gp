@@ -2,7 +2,7 @@
 # the finite elements, then one of the chain.
 title = 'Shapes at rest under six loads'
 subtitle = '100 µm steel, K\_S calibrated at 61 g'
-right = 0.76
+letters = 15
 load 'style.gp'
 set xlabel 'x from the clip / mm'
 set ylabel 'y / mm' offset 0.5

@@ -1,10 +1,10 @@
 # zipact reproduce: force along a ribbon, by the field, by the plates law and as the paper's program has it.
 title = 'Electric force along a ribbon'
 subtitle = 'opening 2 mm, 5 kV, one Bézier curve, no breakdown'
-right = 0.76
+letters = 19
 load 'style.gp'
 set xlabel 'x from the clip / mm'
-set ylabel 'force per length / N/m' offset 0.5
+set ylabel 'force / (N/m)' offset 0.5
 set xrange [0:45]
 set yrange [0:*]
 plot 'fig-7.dat' index 0 using ($1*1e3):2 with lines lw 5 lc rgb '#56b4e9' title 'field', \

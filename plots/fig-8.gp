@@ -2,7 +2,7 @@
 # paper's text has it.
 title = 'Contractile force of a held platform'
 subtitle = '6 kV, 50 µm steel'
-right = 0.76
+letters = 16
 load 'style.gp'
 set xlabel 'separation / mm'
 set ylabel 'force / N' offset 0.5

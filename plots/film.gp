@@ -2,7 +2,7 @@
 title = 'Liquid between the faces, left half'
 foot = note
 if (bead) remark = 'a curve ends where the bead does'
-right = 0.82
+letters = 8
 load 'style.gp'
 load 'of_shapes.gp'
 least = film_roughness # between closed faces

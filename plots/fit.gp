@@ -1,7 +1,7 @@
 # Measurements and fit, below them the residuals, against what was set on the bench.
 load 'functions.gp'
 title = fitted ? 'Measured and fitted' : 'Measured and computed'
-right = 0.82
+letters = 8
 load 'style.gp'
 k = 1
 data = 'fit.dat'
@@ -18,16 +18,17 @@ if (spans_decades(measured_min_x, measured_max_x) && spans_decades(measured_min_
   set offsets graph 0.04, graph 0.04, graph 0.06, 0
 }
 set multiplot
-set bmargin at screen 0.38
+set bmargin at screen bottom + 0.23
 set format x ''
 plot 'fit.dat' using (x(0)):(measured(0)*y_factor) with points pt 6 ps 1.2 lw 1.5 lc rgb colour(1) title 'measured', \
      'fit.dat' using (x(0)):(computed(0)*y_factor) with points pt 2 ps 0.8 lw 1.5 lc rgb colour(2) title (fitted ? 'fitted' : 'computed')
 rest_range = max(residual_max_y, 0) - (residual_min_y < 0 ? residual_min_y : 0)
 if (rest_range > 0) set ytics step(rest_range*rest_factor, 4)
 unset label
-set tmargin at screen 0.33
-set bmargin at screen 0.12
+set tmargin at screen bottom + 0.18
+set bmargin at screen bottom
 set format x
+x_span = (measured_max_x - measured_min_x)*1.08
 set xlabel label(x_name[k], x_unit[k])
 set ylabel label('residual', unit(rest, si[k])) offset 0.5
 unset logscale y

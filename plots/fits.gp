@@ -3,21 +3,21 @@
 title = fitted ? 'Measured and fitted' : 'Measured and computed'
 right = 0.97
 panels = |si|
-height = 110 + 190*panels
+height = 100 + 175*panels
 load 'style.gp'
 data = 'fits.dat'
 at(y) = 1 - y/(1.0*height) # y in pixels from above
-set label 1 title at screen 0.11, at(26)
-set label 2 subtitle at screen 0.11, at(50)
-set key at screen right, at(26) right top horizontal noreverse Right maxrows 1
+set label 1 title at screen 0.025, at(22)
+set label 2 subtitle at screen 0.025, at(44)
+set key at screen right, at(10) right top horizontal noreverse Right maxrows 1
 set tics font ',11'
 set multiplot
 do for [k=1:panels] {
-  above = 74 + 190*(k - 1)
+  above = 66 + 175*(k - 1)
   set tmargin at screen at(above)
-  set bmargin at screen at(above + 132)
-  set lmargin at screen 0.11
-  set rmargin at screen 0.52
+  set bmargin at screen at(above + 118)
+  set lmargin at screen 0.13
+  set rmargin at screen 0.50
   load 'of_fit.gp'
   set autoscale noextend
   set yrange [*:*]
@@ -29,7 +29,7 @@ do for [k=1:panels] {
   plot data using (x(0)):(measured(0)*y_factor) with points pt 6 ps 1.1 lw 1.5 lc rgb colour(1) title (k == 1 ? 'measured' : ''), \
        data using (x(0)):(computed(0)*y_factor) with points pt 2 ps 0.7 lw 1.5 lc rgb colour(2) title (k == 1 ? (fitted ? 'fitted' : 'computed') : '')
   unset label
-  set lmargin at screen 0.63
+  set lmargin at screen 0.65
   set rmargin at screen right
   set ylabel weighted ? 'residual / σ' : label('residual', unit(rest, si[k])) font ',12' offset 0.5
   if (weighted) { stats data using (x(0)):(abs(residual(0)/sigma(0))) name 'weighted' nooutput }

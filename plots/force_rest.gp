@@ -1,5 +1,5 @@
 # Force on the held platform at rest against voltage.
-title = 'Force on the held platform against voltage'
+title = (actuator_kind eq 'hinge' ? 'Force on the held end' : 'Force on the held platform').' against voltage'
 load 'along_voltage.gp'
 factor = scale(largest('force_N'), 'N')
 set ylabel label('force', unit(largest('force_N'), 'N')) offset 0.5

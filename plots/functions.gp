@@ -14,7 +14,8 @@ _place(c, l, n) = n > words(l) ? 0 : word(l, n) eq c ? n : _place(c, l, n + 1)
 place(c, l) = _place(c, l, 1)
 
 # largest('stroke_m opening_m'): the largest absolute value of all of them.
-max(a, b) = a > b ? a : b
+max(a, b) = a > b || b != b ? a : b
+min(a, b) = a < b || b != b ? a : b
 _size(c) = exists('largest_'.c) ? value('largest_'.c) : 0
 _largest(l, n) = n == 0 ? 0 : max(_largest(l, n - 1), _size(word(l, n)))
 largest(l) = _largest(l, words(l))
@@ -30,8 +31,19 @@ scale(x, u) = u eq 'kg' ? 1000 * 10.0**(-3 * power(x * 1000)) : u eq '%' ? 100.0
 # label('stroke', 'mm') = 'stroke / mm', of a pure number 'stroke'.
 label(quantity, u) = u eq '' ? quantity : quantity.' / '.u
 
-# legend(n): the first n list keys of a sweep, each on a line so that they fit over the legend.
+# legend(n): the first n list keys of a sweep, each on a line so that they fit over the legend; letters_of(n): those of
+# the longest.
 legend(n) = n < 1 ? '' : n == 1 ? list_key[1] : legend(n - 1).",\n".list_key[n]
+letters_of(n) = n < 1 ? 0 : max(letters_of(n - 1), strlen(list_key[n]) - 4)
+
+# span('stroke_m opening_m'): from the lowest to the highest of all of them.
+_edge(s, l, n) = n == 0 ? NaN : exists(s.word(l, n)) ? value(s.word(l, n)) : NaN
+_low(l, n) = n == 0 ? NaN : min(_low(l, n - 1), _edge('lowest_', l, n))
+_high(l, n) = n == 0 ? NaN : max(_high(l, n - 1), _edge('highest_', l, n))
+span(l) = _high(l, words(l)) - _low(l, words(l))
+
+# beside(14): the right edge of axes beside which a legend of texts with at most 14 letters has room.
+beside(n) = max(0.5, 0.883 - 0.0118*n)
 
 # step(range, 6): the distance of tics, 1, 2 or 5 times a power of ten, of which at most 6 fit into the range.
 _ten(x) = 10.0**floor(log10(x))

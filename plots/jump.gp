@@ -1,6 +1,6 @@
 # A jump from one stable part to another at a voltage: a thin arrow with its voltage beside it; a point where it is not
 # known where the jump ends. `at`, `from`, `to` are the jump; `tag` and `name` are its own.
-left = at > 0.78*drive_voltage
+left = at > 0.66*drive_voltage
 whole = to == to
 if (at == at && from == from) {
   if (whole) { set arrow tag from at*voltage,from*factor to at*voltage,to*factor front head filled size screen 0.012,18 lw 1.2 lc rgb '#333333' }

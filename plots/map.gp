@@ -1,7 +1,9 @@
 # What a study answers over two list keys, as colours with contours and their values on them.
+data = 'map.dat'
+tics_most = 9
+contours = 8
 load 'of_maps.gp'
-set cntrparam levels auto 8
-set colorbox user origin 0.85,0.17 size 0.03,0.69
 splot 'map.dat' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with pm3d nocontour, \
-      'map.dat' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 1.2 lc rgb '#ffffff' nosurface, \
-      'map.dat' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with labels tc rgb '#ffffff' nosurface
+      '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 2.4 lc rgb '#ffffff' nosurface, \
+      '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 0.8 lc rgb '#000000' nosurface, \
+      '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with labels boxed tc rgb '#000000' nosurface

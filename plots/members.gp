@@ -2,7 +2,7 @@
 title = 'Openings of the members over time'
 foot = note
 remark = 'member 1 is the uppermost'
-right = 0.76
+letters = 8
 load 'style.gp'
 set datafile separator ','
 set xrange [0:*]

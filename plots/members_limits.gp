@@ -1,7 +1,7 @@
 # Voltages of each of several actuators in series. Closing is a ring, for it is often where pull-in is.
 title = 'Limits of the members'
 remark = 'member 1 is the uppermost'
-right = 0.76
+letters = 8
 load 'style.gp'
 set datafile separator ','
 set xrange [0.5:stack_series + 0.5]

@@ -15,13 +15,13 @@ tics = 6
 load 'same_scale.gp'
 set multiplot
 do for [k=1:|frequency|] {
-  panel_left = 0.09 + 0.305*((k - 1) % across)
-  panel_top = 0.82 - 0.37*((k - 1)/across)
+  panel_left = left - 0.02 + 0.29*((k - 1) % across)
+  panel_top = 0.81 - 0.34*((k - 1)/across)
   if (k == 2) { unset label }
   set lmargin at screen panel_left
-  set rmargin at screen panel_left + 0.275
+  set rmargin at screen panel_left + 0.265
   set tmargin at screen panel_top
-  set bmargin at screen panel_top - 0.29
+  set bmargin at screen panel_top - 0.26
   set label 6 sprintf('%d: %.4g Hz', k, frequency[k]) at graph 0.5,1.09 center font ',13'
   lowest = k + across > |frequency|
   first = (k - 1) % across == 0

@@ -3,9 +3,9 @@
 load 'functions.gp'
 steps = 20 # of potential between the electrodes
 apart = drive_voltage/steps
-remark = sprintf("grey: metal; blue: the insulators' faces; black: potential, lines %.4g %s apart; x and y have different scales", \
-                 apart*scale(apart, 'V'), unit(apart, 'V'))
-right = 0.83
+foot = "grey: metal; blue: the insulators' faces; x and y have different scales"
+remark = sprintf('black: potential, lines %.4g %s apart', apart*scale(apart, 'V'), unit(apart, 'V'))
+right = 0.79
 load 'style.gp'
 length = scale(box_right, 'm')
 field = scale(strongest, 'V/m')
@@ -13,9 +13,8 @@ set palette defined (0 '#ffffff', 0.25 '#fee599', 0.5 '#fdb55f', 0.75 '#f2703f',
 if (decades) set logscale cb
 set cbrange [weakest*field:strongest*field]
 set cblabel label('field strength', unit(strongest, 'V/m')) offset 0.5
-set colorbox user origin screen 0.85, screen 0.19 size screen 0.025, screen 0.67
 # standalone: the picture is in the file, not beside it; the lines are drawn twice, first into a table
-set terminal svg size 800,500 dynamic standalone enhanced font 'Helvetica,14' background '#ffffff'
+set terminal svg size 600,height dynamic standalone enhanced font 'Helvetica,13' background '#ffffff'
 set contour base
 unset surface
 set cntrparam levels incremental -drive_voltage/2 + apart,apart,drive_voltage/2 - 0.5*apart
@@ -24,12 +23,10 @@ splot data index 1 using ($1*length):($2*length):3 with lines nosurface
 unset table
 unset grid
 unset key
-set bmargin at screen 0.19
-set lmargin at screen 0.125
 set tics front out
 set xrange [box_left*length:box_right*length]
 set yrange [box_bottom*length:box_top*length]
-set xlabel label('x from the clip', unit(box_right, 'm'))
+set xlabel label('x from the clip', unit(box_right, 'm')) offset 0,0.5
 set ylabel label('y', unit(box_right, 'm')) offset 0.5
 dx = (box_right - box_left)/pixels_across*length
 dy = (box_top - box_bottom)/pixels_up*length

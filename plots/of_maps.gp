@@ -1,4 +1,5 @@
-# Axes and colours of maps; where a key grows by factors its axis is logarithmic, with tics at its values.
+# Axes and colours of maps from `data`, with at most `tics_most` tics on an axis and
+# about `contours` contours; where a key grows by factors its axis is logarithmic, with tics at its values.
 load 'functions.gp'
 if (exists('answer')) {
   title = answer
@@ -12,7 +13,7 @@ if (exists('answer')) {
 }
 lowest_value = value('lowest_'.scalar)
 highest_value = value('highest_'.scalar)
-right = 0.82
+right = 0.77
 if (motion) foot = note
 load 'style.gp'
 size = max(abs(lowest_value), abs(highest_value))
@@ -28,8 +29,16 @@ if (x_log) set logscale x
 if (y_log) set logscale y
 if (x_tics ne '') set xtics ()
 if (y_tics ne '') set ytics ()
-do for [at in x_tics] { set xtics add (sprintf('%g', at*x_factor) at*x_factor) }
-do for [at in y_tics] { set ytics add (sprintf('%g', at*y_factor) at*y_factor) }
+every(l) = (words(l) + tics_most - 1)/tics_most
+do for [i=1:words(x_tics):max(1, every(x_tics))] { set xtics add (sprintf('%g', word(x_tics, i)*x_factor) word(x_tics, i)*x_factor) }
+do for [i=1:words(y_tics):max(1, every(y_tics))] { set ytics add (sprintf('%g', word(y_tics, i)*y_factor) word(y_tics, i)*y_factor) }
+stats data using ($1*x_factor):($2*y_factor) name 'key' nooutput
+if (x_tics eq '' && !x_log) set xtics step(key_max_x - key_min_x, tics_most)
+if (y_tics eq '' && !y_log) set ytics step(key_max_y - key_min_y, tics_most)
+constant = highest_value - lowest_value < 1e-3*size # then contours would all have the same label
+slack = constant ? 0.01*size : 0
+set cbrange [(lowest_value - slack)*factor:(highest_value + slack)*factor]
+if (constant) { set cntrparam levels discrete 2*size*factor } else { set cntrparam levels auto contours }
 load 'scale_of_shades.gp'
 unset grid
 unset key
@@ -37,3 +46,4 @@ set view map
 set pm3d interpolate 1 + 60/rows, 1 + 60/columns_across # cells so fine that they look smooth
 set contour base
 set cntrlabel onecolor start 2 interval -1 font ',11'
+set style textbox opaque margins 0.4,0.4 fc rgb '#ffffff' noborder

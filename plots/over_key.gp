@@ -1,10 +1,20 @@
 # Curves of a sweep from its table: against the list key that varies fastest, a curve for each value of the others, curve k
-# in the rows first[k] to last[k]. Words of a key stand side by side.
+# in the rows first[k] to last[k]. Shades tell the curves in their order; dashes and marks tell neighbours, in grey, too.
+# Of three keys the first has a style of line, `alike` curves each, the second a shade.
+load 'functions.gp'
 many = |list_key| > 1
+if (!exists('letters')) letters = 0
+do for [k=1:|curve|] { letters = max(letters, strlen(curve[k])) }
+letters = max(letters, letters_of(|list_key| - 1))
+if (!many && letters == 0) right = 0.96
 load 'style.gp'
 set datafile separator ','
 set datafile columnheaders
-if (many) set key title legend(|list_key| - 1) left font ',12'
+if (many) set key spacing 1 title legend(|list_key| - 1) left font ',12'
 set xlabel label(x_name, x_unit)
 x(first) = x_words ? column(0) : column(x_column)*x_factor
 word_tics = x_words ? ':xticlabels(x_column)' : ''
+shade_of(k) = shade(alike > 1 ? (alike > 2 ? 0.9 : 0.6)*((k - 1) % alike)/(alike - 1.0) : 0.3)
+style_of(k) = alike < |curve| ? (k - 1)/alike + 1 : k
+dash(k) = (style_of(k) - 1) % 8 + 1
+mark(k) = word('7 6 5 4 9 8 11 10', dash(k)) + 0

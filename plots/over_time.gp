@@ -1,5 +1,5 @@
 # Curves over time from the table of a run, with the small print of motions.
-right = 0.76
+letters = 16
 load 'style.gp'
 set datafile separator ','
 set key autotitle columnhead

@@ -2,8 +2,9 @@
 load 'functions.gp'
 title = 'Pareto front'
 remark = sprintf('%d of %d cases are on the front; others are worse, or miss a constraint', |front|, cases)
-right = 0.80
+letters = 6
 load 'style.gp'
+set datafile missing NaN
 set datafile separator ','
 set datafile columnheaders
 x_size = largest(objective[1])
@@ -12,6 +13,7 @@ x(c) = column(objective[1])*scale(x_size, objective_si[1])
 y(c) = column(objective[2])*scale(y_size, objective_si[2])
 set xlabel label(objective_name[1], unit(x_size, objective_si[1]))
 set ylabel label(objective_name[2], unit(y_size, objective_si[2])) offset 0.5
+set autoscale noextend
 set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.03
 on_front(i) = sum [k=1:|front|] (front[k] == i)
 if (objectives == 2) {

@@ -1,6 +1,6 @@
 # Electric force along a ribbon by the plates law and by the solved field, and their ratio.
 title = 'Electric force along a ribbon'
-right = 0.76
+letters = 14
 load 'style.gp'
 set datafile separator ','
 set key autotitle columnhead
@@ -10,7 +10,8 @@ both = largest('plates_N_per_m field_N_per_m')
 force = scale(both, 'N/m')
 load 'upper_panel.gp'
 set yrange [0:*]
-set ylabel label('force per length', unit(both, 'N/m')) offset 0.5
+set ylabel 'force / ('.unit(both, 'N/m').')' offset 0.5
+set ytics step(both*force, 5)
 list = 'field_N_per_m plates_N_per_m'.(number('capped_length_m') > 0 ? ' force_N_per_m' : '')
 titles = 'field "plates law" "with breakdown"'
 width(k) = word('4 1.5 2.5', k) + 0
@@ -22,6 +23,7 @@ load 'lower_panel.gp'
 unset key
 set autoscale y
 set offsets 0, 0, graph 0.08, graph 0.05
-set ylabel 'field / plates' offset 2.2
+set ylabel 'field / plates' offset 0.5
+if (span('ratio') > 0) set ytics step(span('ratio'), 5)
 plot '../table.csv' using (column('x_m')*length):(column('ratio')*1) with lines lw 2.5 lc rgb '#0072b2' title ''
 unset multiplot

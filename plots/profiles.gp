@@ -2,14 +2,13 @@
 title = (ribbons > 1 ? 'Shapes of the ribbons' : 'Shapes of the ribbon').(half ? ', left half' : '')
 foot = note
 if (!same_scale) remark = 'x and y have different scales'
-right = 0.82
+right = 0.79
 load 'style.gp'
 load 'of_shapes.gp'
 time = scale(end, 's')
-set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#c8d020')
+load 'scale_of_shades.gp'
 set cblabel label('time', unit(end, 's')) offset 0.5
 set cbrange [begin*time:end*time]
-set colorbox user origin screen 0.85, screen 0.17 size screen 0.025, screen 0.69
 tics = 12
 if (same_scale) {
   load 'same_scale.gp'

@@ -4,7 +4,7 @@ foot = note
 load 'over_time.gp'
 load 'upper_panel.gp'
 list = 'stroke_m sensed_stroke_m'
-titles = 'stroke "stroke by capacitance"'
+titles = 'stroke "by capacitance"'
 quantity = 'stroke'
 si = 'm'
 sized = 'stroke_m'

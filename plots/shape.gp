@@ -1,6 +1,6 @@
 # The loaded shape at rest.
 title = 'Shape at rest'.(half ? ', left half' : '')
-right = ribbons > 1 ? 0.82 : 0.96
+if (ribbons > 1) { letters = 6 } else { right = 0.96 }
 if (!same_scale) remark = 'x and y have different scales'
 load 'style.gp'
 load 'of_shapes.gp'

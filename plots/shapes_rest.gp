@@ -1,7 +1,8 @@
 # Shapes at rest along the path of states: voltage_at[k] and stable[k] of each.
 title = 'Shapes at rest'.(half ? ', left half' : '')
-right = 0.78
-if (!same_scale) remark = 'x and y have different scales'
+letters = 13
+remark = (sum [k=1:|stable|] (1 - stable[k])) > 0 ? 'dashed: unstable' : ''
+if (!same_scale) remark = remark.(remark eq '' ? '' : '; ').'x and y have different scales'
 load 'style.gp'
 set key title 'along the path' left font ',12'
 load 'of_shapes.gp'
@@ -14,4 +15,4 @@ if (same_scale) {
 voltage = scale(drive_voltage, 'V')
 plot for [k=1:|stable|] 'shapes.dat' index k-1 using ($1*length):($2*length) with lines lw 2 dt 2-stable[k] \
      lc rgb shade((k - 1.0)/(|stable| - 1)) \
-     title sprintf('%.3g %s%s', voltage_at[k]*voltage, unit(drive_voltage, 'V'), stable[k] ? '' : ', unstable')
+     title sprintf('%.3g %s', voltage_at[k]*voltage, unit(drive_voltage, 'V'))

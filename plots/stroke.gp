@@ -21,8 +21,11 @@ load 'curves.gp'
 if (contracts) {
   load 'lower_panel.gp'
   load 'zip_name.gp'
-  set ylabel 'contraction / %' offset 0.5
-  plot '../table.csv' using (column('time_s')*time):(column('contraction')*100) with lines lw 2 lc rgb colour(3) \
-       title 'contraction'
+  list = 'contraction'
+  titles = 'contraction'
+  quantity = 'contraction'
+  si = '%'
+  sized = list
+  load 'curves.gp'
   unset multiplot
 }

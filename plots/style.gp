@@ -1,12 +1,22 @@
-# The look of all pictures: paper, fonts, frame, title and small print. A template sets first
+# The look of all pictures: paper, fonts, frame, title and small print. They are to be read on a phone, 390 px wide, where
+# letters have two thirds of their size. A template sets first
 #   title          what the picture shows
-#   right          right edge of its axes, as a part of the width; the legend is to the right of it
-#   height         of the picture in pixels, where it is not 500
-#   foot, remark   small print on the right and on the left, where there is any
+#   letters        those of the longest text of the legend, which is to the right of the axes; or, without a legend,
+#   right          right edge of the axes, as a part of the width
+#   left           left edge of its axes, where it is not 0.14
+#   height         of the picture in pixels, where it is not 420
+#   foot, remark   lines of small print, where there are any
 # and zipact has set `subtitle`: under which load, voltage and so on.
 load 'functions.gp'
+if (!exists('right')) right = beside(letters)
+if (!exists('left')) left = 0.14
+if (!exists('height')) height = 420
+if (!exists('foot')) foot = ''
+if (!exists('remark')) remark = ''
+print_lines = (foot ne '') + (remark ne '')
+bottom = 0.155 + 0.045*print_lines
 set encoding utf8
-set terminal svg size 800,(exists('height') ? height : 500) dynamic enhanced font 'Helvetica,14' background '#ffffff'
+set terminal svg size 600,height dynamic enhanced font 'Helvetica,13' background '#ffffff'
 set output out
 set dashtype 6 (14,3)
 set dashtype 7 (14,3,2,3)
@@ -14,12 +24,12 @@ set dashtype 8 (6,2,2,2,2,2)
 set grid lc rgb '#dddddd' lw 1 lt 1
 set border lc rgb '#333333'
 set tics nomirror
-set lmargin at screen 0.11
+set lmargin at screen left
 set rmargin at screen right
-set bmargin at screen 0.17
+set bmargin at screen bottom
 set tmargin at screen 0.86
 set key at screen right + 0.015, 0.86 left top Left reverse samplen 3 spacing 1.2 font ',12'
-set label 1 title at screen 0.11, 0.955 left font ',17'
-set label 2 subtitle at screen 0.11, 0.905 left font ',12' tc rgb '#555555'
-if (exists('foot')) set label 3 foot at screen 0.985, 0.025 right font ',10' tc rgb '#555555'
-if (exists('remark')) set label 4 remark at screen 0.015, 0.025 left font ',10' tc rgb '#555555'
+set colorbox user origin right + 0.025, bottom size 0.025, 0.86 - bottom
+set label 1 title at screen 0.025, 0.955 left font ',16'
+set label 2 subtitle at screen 0.025, 0.905 left font ',12' tc rgb '#555555'
+set label 3 foot.(print_lines == 2 ? "\n" : '').remark at screen 0.025, 0.045*print_lines - 0.015 left font ',11' tc rgb '#555555'

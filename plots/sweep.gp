@@ -1,11 +1,17 @@
 # One or two numbers of the summary, number[1] and number[2], against the list key that varies fastest. Of several curves
-# colours tell the curve, marks and dashes the number.
+# shades and dashes tell the curve, full and open marks the number.
 load 'functions.gp'
 title = answer
 remark = answers
-numbers = (number[1] ne '') + (number[2] ne '')
-right = |list_key| > 1 ? 0.76 : numbers == 2 ? 0.82 : 0.96
 if (motion) foot = note
+drawn = ''
+letters = 0
+do for [j=1:2] {
+  if (number[j] ne '' && has(number[j])) {
+    drawn = drawn.sprintf('%d ', j)
+    letters = max(letters, strlen(number_name[j]))
+  }
+}
 load 'over_key.gp'
 size = largest(number[1].' '.number[2])
 factor = scale(size, si)
@@ -13,17 +19,12 @@ set ylabel label(quantity, unit(size, si)) offset 0.5
 set autoscale x noextend
 set yrange [0:*]
 set offsets graph 0.03, graph 0.03, graph 0.05, 0
-drawn = ''
-named = ''
-do for [j=1:2] {
-  if (number[j] ne '' && has(number[j])) { drawn = drawn.sprintf('%d ', j) }
-  if (many && number_name[j] ne '' && has(number[j])) { named = named.sprintf('%d ', j) }
-}
 nth(j) = strlen(j) ? j + 0 : 1 # of an empty list gnuplot looks at the rest of the line, too
-mark(i) = i == 2 ? 5 : 7
-shade_of(k) = |curve| > 1 ? shade((k - 1.0)/(|curve| - 1)) : shade(0.3)
-paint(i, k) = many ? shade_of(k) : colour(i)
+mark(j) = nth(j) == 2 ? 4 : 7
+paint(j, k) = many ? shade_of(k) : colour(nth(j))
+line(j, k) = many ? dash(k) : nth(j)
+named(j) = many && number_name[nth(j)] ne ''
 plot for [k=1:|curve|] for [j in drawn] '../table.csv' every ::first[k]::last[k] using (x(0)):(column(number[nth(j)])*factor)@word_tics \
-       with linespoints lw 2 dt nth(j) pt mark(nth(j)) ps 0.8 lc rgb paint(nth(j), k) \
+       with linespoints lw 2 dt line(j, k) pt mark(j) ps 0.8 lc rgb paint(j, k) \
        title (!many ? number_name[nth(j)] : j eq word(drawn, 1) ? curve[k] : ''), \
-     for [j in named] NaN with linespoints lw 2 dt nth(j) pt mark(nth(j)) ps 0.8 lc rgb '#555555' title number_name[nth(j)]
+     for [j in drawn] NaN with points pt mark(j) ps 0.8 lc rgb '#555555' title named(j) ? number_name[nth(j)] : ''

@@ -1,5 +1,7 @@
 # The upper of two panels.
 set multiplot
-set bmargin at screen 0.555
+middle = (bottom + 0.86)/2
+y_tics = 5
+set bmargin at screen middle + 0.025
 set format x ''
 unset xlabel

@@ -2,7 +2,7 @@
 title = 'Voltage and opening over time'
 foot = note
 load 'over_time.gp'
-set yrange [*<0:0<*]
+from_zero = 1
 load 'upper_panel.gp'
 list = 'voltage_V'
 titles = 'voltage'

@@ -3,7 +3,7 @@ title = actuator_kind eq 'electro_ribbon' ? 'Closed length from the clip, one ha
                                           : 'Closed length at rest against voltage'
 load 'along_voltage.gp'
 factor = scale(largest('zipped_length_m'), 'm')
-set yrange [0:*]
+from_zero = 1
 set ylabel label('zipped length', unit(largest('zipped_length_m'), 'm')) offset 0.5
 set offsets 0, 0, graph 0.05, 0
 shown = 'zipped_length_m'

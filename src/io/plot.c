@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "io/number.h"
@@ -73,6 +74,30 @@ void zp_plot_define_text(FILE *file, const char *name, const char *text) {
   fprintf(file, "%s = ", name);
   put_text(file, text);
   fputc('\n', file);
+}
+
+/* A unit as pictures show it: "um" of the tables is "µm", "m2/s" is "m²/s". */
+static void print_unit(const char *unit, char *text, size_t size) {
+  size_t used = 0;
+  text[0] = 0;
+  for (const char *c = unit; *c && used < size; c++) {
+    const char plain[2] = {*c, 0};
+    const bool micro = *c == 'u' && c == unit && c[1];
+    used += (size_t)snprintf(text + used, size - used, "%s", micro ? "µ" : *c == '2' ? "²" : *c == '3' ? "³" : plain);
+  }
+}
+
+void zp_plot_print_value(int key, double value, char *text, size_t size) {
+  enum { EXACT_MOST = 6 }; /* letters: what has more is rounded */
+  char exact[64], unit[40], *end;
+  zp_value_print(key, value, exact, sizeof exact);
+  const double number = strtod(exact, &end);
+  const int length = (int)(end - exact), digits = length > EXACT_MOST ? 4 : EXACT_MOST;
+  print_unit(*end == ' ' ? end + 1 : "", unit, sizeof unit);
+  if (length == 0) /* a word */
+    snprintf(text, size, "%s", exact);
+  else
+    snprintf(text, size, "%.*g%s%s", digits, number, *unit ? " " : "", unit);
 }
 
 void zp_plot_define_word(FILE *file, const char *name, const char *word) {
@@ -255,13 +280,14 @@ void zp_plot_define_common(const ZpPlot *plot, const char *text, FILE *file) {
 void zp_plot_define_key_axis(FILE *file, const char *name, size_t k, int index) {
   const ZpKey *key = zp_key(index);
   ZpUnitScale scale;
-  char part[3][40];
+  char part[3][40], unit[40];
   const bool shown = *key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK;
   snprintf(part[0], sizeof part[0], "%s_name", name);
   snprintf(part[1], sizeof part[1], "%s_unit", name);
   snprintf(part[2], sizeof part[2], "%s_factor", name);
   zp_plot_define_text(file, zp_plot_entry(part[0], k).text, key->name);
-  zp_plot_define_text(file, zp_plot_entry(part[1], k).text, shown ? key->shown : "");
+  print_unit(shown ? key->shown : "", unit, sizeof unit);
+  zp_plot_define_text(file, zp_plot_entry(part[1], k).text, unit);
   zp_plot_define(file, zp_plot_entry(part[2], k).text,
                  !shown          ? 1
                  : scale.decimal ? pow(10, -scale.exponent)

@@ -99,6 +99,9 @@ void zp_plot_define_count(FILE *file, const char *name, size_t value);
 void zp_plot_define_text(FILE *file, const char *name, const char *text);
 void zp_plot_define_word(FILE *file, const char *name, const char *word);
 
+/* Print the value of a key for people: "6.667 kV", "50 µm". */
+void zp_plot_print_value(int key, double value, char *text, size_t size);
+
 /* Define an array of `count` (1 or more) entries, which zp_plot_define_count and the like then fill as NAME[1], ... */
 void zp_plot_define_array(FILE *file, const char *name, size_t count);
 

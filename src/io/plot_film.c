@@ -212,7 +212,7 @@ static void define_captions(const ZpPlot *plot, FILE *file, const Stage *stage) 
 static void define_animation(const ZpPlot *plot, FILE *file) {
   const Stage stage = stage_of(plot);
   char load[64];
-  zp_value_print(zp_key_find("load.mass"), plot->def.load.mass, load, sizeof load);
+  zp_plot_print_value(zp_key_find("load.mass"), plot->def.load.mass, load, sizeof load);
   zp_plot_define_text(file, "load", load);
   zp_plot_define_count(file, "path", is_path(plot));
   zp_plot_define_count(file, "has_platform", has_platform(plot));

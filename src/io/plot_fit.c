@@ -66,15 +66,26 @@ static void data_fit(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* What was set: the key that the column has the name of, or the time. */
-static void define_x(const ZpColumn *column, size_t k, FILE *file) {
-  char name[ZP_KEY_COLUMN_SIZE];
+/* The key that was set, load.mass of "load.mass_kg"; -1: none, it is the time. */
+static int key_of(const ZpColumn *column) {
+  int found = -1;
+  size_t longest = 0;
   for (int key = 0; key < zp_key_count(); key++) {
-    zp_key_column(key, name, sizeof name);
-    if (strcmp(name, column->name) == 0) {
-      zp_plot_define_key_axis(file, "x", k, key);
-      return;
-    }
+    const size_t length = strlen(zp_key(key)->name);
+    if (length < longest || strncmp(column->name, zp_key(key)->name, length) != 0 || column->name[length] != '_')
+      continue;
+    longest = length;
+    found = key;
+  }
+  return found;
+}
+
+/* What was set. */
+static void define_x(const ZpColumn *column, size_t k, FILE *file) {
+  const int key = key_of(column);
+  if (key >= 0) {
+    zp_plot_define_key_axis(file, "x", k, key);
+    return;
   }
   zp_plot_define_text(file, zp_plot_entry("x_name", k).text, "time");
   zp_plot_define_word(file, zp_plot_entry("x_unit", k).text, column->unit);

@@ -19,7 +19,7 @@ static void add_key(ZpPlot *plot, const char *name, const char *before) {
   char value[64];
   for (size_t i = 0; i < keys; i++)
     if (list[i] == key) return;
-  zp_value_print(key, zp_def_get(&plot->def, key), value, sizeof value);
+  zp_plot_print_value(key, zp_def_get(&plot->def, key), value, sizeof value);
   snprintf(plot->subtitle + used, sizeof plot->subtitle - used, "%s%s%s", used ? ", " : "", before, value);
 }
 

@@ -127,13 +127,17 @@ static bool has_electrodes(const ZpPlot *plot) {
   return has_path(plot) && plot->def.actuator.kind != ZP_KIND_RIBBON;
 }
 
+static bool has_zipped_length(const ZpPlot *plot) {
+  return has_electrodes(plot) && zp_plot_range(plot->table, "zipped_length_m").high > 0;
+}
+
 enum { BRANCHES = ZP_OF(branch) | ZP_OF(held_branch) };
 
 const ZpPicture zp_path_pictures[] = {
     {"stroke", "svg", "stroke_rest.gp", ZP_OF(branch), .needs = "voltage_V", .has = has_path, .define = define_path},
     {"force", "svg", "force_rest.gp", ZP_OF(held_branch), .needs = "voltage_V", .has = has_path, .define = define_path},
     {"zipped_length", "svg", "zipped_length_rest.gp", BRANCHES, .needs = "voltage_V zipped_length_m",
-     .has = has_electrodes, .define = define_path},
+     .has = has_zipped_length, .define = define_path},
     {"charge", "svg", "charge_rest.gp", BRANCHES, .needs = "voltage_V charge_C capacitance_F", .has = has_electrodes,
      .define = define_path},
     {0},

@@ -9,6 +9,10 @@ static bool has_voltage(const ZpPlot *plot) {
   return range.high > range.low;
 }
 
+static bool has_zipped_length(const ZpPlot *plot) {
+  return zp_plot_range(plot->table, "zipped_length_m").high > 0;
+}
+
 static bool has_cycle(const ZpPlot *plot) {
   return isfinite(zp_result_get(plot->single, "energy_per_cycle_J"));
 }
@@ -19,7 +23,8 @@ static bool has_power(const ZpPlot *plot) {
 
 const ZpPicture zp_run_pictures[] = {
     {"stroke", "svg", "stroke.gp", ZP_OF(motion), .needs = "stroke_m"},
-    {"zipped_length", "svg", "zipped_length.gp", ZP_OF(motion), .needs = "zipped_length_m opening_m"},
+    {"zipped_length", "svg", "zipped_length.gp", ZP_OF(motion), .needs = "zipped_length_m opening_m",
+     .has = has_zipped_length},
     {"voltage", "svg", "voltage.gp", ZP_OF(motion), .needs = "opening_m", .has = has_voltage},
     {"source", "svg", "source.gp", ZP_OF(motion), .needs = "current_A", .keys = "source.model"},
     {"interface", "svg", "interface.gp", ZP_OF(motion), .needs = "interface_voltage_V",

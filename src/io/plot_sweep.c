@@ -39,7 +39,7 @@ void zp_sweep_run_name(const ZpPlot *plot, size_t run, size_t without, char *tex
   for (size_t i = 0; i + without < keys && used < size; i++) {
     char value[64];
     if (zp_scenario_spread(plot->report->scenario, key[i])) continue;
-    zp_value_print(key[i], zp_sweep_value(plot, run, key[i]), value, sizeof value);
+    zp_plot_print_value(key[i], zp_sweep_value(plot, run, key[i]), value, sizeof value);
     used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", value);
   }
 }
@@ -72,13 +72,16 @@ static size_t last_of_curve(const ZpPlot *plot, size_t run) {
   return run;
 }
 
-/* Of more than two keys: how many curves follow each other in which the first key has one value. */
+/* Of more than two keys: how many curves follow each other in which the first key has one value, all if that varies. */
 static size_t curves_alike(const ZpPlot *plot, const size_t *chosen, size_t curves) {
   size_t keys, alike = 1;
   const int *key = zp_scenario_axes(plot->report->scenario, &keys);
   if (keys < 3) return curves;
   while (alike < curves && zp_sweep_value(plot, chosen[alike], key[0]) == zp_sweep_value(plot, chosen[0], key[0]))
     alike++;
+  for (size_t k = alike; k < curves; k++) /* where curves are left out, not all values have as many */
+    if ((zp_sweep_value(plot, chosen[k], key[0]) != zp_sweep_value(plot, chosen[k - 1], key[0])) != (k % alike == 0))
+      return curves;
   return alike;
 }
 

@@ -34,6 +34,9 @@ static const char style[] =
     ".over{display:inline-flex;flex-direction:column;text-align:center;vertical-align:middle;line-height:1.4;margin:0 "
     ".15rem}"
     ".over span:first-child{border-bottom:1px solid;padding:0 .2rem}"
+    ":root{color-scheme:light dark}@media(prefers-color-scheme:dark){body{color:#dfe3e6;background:#121619}a{color:#7cc4ee}"
+    "h2,th,td{border-color:#333c43}td.ok{color:#5ec9a0}td.off{color:#f0a060}td.unjudged{color:#9aa4ac}"
+    ".note{background:#33231a}.pictures svg{filter:invert(.93) hue-rotate(180deg)}}"
     "@media(max-width:30rem){body{padding:.6rem}th,td{padding:.1rem .25rem}table{font-size:.78rem}}"
     "@media print{body{font-size:10pt;max-width:none;padding:0}h2{break-after:avoid}figure,li{break-inside:avoid}"
     "table{font-size:8pt}a{color:inherit;text-decoration:none}.pictures figure{flex-basis:45%}}";
