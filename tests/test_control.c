@@ -532,7 +532,7 @@ START_TEST(wrong_keys) {
                {{"control.boost_band", 0}, "control.boost_band"},
                {{"solver.end_time", 2e3}, "more than 1e+06 samples"},
                {{"setpoint.value", 1.1}, "at most 1"},
-               {{"setpoint.value", NAN}, "which requires it"},
+               {{"setpoint.value", NAN}, "missing; control.kind requires it"},
                {{"setpoint.frequency", 5}, "setpoint.waveform sine or square"},
                {{"drive.waveform", ZP_WAVEFORM_SINE}, "the controller sets the voltage"},
                {{"actuator.kind", ZP_KIND_FLANGE}, "control.signal = contraction"},

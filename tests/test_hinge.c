@@ -261,7 +261,7 @@ static const struct {
     {ZP_STUDY_STATIONARY, {"liquid.model", ZP_LIQUID_BEAD}, "liquid.model = bead"},
     {ZP_STUDY_STATIONARY, {"electro.model", ZP_ELECTRO_FIELD}, "electro.model = field"},
     {ZP_STUDY_STATIONARY, {"stack.parallel", 2}, "stack.parallel"},
-    {ZP_STUDY_ACTUATE, {"insulator.thickness", 0}, "short circuit, for the electrodes touch at the hinge"},
+    {ZP_STUDY_ACTUATE, {"insulator.thickness", 0}, "short circuit, because the electrodes touch at the hinge"},
     {ZP_STUDY_ISOMETRIC, {"isometric.separation", 99e-3}, "0.98 ribbon.length"},
     {ZP_STUDY_PROFILE, {"mesh.nodes", 21}, "actuator.kind = hinge"},
     {ZP_STUDY_CYCLE, {"drive.waveform", ZP_WAVEFORM_SQUARE}, "electro_ribbon"},

@@ -181,7 +181,7 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
       {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates: requires ribbon.plane strain or stress"},
       {{"ribbon.plasticity", 1}, "platform.rotates: requires ribbon.plasticity false"},
       {{"load.stop_opening", 5e-3}, "platform.rotates: requires load.stop_opening none"},
-      {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: beyond the platform, allowed -0.005 to 0.005 m"},
+      {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: outside the platform; allowed are -0.005 to 0.005 m"},
       {{"platform.rotates", 0}, "load.offset = 0.001 m: requires platform.rotates true"},
   };
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {

@@ -152,7 +152,7 @@ START_TEST(what_a_spring_lacks_is_said) {
   static const struct {
     Setting one, other;
     const char *says;
-  } refused[] = {{{"load.stiffness", 3}, {"mesh.nodes", 21}, "load.rest_opening: load.stiffness is given"},
+  } refused[] = {{{"load.stiffness", 3}, {"mesh.nodes", 21}, "load.rest_opening: missing; load.stiffness requires it"},
                  {{"load.rest_opening", 3e-3}, {"mesh.nodes", 21}, "requires load.stiffness"},
                  {{"load.stop_stiffness", 3}, {"mesh.nodes", 21}, "requires load.stop_opening"},
                  {{"load.stop_opening", 3e-3}, {"actuator.kind", ZP_KIND_RIBBON}, "electro_ribbon"}};

@@ -1,9 +1,9 @@
-/* zipact-mpi, the program: the first process does what zipact does, but has the cases of a sweep computed by the
- * others.
+/* The program zipact-mpi: the first process does what zipact does, except that the other processes compute the cases of
+ * a sweep.
  *
- * The first has a thread per other process, which asks that process for some cases and waits. The others know the
- * scenario from a message, so that only the first reads files; those that keys name must be found by all. Waiting
- * processes look for messages from time to time: MPI's own waiting would take a processor each. */
+ * The first process has a thread per other process, which sends it some cases and waits. The others receive the
+ * scenario in a message, so that only the first process reads it; all processes must find the files that keys name.
+ * Waiting processes poll for messages: the waiting of MPI itself would occupy a processor each. */
 #include <mpi.h>
 
 #include <limits.h>
@@ -25,7 +25,7 @@ static ZpStatus fail(ZpError *err, const char *message) {
   return ZP_MACHINE;
 }
 
-/* Receive the next message of a process, of any length, to be freed; NULL if that fails. One byte longer, 0. */
+/* Receive the next message of a process, of any length, to be freed; NULL on failure. A final 0 is added. */
 static char *receive(int rank, int *tag, int *size) {
   const struct timespec pause = {.tv_nsec = 100000};
   MPI_Status status;
@@ -71,7 +71,7 @@ static ZpStatus compute(void *unused, size_t worker, size_t from, size_t to, uns
   *byte = NULL;
   if (MPI_Send(cases, 2, MPI_UNSIGNED_LONG_LONG, rank, TAG_CASES, MPI_COMM_WORLD) != MPI_SUCCESS) return ZP_OK;
   char *answer = receive(rank, &tag, &length);
-  if (!answer || length == 0) { /* that process is lost */
+  if (!answer || length == 0) { /* this process is lost */
     free(answer);
     return ZP_OK;
   }
@@ -129,7 +129,7 @@ static ZpScenario *read_scenario(const char *text, int size) {
   return NULL;
 }
 
-/* Do what a message says. False if it is the last. */
+/* Process a message. False if it is the last one. */
 static bool heed(const char *message, int tag, int size, ZpScenario **scenario) {
   unsigned long long cases[2];
   if (tag == TAG_SCENARIO) {
