@@ -101,13 +101,13 @@ function showButtons() {
   $('step').lastChild.textContent = pretty(core.print('drive.voltage', core.value('drive.voltage')));
   $('hold').disabled = !known;
   $('hold').lastChild.textContent = known ? `${fixed((pressed === 'hold' ? held : holdingVoltage()) / 1e3, 2)} kV` : '–';
-  $('hold').title = known ? '25 % above the voltage at which it opens again' : 'It has no voltage at which it opens again';
+  $('hold').title = known ? '25 % above the voltage at which it opens again' : 'There is no voltage at which it opens again';
 }
 
 function pause(now) {
   paused = now;
   $('pause').setAttribute('aria-pressed', String(now));
-  $('pause').textContent = now ? 'Go on' : 'Pause';
+  $('pause').textContent = now ? 'Resume' : 'Pause';
 }
 
 // -- studies
@@ -226,7 +226,7 @@ function work(passed) {
 /** Once a second, what need not be at once. */
 function describe() {
   if (live.frame) view.describe();
-  if (Remote.local !== null) view.notice(`This browser starts no worker for this page (${Remote.local}), so the page computes between frames, and more slowly.`);
+  if (Remote.local !== null) view.notice(`This browser does not start a worker for this page (${Remote.local}), so the page computes between frames, which is slower.`);
   $('frame').textContent = `A frame takes ${fixed(cost.mean, 1)} ms, ${fixed(cost.worst, 1)} ms at most.`;
   cost.worst = 0;
 }

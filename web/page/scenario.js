@@ -66,7 +66,7 @@ export function withSupply(core, values, word) {
 
 /** What the supply of the scenario can do, in a line; what of it is unusual in the words of its keys. */
 export function supplyWords(core) {
-  if (!isFed(core)) return 'ideal: the electrodes have the voltage of the buttons at once, whatever the current';
+  if (!isFed(core)) return 'ideal: the electrodes have the voltage of the buttons at once, at any current';
   const shown = (key) => pretty(core.print(key, core.value(key)));
   const sink = core.value('source.sink_limit') === 0 ? 'none (it cannot sink current)' : shown('source.sink_limit').replace('auto', 'as current');
   const three = [`slew rate ${shown('source.slew_rate').replace('none', 'unlimited')}`,
@@ -86,12 +86,12 @@ export const presets = [
   {of: 'Actuators', name: 'Thick and strong', help: '200 µm steel lifts 60 g by 2.5 mm, in a bath', values: {'ribbon.thickness': '200 um', 'load.mass': '60 g', 'liquid.model': 'submerged'}},
   {of: 'Actuators', name: 'Too heavy', help: '30 g: it does not close', values: {'load.mass': '30 g'}},
   {of: 'Liquids', name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'liquid.model': 'none', 'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
-  {of: 'Liquids', name: 'In a bath', help: 'submerged ribbons: a film between them, and oil to move outside', values: {'liquid.model': 'submerged'}},
+  {of: 'Liquids', name: 'In a bath', help: 'submerged ribbons: a film of oil between them, and oil that they move outside', values: {'liquid.model': 'submerged'}},
   {of: 'Liquids', name: 'With beads', help: 'a bead of oil at each zip front, air beyond', values: {'liquid.model': 'bead', 'bead.volume': '100 uL'}},
   {of: 'Materials', name: 'Kapton on spring steel', help: 'a thin polyimide film takes a high field: more force at less voltage', values: {'drive.voltage': '6 kV', 'ribbon.material': 'steel_1.4310', 'insulator.thickness': '50 um', 'insulator.material': 'kapton', 'bead.volume': '100 uL'}},
   {of: 'Materials', name: 'Mylar in ester', help: 'polyester film in a natural ester: a higher permittivity, a more viscous liquid', values: {'drive.voltage': '8 kV', 'insulator.thickness': '100 um', 'insulator.material': 'mylar', 'medium.material': 'fr3'}},
   {of: 'Materials', name: 'Tape on brass', help: 'brass is half as stiff as steel and yields earlier', values: {'load.mass': '5 g', 'ribbon.material': 'brass', 'insulator.material': 'pvc_tape'}},
-  {of: 'Supplies', name: 'Pocket, 6 kV', help: '0.1 V/µs: it takes 60 ms to 6 kV; lifts 4 g', values: {'drive.voltage': '6 kV', 'load.mass': '4 g', 'source.supply': 'pocket_6kv'}},
+  {of: 'Supplies', name: 'Pocket, 6 kV', help: '0.1 V/µs: reaches 6 kV after 60 ms; lifts 4 g', values: {'drive.voltage': '6 kV', 'load.mass': '4 g', 'source.supply': 'pocket_6kv'}},
   {of: 'Supplies', name: 'Open hardware, 5 kV', help: '15 V/µs; lifts 4 g', values: {'drive.voltage': '5 kV', 'load.mass': '4 g', 'bead.volume': '100 uL', 'source.supply': 'open_5kv'}},
   {of: 'Supplies', name: 'Laboratory, 10 kV', help: '700 V/µs and 10 mA: nearly ideal', values: {'source.supply': 'laboratory_10kv'}},
   {of: 'Supplies', name: 'Converter, 10 kV', help: '0.3 mA, and a bleeder of 500 MΩ through which it discharges', values: {'source.supply': 'converter_10kv'}},

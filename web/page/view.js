@@ -3,17 +3,17 @@ import {digits, fixed, pretty, Tiles} from './numbers.js';
 import {Picture} from './picture.js';
 
 const tiles = {
-  voltage: {label: 'Voltage', unit: 'kV', title: 'between the electrodes, now'},
+  voltage: {label: 'Voltage', unit: 'kV', title: 'voltage between the electrodes'},
   stroke: {label: 'Stroke', unit: 'mm', title: 'height of the clip over the lower platform'},
   opening: {label: 'Opening', unit: 'mm', title: 'distance of the platforms’ faces'},
   contraction: {label: 'Contraction', unit: '%', title: '1 − opening / opening when hanging without voltage'},
   zipped: {label: 'Zipped', unit: 'mm', title: 'closed length from the clip, one half'},
   force: {label: 'Attraction', unit: 'N', title: 'electric attraction of the ribbons, vertical'},
-  field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; at most its breakdown field where electro.breakdown_cap is true'},
+  field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; with electro.breakdown_cap at most its breakdown field'},
   inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
   capacitance: {label: 'Capacitance', unit: 'pF', title: 'of the electrodes'},
   bent: {label: 'Stress', unit: 'MPa', title: 'largest stress of the metal, from bending and tension'},
-  time: {label: 'Time', unit: 'ms', title: 'simulated, since the last button'},
+  time: {label: 'Time', unit: 'ms', title: 'simulated time since the last button was pressed'},
   zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
   stress: {label: 'Largest stress', unit: 'MPa', title: 'largest stress of the metal from hanging to closed, at the voltage of Step', study: true},
   yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal stays bent', study: true},
