@@ -513,7 +513,7 @@ START_TEST(test_set_range) {
   if (key->type == ZP_KEY_TEXT) return;
   if (key->offset == ZP_NO_FIELD) { /* study: of the scenario */
     ck_assert_int_eq(zp_def_set(&def, _i, key->min, &err), ZP_BAD_INPUT);
-    ck_assert_ptr_nonnull(strstr(err.message, "belongs to a scenario"));
+    ck_assert_ptr_nonnull(strstr(err.message, "is a key of a scenario"));
     return;
   }
   ck_assert_int_eq(zp_def_set(&def, _i, key->min, NULL), ZP_OK);

@@ -538,7 +538,7 @@ START_TEST(bad_numbers_of_studies_are_refused) {
   refuse_file("load_g,force_N\n8,2\n", E, "calibrate.y");
   refuse_file("load_g,frequency_mm\n8,2\n", E, "calibrate.y");
   refuse_file("time_ms,pull_in_voltage_V\n8,2\n", E, "calibrate.y");
-  refuse_file("load_g,pull_in_voltage_kV\n8,12\n", E, "bad.csv:2: a pull-in voltage of 12000 V was measured");
+  refuse_file("load_g,pull_in_voltage_kV\n8,12\n", E, "bad.csv:2: the measured pull-in voltage is 12000 V");
 }
 END_TEST
 

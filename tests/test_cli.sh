@@ -478,7 +478,7 @@ ok "plots: status 0" status_is 0
 ok "plots writes the templates" is_file mine/stroke.gp
 zp plots -o mine
 ok "plots does not write over them: status 2" status_is 2
-ok "plots does not write over them: says so" says 'mine/.*: is there already'
+ok "plots does not write over them: says so" says 'mine/.*: exists already'
 echo '# edited' >>mine/stroke.gp
 zp actuate $short --templates mine -o edited
 ok "--templates: status 0" status_is 0

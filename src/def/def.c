@@ -896,8 +896,7 @@ static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
   if (!def->ribbon.plasticity) return ZP_OK;
   if (def->ribbon.plane == ZP_PLANE_ANTICLASTIC)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "ribbon.plane = anticlastic: requires ribbon.plasticity false; with ribbon.plasticity use "
-                   "ribbon.plane strain or stress");
+                   "ribbon.plane = anticlastic: ribbon.plasticity requires ribbon.plane strain or stress");
   if (!isnan(def->sense.frequency))
     return zp_fail(err, ZP_BAD_INPUT,
                    "sense.frequency: requires ribbon.plasticity false, because the meter converts its reading by "
