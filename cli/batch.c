@@ -1,8 +1,9 @@
-/* zipact batch: one case per line in, one result per line out, for programs that drive this one.
+/* zipact batch: one case per line of input, one result per line of output, for programs that choose the cases.
  *
- * The thread that reads hands lines to workers through a ring; whoever finishes the oldest line prints it and what is
- * done behind it. So answers have the order of the lines, and each is out as soon as those before it are: a program
- * that waits for its answer before it asks again gets it. Ctrl-C ends the program at once; what was answered is out. */
+ * The reading thread hands lines to workers through a ring. The worker that finishes the oldest line prints its answer
+ * and all finished answers after it. So the answers keep the order of the lines, and each is printed as soon as all
+ * answers before it are: a program may wait for an answer before it sends the next line. Ctrl-C ends the program at
+ * once; printed answers are kept. */
 #include <jansson.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -13,7 +14,7 @@
 
 #include "cli.h"
 
-/* Lines that are read before the oldest of them is answered, at most. */
+/* Largest number of lines that are read before the oldest of them is answered. */
 enum { RING = 256 };
 
 typedef struct Line {
@@ -24,17 +25,17 @@ typedef struct Line {
 
 typedef struct Batch {
   const Options *options;
-  pthread_mutex_t lock; /* guards what follows */
+  pthread_mutex_t lock; /* guards the members below */
   pthread_cond_t more, room;
   Line ring[RING];
-  size_t read, taken, printed; /* lines so far */
-  bool closed;                 /* no more lines */
-  ZpStatus status;             /* of the machine */
+  size_t read, taken, printed; /* number of lines so far */
+  bool closed;                 /* the input has ended */
+  ZpStatus status;             /* failure of the machine */
 } Batch;
 
 /* -- one line --------------------------------------------------------------------------------------- */
 
-/* Without the place "line 7:1: " before it: the answer has the place of its line. */
+/* Remove the place "line 7:1: " from the message: the answer is already in the position of its line. */
 static void drop_place(ZpError *err, const char *name) {
   const size_t length = strlen(name);
   const char *reason = strncmp(err->message, name, length) == 0 ? strstr(err->message + length, ": ") : NULL;
@@ -56,7 +57,7 @@ static ZpStatus read_case(const Options *o, const Line *line, ZpScenario *scenar
   }
   zp_scenario_lists(scenario, &lists);
   if (lists == 0) return ZP_OK;
-  *err = (ZpError){ZP_BAD_INPUT, "a list of values: a line is one case"};
+  *err = (ZpError){ZP_BAD_INPUT, "a list of values; give one value per key, because a line is one case"};
   return ZP_BAD_INPUT;
 }
 
@@ -95,7 +96,7 @@ static char *error_line(const ZpError *err) {
   return line;
 }
 
-/* => the answer, to be freed; NULL if there is no memory for one. */
+/* => the answer, to be freed; NULL if there is no memory. */
 static char *answer_of(const Options *o, const Line *line, ZpStatus *status) {
   char *text = NULL;
   size_t size;
@@ -111,7 +112,7 @@ static char *answer_of(const Options *o, const Line *line, ZpStatus *status) {
 
 /* -- all lines -------------------------------------------------------------------------------------- */
 
-/* Print the answers that are next. */
+/* Print the finished answers in order. */
 static void print_ready(Batch *batch) {
   for (Line *line; batch->printed < batch->read; batch->printed++) {
     line = &batch->ring[batch->printed % RING];
@@ -125,7 +126,7 @@ static void print_ready(Batch *batch) {
   }
 }
 
-/* The next line that nobody has taken; NULL if there will be none. */
+/* The next line that no worker has taken; NULL after the last one. */
 static Line *take(Batch *batch) {
   while (batch->taken == batch->read && !batch->closed)
     pthread_cond_wait(&batch->more, &batch->lock);
@@ -148,7 +149,7 @@ static void *work(void *user) {
   return NULL;
 }
 
-/* Hand lines over until there are no more, or the machine fails. */
+/* Hand lines to the workers until the input ends or the machine fails. */
 static void read_lines(Batch *batch) {
   char *text = NULL;
   size_t room = 0;
@@ -174,7 +175,7 @@ static void read_lines(Batch *batch) {
   pthread_mutex_unlock(&batch->lock);
 }
 
-/* What all lines share must be right before the first is read. */
+/* Check the common part of all lines before the first line is read. */
 static ZpStatus check_common(const Options *o, ZpError *err) {
   ZpScenario *scenario = zp_scenario_create();
   *err = (ZpError){ZP_MACHINE, "no memory"};

@@ -1,4 +1,4 @@
-/* zipact bench: what steps, motions and states of rest cost on this machine, in CPU time of one thread. */
+/* zipact bench: CPU time of steps, motions and equilibria on this machine, on one thread. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +45,7 @@ static const struct {
 
 enum { ROWS = sizeof list / sizeof list[0] };
 
-/* A number in a cell, "-" where there is none. */
+/* A number in a cell, "-" if there is none. */
 static void print_cell(int width, int digits, double value) {
   if (isnan(value))
     printf(" %*s", width, "-");

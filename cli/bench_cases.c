@@ -1,4 +1,4 @@
-/* What a case of a sweep costs, all that is done for it included but its files and its journal. */
+/* Cost of a case of a sweep, including everything except files and journal. */
 #include <math.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "cli.h"
 #include "motion.h"
 
-/* CPU time per case of a scenario, best of some times through. */
+/* CPU time per case of a scenario, the best of some repetitions. */
 static ZpStatus time_cases(const ZpScenario *scenario, double *best, ZpError *err) {
   enum { TRIES = 3 };
   ZpStatus status = ZP_OK;
@@ -39,7 +39,7 @@ static ZpStatus bench_cases(const char *name, const char *sweep, int nodes, Row 
   return status;
 }
 
-/* Stationary: loads and thicknesses as in a design chart. */
+/* Stationary: loads and thicknesses of a design chart. */
 ZpStatus bench_rests(int nodes, Row *row, ZpError *err) {
   return bench_cases("case of stationary",
                      "study: stationary\nload.mass: {from: 2 g, to: 40 g, count: 40}\n"
@@ -47,7 +47,7 @@ ZpStatus bench_rests(int nodes, Row *row, ZpError *err) {
                      nodes, row, err);
 }
 
-/* Limits, each but one in 8 from the one before: so few cases make short chunks. */
+/* Limits: one case in 8 starts from scratch, the others from the case before; small sweeps have short chunks. */
 ZpStatus bench_limits(int nodes, Row *row, ZpError *err) {
   return bench_cases("case of limits",
                      "study: limits\nliquid.model: none\nload.mass: {from: 2 g, to: 12 g, count: 32}\n"
@@ -55,7 +55,7 @@ ZpStatus bench_limits(int nodes, Row *row, ZpError *err) {
                      nodes, row, err);
 }
 
-/* Zips from hanging, without liquid, their times to 0.1 %. */
+/* Zips from the hanging equilibrium, without liquid, zip times to 0.1 %. */
 ZpStatus bench_zips(int nodes, Row *row, ZpError *err) {
   return bench_cases("case of actuate, dry",
                      "study: actuate\nliquid.model: none\nsolver.tolerance: 1e-3\n"

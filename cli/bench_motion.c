@@ -1,4 +1,4 @@
-/* What a motion costs, and how far from a converged one it is. */
+/* Cost of a motion, and its distance from a converged one. */
 #include <math.h>
 
 #include "bench.h"
@@ -16,7 +16,7 @@ static Row row_of(const char *name, const ZpActuatorDef *def, const Motion *moti
                .error = motion->rms / scale};
 }
 
-/* Its error: rms of the tip's distance from the converged swing over the swing's height. */
+/* Error: rms of the distance of the tip from the converged swing, over the height of the swing. */
 static ZpStatus swing(const char *name, int nodes, bool implicit, Row *row, ZpError *err) {
   Trajectory reference = motion_swing_reference();
   ZpActuatorDef def;
@@ -45,7 +45,7 @@ ZpStatus bench_zip(int nodes, Row *row, ZpError *err) {
   return status;
 }
 
-/* It zips, is held, is released and swings until a second is over. */
+/* The actuator zips, is held, is released and swings, 1 s in total. */
 ZpStatus bench_use(int nodes, Row *row, ZpError *err) {
   static const double time[] = {0, 0.48, 0.48}, voltage[] = {10e3, 10e3, 0};
   static const ZpDriveTable table = {3, time, voltage};

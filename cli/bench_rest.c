@@ -1,4 +1,4 @@
-/* What a state of rest costs, and the field around it. */
+/* Cost of an equilibrium, and of the field around it. */
 #include <math.h>
 
 #include "bench.h"
@@ -13,7 +13,7 @@ static Row row_of(const char *name, int nodes, double cpu, double error) {
   return (Row){name, nodes, NAN, NAN, NAN, cpu, NAN, error};
 }
 
-/* CPU time of one study of rest, best of many, and its stroke. */
+/* CPU time of one study of an equilibrium, the best of many, and its stroke. */
 static ZpStatus time_rest(const ZpAssignment *list, size_t count, double *best, double *stroke, ZpError *err) {
   enum { TRIES = 50 };
   ZpActuatorDef def;
@@ -33,7 +33,7 @@ static ZpStatus time_rest(const ZpAssignment *list, size_t count, double *best, 
 
 /* A steel strip of 45 x 12.7 mm x 100 um, guided, with 61 g at its end, from straight: 17.942 mm. */
 ZpStatus bench_strip(int nodes, Row *row, ZpError *err) {
-  static const double converged = 17.942e-3; /* m, an exact elastica */
+  static const double converged = 17.942e-3; /* m, exact elastica */
   ZpAssignment list[12];
   size_t count = 0;
   bench_set(list, &count, "actuator.kind", ZP_KIND_RIBBON);
@@ -49,7 +49,8 @@ ZpStatus bench_strip(int nodes, Row *row, ZpError *err) {
   return status;
 }
 
-/* All 18 rows of Table II, preset paper-code with the K_S of its authors; the error is against their strokes. */
+/* All 18 rows of Table II, preset paper-code with the K_S of its authors; the error is the difference from their
+ * strokes. */
 ZpStatus bench_table2(int nodes, Row *row, ZpError *err) {
   static const int sizes[3] = {21, 61, 130};
   static const double load[] = {40, 60, 80, 100, 150, 200}; /* g */
@@ -66,15 +67,15 @@ ZpStatus bench_table2(int nodes, Row *row, ZpError *err) {
       double best = NAN, stroke = NAN;
       status = time_rest(list, count, &best, &stroke, err);
       sum += best;
-      bool misprint = n == 0 && (m == 1 || m == 2); /* N = 21 at 60 and 80 g: not what their program gives */
+      bool misprint = n == 0 && (m == 1 || m == 2); /* N = 21 at 60 and 80 g: differs from their program */
       if (!misprint) worst = fmax(worst, fabs(stroke * 1e3 / zp_published(ZP_TABLE_2_STROKE, sizes[n], load[m]) - 1));
     }
   *row = row_of("rest, Table II, 18 rows", nodes, sum, worst);
   return status;
 }
 
-/* Study profile on the wedge to 2 mm: one solution of the field with all that is read off it; the error is that of
- * traction against virtual work. */
+/* Study profile on the wedge with an opening of 2 mm: one solution of the field with all its results; the error is the
+ * difference between traction and virtual work. */
 ZpStatus bench_field(int nodes, Row *row, ZpError *err) {
   enum { TRIES = 10 };
   ZpActuatorDef def = zp_actuator_def_default();

@@ -1,4 +1,4 @@
-/* What one explicit step costs: ours, and a plain kernel of the mechanics alone. */
+/* Cost of an explicit step: of the library, and of a plain kernel of the mechanics alone. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@
 
 enum { REPEATS = 5 };
 
-/* What the paper says of its MATLAB code on one thread of an i7-8700: s per simulated second, and its mean step, s. */
+/* Figures of the paper for its MATLAB code on one thread of an i7-8700: s per simulated second, and mean step, s. */
 static double paper_cost(int nodes) {
   return 60 * zp_published(ZP_COST, nodes, 0);
 }
@@ -51,7 +51,7 @@ static ZpStatus time_run(const ZpActuatorDef *def, double span, double *per_step
   return status;
 }
 
-/* (seconds of CPU time a step takes, simulated seconds of a step, when the measuring began) */
+/* (CPU seconds per step, simulated seconds per step, start of the measurement) */
 static Row row_of(const char *name, int nodes, double per_step, double step, double start) {
   return (Row){.name = name,
                .nodes = nodes,
@@ -63,14 +63,14 @@ static Row row_of(const char *name, int nodes, double per_step, double step, dou
                .error = NAN};
 }
 
-/* The same with the paper's mean step, beside its cost. */
+/* The same with the mean step of the paper, for comparison with its cost. */
 static Row row_beside_paper(const char *name, int nodes, double per_step, double start) {
   Row row = row_of(name, nodes, per_step, paper_step(nodes), start);
   row.paper_ratio = paper_cost(nodes) / row.seconds;
   return row;
 }
 
-/* The whole step of preset paper-code with the field recomputed in every step. */
+/* A whole step of preset paper-code, with the electric force computed in every step. */
 ZpStatus bench_paper_code(int nodes, Row *row, ZpError *err) {
   ZpAssignment list[4];
   size_t count = 0;
@@ -85,7 +85,7 @@ ZpStatus bench_paper_code(int nodes, Row *row, ZpError *err) {
   return status;
 }
 
-/* The default actuator at its own steps. */
+/* The default actuator with its own step size. */
 ZpStatus bench_explicit(int nodes, Row *row, ZpError *err) {
   ZpActuatorDef def;
   double per_step = NAN, mean_step = NAN, start = motion_clock();

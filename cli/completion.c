@@ -1,4 +1,4 @@
-/* zipact completion: what makes a shell complete the words of the command line, from their tables. */
+/* zipact completion: scripts with which a shell completes the command line, from its tables. */
 #include <stdio.h>
 #include <string.h>
 
@@ -173,6 +173,6 @@ int cli_completion(const Options *options) {
     known[i].write();
     return EXIT_DONE;
   }
-  fprintf(stderr, "zipact: completion: %s is none of the shells " SHELLS "\n", options->scenario);
+  fprintf(stderr, "zipact: completion: unknown shell %s; use one of " SHELLS "\n", options->scenario);
   return EXIT_INPUT;
 }

@@ -10,7 +10,7 @@
 
 enum { PATH = 4096 };
 
-/* The folder of the command with its final slash. False if it is not known. */
+/* The folder of the command with its final slash. False if it is unknown. */
 static bool own_folder(char folder[PATH]) {
   ssize_t length = readlink("/proc/self/exe", folder, PATH - 1);
   if (length <= 0) return false;
@@ -21,7 +21,7 @@ static bool own_folder(char folder[PATH]) {
   return true;
 }
 
-/* The kit beside the command: that of an install, or of a build. */
+/* The kit relative to the command: that of an installation, or of a build. */
 static ZpStatus find_kit(char kit[2 * PATH], ZpError *err) {
   static const char *const places[] = {"fmu", ZP_FMU_KIT};
   char folder[PATH];
@@ -29,7 +29,8 @@ static ZpStatus find_kit(char kit[2 * PATH], ZpError *err) {
     snprintf(kit, 2 * (size_t)PATH, "%s%s", folder, places[k]);
     if (access(kit, R_OK) == 0) return ZP_OK;
   }
-  *err = (ZpError){ZP_MACHINE, "the kit for FMUs, " ZP_FMU_KIT " from the folder of the command, is not installed"};
+  *err =
+      (ZpError){ZP_MACHINE, "the kit for FMUs, " ZP_FMU_KIT " relative to the folder of the command, is not installed"};
   return ZP_MACHINE;
 }
 

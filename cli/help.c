@@ -1,10 +1,10 @@
-/* What --help prints, from the tables of words. */
+/* The output of --help, from the tables of words. */
 #include <stdio.h>
 #include <string.h>
 
 #include "words.h"
 
-enum { LINE = 110, HELP_COLUMN = 28 }; /* characters of a line; where help begins */
+enum { LINE = 110, HELP_COLUMN = 28 }; /* characters per line; column of the help */
 
 static const char values_and_statuses[] =
     "\n"
@@ -12,10 +12,10 @@ static const char values_and_statuses[] =
     "keys.\n"
     "Exit status: 0 done; 1 the solver failed; 2 wrong input; 3 the machine failed; 130 interrupted.\n";
 
-/* A text that is broken between words. */
+/* A text with line breaks between words. */
 typedef struct Paragraph {
   int indent, column;
-  bool begun; /* the line has a word */
+  bool begun; /* the line has at least one word */
 } Paragraph;
 
 static void write_word(void *user, const char *word) {

@@ -1,4 +1,4 @@
-/* zipact: the words of the command line. */
+/* zipact: reads the command line. */
 #include <errno.h>
 #include <getopt.h>
 #ifdef __GLIBC__
@@ -33,7 +33,7 @@ static int fail_usage(const char *what, const char *word) {
   return EXIT_INPUT;
 }
 
-/* => false unless `text` is a whole number of processors. */
+/* => false unless `text` is a valid number of processors. */
 static bool read_jobs(const char *text, int *jobs) {
   char *end;
   errno = 0;
@@ -42,7 +42,7 @@ static bool read_jobs(const char *text, int *jobs) {
   return end > text && *end == 0 && errno == 0 && value >= 1 && value <= JOBS_MOST;
 }
 
-/* Take the option that getopt answered. => EXIT_DONE or EXIT_INPUT. */
+/* Take an option, by the answer of getopt. => EXIT_DONE or EXIT_INPUT. */
 static int take_option(int letter, const char **set, Options *options) {
   switch (letter) {
   case 's':
@@ -79,22 +79,31 @@ static int take_option(int letter, const char **set, Options *options) {
   case 'h':
     options->help = true;
     break;
-  default:
-    return EXIT_INPUT; /* getopt has said why */
   }
   return EXIT_DONE;
 }
 
-/* "load.mass=8g" without --set, and no file of that name. */
+/* Report an option that getopt refuses: it answers ':' if the argument of the option is missing, otherwise '?'. */
+static int fail_option(char **argv, int answer) {
+  const char short_option[] = {'-', (char)optopt, 0}, *word = argv[optind - 1];
+  if (answer == '?' && optopt && strncmp(word, "--", 2) != 0) word = short_option;
+  const char *nearest = answer == '?' ? word_nearest_option(word + strspn(word, "-")) : NULL;
+  fprintf(stderr, "zipact: %s %s%s%s%s; see zipact %s --help\n",
+          answer == ':' ? "missing argument of" : "unknown option", word, nearest ? "; did you mean --" : "",
+          nearest ? nearest : "", nearest ? "?" : "", argv[0]);
+  return EXIT_INPUT;
+}
+
+/* Is this "load.mass=8g" without --set, and not the name of a file? */
 static bool is_assignment(const char *word) {
   return strchr(word, '=') && access(word, F_OK) != 0;
 }
 
-/* What is no option: one scenario, or the word that the command takes. */
+/* Take the arguments that are not options: one scenario, or the word that the command takes. */
 static int take_arguments(int argc, char **argv, Options *options) {
   for (int i = optind; i < argc; i++) {
     if (is_assignment(argv[i])) {
-      fprintf(stderr, "zipact: %s: to give a value write --set \"%s\"\n", argv[i], argv[i]);
+      fprintf(stderr, "zipact: %s: to set a key write --set \"%s\"\n", argv[i], argv[i]);
       return EXIT_INPUT;
     }
     if (options->scenario) return fail_usage("only one scenario at a time; unexpected argument ", argv[i]);
@@ -103,8 +112,8 @@ static int take_arguments(int argc, char **argv, Options *options) {
   return EXIT_DONE;
 }
 
-/* Read what follows the first word; `set` has room for argc pointers; *given are the bits of the options.
- * => EXIT_DONE or EXIT_INPUT. */
+/* Read the words after the first one; `set` has room for argc pointers; *given has the bits of the given options. =>
+ * EXIT_DONE or EXIT_INPUT. */
 static int read_options(int argc, char **argv, const char **set, Options *options, unsigned *given) {
   struct option known[OPTION_COUNT + 1] = {0};
   for (int i = 0; i < OPTION_COUNT; i++)
@@ -112,7 +121,9 @@ static int read_options(int argc, char **argv, const char **set, Options *option
                                word_option(i)->letter};
   *options = (Options){.set = set};
   *given = 0;
-  for (int letter; (letter = getopt_long(argc, argv, "o:h", known, NULL)) != -1;) {
+  opterr = 0;
+  for (int letter; (letter = getopt_long(argc, argv, ":o:h", known, NULL)) != -1;) {
+    if (letter == '?' || letter == ':') return fail_option(argv, letter);
     const int status = take_option(letter, set, options);
     if (status != EXIT_DONE) return status;
     for (int i = 0; i < OPTION_COUNT; i++)
@@ -164,8 +175,9 @@ int cli_run(const Options *options) {
   return cli_study(NULL, options);
 }
 
-/* Each case of a campaign takes its memory and frees it. Handed back to the system each time, it would come back as
- * fresh pages, and each return interrupts the other processors (bench/campaign.py): up to 8 MB stay with a thread. */
+/* Each case of a campaign allocates memory and frees it. If it were returned to the system each time, it would come
+ * back as fresh pages, and each return interrupts the other processors (bench/campaign.py). So up to 8 MB stay with a
+ * thread. */
 static void keep_freed_memory(void) {
 #ifdef __GLIBC__
   mallopt(M_TRIM_THRESHOLD, 8 << 20);

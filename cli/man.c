@@ -1,4 +1,4 @@
-/* zipact man: a manual page for each command and one for all, from the tables that --help prints. */
+/* zipact man: a manual page for each command and one for all, from the tables of --help. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 
 #include "words.h"
 
-/* A text with what troff takes for its own escaped. */
+/* A text in which the special characters of troff are escaped. */
 static void write_text(FILE *file, const char *text) {
   if (*text == '.' || *text == '\'') fputs("\\&", file);
   for (; *text; text++) {
@@ -25,7 +25,7 @@ static void write_section(FILE *file, const char *name) {
   fprintf(file, ".SH %s\n", name);
 }
 
-/* A term and what it means. */
+/* A term and its meaning. */
 static void write_entry(FILE *file, const char *term, const char *help) {
   fprintf(file, ".TP\n\\fB");
   write_text(file, term);
@@ -56,7 +56,7 @@ static void write_options(FILE *file, unsigned taken) {
   }
 }
 
-/* Names and meanings; ends with NULL. */
+/* A list of names and meanings; ends with NULL. */
 typedef struct Entry {
   const char *term, *help;
 } Entry;
@@ -72,7 +72,7 @@ static const Entry files[] = {
     {"scenario.yaml", "all keys and their values; running it again gives the same result"},
     {"table.csv", "the time series or branch, or one row per run of a sweep"},
     {"results.h5", "the same and the shapes, with units"},
-    {"journal.sqlite", "of a sweep: a row per case as it is done (`--resume`)"},
+    {"journal.sqlite", "of a sweep: a row per finished case, for `--resume`"},
     {"shapes.pvd, shapes/, field.vts", "for ParaView"},
     {"checkpoint.zps", "the state of a run in time, from which it can be resumed (`initial.file`)"},
     {"plots/", "SVG pictures and the gnuplot scripts that drew them; `zipact plots` writes the templates of these "
@@ -80,10 +80,10 @@ static const Entry files[] = {
     {NULL, NULL}};
 
 static const Entry statuses[] = {
-    {"0", "done; also when it never zips: that is an answer"},
-    {"1", "the solver failed; what was reached is kept"},
+    {"0", "done; also if the actuator never zips, which is a result"},
+    {"1", "the solver failed; results up to there are kept"},
     {"2", "wrong input; nothing was written"},
-    {"3", "the machine failed: disk full, no permission, no memory; or another run holds the output folder"},
+    {"3", "the machine failed (disk full, no permission, no memory), or another run holds the output folder"},
     {"130", "interrupted; the results so far are kept"},
     {NULL, NULL}};
 
@@ -133,7 +133,7 @@ static void write_page(FILE *file, const Command *command) {
   write_see_also(file, command->word);
 }
 
-/* The studies or the commands, in a section of their own. */
+/* The studies or the commands, in their own section. */
 static void write_commands(FILE *file, const char *section, bool studies) {
   Command command;
   write_section(file, section);
@@ -164,7 +164,7 @@ static void write_main_page(FILE *file) {
   write_see_also(file, "");
 }
 
-/* Write a page, of `command` or of all where that is NULL. */
+/* Write a page: of `command`, or of all commands if it is NULL. */
 static int write_file(const char *folder, const Command *command) {
   char path[4096];
   snprintf(path, sizeof path, "%s/zipact%s%s.1", folder, command ? "-" : "", command ? command->word : "");
@@ -181,7 +181,7 @@ static int write_file(const char *folder, const Command *command) {
 int cli_man(const Options *options) {
   Command command;
   if (!options->directory) return cli_fail(&(ZpError){ZP_BAD_INPUT, "man needs a folder to write to: -o DIR"});
-  mkdir(options->directory, 0777); /* that it failed is seen below */
+  mkdir(options->directory, 0777); /* its failure is detected below */
   int status = write_file(options->directory, NULL);
   for (int i = 0; status == EXIT_DONE && word_command(i, &command); i++)
     status = write_file(options->directory, &command);

@@ -1,9 +1,10 @@
-/* malloc, calloc and realloc of the command: those of the C library, but where one fails inside a library that would
- * crash on that, the command says so and ends. What was computed is on the disk by then: libraries read scenarios
- * before there are results, and table.csv is written before results.h5. Our own code gets its NULL and deals with it.
+/* malloc, calloc and realloc of the command: those of the C library, except that if one fails inside a library that
+ * would crash, the command prints a message and ends. All computed results are on the disk by then: libraries read
+ * scenarios before there are results, and table.csv is written before results.h5. Our own code gets NULL and handles
+ * it.
  *
- * They forward to the next function of their name, so that memory tools see every call. Under sanitizers, which bring
- * a malloc of their own, this file is left out (CMakeLists.txt). */
+ * They forward to the next function of their name, so that memory tools see every call. A build with sanitizers, which
+ * have their own malloc, does not include this file (CMakeLists.txt). */
 #include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,14 +12,14 @@
 
 #include "cli.h"
 
-#define FOR_LIBRARIES __attribute__((visibility("default"))) /* in place of those of the C library */
+#define FOR_LIBRARIES __attribute__((visibility("default"))) /* instead of those of the C library */
 
 static void say(const char *text) {
   ssize_t ignored = write(STDERR_FILENO, text, strlen(text));
   (void)ignored;
 }
 
-/* `memory`, unless there is none and who asked would crash on that. Nothing is allocated on the way out. */
+/* Return `memory`; end the program if it is NULL and the caller would crash. Allocates nothing. */
 static void *checked(void *memory) {
   const char *library = memory ? NULL : zp_library_at_work();
   if (!library) return memory;

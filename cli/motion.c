@@ -57,7 +57,7 @@ ZpStatus motion_zip(int nodes, bool implicit, ZpActuatorDef *def, ZpError *err) 
 
 /* -- measuring ------------------------------------------------------------------------------------- */
 
-/* Height at time t, between rows by the cubic that has their heights and velocities. */
+/* Height at time t, interpolated between rows by the cubic that has their heights and velocities. */
 static double height_at(const Trajectory *r, double t) {
   size_t i = (size_t)fmin(t / r->interval, (double)(r->rows - 2));
   double h = r->interval, x = t / h - (double)i;
@@ -70,7 +70,7 @@ static double load_height(const ZpShape *shape, const ZpShapes *film) {
   return shape->y[film->ribbons * film->nodes - 1];
 }
 
-/* Root mean square over the time of the film. */
+/* Root mean square over the time of the recording. */
 static double deviation(const ZpShapes *film, const Trajectory *reference) {
   double sum = 0, last = 0, before = 0, start = 0;
   for (size_t f = 0; f < film->frames; f++) {
@@ -86,7 +86,7 @@ static double deviation(const ZpShapes *film, const Trajectory *reference) {
   return sqrt(sum / (before - start));
 }
 
-/* One run; the cost of its stepping => motion, if less than it was. */
+/* One run; the cost of its steps => motion, if it is the lowest so far. */
 static ZpStatus run(const ZpModel *model, ZpShapes *film, Motion *motion, ZpError *err) {
   double end = zp_model_def(model)->solver.end_time;
   ZpSim *sim;

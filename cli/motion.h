@@ -1,4 +1,4 @@
-/* A motion in time, measured: what it costs, and how far it is from a reference. */
+/* A measured motion in time: its cost, and its distance from a reference. */
 #ifndef ZP_CLI_MOTION_H
 #define ZP_CLI_MOTION_H
 
@@ -12,17 +12,17 @@ typedef struct Trajectory {
 } Trajectory;
 
 typedef struct Motion {
-  double seconds; /* of one thread per simulated second, the stepping alone */
+  double seconds; /* CPU time of one thread per simulated second, of the steps alone */
   double steps;   /* per simulated second */
-  double rms;     /* distance from the reference over its time, m; NAN without one */
-  double cpu;     /* spent on it all, s */
+  double rms;     /* rms distance from the reference, m; NAN without one */
+  double cpu;     /* total CPU time, s */
 } Motion;
 
 /* CPU time of this process, s. */
 double motion_clock(void);
 
-/* Run to def->solver.end_time, once to be compared with `reference` (NULL: none), short runs several times: the
- * quickest counts. `table` as zp_model_create_driven. */
+/* Run to def->solver.end_time, once for comparison with `reference` (NULL: none), short runs several times: the fastest
+ * counts. `table` as in zp_model_create_driven. */
 ZpStatus motion_measure(const ZpActuatorDef *def, const ZpDriveTable *table, const Trajectory *reference,
                         Motion *motion, ZpError *err);
 
@@ -33,11 +33,11 @@ ZpStatus motion_record(const ZpActuatorDef *def, size_t rows, double interval, d
  */
 ZpStatus motion_swing(int nodes, bool implicit, ZpActuatorDef *def, ZpError *err);
 
-/* Its converged trajectory (bench/run.sh makes swing.def), and what errors of it are relative to, m. */
+/* Its converged trajectory (bench/run.sh makes swing.def), and the height to which its errors refer, m. */
 Trajectory motion_swing_reference(void);
 extern const double motion_swing_height;
 
-/* The default actuator, its zip for 70 ms under 10 kV. */
+/* The default actuator zips for 70 ms under 10 kV. */
 ZpStatus motion_zip(int nodes, bool implicit, ZpActuatorDef *def, ZpError *err);
 
 #endif

@@ -1,6 +1,5 @@
-/* The yardstick of `zipact bench`: the mechanics of the paper's two ribbons written down as one would at
- * first, particle by particle, one square root and one division where they fall. No field, no contact, no
- * step control. */
+/* The reference of `zipact bench`: the mechanics of the two ribbons of the paper in a straightforward form, particle by
+ * particle, with a square root and a division for each link. No field, no contact, no step control. */
 #include "plain_kernel.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Progress, Ctrl-C and the clock: what long calls ask of the outside. */
+/* Progress, Ctrl-C and the clock: the hooks of long calls. */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "cli.h"
 
-/* The one thing a signal handler may touch. */
+/* The only object that a signal handler may write. */
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int signal_number) {

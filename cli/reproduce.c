@@ -1,4 +1,4 @@
-/* zipact reproduce: the paper beside ours. */
+/* zipact reproduce: the paper beside our results. */
 #include <stdio.h>
 #include <unistd.h>
 

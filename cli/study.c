@@ -9,7 +9,7 @@
 #include "cli.h"
 #include "summary.h"
 
-/* A number without a unit may be meant in another unit than SI. */
+/* Report numbers without a unit, which may be meant in another unit than SI. */
 static void note_bare_numbers(const ZpScenario *scenario) {
   double value;
   for (int i = 0; i < zp_key_count(); i++) {
@@ -50,7 +50,7 @@ static int write_report(const ZpReport *what, const Options *o) {
   ZpReport report = *what;
   report.hooks = &hooks;
   report.jobs = o->jobs;
-  if (cli_interrupted()) cli_watch_interrupts(); /* what was done is still drawn, unless there is another Ctrl-C */
+  if (cli_interrupted()) cli_watch_interrupts(); /* finished results are still drawn, unless Ctrl-C comes again */
   if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
@@ -60,7 +60,7 @@ static int write_report(const ZpReport *what, const Options *o) {
   return EXIT_DONE;
 }
 
-/* The exit status of what was reported with `status`; an interrupt while pictures were drawn counts, too. */
+/* The exit status of a report with `status`; an interrupt while pictures were drawn counts, too. */
 static int exit_status(int status, bool interrupted, bool good) {
   if (status != EXIT_DONE) return status;
   if (interrupted || cli_interrupted()) return EXIT_INTERRUPTED;
@@ -152,7 +152,7 @@ static int optimize_in_folder(const ZpScenario *scenario, const Options *o, cons
   ZpOptimization *optimization;
   Progress progress = begin_progress(o);
   ZpCampaignOptions options = campaign_options(o, &progress);
-  options.remote = NULL; /* its cases follow from each other */
+  options.remote = NULL; /* each case depends on earlier ones */
   options.jobs = o->jobs;
   ZpStatus status = zp_optimize(scenario, directory, &options, &optimization, &err);
   cli_progress_end(&progress);
@@ -183,7 +183,7 @@ int cli_optimize(const Options *o) {
 
 /* -- a scenario ------------------------------------------------------------------------------------- */
 
-/* Have the folder for as long as the runs and their report take. */
+/* Hold the folder for the duration of the runs and their report. */
 static int run_in_folder(const ZpScenario *scenario, const Options *o) {
   ZpError err;
   ZpFolder *folder;

@@ -1,4 +1,4 @@
-/* What a run prints on the terminal: the numbers that its user wants. All numbers are in summary.json. */
+/* The terminal output of a run: its main numbers. summary.json has all numbers. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,13 +8,13 @@
 
 enum { MOST_NUMBERS = 10, MOST_ROWS = 100 };
 
-/* A number of the summary as it is shown. */
+/* A number of the summary in its printed form. */
 typedef struct Shown {
   ZpStudy study;
   const char *scalar, *label;
   double factor; /* from SI to `unit` */
   const char *unit;
-  bool headline; /* in a row of a sweep, too; of one run even where there is no such number */
+  bool headline; /* also in a row of a sweep; in a single run even if it does not exist */
 } Shown;
 
 static const Shown shown[] = {
@@ -58,7 +58,7 @@ static void print_number(const ZpResult *result, const Shown *s, double value) {
   printf("\n");
 }
 
-/* Six digits, in the unit in which people write the key: "184.357 GPa". */
+/* Print six digits, in the customary unit of the key: "184.357 GPa". */
 static void print_of_key(int key, double value, int digits) {
   char rounded[32], text[64];
   snprintf(rounded, sizeof rounded, "%.*e", digits - 1, value);
@@ -66,7 +66,7 @@ static void print_of_key(int key, double value, int digits) {
   fputs(text, stdout);
 }
 
-/* A key that was fitted, with its standard error. => whether `scalar` is one. */
+/* Print a fitted key with its standard error. => is `scalar` one? */
 static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
   const int key = zp_key_find(scalar->name);
   char name[128];
@@ -112,7 +112,7 @@ static void print_headlines(const ZpResult *result) {
   }
 }
 
-/* The key values of row `index` that the lists of the scenario vary: "drive.voltage=5 kV". */
+/* Print the swept keys of row `index`: "drive.voltage=5 kV". */
 static void print_row(const ZpReport *report, size_t index) {
   size_t lists;
   const int *list = zp_scenario_lists(report->scenario, &lists);
@@ -129,7 +129,7 @@ static void print_row(const ZpReport *report, size_t index) {
   printf("\n");
 }
 
-/* The best cases of an optimisation. */
+/* Print the best cases of an optimisation. */
 static void print_optimum(const ZpReport *report) {
   printf("%s\n", report->optimum->message);
   for (size_t i = 0; i < report->optimum->count; i++) {
@@ -141,7 +141,7 @@ static void print_optimum(const ZpReport *report) {
   }
 }
 
-/* What a sweep says as a whole. */
+/* Print the numbers of a sweep as a whole. */
 static void print_largest(const ZpReport *report) {
   static const struct {
     ZpStudy study;

@@ -1,4 +1,4 @@
-/* What a run prints on the terminal. */
+/* The terminal output of a run. */
 #ifndef ZP_CLI_SUMMARY_H
 #define ZP_CLI_SUMMARY_H
 
@@ -6,8 +6,8 @@
 
 #include "cli.h"
 
-/* Print at most ten numbers of one run, a line per case of several, and where the files are; `plots`: pictures are
- * among them. */
+/* Print at most ten numbers of a single run, or a line per case, and the place of the files; `plots`: these include
+ * pictures. */
 void summary_print(const ZpReport *report, bool plots);
 
 #endif

@@ -40,12 +40,24 @@ bool word_find(const char *word, Command *command) {
 const char *word_nearest(const char *word) {
   Command command;
   const char *nearest = NULL;
-  int least = (int)strlen(word) / 2 + 1; /* half of its letters are another's: no misspelling */
+  int least = (int)strlen(word) / 2 + 1; /* if half of the letters differ it is not a misspelling */
   for (int i = 0; word_command(i, &command); i++) {
     const int distance = zp_word_distance(word, command.word);
     if (distance >= least) continue;
     least = distance;
     nearest = command.word;
+  }
+  return nearest;
+}
+
+const char *word_nearest_option(const char *word) {
+  const char *nearest = NULL;
+  int least = (int)strlen(word) / 2 + 1;
+  for (int i = 0; i < OPTION_COUNT; i++) {
+    const int distance = zp_word_distance(word, options[i].word);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = options[i].word;
   }
   return nearest;
 }

@@ -23,17 +23,17 @@ enum {
 typedef struct Option {
   const char *word;
   int letter;
-  const char *argument; /* NULL: takes none */
+  const char *argument; /* NULL: no argument */
   const char *help;
 } Option;
 
-/* What a command takes beside options. */
+/* The argument of a command, in addition to options. */
 typedef enum Argument { NOTHING, MAY_SCENARIO, A_SCENARIO, A_SHELL } Argument;
 
 typedef struct Command {
   const char *word;
   Argument argument;
-  unsigned options; /* bits of those that it takes */
+  unsigned options; /* bits of the options that it takes */
   const char *help;
   int (*run)(const Options *options); /* NULL: a study */
 } Command;
@@ -41,7 +41,7 @@ typedef struct Command {
 /* Option `place`, 0 <= place < OPTION_COUNT. */
 const Option *word_option(int place);
 
-/* Studies first, then commands: command `index`, false when there are no more. */
+/* Command `index`, studies first; false after the last one. */
 bool word_command(int index, Command *command);
 
 /* The command or study called `word`; false if there is none. */
@@ -50,7 +50,10 @@ bool word_find(const char *word, Command *command);
 /* The command or study whose name differs least from `word`, NULL if none is like it. */
 const char *word_nearest(const char *word);
 
-/* "[SCENARIO.yaml]", what help shows of an argument; "" for none. */
+/* The option whose name, without its dashes, differs least from `word`, NULL if none is like it. */
+const char *word_nearest_option(const char *word);
+
+/* The argument as help shows it, "[SCENARIO.yaml]"; "" for none. */
 const char *word_argument(Argument argument);
 
 /* What `zipact --help` and `zipact WORD --help` print. */
@@ -60,7 +63,7 @@ void help_print_command(const Command *command);
 /* "-o, --output PATH" */
 void help_option_name(const Option *option, char *text, size_t size);
 
-/* Write "zipact WORD [SCENARIO.yaml] [--set KEY=VALUE]..." as words, each by `write`. */
+/* Write "zipact WORD [SCENARIO.yaml] [--set KEY=VALUE]..." word by word by `write`. */
 void help_synopsis(const Command *command, void (*write)(void *user, const char *word), void *user);
 
 #endif

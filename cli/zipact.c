@@ -1,4 +1,4 @@
-/* zipact, the program: threads of its own compute. */
+/* The program zipact: its own threads compute. */
 #include "cli.h"
 
 int main(int argc, char **argv) {

@@ -7,7 +7,7 @@
 %      rest.release_voltage_V                      % a number of summary.json
 %      plot(rest.series.voltage_V, rest.series.opening_m)
 %
-%   Numbers are SI, texts take a unit. A vector or a cell of values runs them all:
+%   Numbers are SI, texts have a unit. A vector or a cell of values runs all of them:
 %   RESULT is then an array of structs, one for each combination.
 %
 %      all = zipact('isometric', 'drive.voltage', {'4 kV', '6 kV'}, 'load.mass', [8e-3 20e-3]);
@@ -16,14 +16,15 @@
 %   ZIPACT(STUDY, FILE, ...) takes a scenario file first, ZIPACT(STUDY, KEYS, ...) a struct:
 %   keys.load.mass = '20 g'. ZIPACT('run', FILE) runs the study that the file names.
 %
-%   Fields of RESULT: study, outcome, good (is it an answer?), message, notes, the numbers
-%   of the study, and where there are any
-%      sensitivity derivatives by the keys of sensitivity.by: sensitivity.stroke_m.ribbon_thickness
+%   Fields of RESULT: study, outcome, good (false if the solver failed), message, notes, the
+%   numbers of the study, and if they exist
+%      sensitivity derivatives with respect to the keys of sensitivity.by:
+%                  sensitivity.stroke_m.ribbon_thickness
 %      series      table.csv: a column vector for each column
 %      shapes      time_s, voltage_V, zipped, x_m, y_m and stress_Pa [nodes x ribbons x
 %                  frames], gap_m, line_force_N_per_m and insulator_field_V_per_m [nodes x frames]
 %      field       the electric field of study profile, for contourf
-%      definition  all keys as they were: ZIPACT takes it again. ('auto': chosen by the library)
+%      definition  all keys with their values: ZIPACT accepts it again. ('auto': chosen by the library)
 %
 %   KEYS = ZIPACT('keys')           all keys: name, unit, default, min, max, choices, help
 %   TEXT = ZIPACT('version')
@@ -33,17 +34,18 @@
 %      time = zipact('step', sim, dt)              % s, or a text as '1 ms'
 %      time = zipact('step', sim, dt, voltage)     % V; holds from now on
 %      time = zipact('control', sim, @(time, opening) 1e6 * (opening - 8e-3), 'opening', 1e-3, 0.5)
-%                                                  % a controller: asked at once and every 1 ms
-%                                                  % until 0.5 s; what it returns is the voltage
+%                                                  % a controller: called now and every 1 ms
+%                                                  % until 0.5 s; it returns the voltage
 %      now = zipact('read', sim)                   % all signals: now.stroke_m ...
 %      shape = zipact('shape', sim)                % as in RESULT.shapes, one frame
-%      state = zipact('save', sim)                 % bytes; of use to the same actuator only
-%      time = zipact('restore', sim, state)        % resumes there, to the same bits
+%      state = zipact('save', sim)                 % bytes; for the same actuator only
+%      time = zipact('restore', sim, state)        % resumes there, with identical bits
 %      zipact('close', sim)
 %
-%   Errors are zipact:input (what you gave, and what would do), zipact:numerics (the solver
-%   failed in a step), zipact:machine (memory, files), zipact:interrupted (Ctrl-C). A study whose solver
-%   fails returns what it reached: look at RESULT.good.
+%   Errors are zipact:input (the message says what is wrong and what is allowed),
+%   zipact:numerics (the solver failed in a step), zipact:machine (memory, files),
+%   zipact:interrupted (Ctrl-C). A study whose solver fails returns the results up to there:
+%   check RESULT.good.
 %
 %   See also ZIPACT_PLOT.
 function varargout = zipact(varargin)
@@ -54,7 +56,7 @@ function varargout = zipact(varargin)
   varargout = zipact_mex(varargin{:});
 end
 
-% What a controller answers, or why it does not: an error must not cross the library.
+% The voltage of a controller, or its error, which must not pass through the library.
 function [voltage, problem] = asked(law, time, signal)
   problem = '';
   try

@@ -1,13 +1,13 @@
-%ZIPACT_PLOT  Draw what a study found into the current axes.
+%ZIPACT_PLOT  Draw the result of a study into the current axes.
 %
 %   ZIPACT_PLOT(RESULT) draws the table of RESULT, as ZIPACT returns it: stroke over time,
 %   opening or force over voltage, force along the ribbons, frequencies; of study stationary
-%   the ribbons at rest. Of an array of results it draws each, as far as they have the same study.
+%   the ribbons at rest. It also draws an array of results of the same study.
 %
 %   See also ZIPACT.
 function zipact_plot(result)
   if ~isstruct(result) || isempty(result) || ~isfield(result, 'series') || numel(unique({result.study})) > 1
-    error('zipact:input', 'zipact_plot: takes what zipact returned for a study');
+    error('zipact:input', 'zipact_plot: takes a result of zipact, or several of one study');
   end
   [x, y, labels, style] = axes_of(result(1).study);
   held = ishold();
@@ -39,6 +39,6 @@ function [x, y, labels, style] = axes_of(study)
     case 'stationary'
       x = @(s) 1e3 * s.x_m;        y = @(s) 1e3 * s.y_m;          labels = {'x / mm', 'y / mm'};
     otherwise
-      error('zipact:input', 'zipact_plot: no picture of study %s', study);
+      error('zipact:input', 'zipact_plot: there is no picture for study %s', study);
   end
 end

@@ -371,6 +371,33 @@ START_TEST(test_key_nearest) {
 }
 END_TEST
 
+/* Names from other programs and papers lead to ours; what is not modelled has no nearest key. */
+START_TEST(test_key_unknown) {
+  static const char *const pairs[][2] = {
+      {"load.mas", "unknown key; did you mean load.mass?"},
+      {"tape.thickness", "unknown key; did you mean insulator.thickness?"},
+      {"Oil.viscosity", "unknown key; did you mean medium.kinematic_viscosity?"},
+      {"viscosity", "unknown key; did you mean medium.kinematic_viscosity?"},
+      {"ribbon.E", "unknown key; did you mean ribbon.young_modulus?"},
+      {"electro.fringing", "unknown key; did you mean electro.edges?"},
+      {"solver.dt", "unknown key; did you mean solver.time_step?"},
+      {"load.time", "unknown key; did you mean load.change_time?"},
+      {"Glue.thickness", "glue is not modelled; add its thickness to insulator.thickness"},
+      {"ribbon_fatigue", "fatigue is not modelled"},
+  };
+  char text[256];
+  for (size_t i = 0; i < LENGTH_OF(pairs); i++) {
+    zp_key_unknown(pairs[i][0], text, sizeof text);
+    ck_assert_str_eq(text, pairs[i][1]);
+  }
+  char word[500], little[8];
+  memset(word, '.', sizeof word);
+  word[sizeof word - 1] = 0;
+  zp_key_unknown(word, little, sizeof little);
+  ck_assert_str_eq(little, "unknown");
+}
+END_TEST
+
 /* -- resolving ------------------------------------------------------------------------------------- */
 
 START_TEST(test_resolve_order) {
@@ -486,7 +513,7 @@ START_TEST(test_set_range) {
   if (key->type == ZP_KEY_TEXT) return;
   if (key->offset == ZP_NO_FIELD) { /* study: of the scenario */
     ck_assert_int_eq(zp_def_set(&def, _i, key->min, &err), ZP_BAD_INPUT);
-    ck_assert_ptr_nonnull(strstr(err.message, "belongs to a scenario"));
+    ck_assert_ptr_nonnull(strstr(err.message, "is a key of a scenario"));
     return;
   }
   ck_assert_int_eq(zp_def_set(&def, _i, key->min, NULL), ZP_OK);
@@ -720,6 +747,7 @@ int main(void) {
   tcase_add_test(keys, test_defaults_are_those_promised);
   tcase_add_test(keys, test_key_words);
   tcase_add_test(keys, test_key_nearest);
+  tcase_add_test(keys, test_key_unknown);
   tcase_add_test(keys, test_resolve_order);
   tcase_add_test(keys, test_paper_text);
   tcase_add_test(keys, test_paper_code);

@@ -10,7 +10,7 @@
 
 /* -- geometry -------------------------------------------------------------------------------------- */
 
-/* In a wedge of angle a a volume V reaches sqrt(2 V / (w a)), and the volume of that reach is V again. */
+/* In a wedge of angle a, a volume V wets the length sqrt(2 V / (w a)), and the volume of that length is V again. */
 START_TEST(test_reach_in_a_wedge) {
   enum { NODES = 61 };
   const double w = 12.7e-3, angle = 0.1;
@@ -93,8 +93,8 @@ static double *full_of(const ZpBand *K) {
   return A;
 }
 
-/* The wet length follows from all gaps before it, and each force there from the wet length: that is in the stiffness,
- * on top of its band. */
+/* The wet length depends on all gaps before it, and each force on the wet length: the stiffness includes this in
+ * addition to its band. */
 START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
   const Case *c = &cases[_i];
   ZpActuatorDef def = def_of(c, 7);
@@ -132,8 +132,8 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
 }
 END_TEST
 
-/* A drop with suction that hangs is found: once, from 1 uL or so, straight ribbons drawn together by capillarity were,
- * though pulled apart they would stay apart as well. */
+/* A drop with suction has a hanging equilibrium: before, from 1 uL or so, the result was straight ribbons held together
+ * by capillarity. */
 START_TEST(test_drop_with_suction_hangs) {
   static const double volumes[] = {1e-11, 1e-10, 1e-9, 5e-9, 50e-9};
   for (double suction = 0.25; suction <= 1; suction += 0.25) {
@@ -246,8 +246,8 @@ START_TEST(test_attraction_of_a_wedge) {
 }
 END_TEST
 
-/* Ribbons as stiff as beams stay that wedge, and what the field adds to the force that holds the platform is, by
- * reciprocity, the attraction weighed with how far each place is lifted with the platform. */
+/* Ribbons as stiff as beams keep the wedge shape, so by reciprocity the holding force of the field is the attraction
+ * weighted with the displacement of each point per displacement of the platform. */
 START_TEST(test_isometric_force_of_stiff_ribbons) {
   Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
   Setting thick = {"ribbon.thickness", 5e-3}, stiff = {"ribbon.young_modulus", 1e12}, bare = {"platform.electrode", 0};
@@ -263,7 +263,7 @@ START_TEST(test_isometric_force_of_stiff_ribbons) {
 }
 END_TEST
 
-/* Ribbons as they are: a bead that fills all is the liquid that is everywhere, and suction adds to the force. */
+/* Flexible ribbons: a bead that fills everything equals a liquid everywhere, and suction adds to the force. */
 START_TEST(test_isometric_force) {
   Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
   Setting volume = {"bead.volume", wedges[_i].volume};
@@ -277,8 +277,8 @@ START_TEST(test_isometric_force) {
 }
 END_TEST
 
-/* Without a platform a bead that fills all once left NaN in the forces, which was taken for an equilibrium of straight
- * ribbons. */
+/* A bead that fills everything, without a platform: before, the forces contained NaN, which was taken for an
+ * equilibrium of straight ribbons. */
 START_TEST(test_full_bead_without_a_platform) {
   Setting none = {"platform.length", 0};
   ZpActuatorDef dry = DEF(none), full = DEF(none, BEAD, {"bead.suction", 1}, {"bead.volume", 1e-3});
@@ -309,7 +309,8 @@ static double volume_between(ZpSim *sim, const ZpModel *model) {
   return zp_bead_volume(&model->film, shape.gap, 0, zp_sim_get(sim, "wet_length"));
 }
 
-/* Behind sealed edges the bead keeps its volume to rounding; with open ones what is outside and lost is missing. */
+/* With sealed edges the volume of the bead is constant to rounding; with open edges it lacks the liquid outside and the
+ * lost liquid. */
 START_TEST(test_volume_is_kept) {
   static const struct { double lateral, share; } row[] = {{0, 1}, {1, 1}, {1, 0.5}, {1, 0}};
   ZpModel *model;
@@ -328,8 +329,9 @@ START_TEST(test_volume_is_kept) {
 }
 END_TEST
 
-/* Energy closes over closing, holding and opening, with and without suction, and what is pressed out comes back. With
- * suction the meniscus of a thin film once drew with megapascals and drove jets of kilojoules; a liquid cavitates. */
+/* The energy balances over closing, holding and opening, with and without suction, and the squeezed-out liquid returns.
+ * With suction the meniscus of a thin film once drew with megapascals and drove jets of kilojoules; a liquid cavitates.
+ */
 START_TEST(test_energy_of_zip_hold_and_release) {
   static const struct {
     double viscosity, suction, share, volume;
@@ -355,8 +357,8 @@ START_TEST(test_energy_of_zip_hold_and_release) {
 }
 END_TEST
 
-/* And over 50 cycles that close and open it, in a bath and with beads; what is left is of the steps, 1e-3 of their
- * tolerance. */
+/* The same over 50 cycles of closing and opening, in a bath and with beads; the imbalance comes from the steps, 1e-3 of
+ * their tolerance. */
 START_TEST(test_energy_of_50_cycles) {
   static const struct {
     double model, suction, viscosity;
@@ -396,7 +398,7 @@ static Run run_with(const Setting *list, size_t count) {
 }
 #define RUN(...) run_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
 
-/* A bead that fills all closes as in a bath that has no mass outside and drags no outer face: the same film. */
+/* A bead that fills everything closes like a bath without added mass and drag outside: the film is the same. */
 START_TEST(test_much_liquid_is_a_bath) {
   Run bath = RUN({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", 31}, {"liquid.inertia", 0},
                  {"medium.drag_coefficient", 0}, {"solver.tolerance", 7e-5}),
@@ -406,7 +408,7 @@ START_TEST(test_much_liquid_is_a_bath) {
 }
 END_TEST
 
-/* With the whole suction menisci lose nothing but what steps miss: what the field gives them the film gets. */
+/* With full suction menisci lose no energy except step errors: the film receives what the field supplies. */
 START_TEST(test_suction_takes_what_menisci_lose) {
   Run local = RUN(BEAD, {"mesh.nodes", 31}),
       drawn = RUN(BEAD, {"mesh.nodes", 31}, {"bead.suction", 1}, {"solver.tolerance", 7e-5}, {"liquid.inertia", 0});
@@ -427,7 +429,7 @@ START_TEST(test_small_bead_starves) {
 }
 END_TEST
 
-/* Neither the roughness nor the mesh decides when it closes. */
+/* The zip time depends neither on the roughness nor on the mesh. */
 START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
 #define LARGE                                                                                                          \
   BEAD, {                                                                                                              \
@@ -498,8 +500,8 @@ END_TEST
 
 /* -- what is shown of it --------------------------------------------------------------------------- */
 
-/* Attraction along the ribbon adds up to the force, with air beyond the bead; the film ends with the bead, and its
- * thickness and pressure are those of the law. */
+/* The integral of the attraction along the ribbon is the force, with air beyond the bead; the film ends with the bead,
+ * and its thickness and pressure obey the law. */
 START_TEST(test_attraction_and_film_along_the_ribbon) {
   ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 121}, {"platform.electrode", 0});
   ZpModel *model = model_of(&def);

@@ -538,7 +538,7 @@ START_TEST(bad_numbers_of_studies_are_refused) {
   refuse_file("load_g,force_N\n8,2\n", E, "calibrate.y");
   refuse_file("load_g,frequency_mm\n8,2\n", E, "calibrate.y");
   refuse_file("time_ms,pull_in_voltage_V\n8,2\n", E, "calibrate.y");
-  refuse_file("load_g,pull_in_voltage_kV\n8,12\n", E, "bad.csv:2: a pull-in voltage of 12000 V was measured");
+  refuse_file("load_g,pull_in_voltage_kV\n8,12\n", E, "bad.csv:2: the measured pull-in voltage is 12000 V");
 }
 END_TEST
 
@@ -548,7 +548,7 @@ START_TEST(bad_mixtures_are_refused) {
   write_file("kind-1.csv", "load_g,stroke_mm,sigma_mm\n8,2,0.1\n");
   write_file("kind-2.csv", "load_g,frequency_Hz\n8,3\n");
   refuse(ZP_STUDY_CALIBRATE, &def,
-         "several kinds are weighted by their standard deviations, and frequency has none: add a column "
+         "a fit to several kinds of measurement requires standard deviations, but frequency has none; add a column "
          "sigma_frequency_Hz to its file, or give calibrate.sigma = \"frequency = ... Hz\"");
   set_text(&def, "calibrate.sigma", "frequency = 1 mm");
   refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.sigma: frequency = \"1 mm\": not a frequency");
@@ -567,13 +567,14 @@ START_TEST(bad_mixtures_are_refused) {
   refuse(ZP_STUDY_CALIBRATE, &def, "calibrate.y = \"stroke_mm\": no such column in kind-2.csv");
   write_file("kind-2.csv", "load_g,stroke_mm\n8,3\n");
   set_text(&def, "calibrate.sigma", "");
-  refuse(ZP_STUDY_CALIBRATE, &def, "several files are weighted by their standard deviations, and stroke has none");
+  refuse(ZP_STUDY_CALIBRATE, &def, "a fit to several files requires standard deviations, but stroke has none");
   one = calibration("kind-3.csv", "ribbon.young_modulus");
   set_text(&one, "calibrate.y", "stroke_mm; frequency_Hz");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_Hz,sigma_mm\n8,2,3,0.1\n");
-  refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_mm: several columns are measured; name what it belongs to");
+  refuse(ZP_STUDY_CALIBRATE, &one,
+         "column sigma_mm: the file has several measured columns; name the one that it belongs to");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_Hz,sigma_stroke_g,sigma_frequency_Hz\n8,2,3,0.1,0.1\n");
-  refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_stroke_g: not in a unit of what is measured, m");
+  refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_stroke_g: its unit must be one of the measured quantity, such as m");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_mm,sigma_stroke_mm\n8,2,3,0.1\n");
   set_text(&one, "calibrate.y", "stroke_mm; frequency_mm");
   refuse(ZP_STUDY_CALIBRATE, &one, "calibrate.y: column frequency_mm: takes stroke, opening");
@@ -616,11 +617,11 @@ START_TEST(bad_input_is_refused) {
   refuse_file("load_g,stroke_mm\n8,\"1,5\"\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm,sigma_mm\n8,2,0\n", E,
               "bad.csv:2: column sigma_mm: a standard deviation must be above 0");
-  refuse_file("load_g,stroke_mm,sigma_g\n8,2,1\n", E, "column sigma_g: not in a unit");
+  refuse_file("load_g,stroke_mm,sigma_g\n8,2,1\n", E, "column sigma_g: its unit must be one of the measured quantity");
   write_file("good.csv", good);
   ZpActuatorDef several = calibration("good.csv; bad.csv", E), renamed = calibration("good.csv", E), bounded = renamed;
   write_file("bad.csv", "load_g,opening_mm\n8,2\n");
-  refuse(ZP_STUDY_CALIBRATE, &several, "several kinds are weighted by their standard deviations, and stroke has none");
+  refuse(ZP_STUDY_CALIBRATE, &several, "measurement requires standard deviations, but stroke has none");
   write_file("bad.csv", "load_g,stroke_mm\n8,x\n");
   refuse(ZP_STUDY_CALIBRATE, &several, "bad.csv:2: column stroke_mm");
   set_text(&renamed, "data.columns", "Masse = voltage_kV");
@@ -630,7 +631,7 @@ START_TEST(bad_input_is_refused) {
   set_text(&bounded, "calibrate.bounds", "ribbon.thickness = 40 um .. 60 um");
   refuse(ZP_STUDY_CALIBRATE, &bounded, "ribbon.thickness is not in calibrate.fit");
   set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 GPa .. 250 GPa");
-  refuse(ZP_STUDY_CALIBRATE, &bounded, "starts at 2e+11 Pa, which is not within them");
+  refuse(ZP_STUDY_CALIBRATE, &bounded, "the bounds must enclose its start value, 2e+11 Pa");
   set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 mm .. 250 GPa");
   refuse(ZP_STUDY_CALIBRATE, &bounded, "calibrate.bounds: ribbon.young_modulus = \"210 mm\": not a pressure");
   refuse_file(good, "load.mass", "cannot be fitted");

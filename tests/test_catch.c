@@ -15,8 +15,8 @@ static double run_to(ZpSim *sim, double end_time, const char *signal) {
   return zp_sim_get(sim, signal);
 }
 
-/* On a platform at rest: both go on with the speed that shares the momentum, and what is lost is known. Of a half, of
- * the whole, at the end of one ribbon. */
+/* A mass falls on a platform at rest: both continue with the common velocity of equal momentum, and the loss is known.
+ * Of a half, of the whole, at the end of one ribbon. */
 START_TEST(momentum_is_shared) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0});
   if (_i == 1) def.actuator.symmetry = ZP_SYMMETRY_NONE;
@@ -36,7 +36,7 @@ START_TEST(momentum_is_shared) {
 }
 END_TEST
 
-/* Energy balances over the impact and after it, whatever moves when it comes. */
+/* The energy balances over the impact and after it, at rest and in motion. */
 START_TEST(energy_with_a_caught_mass) {
   ZpActuatorDef def =
       DEF(CAUGHT, {"drive.voltage", 9e3}, {"solver.end_time", 0.15}, {"solver.stop_when_zipped", ZP_WHEN_FALSE});
@@ -56,7 +56,7 @@ START_TEST(energy_with_a_caught_mass) {
 }
 END_TEST
 
-/* Damped, it comes to rest where the load with the change hangs; what is dropped is gone. */
+/* With damping it comes to rest at the equilibrium of the changed load; the dropped mass is gone. */
 START_TEST(rests_where_the_sum_hangs) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0}, {"damping.internal", 30e-3}, {"solver.end_time", 20});
   if (_i == 1) def.load.change_mass = -5e-3, def.load.drop_height = 0;
@@ -67,7 +67,7 @@ START_TEST(rests_where_the_sum_hangs) {
 }
 END_TEST
 
-/* Work on the load counts what was caught from where it was caught. */
+/* The work on the load includes the caught mass from the place where it was caught. */
 START_TEST(work_counts_the_mass) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 9e3}, {"load.drop_height", 0}, {"solver.end_time", 0.3});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -90,8 +90,8 @@ START_TEST(what_it_lacks_is_said) {
   } refused[] = {
       {ZP_STUDY_ACTUATE, {"load.change_mass", 1e-3}, {"mesh.nodes", 21}, "load.change_time"},
       {ZP_STUDY_ACTUATE, {"load.change_time", 1e-3}, {"mesh.nodes", 21}, "requires load.change_mass"},
-      {ZP_STUDY_ACTUATE, {"load.change_time", 1e-3}, {"load.change_mass", -9e-3}, "drops more than load.mass"},
-      {ZP_STUDY_ACTUATE, {"load.drop_height", 1e-3}, {"mesh.nodes", 21}, "which is caught"},
+      {ZP_STUDY_ACTUATE, {"load.change_time", 1e-3}, {"load.change_mass", -9e-3}, "cannot drop more than load.mass"},
+      {ZP_STUDY_ACTUATE, {"load.drop_height", 1e-3}, {"mesh.nodes", 21}, "load.change_mass above 0 kg"},
       {ZP_STUDY_CYCLE, {"load.change_time", 1e-3}, {"load.change_mass", 1e-3}, "under one load"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].setting, refused[k].other);

@@ -455,7 +455,7 @@ START_TEST(test_keys) {
     double end;
     const char *named;
   } wrong[] = {
-      {"", ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 2e-3, "give initial.file"},
+      {"", ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 2e-3, "requires initial.file"},
       {path, ZP_INITIAL_STRAIGHT, ZP_STUDY_ACTUATE, 2e-3, "initial.file: requires initial.state checkpoint"},
       {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_STATIONARY, 2e-3, "requires study actuate"},
       {"nowhere.zps", ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 2e-3, "nowhere.zps: cannot be opened"},

@@ -214,7 +214,10 @@ refused "a key without --set, behind a scenario" '--set "load\.mass=8g"' actuate
 refused "what is not modelled" 'temperature is not modelled; give .*medium\.kinematic_viscosity' actuate --set medium.temperature=300 -o refused
 refused "man without a folder" 'DIR' man
 refused "completion without a shell" 'bash, zsh or fish' completion
-refused "completion of no shell" 'tcsh is none of' completion tcsh
+refused "completion of no shell" 'unknown shell tcsh' completion tcsh
+refused "a misspelt option" 'unknown option --no-plotz; did you mean --no-plots' limits --no-plotz -o refused
+refused "an unknown option" 'unknown option -x; see zipact limits --help' limits -x -o refused
+refused "an option without its argument" 'missing argument of --set; see zipact limits --help' limits -o refused --set
 refused "fmu without a file" 'FILE\.fmu' fmu
 refused "missing file" 'absent.yaml.*No such file' run absent.yaml -o refused
 refused "no =" 'KEY=VALUE' actuate --set load.mass -o refused
@@ -225,6 +228,7 @@ refused "unknown unit" 'load\.mass.*stone.*in g from 0 g to 1000000 g' actuate -
 refused "wrong dimension" 'load\.mass.*mm.*in g from 0 g' actuate --set 'load.mass=1 mm' -o refused
 refused "out of range" 'mesh\.nodes=3.*4 to 2001' actuate --set mesh.nodes=3 -o refused
 refused "out of range, in people'\''s unit" 'ribbon\.thickness.*1 um to 5000 um' actuate --set 'ribbon.thickness=6 mm' -o refused
+refused "a bare number out of range" 'ribbon\.thickness=5: taken as 5 m, which is out of range; 1 um to 5000 um' actuate --set ribbon.thickness=5 -o refused
 refused "no number" 'load\.mass.*not a number' actuate --set load.mass=heavy -o refused
 refused "NaN" 'load\.mass.*not a number' actuate --set load.mass=nan -o refused
 refused "no whole number" 'mesh\.nodes.*whole number' actuate --set mesh.nodes=5.5 -o refused
@@ -474,7 +478,7 @@ ok "plots: status 0" status_is 0
 ok "plots writes the templates" is_file mine/stroke.gp
 zp plots -o mine
 ok "plots does not write over them: status 2" status_is 2
-ok "plots does not write over them: says so" says 'mine/.*: is there already'
+ok "plots does not write over them: says so" says 'mine/.*: exists already'
 echo '# edited' >>mine/stroke.gp
 zp actuate $short --templates mine -o edited
 ok "--templates: status 0" status_is 0

@@ -74,8 +74,8 @@ START_TEST(logarithm_and_angle) {
 }
 END_TEST
 
-/* Of a companion matrix: the roots of its polynomial, (x - 1) ... (x - 5) (x^2 + 2 x + 5); of a matrix of random
- * numbers their sum, and that of their squares. */
+/* Eigenvalues of a companion matrix are the roots of its polynomial, (x - 1) ... (x - 5) (x^2 + 2 x + 5); for a random
+ * matrix their sum and that of their squares are the traces. */
 START_TEST(eigenvalues_of_known_matrices) {
   enum { N = 7, MANY = 60 };
   double polynomial[N + 1] = {1}, A[N * N] = {0}, least = 0;
@@ -121,7 +121,7 @@ START_TEST(eigenvalues_of_known_matrices) {
 }
 END_TEST
 
-/* Of a damped oscillator, and where one part is a million times as fast. */
+/* Exponential of the matrix of a damped oscillator, also if one part is a million times as fast. */
 START_TEST(exponential_of_known_matrices) {
   const double a = -0.3, w = 40, stiff = -3e6;
   const double A[9] = {a, w, 0, -w, a, 0, 0, 0, stiff};
@@ -172,7 +172,7 @@ START_TEST(loop_around_an_integrator) {
 }
 END_TEST
 
-/* The gain at which it just swings, K_p T = 2 without integral and delay. */
+/* The gain at the stability limit, K_p T = 2 without integral and delay. */
 START_TEST(loop_at_its_limit) {
   const double zero[1] = {0}, b[1] = {-1}, one[1] = {1};
   const ZpLinear integrator = {1, zero, b, one};
@@ -188,7 +188,8 @@ END_TEST
 
 /* -- the film, between parallel faces ------------------------------------------------------------------ */
 
-/* Of a narrow strip all flows across: drag mu w^3 L / g^3, added mass rho w^3 L / (12 g), but for its ends. */
+/* In a narrow strip all liquid flows across: drag mu w^3 L / g^3, added mass rho w^3 L / (12 g), except near the ends.
+ */
 START_TEST(film_between_parallel_faces) {
   enum { N = 121 };
   const double w = 0.5e-3, L = 60e-3, g = 20e-6;
@@ -267,7 +268,8 @@ static double static_gain(const Held *h) {
   return gain;
 }
 
-/* As the equilibria beside it say, stable ones and others, by every signal, and through a supply's resistance. */
+/* The growth at a setpoint agrees with neighbouring equilibria, stable and unstable ones, for every signal and with the
+ * resistance of a supply. */
 START_TEST(static_gain_is_that_of_the_branch) {
   static const double at[] = {0.02, 0.25, 0.5, 0.9};
   static const ZpControlSignal signals[] = {ZP_CONTROL_CONTRACTION, ZP_CONTROL_OPENING, ZP_CONTROL_STROKE,
@@ -293,7 +295,7 @@ START_TEST(static_gain_is_that_of_the_branch) {
 }
 END_TEST
 
-/* About a stable state without damping they are the frequencies of study modes. */
+/* At a stable state without damping the eigenvalues are the frequencies of study modes. */
 START_TEST(open_loop_is_that_of_modes) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"damping.internal", 0}, {"control.kind", ZP_CONTROL_PI},
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.05});
@@ -316,8 +318,8 @@ START_TEST(open_loop_is_that_of_modes) {
 }
 END_TEST
 
-/* A mass on a spring between plates: under a load far above the ribbons' mass there is one coordinate, and its
- * frequency, or the rate at which it falls, is the root of how much more load another millimetre takes. */
+/* A mass on a spring between plates: with a load far heavier than the ribbons there is one coordinate, and its
+ * frequency, or the rate at which it falls, follows from the extra load per displacement. */
 START_TEST(heavy_load_has_one_coordinate) {
   const double mass = 61e-3, setpoints[] = {0.05, 0.5};
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"load.mass", mass}, {"ribbon.density", 1}, {"insulator.density", 0},
@@ -348,8 +350,8 @@ END_TEST
 
 /* -- what no gains hold --------------------------------------------------------------------------------- */
 
-/* Undamped the eigenvalues add up to 0, eq. (28.5): dry, a PI holds no state, unstable or stable. Internal damping and
- * the liquid take energy: their sum is below 0. */
+/* Without damping the eigenvalues add up to 0, eq. (28.5): without liquid a PI controller holds no state, unstable or
+ * stable. Internal damping and the liquid take energy: their sum is below 0. */
 START_TEST(undamped_no_gains_hold) {
   static const double at[] = {0.1, 0.25, 0.5, 0.75, 0.9};
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"damping.internal", 0}, {"control.kind", ZP_CONTROL_PI},
@@ -391,7 +393,7 @@ static ZpGrowth growth_of(const double *y, int count, double interval) {
   return (ZpGrowth){0.5 * log(-b) / interval, acos(0.5 * a / sqrt(-b)) / (2 * zp_pi * interval), sqrt(-b)};
 }
 
-/* A loop that swings, dry and in its bead: as fast, and growing or decaying as fast, as the eigenvalue says. */
+/* An oscillating loop, dry and with a bead: its frequency and its growth or decay are those of the eigenvalue. */
 START_TEST(swings_as_its_eigenvalue_says) {
   enum { SAMPLES = 100 };
   static const struct {

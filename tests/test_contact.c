@@ -329,9 +329,8 @@ START_TEST(test_invariants_while_zipping) {
 }
 END_TEST
 
-/* The voltage goes off after part of the way: the front falls back to the clip and the platform returns to
- * its hanging height. Drag -c |v| v damps as 1 / t; measured: open after 20 ms, after 2 s 1.2e-4 of
- * the opening from rest. */
+/* The voltage is switched off during the zip: the front returns to the clip and the platform to its hanging height.
+ * Drag -c |v| v damps as 1 / t; measured: open after 20 ms, after 2 s 1.2e-4 of the opening from rest. */
 START_TEST(test_opens_without_voltage) {
   ZpActuatorDef def = zipping_def();
   def.damping.drag = 10;
@@ -371,7 +370,7 @@ START_TEST(test_opens_from_closed) {
 }
 END_TEST
 
-/* Joining inside a run loses the relative motion along both axes: m / 2 (dvx^2 + dvy^2) / 2 of two equal masses.
+/* Joining within a run loses the relative motion along both axes: m / 2 (dvx^2 + dvy^2) / 2 for two equal masses.
  * Within 1 %, as springs act on the way; one axis alone would be half. */
 START_TEST(test_loss_of_joining) {
   const double speed = 10, gap = 1e-6; /* m/s, each node, and m: springs have no time */

@@ -182,7 +182,7 @@ static double answer(const ZpControl *c, double setpoint, double signal, ZpContr
   return zp_control_output(state);
 }
 
-/* A constant error e: the voltage is P e + k I T e at sample k from 1 on. */
+/* Constant error e: the voltage is P e + k I T e at sample k from 1 on. */
 START_TEST(law_is_proportional_and_integral) {
   ZpControl c = law();
   ZpControlState state = zp_control_start();
@@ -224,8 +224,8 @@ START_TEST(integral_does_not_wind_up) {
 }
 END_TEST
 
-/* Eq. (28.3): in full beyond the band, in proportion inside it, nothing where it should open; with a setpoint of 0 in
- * full. Kind pi has none. */
+/* Eq. (28.3): the boost is full beyond the band, proportional within it, and 0 if the actuator should open; with a
+ * setpoint of 0 it is full. Kind pi has none. */
 START_TEST(boost_inside_and_outside_its_band) {
   ZpActuatorDef def = DEF({"control.kind", ZP_CONTROL_BOOST_PI}, {"control.boost_voltage", 2e3},
                           {"control.boost_band", 0.2}, {"setpoint.value", 5e-3});
@@ -243,7 +243,7 @@ START_TEST(boost_inside_and_outside_its_band) {
 }
 END_TEST
 
-/* Output k is due at k T + delay, in order, whatever the delay; of whole periods exactly at a sample. */
+/* Output k takes effect at k T + delay, in order, for any delay; for whole periods exactly at a sample. */
 START_TEST(outputs_come_late) {
   static const double delays[] = {0, 0.3e-3, 1e-3, 2.5e-3, 3e-3, 8e-3};
   ZpControl c = law();
@@ -269,7 +269,7 @@ START_TEST(outputs_come_late) {
 }
 END_TEST
 
-/* Mean 0, the standard deviation that is asked for, no memory; another seed gives another one. */
+/* Noise: mean 0, the given standard deviation, no correlation; another seed gives other noise. */
 START_TEST(noise_of_samples) {
   enum { COUNT = 20000 };
   ZpControl c = law();
@@ -368,8 +368,8 @@ START_TEST(remembers_in_a_snapshot) {
 }
 END_TEST
 
-/* Explicit steps have the same controller: it is asked at the same times, sees the same, and answers the same, as far
- * as both ways of stepping agree. */
+/* Explicit steps have the same controller: it is called at the same times with the same values, as far as both
+ * integrators agree. */
 START_TEST(explicit_steps_have_it_too) {
   double voltage[2][30];
   for (int k = 0; k < 2; k++) {
@@ -394,7 +394,7 @@ START_TEST(explicit_steps_have_it_too) {
 }
 END_TEST
 
-/* The setpoint is an input; the voltage is none. */
+/* With a controller the setpoint is an input, the voltage is not. */
 START_TEST(setpoint_by_hand) {
   ZpActuatorDef def = controlled(0, 0);
   ZpModel *with = model_of(&def);
@@ -445,8 +445,7 @@ START_TEST(steps_make_no_system_call) {
 }
 END_TEST
 
-/* Held against a spring: what is asked for is there at the end, behind an ideal source and an amplifier; and the
- * numbers of the summary say so. */
+/* Held against a spring: the final value is the setpoint, with an ideal source and an amplifier; the summary agrees. */
 START_TEST(holds_its_setpoint) {
   ZpActuatorDef def = controlled(0, 0);
   def.load.stiffness = 20;
@@ -532,7 +531,7 @@ START_TEST(wrong_keys) {
                {{"control.boost_band", 0}, "control.boost_band"},
                {{"solver.end_time", 2e3}, "more than 1e+06 samples"},
                {{"setpoint.value", 1.1}, "at most 1"},
-               {{"setpoint.value", NAN}, "which requires it"},
+               {{"setpoint.value", NAN}, "missing; control.kind requires it"},
                {{"setpoint.frequency", 5}, "setpoint.waveform sine or square"},
                {{"drive.waveform", ZP_WAVEFORM_SINE}, "the controller sets the voltage"},
                {{"actuator.kind", ZP_KIND_FLANGE}, "control.signal = contraction"},
@@ -572,7 +571,7 @@ static ZpResponse respond(double zeta, double w) {
   return zp_response_of(sample, SAMPLES);
 }
 
-/* Rise in ln 9 and settling in ln 50 time constants; no overshoot. */
+/* First-order response: rise time ln 9 and settling time ln 50 time constants; no overshoot. */
 START_TEST(response_of_first_order) {
   ZpResponse r = respond(0, 5);
   ck_near(r.rise_time, log(9) / 5, 1e-4);
@@ -582,7 +581,8 @@ START_TEST(response_of_first_order) {
 }
 END_TEST
 
-/* Overshoot exp(-pi zeta / sqrt(1 - zeta^2)); it has settled when the last wave that is as large as 2 % is over. */
+/* Second-order response: overshoot exp(-pi zeta / sqrt(1 - zeta^2)); it has settled after the last wave that exceeds 2
+ * %. */
 START_TEST(response_of_second_order) {
   double zeta = 0.4, w = 10;
   ZpResponse r = respond(zeta, w);
@@ -597,7 +597,7 @@ START_TEST(response_of_second_order) {
 }
 END_TEST
 
-/* What has no answer has none: no step, no way to go, no end of it. */
+/* Without a step, a change or a settled end the numbers are missing. */
 START_TEST(response_that_is_none) {
   for (int k = 0; k < SAMPLES; k++)
     sample[k] = (ZpResponseSample){k * 1e-3, fmin(k * 1e-3, 1), 0.5};

@@ -23,7 +23,7 @@ START_TEST(law_is_the_closed_form) {
 }
 END_TEST
 
-/* Narrow: all of nu^2 is missing; wide: what curls is a strip of constant width at each edge. */
+/* Narrow strips: plane stress; wide strips: only an edge of constant width curls. */
 START_TEST(limits_of_the_law) {
   double small = 1e-6, large = 1e12;
   ck_near(zp_curl_law(&strip, small).M, strip.EI * small, 1e-12);
@@ -34,7 +34,7 @@ START_TEST(limits_of_the_law) {
 }
 END_TEST
 
-/* The mean moment does the work, over ways short and long, and its slope is its derivative. */
+/* The mean moment over a step does the work, over short and long steps, and its slope is its derivative. */
 START_TEST(mean_moment_does_the_work) {
   static const double way[][2] = {{3, 3.1}, {3, 9}, {-2, 40}, {0, 1}, {5, 5.000001},
                                   {60, 58}, {7, 7}, {2, 5.9}, {2, 6}};
@@ -56,7 +56,7 @@ static double sag_of(ZpActuatorDef def, ZpPlane plane) {
   return y;
 }
 
-/* A narrow strip is in plane stress, a wide one that is bent far in plane strain, whatever holds its end. */
+/* A narrow strip is in plane stress, a wide strongly bent one in plane strain, for any support of its end. */
 START_TEST(narrow_and_wide_strips) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", _i}, {"ribbon.width", 1e-4},
                           {"load.mass", 2e-6}, {"ribbon.length", 0.05}, {"mesh.nodes", 31}, {"output.errors", false});
@@ -79,7 +79,7 @@ static double curvature_under(double M, double EI, const ZpCurl *curl) {
   return low;
 }
 
-/* A wide cantilever that its load bends a little has the curvature of its moment everywhere, between both limits. */
+/* A wide, weakly bent cantilever has the curvature of its moment everywhere, between both limits. */
 START_TEST(cantilever_between_both) {
   static const double w = 0.1, b = 50e-6, L = 0.02, nu = 0.4, E = 200e9, P = 0.002;
   enum { PARTS = 4000 };
@@ -100,7 +100,8 @@ START_TEST(cantilever_between_both) {
 }
 END_TEST
 
-/* Moments over a step do the work by which the energy changes, and at rest are its gradient, at ends as between. */
+/* The moments over a step do the work of the energy change, and at rest are its gradient, at the ends and between them.
+ */
 START_TEST(energy_in_motion) {
   ZpActuatorDef def =
       DEF({"actuator.kind", _i < 3 ? ZP_KIND_RIBBON : ZP_KIND_ELECTRO_RIBBON}, {"actuator.right_end", _i % 3},
@@ -149,8 +150,8 @@ START_TEST(what_it_lacks_is_said) {
     Setting setting;
     const char *says;
   } refused[] = {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}, "requires ribbon.model rod"},
-                 {{"segment_1.length", 5e-3}, "without segments only"},
-                 {{"lower.segment_2.length", 5e-3}, "without segments only"}};
+                 {{"segment_1.length", 5e-3}, "a ribbon without segments"},
+                 {{"lower.segment_2.length", 5e-3}, "a ribbon without segments"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF({"ribbon.plane", ZP_PLANE_ANTICLASTIC}, refused[k].setting);
     ck_refused(&def, refused[k].says);

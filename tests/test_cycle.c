@@ -71,7 +71,7 @@ START_TEST(test_phase_of_an_oscillator) {
 }
 END_TEST
 
-/* What the source gives in a cycle is what the cycle loses; the area of the loop of charge and voltage is that. */
+/* The energy from the source per cycle equals the losses per cycle and the area of the loop of charge and voltage. */
 START_TEST(test_energy_of_a_cycle) {
   ZpActuatorDef def =
       DEF(SINE, {"drive.voltage", 8e3}, {"drive.frequency", 2}, {"damping.internal", 5e-3}, {"solver.tolerance", 3e-4});
@@ -98,8 +98,8 @@ START_TEST(test_energy_of_a_cycle) {
 }
 END_TEST
 
-/* Closed ribbons are a capacitor: under a sine of both signs its current has the amplitude C w U, and twice in a cycle
- * the source gives C U^2 / 2, which it gets back. The voltage is so low that the faces hardly give way. Rows have mean
+/* Closed ribbons are a capacitor: under a sine of both signs its current has the amplitude C w U, and twice per cycle
+ * the source supplies C U^2 / 2 and recovers it. The voltage is so low that the faces hardly give way. Rows have mean
  * currents over a hundredth of a cycle. */
 START_TEST(test_current_of_a_capacitor) {
   const double U = 200, f = 20, half = 3.14159265358979 / 100; /* half of the angle of a row */
@@ -118,7 +118,7 @@ START_TEST(test_current_of_a_capacitor) {
 }
 END_TEST
 
-/* Shooting finds what waiting leads to: a swing whose damping is strong enough to wait for. */
+/* Shooting finds the periodic motion that a long run reaches, with enough damping for such a run. */
 START_TEST(test_shooting_finds_what_waiting_leads_to) {
   ZpActuatorDef def =
       DEF(SINE, {"drive.voltage", 3e3}, {"drive.frequency", 3}, {"damping.internal", 20e-3}, {"cycle.tolerance", 1e-5});
@@ -141,8 +141,7 @@ START_TEST(test_shooting_finds_what_waiting_leads_to) {
 }
 END_TEST
 
-/* With liquid, too, it finds what waiting leads to: oil at the ribbons' edges counts as much as where the ribbons are.
- */
+/* The same with liquid: the state includes the oil at the edges of the ribbons. */
 START_TEST(test_liquid_is_waited_for) {
   static const struct { double liquid, frequency; } row[] = {{ZP_LIQUID_SUBMERGED, 3}, {ZP_LIQUID_BEAD, 8}};
   enum { CYCLES = 40 };

@@ -96,7 +96,7 @@ static double solve_error(Shape s, ZpBordered *m, double dense[MOST][MOST]) {
   return worst;
 }
 
-/* Products and solutions are those of the same matrix written out in full. Measured: 1e-15 and below 1e-14. */
+/* Products and solutions equal those of the full matrix. Measured: 1e-15 and below 1e-14. */
 START_TEST(test_bordered_as_dense) {
   Shape s = shapes[_i];
   ZpBordered m;
@@ -114,8 +114,8 @@ START_TEST(test_bordered_as_dense) {
 }
 END_TEST
 
-/* A band that is singular alone, by an unknown that only the border knows, is no trouble, nor, with a border of one, a
- * band that is nearly singular: refinement finds what elimination loses. */
+/* A band that is singular without its border, or nearly singular with a border of one, gives the solution: refinement
+ * recovers what elimination loses. */
 START_TEST(test_bordered_singular_band) {
   static const double left[] = {0, 1e-18, 1e-14, 1e-9};
   for (size_t k = 0; k < LENGTH_OF(left); k++) {
@@ -293,7 +293,7 @@ static double charge_error(const Motion *m, double t) {
   return fabs(m->y[0] / (VOLTAGE * farad) - (1 - exp(-t / (m->R * farad))));
 }
 
-/* The rule's own closed form, 1 - ((1 - x) / (1 + x))^n with x = h / (2 R C), to rounding; second order in h. Measured
+/* Closed form of the rule, 1 - ((1 - x) / (1 + x))^n with x = h / (2 R C), to rounding; second order in h. Measured
  * ratios 4.00. */
 START_TEST(test_charge_order_two) {
   double error[4], tau = 1e6 * farad;
@@ -394,8 +394,8 @@ static double plate_energy(const Motion *m) {
   return 0.5 * (gram * m->v[0] * m->v[0] + spring * stretch * stretch + Q * Q * (insulator + x) / eps_A);
 }
 
-/* Source work less heat of the resistor is what field, spring and motion store: exactly, whatever the step. Measured:
- * 5e-11 of the work. */
+/* Work of the source minus heat of the resistor equals the energy of field, spring and motion: exactly, for any step.
+ * Measured: 5e-11 of the work. */
 START_TEST(test_plate_balance) {
   for (int fixed = 0; fixed < 2; fixed++) {
     Motion m;
@@ -421,7 +421,7 @@ START_TEST(test_plate_balance) {
 }
 END_TEST
 
-/* It ends where force and voltage balance, and the way there is of second order, with both kinds of unknowns. */
+/* It ends at the equilibrium of force and voltage, and its path is of second order, with both kinds of unknowns. */
 START_TEST(test_plate_order_two) {
   double at[5][2];
   for (int k = 0; k < 5; k++) {
@@ -524,7 +524,7 @@ static double volume_error(const Motion *m) {
   return fabs(sum);
 }
 
-/* Volume and energy stay to rounding, by fixed and by adaptive steps: the pressure, one over a step, does the work
+/* Volume and energy are constant to rounding, with fixed and adaptive steps: the pressure, one per step, does the work
  * p (V1 - V0) = 0. Measured: 1e-15 and 1e-13. */
 START_TEST(test_volume_stays) {
   for (int fixed = 0; fixed < 2; fixed++) {
@@ -580,8 +580,8 @@ static void make_pendulum(Motion *m) {
   start(m);
 }
 
-/* Length and energy to rounding over 100 swings; after a quarter of the period, K(1/2) = 1.854..., it hangs, with an
- * error of second order. Measured: 2e-16, 4e-13; ratios 4.00. */
+/* Length and energy are constant to rounding over 100 swings; after a quarter of the period, K(1/2) = 1.854..., it
+ * hangs, with an error of second order. Measured: 2e-16, 4e-13; ratios 4.00. */
 START_TEST(test_pendulum) {
   static const double quarter = 1.8540746773013719;
   double error[3];
@@ -611,7 +611,7 @@ START_TEST(test_pendulum) {
 }
 END_TEST
 
-/* A multiplier may stand in the band, too, where that is not symmetric: the motion is the same. */
+/* A multiplier within an unsymmetric band gives the same motion. */
 START_TEST(test_pendulum_in_the_band) {
   Motion border, band;
   make_pendulum(&border);
@@ -705,7 +705,7 @@ static double pair_energy(const Motion *m) {
          0.5 * stiff * (m->y[0] * m->y[0] + m->y[1] * m->y[1]);
 }
 
-/* The energy that is gone is the dashpot's, to rounding. */
+/* The lost energy is that of the dashpot, to rounding. */
 START_TEST(test_pair_balance) {
   Motion m;
   make_pair(&m);
@@ -749,7 +749,7 @@ START_TEST(test_pair_steps_as_one_mass) {
 }
 END_TEST
 
-/* An eighth of the accuracy makes a quarter of the error. */
+/* An eighth of the tolerance gives a quarter of the error. */
 START_TEST(test_pair_error_control) {
   double error[3];
   for (int k = 0; k < 3; k++) {
@@ -770,8 +770,8 @@ START_TEST(test_pair_error_control) {
 }
 END_TEST
 
-/* zp_implicit_smooth takes the share (x / (1 + x))^5, x = (w h / 2)^2, of the sum's swing, w^2 = k / (1 + 2 a). (The
- * dashpot does not act on it.) */
+/* zp_implicit_smooth removes the fraction (x / (1 + x))^5, x = (w h / 2)^2, of the oscillation of the sum, w^2 = k / (1
+ * + 2 a) */
 START_TEST(test_pair_smooth) {
   Motion m;
   make_pair(&m);
@@ -799,8 +799,8 @@ END_TEST
 
 /* -- the exact tangent ----------------------------------------------------------------------------- */
 
-/* Against differences of the residual, at a step that moves all unknowns. Residuals are polynomials of degree 3 at
- * most: rounding and the third derivative are left. The symmetric one of the plate is off by 1e-2. */
+/* Tangent against finite differences of the residual, for a step that moves all unknowns. Residuals are polynomials of
+ * degree 3 at most: rounding and the third derivative are left. The symmetric one of the plate is off by 1e-2. */
 START_TEST(test_exact_tangent) {
   static void (*const make[])(Motion *) = {make_charge, make_plate, make_volume, make_pendulum, make_pair};
   for (size_t k = 0; k < LENGTH_OF(make); k++) {
@@ -830,8 +830,8 @@ START_TEST(test_no_exact_tangent) {
 }
 END_TEST
 
-/* Newton's method by the exact, unsymmetric tangent comes to the same end as by the symmetric one, in fewer iterations.
- */
+/* Newton's method with the exact, unsymmetric tangent finds the same solution as with the symmetric one, in fewer
+ * iterations. */
 START_TEST(test_newton_by_exact) {
   Motion by_symmetric, by_exact;
   make_plate(&by_symmetric);

@@ -53,7 +53,7 @@ START_TEST(sine_is_a_sine) {
 }
 END_TEST
 
-/* From corner to corner through 5000 cycles: each is met once, the voltages on both sides are exact. */
+/* From corner to corner through 5000 cycles: each corner occurs once, and the voltages on both sides are exact. */
 static void walk_square(double frequency, double duty, double rise_time) {
   ZpWaveform w = wave(ZP_WAVEFORM_SQUARE);
   w.frequency = frequency, w.duty = duty, w.rise_time = rise_time;
@@ -185,7 +185,7 @@ static double kick(double length) {
   return kinetic;
 }
 
-/* A pulse far shorter than a step acts for its own length: speed goes with it. */
+/* A pulse far shorter than a step acts for its own length: the velocity is proportional to it. */
 START_TEST(no_pulse_is_missed) {
   double none = kick(0.5e-12), one = kick(20e-9), two = kick(40e-9);
   printf("pulses of 0.5 ps, 20 ns, 40 ns: %.3g, %.3g, %.3g J\n", none, one, two);
@@ -232,9 +232,9 @@ static Balance balance_of(const ZpActuatorDef *def) {
   return b;
 }
 
-/* Explicit: largest imbalance on the way, of the work, with steps of 0.4 and 0.2 us: step 1.8e-4 and 0.7e-4, ramp
- * 0.9e-5 and 0.4e-5, sine 0.8e-4 and 0.6e-4, one that changes sign 2.8e-4 and 1.2e-4, square 0.8e-4 and 0.3e-4: the
- * stepping is of first order, and a voltage that changes adds nothing. */
+/* Largest energy imbalance with explicit steps of 0.4 and 0.2 us, for each waveform. Measured: step 1.8e-4 and 0.7e-4,
+ * ramp 0.9e-5 and 0.4e-5, sine 0.8e-4 and 0.6e-4, one that changes sign 2.8e-4 and 1.2e-4, square 0.8e-4 and 0.3e-4:
+ * the steps are of first order, and a changing voltage adds no error. */
 START_TEST(energy_balances) {
   ZpActuatorDef def[5];
   const char *const name[] = {"step", "ramp", "sine", "sine of both signs", "square"};
@@ -302,8 +302,8 @@ static Work work_over(double time_step) {
   return sum;
 }
 
-/* The work of the source is the integral of U dQ: what the discrete gradient differs by from trapezoids falls with the
- * square of the step. Measured: ratios of 3.92 and 3.97. */
+/* The work of the source is the integral of U dQ: its difference from the trapezoidal rule falls with the square of the
+ * step. Measured: ratios of 3.92 and 3.97. */
 START_TEST(work_is_integral_of_U_dQ) {
   double off[3];
   for (int k = 0; k < 3; k++) {
@@ -357,9 +357,9 @@ static Charging ramp_by_hand(const ZpActuatorDef *def, int steps, double *imbala
   return by_hand;
 }
 
-/* Found by users: a ramp to 4 kV by hand booked no work for its jumps (a fifteenth of the waveform's), and its currents
- * added up to 4 % of the charge. Both are now the waveform's but for the charging loss of a jump, C dU^2 / 2, so that a
- * thousand of them lose a thousandth of the work. Measured: 3e-6 off, as the voltage comes half a step early. */
+/* Regression: a ramp to 4 kV set by a program booked no work for its jumps, and its currents did not add up to the
+ * charge. Both are now the waveform's but for the charging loss of a jump, C dU^2 / 2, so that a thousand of them lose
+ * a thousandth of the work. Measured: 3e-6 off, as the voltage comes half a step early. */
 START_TEST(voltage_by_hand_books_its_work) {
   enum { STEPS = 1000 };
   ZpActuatorDef def = driven(ZP_WAVEFORM_RAMP, 20e-3);
@@ -383,8 +383,8 @@ START_TEST(voltage_by_hand_books_its_work) {
 }
 END_TEST
 
-/* Where nothing has moved yet and nothing is capped, the actuator is a capacitor C: n jumps to U give C U^2 / 2 (1 +
- * 1/n), of which the field keeps C U^2 / 2. */
+/* Without motion and without breakdown the actuator is a capacitor C: n jumps to U take C U^2 / 2 (1 + 1/n), of which
+ * the field stores C U^2 / 2. */
 START_TEST(jumps_of_a_capacitor) {
   static const int jumps[] = {1, 2, 10};
   for (size_t i = 0; i < LENGTH_OF(jumps); i++) {
@@ -400,7 +400,7 @@ START_TEST(jumps_of_a_capacitor) {
 }
 END_TEST
 
-/* A voltage that is there at t = 0 has jumped there; with the cap the field keeps less than half. */
+/* A voltage present at t = 0 has jumped there; with the cap the field stores less than half. */
 START_TEST(jump_at_the_start) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 1e-3);
   for (int capped = 0; capped < 2; capped++) {
@@ -423,7 +423,7 @@ START_TEST(jump_at_the_start) {
 }
 END_TEST
 
-/* A ramp, a hold, a jump, a ramp: the jump does U dQ, and its loss closes the balance. */
+/* A ramp, a hold, a jump, a ramp: the jump does U dQ, and its loss closes the energy balance. */
 START_TEST(account_over_corners) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 10e-3);
   const double t[] = {0, 2e-3, 4e-3, 4e-3, 10e-3}, U[] = {0, 6e3, 6e3, 9e3, 7e3};
@@ -456,8 +456,8 @@ static ZpActuatorDef alternating(ZpWaveformKind kind, double end) {
   return def;
 }
 
-/* Found by users: trapezoids of the work beside an attraction at the middle voltage lost dC dU^2 / 8 in each step:
- * 0.015 of the work in 3 s. Measured now: 1.6e-8 and 2.4e-8; over 10 s 1.6e-8 and 4.0e-8. */
+/* Regression: the trapezoidal work with an attraction at the middle voltage lost dC dU^2 / 8 in each step: 0.015 of the
+ * work in 3 s. Measured now: 1.6e-8 and 2.4e-8; over 10 s 1.6e-8 and 4.0e-8. */
 START_TEST(alternating_voltage_keeps_energy) {
   static const ZpWaveformKind kind[] = {ZP_WAVEFORM_SINE, ZP_WAVEFORM_SQUARE};
   ZpActuatorDef def = alternating(kind[_i], FULL_OR(1, 0.1));
@@ -471,7 +471,7 @@ START_TEST(alternating_voltage_keeps_energy) {
 }
 END_TEST
 
-/* Found by users: a fortieth of the largest voltage bounded the steps, whatever the tolerance. */
+/* Regression: a fortieth of the largest voltage limited the steps, whatever the tolerance was. */
 START_TEST(tolerance_rules_the_steps) {
   static const double tolerance[] = {1e-3, 1e-4, 1e-5};
   double steps[3], opening[3];
@@ -526,8 +526,8 @@ static void *state_by_hand(const ZpModel *model, int often, bool looks, int *sol
   return state;
 }
 
-/* Found by users: each call solved the field again, also where the voltage was what it is. Setting a voltage again,
- * replacing it before anything moves, and reading leave every bit as it is. */
+/* Regression: each call solved the field again, even at an unchanged voltage. Setting a voltage again, replacing it
+ * before anything moves, and reading leave every bit as it is. */
 START_TEST(setting_and_reading_change_nothing) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 1e-3);
   for (int field = 0; field < 2; field++) {
@@ -545,7 +545,7 @@ START_TEST(setting_and_reading_change_nothing) {
 }
 END_TEST
 
-/* Saved inside a ramp, and resumed in another simulation: the same bits. */
+/* A state saved during a ramp continues in another simulation with identical bits. */
 START_TEST(restart_inside_a_ramp) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_SQUARE, 20e-3);
   def.drive.frequency = 100;
@@ -657,8 +657,8 @@ static void run_to(ZpSim *sim, double time) {
   ck_assert_msg(zp_sim_run(sim, time, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
 }
 
-/* A voltage by hand could only jump, and U dQ of a jump loses half. With a rate it does what the same waveform does: 20
- * ms up to 10 kV, then held. */
+/* Regression: a voltage set by a program could only jump, and the U dQ of a jump loses half. With a rate it does what
+ * the same waveform does: 20 ms up to 10 kV, then held. */
 START_TEST(ramp_by_hand_is_the_waveform) {
   static const char *const signals[] = {"electric_work", "charge", "stroke", "voltage", "field_energy"};
   ZpActuatorDef def = hanging(_i);
@@ -682,8 +682,8 @@ START_TEST(ramp_by_hand_is_the_waveform) {
 }
 END_TEST
 
-/* A force that rises, stays, falls, jumps: its work is force times path, and the energy balances. Explicit steps of the
- * rod have an error of energy of their own, of first order in the step; see energy_balances. */
+/* A force that rises, stays, falls, jumps: its work is force times displacement, and the energy balances. Explicit
+ * steps of the rod have an error of energy of their own, of first order in the step; see energy_balances. */
 START_TEST(load_by_hand_books_its_work) {
   ZpActuatorDef def = hanging(_i);
   def.drive.voltage = 0;
@@ -728,8 +728,8 @@ START_TEST(inputs_keep_energy_in_a_zip) {
 }
 END_TEST
 
-/* Where the actuator hangs with a mass it hangs with a force of the same weight, by either integrator and of one
- * ribbon, which carries all of it: it stays there. Without the force it springs up. */
+/* A force equal to the weight of a mass gives the same equilibrium, with either integrator, also for a single ribbon,
+ * which carries all of it. Without the force it springs up. */
 START_TEST(load_by_hand_hangs_as_a_mass) {
   ZpActuatorDef def = hanging(_i);
   if (_i == 2) def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 21}, {"load.mass", 1e-3});
@@ -756,7 +756,7 @@ START_TEST(load_by_hand_hangs_as_a_mass) {
 }
 END_TEST
 
-/* Inside ramps of both inputs a saved state continues to the same bits, and another model takes the inputs over. */
+/* During ramps of both inputs a saved state continues with identical bits, and another model takes over the inputs. */
 START_TEST(inputs_are_part_of_the_state) {
   ZpActuatorDef def = hanging(_i);
   ZpModel *model = model_of(&def);
@@ -787,7 +787,7 @@ START_TEST(inputs_are_part_of_the_state) {
 }
 END_TEST
 
-/* A ramp ends where its range does; the fastest one comes there, too. */
+/* A ramp ends at the limit of its range; even the fastest ramp reaches it. */
 START_TEST(ramps_end_with_their_range) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 11});
   ZpModel *model = model_of(&def);

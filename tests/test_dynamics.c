@@ -102,8 +102,8 @@ static double work_of(const Step *s) {
   return work;
 }
 
-/* Joints bent to 1.8 rad, edges turned by as much and stretched by 30 %, the rod naturally curved: work = -(E1 - E0)
- * but for what damping takes. Measured: within 2e-15 of E0 + E1. */
+/* Joints bent to 1.8 rad, edges turned as much and stretched by 30 %, a rod with natural curvature: the work is -(E1 -
+ * E0) minus the damping. Measured: within 2e-15 of E0 + E1. */
 START_TEST(test_rod_work) {
   double worst = 0;
   uint64_t seed = 1;
@@ -125,8 +125,8 @@ START_TEST(test_rod_work) {
 }
 END_TEST
 
-/* Loss of damping is that of the rates of stretching and bending: a rod that turns as a whole has none. Nor does the
- * force on it work. */
+/* The damping loss follows from the rates of stretching and bending: a rigid rotation has none. Nor does the force on
+ * it work. */
 START_TEST(test_rod_turned_as_a_whole) {
   uint64_t seed = 5;
   Step s;
@@ -146,8 +146,8 @@ START_TEST(test_rod_turned_as_a_whole) {
 }
 END_TEST
 
-/* Without damping forth and back are one; damping turns round with the motion. Both within 1e-13 of the largest force.
- */
+/* Without damping the step is reversible; with damping its sign follows the motion. Both within 1e-13 of the largest
+ * force. */
 START_TEST(test_rod_exchange) {
   uint64_t seed = 7;
   for (int k = 0; k < 50; k++) {
@@ -267,8 +267,8 @@ static double plates_error(Plates *p) {
   return worst;
 }
 
-/* Gaps above, below and across the cap, the same at both ends, and apart by as little as rounding; voltages that stay
- * and that change: the work is what the potential loses. Measured: within 6e-16 of the potential. */
+/* Gaps above, below and across the cap, equal at both ends or differing by rounding only; constant and changing
+ * voltages: the work is the loss of the potential. Measured: within 6e-16 of the potential. */
 START_TEST(test_plates_work) {
   static const double apart[] = {0, 1e-15, 1e-12, 1e-10, 5e-9, 2e-8, 1e-6, 1e-4};
   uint64_t seed = 11;
@@ -339,8 +339,7 @@ static void check_gap(Plates *p, double U1, size_t i, Worst *worst) {
 #undef SLOPE
 }
 
-/* Derivatives by the gaps at the end of the step. Measured: within 4e-9 of the
- * largest. */
+/* Derivatives with respect to the gaps at the end of the step. Measured: within 4e-9 of the largest. */
 START_TEST(test_plates_derivative) {
   uint64_t seed = 13;
   Plates p;
@@ -415,9 +414,9 @@ static double swing(double tolerance) {
   return off / fall;
 }
 
-/* Let fall from straight, it swings by gravity for 100 periods, energy going from gravity's into motion, bending and
- * back; what is lost is what Newton's method leaves, which goes with the tolerance. Measured: 2.8e-6 of gravity's with
- * 1e-4 and steps of 2 ms, a twelfth of a period; 2.1e-9 with 1e-6 and 0.23 ms. */
+/* Released from straight, it swings under gravity for 100 periods; the energy changes between gravity, motion and
+ * bending, and the loss is the residual of Newton's method, which follows the tolerance. Measured: 2.8e-6 of gravity's
+ * with 1e-4 and steps of 2 ms, a twelfth of a period; 2.1e-9 with 1e-6 and 0.23 ms. */
 START_TEST(test_swing_keeps_energy) {
   ck_below(swing(1e-3), 1e-5);
   ck_below(swing(7e-5), 1e-6);
@@ -466,10 +465,10 @@ static Vibration vibrate(const ZpActuatorDef *def, double guess, int skip, int p
   return (Vibration){periods / (t[1] - t[0]), log(speed[0] / speed[1]) / periods};
 }
 
-/* The stroke was an absolute value: a swing through the straight shape looked like impacts. Without weight a ribbon
- * that is kicked upwards swings to both sides of it; its stroke is - first, changes sign every half period, and its
- * second differences stay below those of its modes, where a corner's would be twice the step of a crossing. Measured:
- * 0.030 of the largest step. */
+/* Regression: the stroke was an absolute value, so a swing through the straight shape looked like impacts. Without
+ * weight a ribbon that is kicked upwards swings to both sides of it; its stroke is - first, changes sign every half
+ * period, and its second differences stay below those of its modes, where a corner's would be twice the step of a
+ * crossing. Measured: 0.030 of the largest step. */
 START_TEST(stroke_changes_sign_smoothly) {
   ZpActuatorDef def = DEF(CANTILEVER, {"load.mass", 0}, {"gravity", 0}, {"initial.state", ZP_INITIAL_STRAIGHT});
   double guess = first_frequency(&def), dt = 1 / guess / 400, last = 0, step = 0, bend = 0, most = 0;
@@ -513,9 +512,9 @@ START_TEST(test_frequency_is_that_of_modes) {
 }
 END_TEST
 
-/* Kelvin and Voigt: a mode of w has the damping ratio w tau / 2, so that a period takes pi w tau off the logarithm.
- * Without gravity, which is not damped; after two periods the higher modes are gone. Measured: off by 1.5e-4, 4.7e-4.
- */
+/* Kelvin-Voigt damping: a mode of angular frequency w has the damping ratio w tau / 2, so its logarithmic decrement per
+ * period is pi w tau. Without gravity, which is not damped; after two periods the higher modes are gone. Measured: off
+ * by 1.5e-4, 4.7e-4. */
 START_TEST(test_decrement) {
   static const double tau[] = {1e-4, 1e-3};
   for (size_t k = 0; k < LENGTH_OF(tau); k += FULL_OR(1, 2)) {
@@ -573,8 +572,8 @@ static void check_zip(const char *name, const Zip *zip) {
   ck_assert_double_gt(zip->contraction, 0.99);
 }
 
-/* The default actuator: times agree between tolerances and between meshes. Measured: 75.82 ms, with a tolerance of 1e-4
- * 75.89 ms (0.1 %; 0.5 % when faces pushed as they lay at the step's end). */
+/* The zip times of the default actuator agree between tolerances and between meshes. Measured: 75.82 ms, with a
+ * tolerance of 1e-4 75.89 ms (0.1 %; 0.5 % when faces pushed as they lay at the step's end). */
 START_TEST(test_zip_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5}, {"solver.tolerance", 1e-3});
   Zip usual = zip(def);
@@ -592,8 +591,8 @@ START_TEST(test_zip_time) {
 }
 END_TEST
 
-/* Found by users: at a tolerance of 1e-4 zip times were off by 19 (dry), 33 (beads) and 47 tolerances (bath), and dry
- * ones by 16 at 1e-5, as the damper between faces acted after the step. The error is at most three. */
+/* Regression: at a tolerance of 1e-4 zip times were off by 19 (dry), 33 (beads) and 47 tolerances (bath), and dry ones
+ * by 16 at 1e-5, because the damper between faces acted after the step. The error is at most three. */
 START_TEST(tolerance_keeps_its_word) {
   static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_BEAD, ZP_LIQUID_SUBMERGED};
   const double finest = liquid[_i] == ZP_LIQUID_NONE ? 1e-5 : 1e-4;
@@ -609,8 +608,8 @@ START_TEST(tolerance_keeps_its_word) {
 }
 END_TEST
 
-/* Steps of one length, lateral edges, drag: energy balances, too. Measured: 75.51 ms; with steps of 0.1 ms 75.52 ms;
- * edges pull harder, 73.37 ms; drag 127.1 ms; energy within 3e-7. */
+/* Steps of constant length, with lateral edges and drag: the energy balances. Measured: 75.51 ms; with steps of 0.1 ms
+ * 75.52 ms; edges pull harder, 73.37 ms; drag 127.1 ms; energy within 3e-7. */
 START_TEST(test_zip_otherwise) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   Zip usual = zip(def);
@@ -631,9 +630,9 @@ START_TEST(test_zip_otherwise) {
 }
 END_TEST
 
-/* An actuator that hangs nearly closed closes by a small motion, and the error is relative to that. It was relative to
- * the length, so the steps were too long for the motion: the zip times of 200 and 300 um were wrong by 7.5e-3
- * and 2.9e-3 at a tolerance of 1e-4, now by 4.1e-4 and 3.7e-4. */
+/* An actuator that hangs nearly closed closes by a small motion, and its error is relative to that motion. It was
+ * relative to the length, so the steps were too long for the motion: the zip times of 200 and 300 um were wrong by
+ * 7.5e-3 and 2.9e-3 at a tolerance of 1e-4, now by 4.1e-4 and 3.7e-4. */
 START_TEST(test_error_of_a_small_motion) {
   static const double thickness[] = {200e-6, 300e-6};
   for (size_t k = 0; k < sizeof thickness / sizeof thickness[0]; k++) {
@@ -653,9 +652,8 @@ static double lateness(const ZpActuatorDef *given, double step, double exact) {
   return zip(def).time / exact - 1;
 }
 
-/* The closing instant is found on the parabola on which the platform moves within a step, so that it is late in the
- * square of the steps, wherever in a step it is: steps twice as long are four times as late. On a straight line it
- * would not be, by 2.7e-3 with some 30 steps. */
+/* The closing instant is found on the parabola of the platform within a step, so its error is of second order in the
+ * step, wherever it lies in the step. On a straight line it would not be, by 2.7e-3 with some 30 steps. */
 START_TEST(test_closing_instant_within_a_step) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", 300e-6},
                           {"solver.tolerance", 1.6e-5});
@@ -666,8 +664,8 @@ END_TEST
 
 /* Of a tiny hanging opening, faces touch before 1 % of it is left. The zip time was then beyond the end of the run: 228
  * us, where the run had ended, closed, at 1 us. */
-/* Thin insulators, no cap: an iteration that overlapped them by all their thickness found an attraction without bound
- * there, and a state that was none. */
+/* Regression: with thin insulators and no cap an iteration with faces overlapping by the whole thickness found an
+ * unbounded attraction there and a false state. */
 START_TEST(faces_do_not_fall_through_thin_insulators) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.095996535493478072}, {"ribbon.width", 0.0293876398949647},
@@ -696,9 +694,9 @@ START_TEST(test_zip_time_is_within_the_run) {
 }
 END_TEST
 
-/* Two integrators that share no code but the forces at a point, without damping: the midpoint rule with discrete
- * gradients, and symplectic Euler with the smallest steps that it needs. Both mechanics. Measured: 77.97 and 77.89 ms
- * (rod), 75.92 and 75.91 ms (mass_spring). */
+/* Two integrators that share no code except the forces, without damping: midpoint rule with discrete gradients, and
+ * symplectic Euler with its smallest steps. Both mechanics. Measured: 77.97 and 77.89 ms (rod), 75.92 and 75.91 ms
+ * (mass_spring). */
 START_TEST(test_zip_explicit) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 0}, {"solver.tolerance", 7e-5},
                           {"ribbon.model", _i ? ZP_RIBBON_MASS_SPRING : ZP_RIBBON_ROD});
@@ -736,7 +734,7 @@ START_TEST(test_energy_on_a_fine_mesh) {
 }
 END_TEST
 
-/* Found by users: the same in a slow release, 9e-6 here. Measured: 1e-8. */
+/* Regression: the same in a slow release, 9e-6 here. Measured: 1e-8. */
 START_TEST(test_energy_of_a_slow_release) {
   static const double t[] = {0, 0.2, 0.3, 10.3}, U[] = {10e3, 10e3, 2e3, 0};
   ZpActuatorDef def = DEF(IMPLICIT, {"drive.waveform", ZP_WAVEFORM_TABLE}, {"solver.end_time", 11});
@@ -759,8 +757,8 @@ static double contraction_at(double voltage, double rise_time, double end_time) 
   return contraction;
 }
 
-/* Statics say 5662 V (test_statics). A ramp of 20 s stays open to 0.25 % below it and closes 0.1 % above; a sudden step
- * swings over the barrier from some 5325 V on, 5 % earlier. */
+/* Pull-in in slow motion is that of statics, 5662 V (test_statics). A ramp of 20 s stays open to 0.25 % below it and
+ * closes 0.1 % above; a sudden step swings over the barrier from some 5325 V on, 5 % earlier. */
 START_TEST(test_pull_in_in_motion) {
   ck_below(contraction_at(5648, 20, 24), 0.3);
   ck_assert_double_gt(contraction_at(5668, 20, 24), 0.99);
@@ -769,8 +767,8 @@ START_TEST(test_pull_in_in_motion) {
 }
 END_TEST
 
-/* Plates are the most of the solved field; what it has beyond them is held between its solutions, which costs energy.
- * Measured: 75.66 ms, 0.2 % off plates; energy within 1.6e-4, far more than that of plates. */
+/* With the computed field its difference from the plates law is held between solutions, which costs energy. Measured:
+ * 75.66 ms, 0.2 % off plates; energy within 1.6e-4, far more than that of plates. */
 START_TEST(test_zip_by_field) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   double plates = zip(def).time;
@@ -785,7 +783,7 @@ START_TEST(test_zip_by_field) {
 }
 END_TEST
 
-/* Zipped, the voltage off, damped: it opens to where it hung and stays there, faces never inside each other. Measured:
+/* Zipped, voltage off, damped: it opens to its hanging equilibrium and stays there, and faces never overlap. Measured:
  * off by 2e-5 of the opening or less during the last half second. */
 START_TEST(test_opens_again) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 7e-5});
@@ -827,7 +825,7 @@ static double opening_at_rest(const ZpModel *model, double voltage) {
   return opening;
 }
 
-/* Below pull-in, strongly damped: it comes to rest where statics has it. Measured: within 1.2e-6. */
+/* Below pull-in with strong damping: it comes to rest at the equilibrium of statics. Measured: within 1.2e-6. */
 START_TEST(test_rests_where_statics_does) {
   ZpActuatorDef def =
       DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 7e-5}, {"drive.voltage", 3e3});
@@ -875,8 +873,8 @@ START_TEST(test_restart) {
 }
 END_TEST
 
-/* One ribbon under a flat electrode, 2 g at its end: below its pull-in, 1757 V at rest, it hangs; above, it closes and
- * stays. Measured: energy off by 4e-10 of the work. */
+/* One ribbon under a flat electrode, 2 g at its end: below its pull-in, 1757 V, it hangs; above, it closes and stays
+ * closed. Measured: energy off by 4e-10 of the work. */
 START_TEST(test_flange) {
   double stroke[2];
   for (int k = 0; k < 2; k++) {

@@ -146,7 +146,7 @@ START_TEST(test_fit_error) {
 }
 END_TEST
 
-/* The law's own derivatives, and that it continues straight at both ends (through the plates law, below). */
+/* Derivatives of the law, and its linear continuation at both ends (through the plates law, below). */
 START_TEST(test_value_derivatives) {
   ZpEdgeParams p = study_params();
   ZpEdgeLaw law = law_of(&p, 0.1);
@@ -171,8 +171,7 @@ static ZpModel *edge_model(int nodes, bool cap, bool platform, bool edges) {
   return model_of(&def);
 }
 
-/* W = dP/dg, q = -dP/dU, and without edges the plates law; at gaps of faces pressed together, too. Measured 3e-9 and
- * 1e-11. */
+/* W = dP/dg, q = -dP/dU, and without edges the plates law, also for faces pressed together. Measured 3e-9 and 1e-11. */
 START_TEST(test_law_derivatives) {
   double worst_W = 0, worst_q = 0;
   for (int cap = 0; cap < 2; cap++) {
@@ -195,7 +194,8 @@ START_TEST(test_law_derivatives) {
 }
 END_TEST
 
-/* Where the cap sets in, at closed faces and at the law's far end: no jump, and the capped force stays. */
+/* At the onset of the cap, at closed faces and at the far end of the law there is no jump, and the capped force is
+ * constant. */
 START_TEST(test_law_is_continuous) {
   ZpModel *model = edge_model(21, true, true, true);
   const ZpPlatesParams *p = &model->plates;
@@ -215,8 +215,7 @@ START_TEST(test_law_is_continuous) {
 }
 END_TEST
 
-/* Scale and share of the voltage scale what the edges add as they scale the plates law; an insulator_offset changes
- * the plates alone. */
+/* Scale and share of the voltage act on the edges as on the plates law; an insulator_offset changes the plates only. */
 START_TEST(test_scales) {
   ZpActuatorDef def = DEF({"electro.edges", 1}, {"electro.force_scale", 6.03}, {"electro.voltage_share", 0.5},
                           {"electro.breakdown_cap", 0}),
@@ -284,8 +283,8 @@ static void polyline(Pair *pair, double U) {
                  &pair->eval.attraction);
 }
 
-/* Nodal forces are minus the gradient of the potential; their sum is the total of the line. Node counts around the
- * lanes of the kernel. Measured: 5e-10 of the largest force without cap, 1e-9 with it. */
+/* Nodal forces are the negative gradient of the potential; their sum is the total of the line force. Node counts around
+ * the lanes of the kernel. Measured: 5e-10 of the largest force without cap, 1e-9 with it. */
 static double gradient_error(Pair *pair, double U) {
   static const double h = 1e-9;
   size_t count = pair->model->count, stride = pair->model->stride;
@@ -333,8 +332,8 @@ static double closing(const Pair *pair, size_t i) {
   return pair->eval.attraction.Fy[2 * i + 1];
 }
 
-/* Stiffness against differences of forces: by the gap of a station and of its neighbour, by an x-length. Measured
- * 2e-9 of the largest. */
+/* Stiffness against finite differences of forces: with respect to the gap of a station and of its neighbour, and to a
+ * length along x. Measured 2e-9 of the largest. */
 START_TEST(test_stiffness) {
   enum { N = 21 };
   static const double h = 1e-8;
@@ -378,8 +377,8 @@ START_TEST(test_stiffness) {
 }
 END_TEST
 
-/* Force and capacitance of the wedges of 1, 2, 4 mm of the 100 um strips, flexible part of one half: the study's
- * edges add 0.6 to 0.7 % to the force. */
+/* Force and capacitance of the wedges of 1, 2, 4 mm with 100 um strips, flexible part of one half: the edges of the
+ * independent study add 0.6 to 0.7 % to the force. */
 START_TEST(test_wedge) {
   for (double s = 1e-3; s < 5e-3; s *= FULL_OR(2, 8))
     for (int cap = 0; cap < 2; cap++) {
@@ -404,8 +403,8 @@ END_TEST
 
 /* -- in the whole ---------------------------------------------------------------------------------- */
 
-/* With a solved field the total is that field and the edges: what the key adds to the forces is what it adds to the
- * plates law. */
+/* With a computed field the total is that field plus the edges: the key adds the same to the forces as with the plates
+ * law. */
 START_TEST(test_with_solved_field) {
   Pair pair[4]; /* plates, plates with edges, field, field with edges */
   double *F[4], energy[4], charge[4];
@@ -448,9 +447,9 @@ static double scalar(const ZpResult *result, const char *name) {
   ck_abort_msg("no scalar %s", name);
 }
 
-/* Pull-in and release of the default actuator, with and without. A hanging load is pulled by the ribbons where they are
- * millimetres apart, and there the edges add far more than the 0.7 % of the total force: the pull-in falls by 1.9 %.
- * The pull-in without is that of docs/theory.md. */
+/* Pull-in and release of the default actuator, with and without edges. A hanging load is pulled by the ribbons where
+ * they are millimetres apart, and there the edges add far more than the 0.7 % of the total force: the pull-in falls by
+ * 1.9 %. The pull-in without is that of docs/theory.md. */
 START_TEST(test_pull_in) {
   double pull[2], release[2];
   for (int edges = 0; edges < 2; edges++) {
@@ -471,7 +470,7 @@ START_TEST(test_pull_in) {
 }
 END_TEST
 
-/* A run in time keeps its energy balance: charge and field energy belong to the force. */
+/* A run in time keeps its energy balance: charge and field energy agree with the force. */
 START_TEST(test_run_balances) {
   double error[2];
   for (int edges = 0; edges < 2; edges++) {

@@ -44,7 +44,7 @@ START_TEST(test_closed_scalars) {
 }
 END_TEST
 
-/* Line force of a zip front: potential far open less potential closed. Known to three digits. */
+/* Line force of a zip front: potential far open minus potential closed. Known to three digits. */
 START_TEST(test_zipping_line_force) {
   static const double kV[] = {3, 6, 10}, free_mN[] = {9.0, 36.0, 99.9}, capped_mN[] = {9.0, 27.5, 52.3};
   for (int i = 0; i < 3; i++)
@@ -58,7 +58,7 @@ START_TEST(test_zipping_line_force) {
 }
 END_TEST
 
-/* The cap sets in where the liquid's field reaches 20 MV/m: g = U / E_bd - d, above 3.10 kV. */
+/* The cap starts where the field in the liquid reaches 20 MV/m: g = U / E_bd - d, above 3.10 kV. */
 START_TEST(test_cap_is_continuous) {
   ZpPlatesParams p = law_params(true);
   ck_near(p.d * 20e6, 3.10e3, 2e-3);
@@ -99,7 +99,7 @@ START_TEST(test_law_derivatives) {
 }
 END_TEST
 
-/* Scale and voltage share are one formula: the paper's settings against eqs. (7), (8) by hand. */
+/* Scale and voltage share are one formula: the settings of the paper against eqs. (7), (8) evaluated by hand. */
 START_TEST(test_law_of_presets) {
   ZpActuatorDef text = DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 21});
   ZpModel *model = model_of(&text);
@@ -215,8 +215,8 @@ static Gradient compare_gradient(Pair *pair, double U, double h) {
   return g;
 }
 
-/* Nodal forces are minus the gradient of the potential in x and y of every node, with and without cap and
- * platform. Measured: 4e-10 of the largest force without cap, 1e-9 with it. */
+/* Nodal forces are the negative gradient of the potential in x and y of every node, with and without cap and platform.
+ * Measured: 4e-10 of the largest force without cap, 1e-9 with it. */
 START_TEST(test_polyline_force_is_gradient) {
   for (int cap = 0; cap < 2; cap++)
     for (int platform = 0; platform < 2; platform++) {
@@ -239,8 +239,8 @@ START_TEST(test_polyline_force_is_gradient) {
 }
 END_TEST
 
-/* Equal and opposite, whatever the shape: exactly so along y, to rounding along x. And what the nodes feel
- * is the total of the line. */
+/* Forces are equal and opposite for any shape: exactly along y, to rounding along x. And what the nodes feel is the
+ * total of the line. */
 static void check_opposite(const Pair *pair, double total) {
   const ZpPlatesStep *e = &pair->eval.attraction;
   double x = 0, upper = 0, lower = 0, scale = 0;
@@ -375,7 +375,7 @@ START_TEST(test_fit_recovers_cubic) {
 }
 END_TEST
 
-/* With fewer than two inner points: handles of a third of the chord; ends and directions kept. */
+/* Fewer than two inner points: handles of a third of the chord; ends and directions are kept. */
 START_TEST(test_fit_of_few_points) {
   for (size_t count = 2; count < 4; count++) {
     double B1[6], B2[6], moment[4] = {0};
@@ -441,8 +441,8 @@ START_TEST(test_wedge_profile) {
 }
 END_TEST
 
-/* The same surface against fine quadrature of that formula: the error of two Gauss points. Measured 4e-6,
- * 4e-8, 2e-9. */
+/* The same surface against a fine quadrature of its formula: the error of two Gauss points. Measured 4e-6, 4e-8, 2e-9.
+ */
 START_TEST(test_surface_of_wedge) {
   static const int nodes[] = {21, 61, 130};
   static const double limit[] = {1e-5, 1e-7, 1e-8};
@@ -485,7 +485,7 @@ START_TEST(test_surface_momentum) {
 }
 END_TEST
 
-/* The platform's electrode adds its flat part to the last station in both surfaces. */
+/* The electrode of the platform adds its flat part to the last station in both surfaces. */
 START_TEST(test_platform_electrode) {
   double last[2][2];
   for (int platform = 0; platform < 2; platform++) {
@@ -506,10 +506,9 @@ END_TEST
 
 /* -- the two surfaces compared --------------------------------------------------------------------- */
 
-/* Force of the Bezier surface over that of the polyline, less one, on the symmetric wedge: both see the same
- * gap at the nodes, and differ by the mesh only, which costs the polyline force, in second order of l.
- * Measured without cap at 1, 2, 4 mm: N = 21 0.90, 1.98, 4.22 %, N = 61 0.10, 0.22, 0.47 %, N = 130 0.02, 0.05,
- * 0.10 %. */
+/* Force of the Bezier surface over that of the polyline, minus one, on the symmetric wedge: both have the same gap at
+ * the nodes and differ by the mesh error of the polyline, of second order in l. Measured without cap at 1, 2, 4 mm: N =
+ * 21 0.90, 1.98, 4.22 %, N = 61 0.10, 0.22, 0.47 %, N = 130 0.02, 0.05, 0.10 %. */
 START_TEST(test_surfaces_on_wedge) {
   static const int nodes[] = {21, 61, 130};
   static const double limit[] = {0.05, 0.006, 0.0013};

@@ -157,7 +157,7 @@ START_TEST(test_axial_spring) {
 }
 END_TEST
 
-/* Eq. (2) needs a step below 0.44 us at N = 21; the quoted 5 us were possible only with the code's springs. */
+/* Eq. (2) requires a step below 0.44 us at N = 21; the quoted 5 us were possible only with the springs of the code. */
 START_TEST(test_quoted_steps) {
   ck_below(info_of(ZP_PRESET_PAPER_TEXT, 21).stable_time_step, 0.44e-6);
   static const int nodes[] = {21, 61, 130};

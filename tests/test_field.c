@@ -148,9 +148,8 @@ static double plates_force(const ZpFieldParams *p, double s, bool by_opening) {
 
 static const double openings[] = {1e-3, 2e-3, 4e-3, 17e-3};
 
-/* The right plates law is right: total force over the law's on wedges that open to 1, 2, 4, 17 mm. An independent
- * finite-element study (126 000 unknowns) has 1.0000, 1.0000, 1.0001, 1.0008, and 1.0001 to 1.004 where one ribbon
- * stays straight. */
+/* The plates law against the field: total force on wedges that open to 1, 2, 4, 17 mm. An independent finite-element
+ * study (126 000 unknowns) has 1.0000, 1.0000, 1.0001, 1.0008, and 1.0001 to 1.004 where one ribbon stays straight. */
 START_TEST(test_wedges_against_the_plates_law) {
   static const double theirs[] = {1.0000, 1.0000, 1.0001, 1.0008}, apart[] = {1e-4, 1e-4, 1e-4, 4e-4};
   ZpFieldParams p = wedge_params();
@@ -178,8 +177,8 @@ START_TEST(test_wedges_against_the_plates_law) {
 }
 END_TEST
 
-/* Mesh of the default grid against one twice as fine, and how the difference falls: the generalised force of
- * opening is the variational quantity and converges with the fourth power, traction with the second. */
+/* Default grid against one twice as fine, and the order of the difference: the generalised force of opening is the
+ * variational quantity and converges with the fourth power, traction with the second. */
 START_TEST(test_wedge_converges_with_the_mesh) {
   double force[3], traction[3];
   for (size_t k = 0; k < 3; k++) {
@@ -275,8 +274,8 @@ START_TEST(test_station_forces_are_the_gradient) {
 }
 END_TEST
 
-/* Liquid in a part of the gap: between bare flat plates the field is uniform in liquid and air, and the energy goes
- * with the wet length. */
+/* Liquid in a part of the gap: between bare flat plates the field is uniform in liquid and air, and the energy is
+ * linear in the wet length. */
 START_TEST(test_energy_goes_with_the_wet_length) {
   enum { N = 61 };
   const double gap = 1e-3, eps_m = 2.75;
@@ -329,8 +328,9 @@ START_TEST(test_a_bead_without_end_is_liquid_everywhere) {
 }
 END_TEST
 
-/* What it has beyond plates as well, with the cap, at a shape of which some is capped and one pair overlaps; and the
- * charge is the derivative by the voltage. The same with a bead that ends in an element, where no air breaks down. */
+/* Its difference from the plates law, also with the cap, for a shape that is partly capped and in which one pair
+ * overlaps; the charge is the derivative with respect to the voltage. The same with a bead that ends in an element,
+ * where no air breaks down. */
 START_TEST(test_surplus_is_the_gradient) {
   enum { N = 21 };
   const ZpLiquidModel liquid = _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
@@ -372,7 +372,7 @@ START_TEST(test_surplus_is_the_gradient) {
 }
 END_TEST
 
-/* The far boundary does not matter: more or fewer elements out there, graded otherwise, change nothing. */
+/* The far boundary does not matter: number and grading of the outer elements have no effect. */
 START_TEST(test_outside_does_not_matter) {
   double force[2];
   for (int k = 0; k < 2; k++) {
@@ -485,7 +485,7 @@ static double value(ZpStudy which, ZpActuatorDef def, const char *name) {
   return found;
 }
 
-/* Plates and field are two routes to the same pull-in, release, held force and zip. */
+/* Plates law and field give the same pull-in, release, holding force and zip. */
 START_TEST(test_studies_by_field_and_by_plates) {
   ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 31}), plates = DEF({"mesh.nodes", 31});
   ZpResult *by_field = study(ZP_STUDY_EQUILIBRIUM, &field), *by_plates = study(ZP_STUDY_EQUILIBRIUM, &plates);
@@ -505,7 +505,7 @@ START_TEST(test_studies_by_field_and_by_plates) {
 }
 END_TEST
 
-/* With a bead, too: the same liquid and the same air in both. */
+/* The same with a bead: equal liquid and air in both models. */
 START_TEST(test_bead_by_field_and_by_plates) {
   ZpActuatorDef plates = DEF({"liquid.model", ZP_LIQUID_BEAD}, {"mesh.nodes", 31}), field = plates;
   field.electro.model = ZP_ELECTRO_FIELD;
@@ -520,8 +520,8 @@ START_TEST(test_bead_by_field_and_by_plates) {
 }
 END_TEST
 
-/* Without cap closed faces stand just where both laws stop following the gap; Newton once went to and fro there. Nor
- * may force_scale change a capacitance. */
+/* Without the cap closed faces lie where both laws have constant gaps; Newton once went to and fro there. Nor may
+ * force_scale change a capacitance. */
 START_TEST(test_held_without_cap) {
   ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"electro.breakdown_cap", 0}, {"drive.voltage", 5e3});
   ZpActuatorDef plates = field;
@@ -538,7 +538,7 @@ START_TEST(test_held_without_cap) {
 }
 END_TEST
 
-/* How often the field is solved in motion hardly matters: what is held is small. */
+/* The number of field solutions in motion has little effect: the held difference is small. */
 START_TEST(test_refresh_in_motion) {
   ZpActuatorDef def = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 21});
   double coarse, fine;

@@ -91,10 +91,9 @@ static void plates(Film *f, double gap, double speed) {
   }
 }
 
-/* Parallel plates of length l and width w that approach, with an outlet all around: over mu l w^3 speed / gap^3 the
- * exact answer (a series) is phi. The strip is half a plate, mirrored at its first station, with an outlet at its last.
- * The second mode stands for all others: within 3.1 % of a plate ten times as wide as long, 0.6 % from twice as wide
- * on. */
+/* Approaching parallel plates of length l and width w, with an outlet all around: the force over mu l w^3 speed / gap^3
+ * is the exact series phi. The strip is half a plate, mirrored at its first station, with an outlet at its last. The
+ * second mode stands for all others: within 3.1 % of a plate ten times as wide as long, 0.6 % from twice as wide on. */
 START_TEST(test_plates_of_all_shapes) {
   static const struct {
     double ratio, phi, error;
@@ -112,7 +111,7 @@ START_TEST(test_plates_of_all_shapes) {
 }
 END_TEST
 
-/* A long strip, Stefan: mu w^3 speed / gap^3 per length. */
+/* A long strip (Stefan): mu w^3 speed / gap^3 per length. */
 START_TEST(test_strip) {
   double w = 12.7e-3, gap = 5e-5, speed = 0.02, l = 1;
   Film *f = make_film(201, l, w, true);
@@ -178,8 +177,8 @@ static void draw(Film *f, uint64_t *seed, double change) {
   }
 }
 
-/* The work against it is what it stores and what it loses, for any shape and motion, with inertia, jets, cavities, the
- * floor of the roughness and the platform, too; and each loss is 0 or more. */
+/* The work against the film is its stored energy plus its losses, for any shape and motion, with inertia, jets,
+ * cavities, the floor of the roughness and the platform; each loss is at least 0. */
 START_TEST(test_work_is_energy_and_loss) {
   static const double rho[] = {0, 960, 960, 960}, mu[] = {0.048, 0.048, 0.0005, 5}, change[] = {1e-3, 1e-3, 0.3, 0.03};
   uint64_t seed = 3;
@@ -207,8 +206,8 @@ START_TEST(test_work_is_energy_and_loss) {
 }
 END_TEST
 
-/* Without viscosity, a strip that closes evenly: force per length rho w^3 speed^2 / (6 h^2), that of dm/dt with m =
- * rho w^3 / (12 h) and of the head that jets take; one that opens, with loss-free entry: rho w^3 speed^2 / (24 h^2). */
+/* Without viscosity, a uniformly closing strip: force per length rho w^3 speed^2 / (6 h^2), from dm/dt with m = rho w^3
+ * / (12 h) and from the head of the jets; an opening strip, with loss-free entry: rho w^3 speed^2 / (24 h^2). */
 START_TEST(test_inviscid_strip) {
   static const double closing[] = {1, -1}, part[] = {1.0 / 6, 1.0 / 24};
   double w = 12.7e-3, gap = 1e-6, speed = closing[_i] * 1e-3, l = 1;
@@ -228,8 +227,8 @@ END_TEST
 
 /* -- mass ------------------------------------------------------------------------------------------ */
 
-/* Potential flow around two plates, by a boundary method: of the flow between them, H / E; and what each plate of a
- * pair moves outside when both go the same way, over rho w^2. Far apart each is alone: pi / 4 of it in all. */
+/* Potential flow around two plates by a boundary method: for the flow between them H / E, and for both moving together
+ * the added mass outside of each plate over rho w^2. Far apart each is alone: pi / 4 of it in all. */
 START_TEST(test_masses_of_two_plates) {
   static const double q[] = {0.01, 0.1, 0.2, 0.5, 1, 2}, inner[] = {1.04, 1.23, 1.39, 1.90, 2.84, 4.99},
                       outer[] = {0.4065, 0.4774, 0.5319, 0.638, 0.718, 0.7635};
@@ -284,7 +283,8 @@ END_TEST
 
 /* -- cavities -------------------------------------------------------------------------------------- */
 
-/* Plates torn apart: the head stops at minus an atmosphere, a cavity takes what does not flow in, and gives it back. */
+/* Plates pulled apart: the pressure stops at minus one atmosphere, and a cavity takes up the missing flow and returns
+ * it. */
 START_TEST(test_cavity) {
   double w = 12.7e-3, gap = 1e-5;
   Film *f = make_film(41, 0.04, w, true);

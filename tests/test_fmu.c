@@ -257,7 +257,7 @@ START_TEST(follows_slopes_of_inputs) {
 }
 END_TEST
 
-/* Steps of any size: an equal time later the actuator is in the same place, within the error of its own steps. */
+/* Steps of any size: at the same time the actuator is at the same place, within the error of the solver steps. */
 START_TEST(variable_steps) {
   Fmu fmu = made(_i, LIQUID " --set solver.tolerance=1.6e-5");
   Instance one = started(&fmu), other = started(&fmu);
@@ -276,7 +276,7 @@ START_TEST(variable_steps) {
 }
 END_TEST
 
-/* Parameters that are set before initialization count; they stay until reset. The start time only shifts. */
+/* Parameters set before initialization take effect; they stay until reset. The start time only shifts. */
 START_TEST(parameters) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
@@ -304,7 +304,7 @@ START_TEST(parameters) {
 }
 END_TEST
 
-/* Gains and the tolerance may change on the way: from there on all is as in a run that continues with the new ones. */
+/* Gains and the tolerance may change during a run: from then on it equals a run that continues with the new values. */
 START_TEST(tunable_parameters) {
   Fmu fmu = made(_i, SMALL " --set control.kind=pi --set setpoint.value=15mm --set control.proportional=100");
   Instance instance = started(&fmu);
@@ -524,7 +524,7 @@ static void handle_event(Instance *instance) {
   ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(fmu, "EnterStepMode"))(instance->handle), OK);
 }
 
-/* A step over a whole zip returns early, where the actuator closes; the next step completes it. */
+/* A step over a whole zip returns early at the instant of closing; the next step completes it. */
 START_TEST(early_return_at_closing) {
   Fmu fmu = made(3, SMALL);
   Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS), whole = started(&fmu);
@@ -547,7 +547,7 @@ START_TEST(early_return_at_closing) {
 }
 END_TEST
 
-/* A supply that reaches its limit of the current is an event, too. */
+/* Reaching the current limit of a supply is an event as well. */
 START_TEST(early_return_at_limits) {
   Fmu fmu = made(3, SMALL
                  " --set source.model=amplifier --set 'source.current_limit=0.1 mA' --set 'source.resistance=1 Mohm'");

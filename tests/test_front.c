@@ -7,9 +7,8 @@
 
 /* -- peeling --------------------------------------------------------------------------------------- */
 
-/* A ribbon that is lifted off a film of depth h0 by bending with curvature kappa: speed B h0^(1/2) (kappa
- * / 1.350)^(5/2) / (12 mu), B the stiffness over the width; the film is thinnest ahead of the front, 0.785 h0. Any h0.
- */
+/* A ribbon lifted off a film of depth h0 by bending with curvature kappa: speed B h0^(1/2) (kappa / 1.350)^(5/2) / (12
+ * mu), B the stiffness over the width; the thinnest film, ahead of the front, is 0.785 h0. Any h0. */
 START_TEST(test_peeling) {
   static const double h0[] = {1e-7, 1e-6, 1e-5, 1e-4};
   double depth = h0[_i], w = 12.7e-3, mu = 0.048e-6, stiffness = 1.44e-11, kappa = 60; /* no cavities */

@@ -15,8 +15,9 @@ static ZpActuatorDef square_wave(double duty, double rise_time) {
   return def;
 }
 
-/* A rise of twice what fits was accepted unless duty was one half. What fits just so is a wave without a jump that
- * comes to both of its voltages; longer is refused whichever part, the high or the low one, is the shorter. */
+/* Regression: a rise time of twice the allowed value was accepted unless duty was one half. What fits just so is a wave
+ * without a jump that comes to both of its voltages; longer is refused whichever part, the high or the low one, is the
+ * shorter. */
 START_TEST(square_wave_rises_within_its_shorter_part) {
   static const double duties[] = {0.2, 0.5, 0.8};
   double duty = duties[_i], shorter = fmin(duty, 1 - duty) / 20;
@@ -69,8 +70,8 @@ static double closed_gap(double U) {
   return -delta * cbrt(U / largest * U / largest);
 }
 
-/* Faces that drive.voltage has closed lie where their push and the attraction are equal, at the platform or the end,
- * too, and they are a plane capacitor of two insulators so much thinner. A flange has no platform that could push. */
+/* Faces closed by drive.voltage lie where contact force and attraction are equal, also at the platform and the end, and
+ * form a plate capacitor of two insulators thinner by the overlap. A flange has no platform that could push. */
 static void check_closed(const ZpActuatorDef *def, const char *distance, double length) {
   const double d = 2 * 130e-6 * 2.75 / 4.62, U = def->drive.voltage,
                C = ZP_EPS0 * 2.75 * 12.7e-3 * length / (d + closed_gap(U));
@@ -93,8 +94,8 @@ START_TEST(closed_faces_lie_on_each_other) {
 }
 END_TEST
 
-/* Eq. (9.3): of the velocity of two nodes of mass m/2 on layers of stiffness k the damper takes the share eta sqrt(k/m)
- * a second; none where faces do not overlap. So it is with k by the Gauss points and by the station. */
+/* Eq. (9.3): from the velocity of two nodes of mass m/2 on layers of stiffness k the damper removes the fraction eta
+ * sqrt(k/m) per second; nothing if faces do not overlap. So it is with k by the Gauss points and by the station. */
 START_TEST(damper_takes_what_the_loss_factor_says) {
   ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
   double push[3], own[3], next[3], stiffness[3], k = 3 * 60 * 1e-3 / 1e-7, m = 1e-5, dt = 1e-12;
@@ -110,9 +111,8 @@ START_TEST(damper_takes_what_the_loss_factor_says) {
 }
 END_TEST
 
-/* Eq. (9.6): over a short span at nearly one depth the push beyond that of the layers is eta sqrt(k m) times the
- * velocity, and from the first touch to a depth it takes eta sqrt(k m) / 2 times the way in touch, however long the way
- * before. */
+/* Eq. (9.6): over a short span at nearly constant depth the contact force beyond that of the layers is eta sqrt(k m)
+ * times the velocity, and from the first touch to a depth it is eta sqrt(k m) / 2 times the velocity in contact. */
 START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
   const double l = 1e-3, depth = 1e-7, m = 1e-5, h = 1e-9, k = 3 * 60 * l / depth;
   ZpFacesParams faces = {.nodes = 3, .l = l, .depth = depth, .push = 60, .platform = 3};
@@ -172,7 +172,8 @@ START_TEST(push_over_a_step_does_the_work_of_the_layers) {
 }
 END_TEST
 
-/* Its derivative by the gaps at the end, by differences; at rest, where both ends move, it is half of the stiffness. */
+/* Its derivative with respect to the gaps at the end, by finite differences; at rest, where both ends move, it is half
+ * of the stiffness. */
 START_TEST(push_over_a_step_has_this_derivative) {
   static const double from[][3] = {{-1e-7, -2e-7, -1e-7}, {5e-8, 5e-8, 5e-8}, {-3e-7, 1e-7, 2e-7}};
   const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
@@ -198,7 +199,7 @@ START_TEST(push_over_a_step_has_this_derivative) {
 }
 END_TEST
 
-/* The contact law does not look at the voltage that is to come: a pull-in is the same however far the curve goes. */
+/* The contact law does not depend on future voltages: a pull-in is the same however far the curve goes. */
 START_TEST(pull_in_does_not_depend_on_the_largest_voltage) {
   double pull_in[3];
   static const double largest[] = {5.2e3, 10e3, 50e3};
@@ -217,7 +218,7 @@ END_TEST
 
 /* -- heavy loads ----------------------------------------------------------------------------------- */
 
-/* A floppy ribbon under a load that is put on in shares: it hangs straight down and stretches by its load and half its
+/* A floppy ribbon under a load that is applied in steps: it hangs straight down and stretches by its load and half its
  * own weight. What bends at the clamp is sqrt(EI / P) = 5 um of it. */
 START_TEST(floppy_ribbon_hangs_straight_down) {
   const double L = 10, EA = 200e9 * 12.7e-3 * 1e-6, weight = 7850 * 12.7e-3 * 1e-6 * L * 9.81;

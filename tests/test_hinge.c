@@ -28,8 +28,8 @@ static Wedge wedge_of(const ZpActuatorDef *def, double angle) {
   return (Wedge){eps * log(inside) / (2 * t), -0.5 * U * U * eps * slope};
 }
 
-/* Held at an angle, 0.2 to 40 degrees: the wedge, from gaps thinner than the insulators to far beyond. The plates bend
- * by at most 1e-5 of the angle. At small angles the wedge is that of eq. (30.5). */
+/* Held at angles from 0.2 to 40 degrees: the wedge, with gaps from thinner than the insulators to far larger. The
+ * plates bend by at most 1e-5 of the angle. At small angles the wedge is that of eq. (30.5). */
 START_TEST(held_plates_are_a_wedge) {
   static const struct { double degrees, voltage; } at[] = {{0.2, 2e3}, {2, 16e3}, {10, 100e3}, {40, 200e3}};
   double angle = at[_i].degrees * pi / 180;
@@ -48,8 +48,8 @@ START_TEST(held_plates_are_a_wedge) {
 }
 END_TEST
 
-/* How far the torque at 10 degrees is off falls as fast as a sum over three Gauss points can: a mesh twice as fine has
- * at most a quarter of it. */
+/* Convergence of the torque at 10 degrees with three Gauss points: a mesh twice as fine has at most a quarter of the
+ * error. */
 START_TEST(torque_converges) {
   double off[3], angle = 10 * pi / 180;
   for (int k = 0; k < 3; k++) {
@@ -79,8 +79,8 @@ START_TEST(plate_hangs_on_its_spring) {
 }
 END_TEST
 
-/* A strip that bends, bowed by nature, stands in series with its spring, eq. (30.1): small deflections by a small load
- * are F L^3 / 3 EI + F L^2 / k + kappa L^2 / 2. Elements half as long leave a quarter of the error. */
+/* A flexible, naturally curved strip in series with its spring, eq. (30.1): small deflections by a small load are F L^3
+ * / 3 EI + F L^2 / k + kappa L^2 / 2. Elements half as long leave a quarter of the error. */
 START_TEST(strip_stands_in_series_with_its_spring) {
   double k = 3e-3, L = 50e-3, b = 100e-6, kappa = _i ? 0.05 : 0, F = 1e-5, off[3];
   for (int n = 0; n < 3; n++) {
@@ -99,7 +99,8 @@ START_TEST(strip_stands_in_series_with_its_spring) {
 }
 END_TEST
 
-/* Derivatives by its keys are those of differences: of the angle at rest, of the held force, of the pull-in. */
+/* Derivatives with respect to its keys equal finite differences: of the angle at rest, of the holding force, of the
+ * pull-in. */
 START_TEST(derivatives_are_those_of_differences) {
   static const struct {
     ZpStudy study;
@@ -130,7 +131,7 @@ START_TEST(derivatives_are_those_of_differences) {
 }
 END_TEST
 
-/* Without a spring it hangs straight down: the angle is a right one. */
+/* Without a spring the lower ribbon hangs straight down: a right angle. */
 START_TEST(free_hinge_hangs_straight_down) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.4e-3},
@@ -140,8 +141,8 @@ START_TEST(free_hinge_hangs_straight_down) {
 }
 END_TEST
 
-/* Small swings: of a plate with a mass at its end on a spring sqrt(k / I), without gravity; of a free one that hangs
- * down under gravity that of a physical pendulum, eq. (30.7). */
+/* Small oscillations: a plate with a mass at its end on a spring has the frequency sqrt(k / I) without gravity; a free
+ * plate that hangs down is a physical pendulum, eq. (30.7). */
 START_TEST(swings_as_a_rigid_body) {
   double k = _i ? 0 : 5e-3, L = 50e-3, m = 4e-3;
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", L}, {"ribbon.thickness", 1e-3},
@@ -154,8 +155,7 @@ START_TEST(swings_as_a_rigid_body) {
 }
 END_TEST
 
-/* In motion a large swing on the spring has the energy that it started with. Measured: off by 8e-9 of its largest
- * kinetic energy. */
+/* A large swing on the spring keeps its initial energy. Measured: off by 8e-9 of its largest kinetic energy. */
 START_TEST(swing_keeps_energy) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.2e-3},
                           {"load.mass", 4e-3}, {"hinge.stiffness", 5e-3}, {"hinge.rest_angle", 0.5}, {"mesh.nodes", 21},
@@ -175,8 +175,8 @@ START_TEST(swing_keeps_energy) {
 }
 END_TEST
 
-/* It zips dry from the hinge outwards, lifts its load, and opens when the voltage goes: energy balances, and the work
- * on the load is its weight times its rise. */
+/* It zips dry from the hinge outwards, lifts its load, and opens when the voltage is switched off: the energy balances,
+ * and the work on the load is its weight times its rise. */
 START_TEST(zips_and_keeps_the_books) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.1e-3},
                           {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2},
@@ -195,8 +195,8 @@ START_TEST(zips_and_keeps_the_books) {
 }
 END_TEST
 
-/* A fold pulls in where its held plates say so: at the angle at which torque and moment of the spring balance and are
- * equally steep, eq. (30.8). */
+/* Pull-in of a fold from its held plates: the angle at which torque and spring moment are equal and equally steep, eq.
+ * (30.8). */
 START_TEST(pull_in_is_that_of_the_wedge) {
   double k = 0.05, rest = 5 * pi / 180, lowest = 0, step = 1e-4;
   ZpActuatorDef def =
@@ -214,7 +214,8 @@ END_TEST
 
 /* -- forces --------------------------------------------------------------------------------------- */
 
-/* The mean force of the spring does the work by which its energy changes, however far the first element turns. */
+/* The mean force of the spring over a step does the work of its energy change, for any rotation of the first element.
+ */
 START_TEST(mean_force_does_the_work) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"hinge.stiffness", 3e-3}, {"hinge.rest_angle", 0.4}, {"mesh.nodes", 5});
@@ -261,7 +262,7 @@ static const struct {
     {ZP_STUDY_STATIONARY, {"liquid.model", ZP_LIQUID_BEAD}, "liquid.model = bead"},
     {ZP_STUDY_STATIONARY, {"electro.model", ZP_ELECTRO_FIELD}, "electro.model = field"},
     {ZP_STUDY_STATIONARY, {"stack.parallel", 2}, "stack.parallel"},
-    {ZP_STUDY_ACTUATE, {"insulator.thickness", 0}, "short circuit, for the electrodes touch at the hinge"},
+    {ZP_STUDY_ACTUATE, {"insulator.thickness", 0}, "short circuit, because the electrodes touch at the hinge"},
     {ZP_STUDY_ISOMETRIC, {"isometric.separation", 99e-3}, "0.98 ribbon.length"},
     {ZP_STUDY_PROFILE, {"mesh.nodes", 21}, "actuator.kind = hinge"},
     {ZP_STUDY_CYCLE, {"drive.waveform", ZP_WAVEFORM_SQUARE}, "electro_ribbon"},

@@ -68,7 +68,7 @@ static double energy_at(ZpRest *r, double to) {
   return energy(r);
 }
 
-/* What holds the platform is the slope of the energy against the opening, at constant voltage. */
+/* The holding force is the slope of the energy against the opening, at constant voltage. */
 START_TEST(test_force_is_slope_of_energy) {
   static const double separations[] = {MM(0.1), MM(2), MM(20), MM(60)};
   static const double voltages[] = {0, KV(3), KV(10)};
@@ -91,7 +91,8 @@ END_TEST
 
 /* -- a hung load ----------------------------------------------------------------------------------- */
 
-/* Held where a load hangs, no voltage: its weight. The push of faces depends on drive.voltage: the same for both. */
+/* Held at the opening under a load, without voltage: the force is the weight. The push of faces depends on
+ * drive.voltage: the same for both. */
 START_TEST(test_holds_what_hangs) {
   static const double grams[] = {0.5, 8, 61, 500};
   ZpActuatorDef hangs = DEF({"load.mass", 1e-3 * grams[_i]});
@@ -102,7 +103,8 @@ START_TEST(test_holds_what_hangs) {
 }
 END_TEST
 
-/* Held where 8 g hang at 4 kV: the voltage pulls with so much less than 8 g as the ribbons do without it. */
+/* Held at the opening under 8 g at 4 kV: the voltage supplies the difference between 8 g and the force of the ribbons.
+ */
 START_TEST(test_holds_what_hangs_powered) {
   const double U = KV(4), weight = 9.81 * 8e-3;
   ZpActuatorDef hangs = DEF({"drive.voltage", U});
@@ -123,7 +125,7 @@ START_TEST(test_holds_what_hangs_powered) {
 }
 END_TEST
 
-/* Two guided elasticae, published: 30 g open them to 52.839 mm. */
+/* Opening of two guided elasticae, published digits: 30 g open them to 52.839 mm. */
 START_TEST(test_elastica) {
   ZpActuatorDef def = held_def(MM(52.839), 0, true, 121);
   def.ribbon.plane = ZP_PLANE_STRESS;
@@ -221,8 +223,9 @@ START_TEST(test_mesh_powered) {
 }
 END_TEST
 
-/* Without cap and far open the front passes nodes in jumps where an element is longer than the wedge: said, and gone
- * with a finer mesh. What is passed rises in voltage and is stable, what is jumped over lies below. */
+/* Without the cap and far open, the front passes nodes in jumps if an element is longer than the wedge: a note reports
+ * this, and it vanishes with a finer mesh. What is passed rises in voltage and is stable, what is jumped over lies
+ * below. */
 START_TEST(test_jumps) {
   double force[2];
   for (int k = 0; k < FULL_OR(2, 1); k++) {
@@ -249,7 +252,7 @@ START_TEST(test_jumps) {
 }
 END_TEST
 
-/* A floppy ribbon's zipped states hang together with no other: it falls there, to the same place on any mesh. */
+/* The zipped states of a floppy ribbon form an isolated branch: it jumps there, to the same place on any mesh. */
 START_TEST(test_falls) {
   double force[2];
   for (int k = 0; k < FULL_OR(2, 1); k++) {
@@ -267,7 +270,7 @@ START_TEST(test_falls) {
 }
 END_TEST
 
-/* The first shape that Newton's method finds for this one is folded over, and not stable. */
+/* The first shape that Newton's method finds here is folded and unstable; it is rejected. */
 START_TEST(test_unpowered_is_stable) {
   ZpActuatorDef def = held_def(MM(2), 0, true, 241);
   def.ribbon.thickness = 5e-6;
@@ -278,7 +281,7 @@ START_TEST(test_unpowered_is_stable) {
 }
 END_TEST
 
-/* Wherever it is held and however strongly pulled, there is an answer, and the platform is there. */
+/* For any separation and voltage there is a result, and the platform is at the given opening. */
 START_TEST(test_everywhere) {
   static const double separations[] = {1e-6,   3e-6,   1e-5,   1e-4,   MM(0.7), MM(5),
                                        MM(12), MM(25), MM(45), MM(70), MM(88.2)};
@@ -310,9 +313,9 @@ END_TEST
 
 /* -- bounds ---------------------------------------------------------------------------------------- */
 
-/* Thin insulators in air, no cap: attraction rose without bound where faces overlapped, above any push, so they fell
- * through each other: 64 kN at N = 21 and 100 V, 11 uF where closed plates allow 13 nF. Faces stay apart, capacitance
- * and force below those of closed ones. */
+/* Regression: with thin insulators in air and no cap the attraction of overlapping faces was unbounded, above any
+ * contact force, so they passed through each other: 64 kN at N = 21 and 100 V, 11 uF where closed plates allow 13 nF.
+ * Faces stay apart, capacitance and force below those of closed ones. */
 START_TEST(test_thin_insulators_stay_apart) {
   static const int nodes[] = {21, 31, 61};
   static const double voltages[] = {100, 300, 1000}, separations[] = {1e-6, MM(0.2), MM(2)};

@@ -31,8 +31,8 @@ static double power_at(double t) {
   return E_i * E_i * a / RHO_I + E * E * GAP / RHO_M;
 }
 
-/* Maxwell and Wagner: field, charge, current and heat of a step of the voltage, in steps of a sixth, a half and 5 of
- * the time constant: a shape that stays relaxes exactly, whatever the step. */
+/* Maxwell-Wagner relaxation: field, charge, current and heat after a voltage step, with steps of a sixth, a half and 5
+ * time constants: at a constant shape the result is exact for any step. */
 START_TEST(test_step_of_the_voltage) {
   static const double step[] = {0.1, 0.3, 3};
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M});
@@ -57,8 +57,8 @@ START_TEST(test_step_of_the_voltage) {
 }
 END_TEST
 
-/* Left alone, behind a supply that cannot sink, closed electrodes discharge through their insulators, in the time
- * constant of those: the liquid between them has no thickness. */
+/* Behind a supply that cannot sink, closed electrodes discharge through their insulators with the time constant of
+ * these, because the liquid between them has no thickness. */
 START_TEST(test_leakage_alone) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
@@ -133,8 +133,8 @@ static double charge(Faces *f) {
          zp_leak_passed(&f->model->plates, &f->step, &f->leak);
 }
 
-/* What a step's force and charge go with: the voltage and the gaps at its end, against differences, with the cap and
- * without. */
+/* Derivatives of force and charge of a step with respect to voltage and gaps at its end, against finite differences,
+ * with the cap and without. */
 START_TEST(test_derivatives) {
   ZpActuatorDef def = DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", _i}, {"insulator.resistivity", 1e10},
                           {"medium.resistivity", 3e10});
@@ -173,7 +173,7 @@ END_TEST
 
 /* -- motion ---------------------------------------------------------------------------------------- */
 
-/* Zip, hold and release: what the source gives is stored, moves something, or is heat of a known kind. */
+/* Zip, hold and release: the energy from the source is stored, does work, or is heat of a known kind. */
 START_TEST(test_energy_of_zip_hold_and_release) {
   static const struct {
     int supply, liquid;
@@ -225,7 +225,7 @@ static double left_open(int waveform, double *left) {
   return open;
 }
 
-/* Charge that stays holds the actuator closed at 0 V; with a drive that alternates it does not gather. */
+/* Remaining charge holds the actuator closed at 0 V; with an alternating drive it does not accumulate. */
 START_TEST(test_charge_that_stays) {
   double constant, alternating;
   ck_below(fabs(left_open(ZP_WAVEFORM_STEP, &constant)), 0.01);
@@ -235,8 +235,8 @@ START_TEST(test_charge_that_stays) {
 }
 END_TEST
 
-/* Once at rest, steps follow the time constant of the leak: an hour takes as many as its voltage has fortieths, and
- * ends where the closed form does. */
+/* At rest, steps follow the time constant of leakage: an hour takes as many steps as the change of voltage requires,
+ * and ends at the closed form. */
 START_TEST(test_an_hour_of_drift) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", 1e3 * RHO_I}, {"medium.resistivity", 1e3 * RHO_M});
   ZpModel *model = model_of(&def);
@@ -251,8 +251,8 @@ START_TEST(test_an_hour_of_drift) {
 }
 END_TEST
 
-/* The insulator's field is that of what is left for it, eqs. (4.10) and (25.2): with a liquid that conducts, all of the
- * voltage; and that of the charge alone once the voltage is off. */
+/* The field in the insulator follows from its share of the voltage, eqs. (4.10) and (25.2): with a conducting liquid,
+ * the whole voltage; with the voltage off, the field of the charge alone. */
 START_TEST(test_insulator_sees_the_charge) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"medium.resistivity", 1e9});
   ZpModel *model = model_of(&def);

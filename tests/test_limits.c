@@ -126,7 +126,7 @@ static void open_toy(ToyMarch *f, Toy *t, bool symmetric) {
   f->march.fold.tolerance = 1e-12;
 }
 
-/* Errors are squared from one iteration to the next, whether the stiffness is kept as symmetric or not. */
+/* Errors are squared in each iteration, with the stiffness treated as symmetric or not. */
 START_TEST(test_extended_system_converges_quadratically) {
   Toy t = {.q = {-0.2, 0.05, 0.1}, .m = 0.9, .across = 1};
   ToyMarch f;
@@ -174,8 +174,8 @@ static double toy_branch(double q0) {
   return 1 + q0 * q0 + q0 * q0 * q0 - 0.6 * q0 * (0.3 * q0 * q0);
 }
 
-/* Along the branch in passing, through its limit point: each point costs one factorisation and is as near as its
- * Newton step leaves it, or where that is asked for as near as another one does. */
+/* Along the branch through its limit point: each point costs one factorisation and has the error of one Newton step, or
+ * of a second one on request. */
 START_TEST(test_points_in_passing) {
   static const double step = 0.02;
   const bool exact = _i == 1;
@@ -233,7 +233,7 @@ static ZpResult *limits_of(const ZpActuatorDef *def) {
   return run(ZP_STUDY_LIMITS, def, NULL);
 }
 
-/* The same number, or none in both. */
+/* The same number, or none, in both. */
 static void same(const ZpResult *a, const ZpResult *b, const char *name, double tolerance) {
   double x = zp_result_get(a, name), y = zp_result_get(b, name);
   printf("  %s: %.10g, %.10g\n", name, x, y);
@@ -272,7 +272,7 @@ static double first_turn(const ZpResult *followed) {
   return NAN;
 }
 
-/* Pull-in is where the curve, which is followed by other means, turns first. Its points are so close there. */
+/* Pull-in is the first limit point of the curve, which is followed independently. Its points are so close there. */
 static void turns_at(const ZpResult *followed, double pull_in) {
   static const double spacing = 0.02;
   double turn = first_turn(followed);
@@ -302,8 +302,8 @@ START_TEST(test_limits_are_those_of_the_curve) {
 }
 END_TEST
 
-/* With half-cell clamps and straight pieces beside them the pull-in with 61 nodes was 0.65 % below that of the
- * continuum, which an independent boundary-value code has found; without the breakdown cap 0.93 %. */
+/* Regression: with half-cell clamps next to straight pieces the pull-in with 61 nodes was 0.65 % below that of an
+ * independent boundary-value code, without the breakdown cap 0.93 %. */
 START_TEST(pull_in_hardly_depends_on_the_mesh) {
   static const int nodes[] = {41, 61, 121};
   static const double continuum[] = {5107.7, 5661.4};
@@ -316,7 +316,7 @@ START_TEST(pull_in_hardly_depends_on_the_mesh) {
 }
 END_TEST
 
-/* A few nodes snap long before it closes. A long step along the voltage once passed this limit point. */
+/* Some nodes jump long before the actuator closes. A long step along the voltage once passed this limit point. */
 START_TEST(snap_of_a_few_nodes_is_the_pull_in) {
   ZpActuatorDef def =
       DEF({"ribbon.thickness", 25e-6}, {"ribbon.length", 150e-3}, {"load.mass", 5e-3}, {"drive.voltage", 12e3});
@@ -324,8 +324,8 @@ START_TEST(snap_of_a_few_nodes_is_the_pull_in) {
 }
 END_TEST
 
-/* Two limit points 1 % apart, far below drive.voltage: the curve once passed both in one step, and its pull-in was the
- * next one at 445 V. */
+/* Regression: two limit points 1 % apart, far below drive.voltage, were passed in one step, so the next one, at 445 V,
+ * was reported as the pull-in. */
 START_TEST(curve_meets_both_limit_points_of_a_small_snap) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"electro.gap_offset", 0.3e-3});
@@ -362,7 +362,7 @@ static double by_stairs(const ZpActuatorDef *def, double start, bool up) {
   return found;
 }
 
-/* After a snap of some nodes it rests, and closes at a higher voltage: 2 % with 27 nodes, where a fall in long steps
+/* After a jump of some nodes it rests, and closes at a higher voltage: 2 % with 27 nodes, where a fall in long steps
  * once passed the state between; 12 % of a stiff one, where faces that overlapped for a moment on the way once were
  * taken for closed. */
 START_TEST(closing_is_that_of_a_staircase) {
@@ -385,8 +385,8 @@ START_TEST(closing_is_that_of_a_staircase) {
 }
 END_TEST
 
-/* A load that the closed actuator just holds (the limit point is a corner of the breakdown cap, where the state once
- * was lost); flanges without load. */
+/* A load that the closed actuator just holds (the limit point is a corner of the breakdown cap, at which the state was
+ * lost before); flanges without load. */
 START_TEST(release_is_that_of_a_staircase) {
   const ZpActuatorDef designs[] = {
       DEF({"load.mass", 120e-3}, {"drive.voltage", 12e3}),
@@ -451,7 +451,7 @@ END_TEST
 
 /* -- the largest load -------------------------------------------------------------------------------- */
 
-/* Under the largest load it closes at drive.voltage, whatever load it was asked for with. */
+/* Under the largest load it closes at drive.voltage, for any load in the scenario. */
 START_TEST(test_largest_load) {
   static const double masses[] = {1e-3, 8e-3, 20e-3, 60e-3};
   double largest[LENGTH_OF(masses)];
@@ -502,7 +502,7 @@ END_TEST
 
 /* -- what it is for ---------------------------------------------------------------------------------- */
 
-/* Strips and insulators from clip to clip, for a half and for a whole alike. */
+/* mass_kg counts strips and insulators from clip to clip, for a half and a whole actuator alike. */
 START_TEST(mass_in_closed_form) {
   ZpActuatorDef def = DEF({"insulator.density", 1390}, {"mesh.nodes", 31},
                           {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
@@ -521,7 +521,7 @@ static double travel_at(const ZpActuatorDef *def, int key, double value) {
   return travel;
 }
 
-/* travel_m is what the opening loses, and its derivatives are those of differences. */
+/* travel_m is the decrease of the opening, and its derivatives equal finite differences. */
 START_TEST(travel_and_its_derivatives) {
   static const char *const keys[] = {"ribbon.thickness", "ribbon.length", "load.mass", "insulator.thickness"};
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"output.errors", 0}, {"solver.tolerance", 1e-9}), hung = def;

@@ -52,7 +52,7 @@ START_TEST(test_film_alone) {
 }
 END_TEST
 
-/* In a bath of 50 mm2/s closing takes more than twice as long as without it; every part of that is a loss above 0. */
+/* In a bath of 50 mm2/s closing takes more than twice as long as without liquid; every loss is above 0. */
 START_TEST(test_submerged) {
   Run run = RUN({"mesh.nodes", 121}, {"solver.tolerance", 3e-4});
   printf("submerged: %.2f ms, film %.1f um\n", 1e3 * run.zip_time, 1e6 * run.film);
@@ -66,7 +66,7 @@ START_TEST(test_submerged) {
 }
 END_TEST
 
-/* Without viscosity, mass and drag the liquid does nothing. */
+/* A liquid without viscosity, mass and drag has no effect. */
 START_TEST(test_nothing_of_the_liquid_is_dry) {
   ZpActuatorDef dry = DEF({"output.errors", 0}, {"drive.voltage", 7e3});
   Run none = run_of(&dry), thin = RUN(FILM_ONLY, {"drive.voltage", 7e3}, {"medium.kinematic_viscosity", 1e-8});
@@ -75,8 +75,7 @@ START_TEST(test_nothing_of_the_liquid_is_dry) {
 }
 END_TEST
 
-/* Where viscosity rules, twice of it takes twice the time: what is left of the rest is 1.5 % of it, and half each time.
- */
+/* If viscosity dominates, doubling it doubles the time: other effects are 1.5 %, and half of that for each doubling. */
 START_TEST(test_time_is_linear_in_viscosity) {
   double time[3], nu = 500e-6;
   for (int k = 0; k < 3; k++, nu *= 2)
@@ -87,14 +86,14 @@ START_TEST(test_time_is_linear_in_viscosity) {
 }
 END_TEST
 
-/* Closing does not know how rough the faces are. */
+/* The closing time does not depend on the roughness. */
 START_TEST(test_time_does_not_depend_on_roughness) {
   double fine = RUN({"film.roughness", 0.5e-6}).zip_time, rough = RUN({"film.roughness", 10e-6}).zip_time;
   ck_near(rough, fine, 0.015);
 }
 END_TEST
 
-/* Nor, by more than a hundredth, the mesh. */
+/* It depends on the mesh by at most a hundredth. */
 START_TEST(test_time_does_not_depend_on_the_mesh) {
   double coarse = RUN({"mesh.nodes", 61}, {"solver.tolerance", 3e-4}).zip_time,
          fine = RUN({"mesh.nodes", 241}, {"solver.tolerance", 3e-4}).zip_time;
@@ -103,7 +102,7 @@ START_TEST(test_time_does_not_depend_on_the_mesh) {
 }
 END_TEST
 
-/* Fixed steps, halved: of second order. */
+/* Halving fixed steps: second order. */
 START_TEST(test_second_order_in_time) {
   double time[3], step = 4e-4;
   for (int k = 0; k < 3; k++, step *= 0.5)
@@ -135,9 +134,9 @@ static double time_from(ZpActuatorDef def, const double *q, double U) {
   return time;
 }
 
-/* From rest in the state of the fold an actuator closes after a time that goes with the excess of the voltage to the
- * power -1/4, by its inertia, or -1/2, where the liquid rules: that is how long it stays near the
- * fold; how long it takes from there is the same each time, and differences take it out. */
+/* Released at the fold, an actuator closes after a time proportional to the excess voltage to the power -1/4 if inertia
+ * dominates, or -1/2 if viscosity dominates: this is the time near the fold; the time from there on is constant and
+ * cancels in differences. */
 START_TEST(test_time_close_to_pull_in) {
   static const struct { double model, power; } row[] = {{ZP_LIQUID_NONE, -0.25}, {ZP_LIQUID_SUBMERGED, -0.5}};
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"liquid.model", row[_i].model}, {"medium.kinematic_viscosity", 1e-3},
@@ -174,8 +173,8 @@ static ZpSim *zip_hold_release(ZpModel **model, double viscosity, const char *sy
   return sim_of(*model);
 }
 
-/* Energy closes over closing, holding and opening, in thin and thick liquids, and no film is gone. A film that has been
- * pressed out holds the platform for seconds before it opens. */
+/* The energy balances over closing, holding and opening, in thin and thick liquids, and no film is lost. A film that
+ * has been pressed out holds the platform for seconds before it opens. */
 START_TEST(test_energy_of_zip_hold_and_release) {
   static const double viscosity[] = {1e-6, 50e-6, 1000e-6};
   ZpModel *model;
@@ -228,7 +227,7 @@ START_TEST(test_state_of_the_liquid_is_kept) {
 }
 END_TEST
 
-/* A simulation goes on with liquid where one without it was, and the other way round: its liquid begins at rest. */
+/* A simulation continues with liquid where one without it was, and vice versa: the liquid starts at rest. */
 START_TEST(test_liquid_comes_and_goes) {
   ZpActuatorDef def[2] = {DEF({"mesh.nodes", 31}), DEF({"mesh.nodes", 31})};
   def[1].liquid.model = ZP_LIQUID_SUBMERGED;
@@ -276,7 +275,7 @@ START_TEST(test_modes_are_refused) {
 }
 END_TEST
 
-/* Random liquids and voltages: every run ends with an answer, and its energy closes. */
+/* Random liquids and voltages: every run ends with a result, and its energy balances. */
 START_TEST(test_random_designs) {
   enum { DESIGNS = 40 };
   uint64_t seed = 17;

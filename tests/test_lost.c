@@ -90,8 +90,8 @@ START_TEST(voltages_do_not_depend_on_a_branch_that_is_left) {
 }
 END_TEST
 
-/* 18 um PET under 1e5 times the load that bends it by its length: weight was put on in shares that were too large, and
- * it did not hang. */
+/* 18 um PET under 1e5 times the load that bends it by its length: before, the weight was applied in too large steps,
+ * and no equilibrium was found. */
 START_TEST(a_floppy_ribbon_hangs) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.21625376098785298}, {"ribbon.width", 0.0031007512522075822},
@@ -108,7 +108,7 @@ START_TEST(a_floppy_ribbon_hangs) {
 }
 END_TEST
 
-/* Ribbons that sag by more than the opening at which they are held have no straight shape to start from. */
+/* Ribbons that sag by more than the held opening cannot start from a straight shape. */
 START_TEST(a_sagging_ribbon_is_held) {
   ZpActuatorDef def = DEF({"ribbon.length", MM(289.55)}, {"ribbon.width", MM(25.09)}, {"ribbon.thickness", UM(11.617)},
                           {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34}, {"ribbon.density", 8960},

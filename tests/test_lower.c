@@ -31,7 +31,7 @@ START_TEST(bowed_ribbons_open) {
 }
 END_TEST
 
-/* A bow in three segments, one after the other, is the same bow: of both ribbons, which are mirror images. */
+/* A bow in three segments, one after the other, is the same bow: of both ribbons, which are mirror images */
 START_TEST(segments_follow_each_other) {
   static const double k = 0.2, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a / 3}, {"segment_1.curvature", k}, {"segment_2.length", a / 3},
@@ -41,8 +41,8 @@ START_TEST(segments_follow_each_other) {
 }
 END_TEST
 
-/* Each ribbon has its own curvature; one alone opens by half, and parallel ones do not part. (So little that the clips
- * need not pull the straight one.) */
+/* Each ribbon has its own curvature; a single curved one opens by half, and parallel ones do not part. (So little that
+ * the clips need not pull the straight one.) */
 START_TEST(each_ribbon_has_its_own_curvature) {
   static const double k = 0.02, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
@@ -52,7 +52,7 @@ START_TEST(each_ribbon_has_its_own_curvature) {
 }
 END_TEST
 
-/* Without weight and load it does not matter which of two ribbons is above. */
+/* Without weight and load the order of two ribbons does not matter. */
 START_TEST(ribbons_can_be_exchanged) {
   ZpActuatorDef def =
       DEF({"gravity", 0}, {"load.mass", 0}, {"mesh.nodes", 61}, {"segment_1.length", 9e-3}, {"segment_1.curvature", 20},
@@ -73,7 +73,8 @@ END_TEST
 
 /* -- insulators -------------------------------------------------------------------------------------- */
 
-/* They lie in series: 100 and 160 um attract as twice 130 um do, and 130 um of permittivity 6 and 3 as of 4. */
+/* Two unequal insulators are in series: 100 and 160 um attract as twice 130 um do, and 130 um of permittivity 6 and 3
+ * as of 4. */
 START_TEST(insulators_lie_in_series) {
   ZpActuatorDef def = DEF({"insulator.permittivity", 4});
   double alike = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
@@ -85,8 +86,8 @@ START_TEST(insulators_lie_in_series) {
 }
 END_TEST
 
-/* Closed, D is the same in both: the one with the smaller strength times permittivity breaks down first; one layer
- * alone may do for both faces. */
+/* In closed faces D is the same in both insulators: the one with the smaller strength times permittivity breaks down
+ * first; a single layer may insulate both faces. */
 START_TEST(weaker_insulator_breaks_down_first) {
   ZpActuatorDef def = DEF({"insulator.thickness", 100e-6}, {"insulator.permittivity", 3},
                           {"insulator.breakdown_field", 100e6}, {"lower.insulator.thickness", 200e-6},
@@ -100,7 +101,7 @@ END_TEST
 
 /* -- stress ------------------------------------------------------------------------------------------ */
 
-/* The margin is that of the metal that is nearest to its yield, whichever ribbon is stressed most. */
+/* The yield margin is that of the metal nearest to its yield stress, in whichever ribbon. */
 START_TEST(yield_is_of_each_ribbon) {
   ZpActuatorDef def = DEF({"drive.voltage", 0});
   double stress = answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa");

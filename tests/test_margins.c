@@ -46,7 +46,7 @@ START_TEST(bending_to_a_circle_is_fourth_order) {
 }
 END_TEST
 
-/* A strip stretched by a strain has E times it everywhere; its own tape, bonded to it, takes none of that. */
+/* A strip under a strain has the stress E times this strain everywhere; tape bonded to it does not change that. */
 START_TEST(stretching_is_youngs_modulus_times_strain) {
   static const double strain = 1e-3;
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 21}, {"insulator.young_modulus", 5e9});
@@ -61,8 +61,8 @@ START_TEST(stretching_is_youngs_modulus_times_strain) {
 }
 END_TEST
 
-/* A tension that grows evenly along the strip, as under its weight, is met at the ends, too, half an edge beyond the
- * last that is known. */
+/* A tension that increases linearly along the strip, as under its weight, is exact at the ends, too, half an edge
+ * beyond the last known value. */
 START_TEST(tension_at_the_ends_is_extrapolated) {
   static const double slope = 1e-2; /* of the strain, 1/m */
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 21});
@@ -79,7 +79,8 @@ START_TEST(tension_at_the_ends_is_extrapolated) {
 }
 END_TEST
 
-/* The moment of a joint is the derivative of the bending energy by the turn of all that is beyond it. */
+/* The moment of a joint is the derivative of the bending energy with respect to the rotation of all that is beyond it.
+ */
 START_TEST(moment_is_derivative_of_energy) {
   static const double step = 1e-5;
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 15}, {"actuator.right_end", ZP_END_FREE}, {"segment_1.length", 33e-3},
@@ -132,8 +133,8 @@ START_TEST(stress_of_a_cantilever) {
 }
 END_TEST
 
-/* Held straight, a strip that would be an arc is bent by that all along: its metal sees E' kappa c, c the distance of
- * its outer fibre from the neutral axis, which a stiff tape moves. */
+/* A naturally curved strip that is held straight is bent all along: the stress of its metal is E' kappa c, c the
+ * distance of the outer fibre from the neutral axis, which a stiff tape shifts. */
 START_TEST(stress_of_pure_bending) {
   static const double curvature = 10, tape = 20e9; /* 1/m, Pa */
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 201}, {"segment_1.length", 0.1}, {"segment_1.curvature", curvature});
@@ -159,8 +160,8 @@ START_TEST(stress_of_a_hanging_strip) {
 }
 END_TEST
 
-/* A moment meets each segment with its own thickness; where two meet, the thinner is stressed more. The joint half an
- * edge from the end of a segment between nodes has it, too. */
+/* A moment acts on the thickness of each segment; where two segments meet, the thinner one has the higher stress. The
+ * joint half an edge from the end of a segment between nodes has it, too. */
 START_TEST(stress_of_segments) {
   static const double ends[] = {50e-3, 51.9e-3, 49.1e-3}; /* at a node; between, nearer to it */
   for (size_t k = 0; k < LENGTH_OF(ends); k++) {
@@ -176,8 +177,8 @@ START_TEST(stress_of_segments) {
 }
 END_TEST
 
-/* Clamps of the actuators of 2018 under the largest loads that were published, by an independent continuum code, three
- * digits. */
+/* Stress at the clamps of the actuators of 2018 under the largest published loads, against an independent continuum
+ * code, three digits. */
 START_TEST(stress_of_published_actuators) {
   static const double thickness[] = {20e-6, 50e-6, 100e-6}, load[] = {15e-3, 30e-3, 50e-3};
   static const double stress[] = {589e6, 492e6, 280e6};
@@ -191,7 +192,7 @@ END_TEST
 
 /* -- the insulators' field -------------------------------------------------------------------------------- */
 
-/* The displacement goes through: the charge per length of the uncapped law is eps0 eps_i w E, at every gap. */
+/* D is continuous: the charge per length of the uncapped law is eps0 eps_i w E, at every gap. */
 START_TEST(field_in_insulators_carries_the_charge) {
   ZpActuatorDef def = DEF({"electro.breakdown_cap", 0});
   ZpModel *model = model_of(&def);
@@ -213,8 +214,8 @@ END_TEST
 static const ZpStudy under_voltage[] = {ZP_STUDY_ACTUATE,   ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,
                                         ZP_STUDY_ISOMETRIC, ZP_STUDY_PROFILE,     ZP_STUDY_MODES};
 
-/* Two ribbons touch at the clip, so their insulators share all of the voltage there: every study says U / 2t, what is
- * left to 40 MV/m, and that 10.4 kV are allowed. */
+/* Two ribbons touch at the clip, so their insulators share the whole voltage there: every study gives U / 2t, the
+ * margin to 40 MV/m, and an allowed voltage of 10.4 kV. */
 START_TEST(every_study_has_its_margins) {
   bool modes = under_voltage[_i] == ZP_STUDY_MODES, solved = under_voltage[_i] == ZP_STUDY_PROFILE;
   double U = modes ? 3e3 : 10e3, tolerance = solved ? 1e-4 : 1e-13;
@@ -238,8 +239,8 @@ START_TEST(every_study_has_its_margins) {
 }
 END_TEST
 
-/* A flange that hangs open sees less than closed faces would, most where its gap is smallest, at the clamp; what is
- * allowed is what closed faces allow. Without insulators there is no margin. */
+/* A flange that hangs open has a lower field than closed faces, highest at its smallest gap, the clamp; its allowed
+ * voltage is that of closed faces. Without insulators there is no margin. */
 START_TEST(open_flange_sees_the_series_law) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 31}, {"ribbon.length", 45e-3}, {"electro.gap_offset", 1e-3},
@@ -285,7 +286,7 @@ START_TEST(worst_survives_thinning) {
 }
 END_TEST
 
-/* Column, film and signal say the same of one moment. */
+/* Column, shapes and signal agree at any instant. */
 START_TEST(column_film_and_signal_agree) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.end_time", 5e-3});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
@@ -305,7 +306,7 @@ START_TEST(column_film_and_signal_agree) {
 }
 END_TEST
 
-/* Started from a neighbour, study limits sees the same. It looks at the closed state at drive.voltage, too. */
+/* Study limits gives the same if it starts from a neighbour. It looks at the closed state at drive.voltage, too. */
 START_TEST(limits_see_the_same_from_a_neighbour) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}), near = DEF({"mesh.nodes", 31}, {"load.mass", 8.2e-3});
   ZpResult *cold = study_of(ZP_STUDY_LIMITS, &def), *neighbour = study_of(ZP_STUDY_LIMITS, &near), *warm = NULL;

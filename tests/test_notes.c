@@ -171,7 +171,7 @@ static int finest_noted(ZpActuatorDef def, int *advised) {
   }
 }
 
-/* The note is true: there pull-in is off by 1.5 % or more, with the advised mesh by less than 1 %. */
+/* The note is correct: the pull-in is off by 1.5 % or more, with the advised mesh by less than 1 %. */
 START_TEST(coarse_front_is_noted) {
   ZpActuatorDef def = DEF({"ribbon.thickness", _i ? 100e-6 : 50e-6}, {"load.mass", _i ? 20e-3 : 8e-3});
   int advised = 0, noted = finest_noted(def, &advised);

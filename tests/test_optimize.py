@@ -50,7 +50,7 @@ def check_known_optimum(zipact, scratch):
     sets = ["study=stationary", "actuator.kind=ribbon", "actuator.right_end=guided", "ribbon.density=0", "load.mass=10 mg", "mesh.nodes=21", "output.errors=false",
             "optimize.variables=load.mass = 1 mg .. 10 mg", "optimize.objective=max load.mass_kg"]
     refused = zipact.run(sets, folder)
-    ok("strip: a key is no output", refused.returncode == 2 and "no output of study stationary" in refused.stderr)
+    ok("strip: a key is no output", refused.returncode == 2 and "not an output of study stationary" in refused.stderr)
     sets[-2:] = ["optimize.variables=ribbon.thickness = 40 um .. 60 um", "optimize.objective=max stroke_m", "optimize.constraints=stroke_m <= 0.3 mm"]
     for method in ("auto", "cobyla", "slsqp"):
         run = zipact.run([*sets, "optimize.method=" + method, "optimize.evaluations=60"], scratch / ("strip-" + method))
@@ -161,9 +161,9 @@ def check_refusals(zipact, scratch):
     wrong = {"optimize.variables=": "empty", "optimize.variables=ribbon.thikness = 1 um .. 2 um": "did you mean ribbon.thickness", "optimize.variables=mesh.nodes = 11 .. 21": "not a real number",
              "optimize.variables=ribbon.width = 5 mm .. 4 mm": "upper end", "optimize.variables=ribbon.width = 5 mm .. 4 kg": "not a length", "optimize.variables=ribbon.width": "write",
              "optimize.variables=ribbon.width = 5 mm .. 9 mm; ribbon.width = 5 mm .. 9 mm": "twice", "segment_1.length=[0, 1 mm]": "takes one value",
-             "optimize.objective=": "empty", "optimize.objective=least mass_kg": "write", "optimize.objective=min mass": "no output of study limits", "optimize.constraints=travel_m = 3 mm": "write",
+             "optimize.objective=": "empty", "optimize.objective=least mass_kg": "write", "optimize.objective=min mass": "not an output of study limits", "optimize.constraints=travel_m = 3 mm": "write",
              "optimize.constraints=travel_m >= 3 kg": "not a length", "optimize.constraints=travel_m >= far": "not a number", "optimize.constraints=breakdown_margin >= 3 mm": "no unit",
-             "optimize.constraints=travl_m >= 3 mm": "travl_m: no output"}
+             "optimize.constraints=travl_m >= 3 mm": "travl_m is not an output"}
     for text, reason in wrong.items():
         run = zipact.run([*LIGHTEST, text], scratch / "refused")
         ok("%s: refused" % text, run.returncode == 2 and reason in run.stderr)

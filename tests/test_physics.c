@@ -49,10 +49,10 @@ static Balance balance_of(const ZpActuatorDef *def, double end_time) {
   return b;
 }
 
-/* Without bending the actuator is two chains that hang one below the other; the field draws them apart
- * sideways and together at the clip, axial springs, gravity and field swing into each other. All derive from
- * an energy: the error is that of the step, of first order. Measured with auto steps: 8.3e-4 (soft axial
- * springs), 3.7e-5 (stiff), over 0.1 s; ratios of halvings 2.00. */
+/* Without bending stiffness the actuator is two chains: the field pulls them apart sideways and together at the clip,
+ * and axial springs, gravity and field exchange energy. All derive from an energy: the error is that of the step, of
+ * first order. Measured with auto steps: 8.3e-4 (soft axial springs), 3.7e-5 (stiff), over 0.1 s; ratios of halvings
+ * 2.00. */
 START_TEST(test_energy_of_chain) {
   ZpActuatorDef def =
       DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.shear_coefficient", 0}, {"drive.voltage", 4e3});
@@ -96,8 +96,8 @@ START_TEST(test_energy_of_zipping) {
 }
 END_TEST
 
-/* The Bezier surface's forces are not the gradient of the energy in the account: the balance is off by several
- * percent of the work. Measured: 6 % at N = 21, 17 % at N = 61. */
+/* The forces of the Bezier surface are not the gradient of the stored energy: the balance is off by several percent of
+ * the work. Measured: 6 % at N = 21, 17 % at N = 61. */
 START_TEST(test_energy_of_bezier) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"electro.surface", ZP_SURFACE_BEZIER});
   Balance b = balance_of(&def, 0.1);
@@ -107,8 +107,8 @@ START_TEST(test_energy_of_bezier) {
 }
 END_TEST
 
-/* Free swinging after a small step of voltage, below pull-in: no contact, shear law at moderate angles.
- * Measured 6e-5. */
+/* Free oscillation after a small voltage step below pull-in: no contact, shear law at moderate angles. Measured 6e-5.
+ */
 START_TEST(test_energy_below_pull_in) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"drive.voltage", 3e3});
   Balance b = balance_of(&def, 0.1);
@@ -190,9 +190,9 @@ static double added_by_parabolas(const ZpModel *model, const ZpPlatesEval *gaps)
   return -2 / 1.1 * model->parts * potential;
 }
 
-/* Charge, energy and capacitance of a solved field in motion, and at a voltage that another has just replaced, are
- * those of the shape solved alone, whose faces are straight between all nodes: what is held follows the shape to second
- * order. Without cap the actuator is a capacitor. Measured: within 2.7e-6. */
+/* Charge, energy and capacitance of a computed field in motion, and at a changed voltage, equal those of the shape
+ * computed alone: the held difference follows the shape to second order. Without cap the actuator is a capacitor.
+ * Measured: within 2.7e-6. */
 START_TEST(test_solved_field_in_motion) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, UNILATERAL, FIELD, {"electro.breakdown_cap", false},
                           {"drive.voltage", 4e3}, {"electro.refresh_change", 0.05}, {"electro.force_scale", 1.1});
@@ -335,8 +335,8 @@ START_TEST(test_drag_law) {
 }
 END_TEST
 
-/* A limp strand, released, falls freely but for the drag: v = v_t tanh(g t / v_t), v_t = sqrt(m g / c). Its clamp
- * holds the first node only while angles are small. */
+/* A limp strand, released, falls freely except for drag: v = v_t tanh(g t / v_t), v_t = sqrt(m g / c). Its clamp holds
+ * the first node only while angles are small. */
 START_TEST(test_terminal_velocity) {
   const double c = 10, v_t = sqrt(mu * 45e-3 / 21 * g / c);
   ZpActuatorDef def = strand(0, c);
@@ -359,7 +359,7 @@ START_TEST(test_terminal_velocity) {
 }
 END_TEST
 
-/* A cantilever released from straight: its free end falls freely until the clamp is felt there. Its first
+/* A cantilever released from straight: its free end falls freely until the effect of the clamp arrives. Its first
  * period is 48 ms; measured: 4e-5 off after 0.5 ms, most of it the step's n (n + 1) for n^2. */
 START_TEST(test_free_fall) {
   ZpActuatorDef def = strand(NAN, 0);
@@ -622,7 +622,7 @@ START_TEST(test_set_voltage) {
 }
 END_TEST
 
-/* A step of the voltage in mid-flight keeps the balance. Measured 4e-4. */
+/* A voltage step during motion keeps the energy balance. Measured 4e-4. */
 START_TEST(test_balance_over_voltage_step) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpModel *model = model_of(&def);

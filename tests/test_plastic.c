@@ -55,7 +55,7 @@ START_TEST(residual_curvature_is_the_closed_form) {
 }
 END_TEST
 
-/* Masing: on the way back the moment falls by twice that of half the way from flat; and a loop closes. */
+/* Masing: on unloading the moment falls by twice the moment of half the curvature change from flat; loops close. */
 START_TEST(loops_are_those_of_masing) {
   double hardening = 5e9 * _i, p[ZP_FIBRES], back[ZP_FIBRES], again[ZP_FIBRES];
   ZpPlastic plastic = plastic_of(hardening, 0, 0);
@@ -106,7 +106,7 @@ START_TEST(tape_shifts_the_axis) {
 }
 END_TEST
 
-/* Over any way, in steps of any length: what the mean moment does is stored or heat, which is never negative. */
+/* Over any path, with steps of any length: the work of the mean moment is stored or heat, which is never negative. */
 START_TEST(work_is_stored_or_heat) {
   uint64_t seed = 7;
   ZpPlastic plastic = plastic_of(_i % 2 ? 30e9 : 0, _i < 2 ? 0 : 130e-6, _i < 2 ? 0 : 5e9);
@@ -214,7 +214,7 @@ START_TEST(energy_in_motion) {
 }
 END_TEST
 
-/* A state of rest in motion is that of statics: what hangs has yielded on its way there, and stays. */
+/* Motion starts from the equilibrium of statics: hanging ribbons that have yielded stay at rest. */
 START_TEST(what_hangs_stays) {
   ZpActuatorDef def = moving(3);
   def.ribbon.yield_stress = 60e6, def.drive.voltage = 0, def.load.mass = 15e-3;
@@ -236,8 +236,7 @@ static double at_time(const ZpResult *result, double t, const char *column) {
   return zp_table_get(result->series, row, column);
 }
 
-/* Zipping over and over, the ribbons stay bent more and more, by less in each cycle; where the metal does not yield
- * nothing changes from cycle to cycle. */
+/* Repeated zips bend the ribbons further, by less in each cycle; without yielding all cycles are equal. */
 START_TEST(ratchet_over_cycles) {
   ZpActuatorDef def =
       DEF({"ribbon.plasticity", true}, {"ribbon.yield_stress", 250e6}, {"ribbon.hardening_modulus", 2e9},
@@ -262,7 +261,7 @@ START_TEST(ratchet_over_cycles) {
 }
 END_TEST
 
-/* Ribbons that do not reach their yield stress move as elastic ones do. */
+/* Ribbons below their yield stress move as elastic ones. */
 START_TEST(below_the_yield_stress_it_is_elastic) {
   ZpActuatorDef def = moving(3);
   def.ribbon.yield_stress = 1.1e9, def.ribbon.hardening_modulus = 0;

@@ -86,8 +86,8 @@ static double at(const ZpTable *table, const char *column, double x) {
   return (1 - part) * zp_table_get(table, row - 1, column) + part * zp_table_get(table, row, column);
 }
 
-/* Ratio to the plates law, which hardly varies from row to row. 90 % of the force acts in the first 12.2 mm. Measured:
- * up to there 0.02 %, up to the platform's edge 0.01 %. */
+/* Ratio to the plates law, which is nearly constant along the ribbon. 90 % of the force acts in the first 12.2 mm.
+ * Measured: up to there 0.02 %, up to the platform's edge 0.01 %. */
 START_TEST(test_profile_of_a_wedge) {
   ZpActuatorDef def = DEF(CUBIC, {"drive.voltage", 1e3});
   ZpResult *result = run(&def);
@@ -171,7 +171,7 @@ START_TEST(test_27_cases) {
 }
 END_TEST
 
-/* The factor is that of the law as the scenario sets it. */
+/* The factor refers to the law as set in the scenario. */
 START_TEST(test_factor_follows_the_scenario) {
   ZpActuatorDef right = DEF(CUBIC), share = DEF(CUBIC, {"electro.voltage_share", 0.5});
   ZpActuatorDef scaled = DEF(CUBIC, {"electro.force_scale", 6.03}, {"electro.voltage_share", 0.5});
@@ -228,7 +228,7 @@ START_TEST(test_symmetric_ribbons_are_pulled_alike) {
 }
 END_TEST
 
-/* Capped, both models have the capped law's force, elsewhere the field its own. */
+/* In breakdown both models have the force of the capped law, elsewhere the field has its own. */
 START_TEST(test_cap_on_both_models) {
   ZpActuatorDef plates = DEF(CUBIC, {"drive.voltage", 8e3}), field = plates;
   field.electro.model = ZP_ELECTRO_FIELD;
@@ -251,7 +251,7 @@ START_TEST(test_cap_on_both_models) {
 }
 END_TEST
 
-/* Scale and share are on either model, but not in what the field is said to be. */
+/* Scale and share act on both models, but not on the reported field. */
 START_TEST(test_scale_and_share_are_on_the_field) {
   ZpActuatorDef plain = DEF(CUBIC, {"drive.voltage", 2e3}, {"electro.model", ZP_ELECTRO_FIELD}), set = plain;
   set.electro.force_scale = 3;
@@ -297,8 +297,8 @@ static double polyline_force(ZpActuatorDef def, int nodes) {
   return force;
 }
 
-/* The stations lie on a smooth curve through the nodes: neither chords nor their number show. Against polylines of 481
- * and 961 nodes, extrapolated. Measured up to 15.6 mm: 9.9e-6 at N = 961, 6.4e-5 at N = 61. A curve through the nodes
+/* The stations lie on a smooth curve through the nodes, without kinks at the nodes. Against polylines of 481 and 961
+ * nodes, extrapolated. Measured up to 15.6 mm: 9.9e-6 at N = 961, 6.4e-5 at N = 61. A curve through the nodes
  * themselves, beside which a rod's ribbon lies, was 0.5 % off. */
 START_TEST(test_held_shape) {
   for (int cap = 0; cap < 2; cap++)
@@ -322,7 +322,7 @@ START_TEST(test_held_shape) {
 }
 END_TEST
 
-/* Nothing hangs on the platform, whatever load.mass says. */
+/* The held platform carries no load, whatever load.mass is. */
 START_TEST(test_load_does_not_count) {
   ZpActuatorDef light = DEF(HELD), heavy = DEF(HELD, {"load.mass", 0.1});
   ck_near(scalar(heavy, "force_N"), scalar(light, "force_N"), 1e-12);

@@ -47,7 +47,7 @@ START_TEST(test_two_layers) {
 }
 END_TEST
 
-/* Two equal layers are one of twice the thickness; a layer without stiffness weighs only. */
+/* Two equal layers equal one of twice the thickness; a layer without stiffness adds weight only. */
 START_TEST(test_section_limits) {
   const ZpLayer twice[2] = {steel, steel};
   ZpLayer thick = steel, limp = tape;
@@ -180,7 +180,7 @@ START_TEST(test_joint_moment) {
 }
 END_TEST
 
-/* A held slope is a joint to an edge that never moves: moment K_S l^2 sin(theta) at either end. */
+/* A held slope is a joint to a fixed edge: moment K_S l^2 sin(theta) at either end. */
 START_TEST(test_held_slopes) {
   const double K_S = 5, theta = 0.3;
   Ribbon r;
@@ -280,8 +280,8 @@ static double accelerate_free(void *self, const double *q, const double *v, doub
   return 1 / zp_massspring_frequency_bound(&r->p, 1);
 }
 
-/* 1000 steps of a shaken free ribbon: momentum stays within rounding. Measured: 6e-16 of the sum of speeds,
- * random walk of rounding. */
+/* 1000 steps of a free ribbon with random velocities: momentum is constant to rounding. Measured: 6e-16 of the sum of
+ * speeds, random walk of rounding. */
 START_TEST(test_momentum_of_free_ribbon) {
   Ribbon r;
   make_ribbon(&r, 1, 21, 3, 5, false);
@@ -342,7 +342,7 @@ static double curl(double phi) {
   return sqrt(odd / all);
 }
 
-/* The asymmetry grows in proportion to the angle of the joints: none in a straight ribbon. */
+/* The asymmetry is proportional to the angle of the joints: none in a straight ribbon. */
 START_TEST(test_curl_of_shear_law) {
   static const double phi[] = {0, 0.01, 0.1, 0.3};
   double value[LENGTH_OF(phi)];
@@ -377,9 +377,9 @@ static double compliance(int nodes, ZpRightEnd end, double *EI) {
   return (stroke[1] - stroke[0]) / ((heavy - light) * g);
 }
 
-/* K_S auto holds the factor N (N + 1) / (N - 1)^2 with which the linear chain between two held slopes is
- * exactly as stiff as the beam. Measured: 1.3e-6, 5e-7, 6e-7 off, of the order (deflection / L)^2 = 1.6e-6 of
- * geometry at these loads. */
+/* K_S auto has the factor N (N + 1) / (N - 1)^2, with which the linear chain between two held slopes is exactly as
+ * stiff as the beam. Measured: 1.3e-6, 5e-7, 6e-7 off, of the order (deflection / L)^2 = 1.6e-6 of geometry at these
+ * loads. */
 START_TEST(test_guided_beam_exact) {
   static const int nodes[] = {5, 21, 61};
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
@@ -390,9 +390,8 @@ START_TEST(test_guided_beam_exact) {
 }
 END_TEST
 
-/* The same K_S under a cantilever: the held slope acts one cell before the clamp and the factor is made
- * for two such ends, so it converges with the first order of l.
- * Measured: 21, 12.5, 6.8, 3.6 % too stiff. */
+/* The same K_S in a cantilever: the held slope acts one cell before the clamp and the factor assumes two such ends, so
+ * it converges with the first order of l. Measured: 21, 12.5, 6.8, 3.6 % too stiff. */
 START_TEST(test_cantilever_converges) {
   static const int nodes[] = {6, 11, 21, 41};
   double error[LENGTH_OF(nodes)];
@@ -415,7 +414,8 @@ START_TEST(test_frequency_bound) {
 }
 END_TEST
 
-/* The bound holds: symmetric part of -J / m of a shaken ribbon, by power iteration, stays below it. */
+/* The frequency bound holds: the largest eigenvalue of the symmetric part of -J / m of a deformed ribbon, by power
+ * iteration, is below it. */
 START_TEST(test_frequency_bound_holds) {
   Ribbon r;
   make_ribbon(&r, 1, 21, 3, 5, true);

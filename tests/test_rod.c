@@ -170,7 +170,7 @@ START_TEST(test_stiffness_is_second_derivative) {
 }
 END_TEST
 
-/* Of a rod that nothing holds, forces and moments add up to nothing, ribbon by ribbon. */
+/* Forces and moments of a free rod add up to zero, ribbon by ribbon. */
 START_TEST(test_free_rod_keeps_momentum) {
   for (uint64_t seed = 1; seed <= 5; seed++) {
     Rod r;
@@ -194,7 +194,7 @@ START_TEST(test_free_rod_keeps_momentum) {
 }
 END_TEST
 
-/* A rod in its natural shape bears nothing. */
+/* A rod in its natural shape has no forces. */
 START_TEST(test_natural_shape) {
   Rod r;
   make_rod(&r, 1, true, 7);
@@ -396,7 +396,7 @@ static void *upper_of(const ZpBand *band, ZpBand *half) {
   return memory;
 }
 
-/* Definite matrices, either sign: no pivoting, the same solution. Measured: within 4e-16. */
+/* Definite matrices of either sign: without pivoting, the same solution. Measured: within 4e-16. */
 START_TEST(test_band_symmetric) {
   static const size_t widths[] = {0, 1, 2, 5, 11, ZP_BAND_MOST, ZP_BAND_MOST + 1, EQUATIONS - 1};
   double worst = 0;
@@ -465,8 +465,8 @@ static void *random_top(ZpBand *K, Dense a, size_t rank, double shift, uint64_t 
   return memory;
 }
 
-/* Terms on top of a band change solution, product and sign of the determinant as they do in the dense matrix; cleared,
- * they are gone. */
+/* Low-rank terms on a band change solution, product and sign of the determinant as in the dense matrix; when cleared,
+ * they have no effect. */
 START_TEST(test_terms_on_top_of_a_band) {
   int seen[2] = {0};
   for (size_t rank = 0; rank <= 3; rank++)
@@ -510,7 +510,8 @@ START_TEST(test_negative_eigenvalues_with_a_term) {
 }
 END_TEST
 
-/* Sylvester: as many negative pivots as eigenvalues; and what does not pivot solves as well as what does. */
+/* Sylvester: the number of negative pivots is that of negative eigenvalues; elimination with and without pivoting
+ * solves equally well. */
 START_TEST(test_negative_pivots) {
   static const double shifts[] = {-20, -1, 0, 0.5, 2, 20};
   static Dense v;

@@ -18,8 +18,7 @@ static double small_tilt(const ZpActuatorDef *def) {
   return -(def->load.mass * def->gravity + def->load.force) * def->load.offset / stiffness;
 }
 
-/* So little weight that nothing bends far; of second order in the length of elements, whatever the platform's length.
- */
+/* Small weight, small deflections: second order in the element length, for any length of the platform. */
 START_TEST(small_tilt_is_that_of_its_closed_form) {
   static const double lengths[] = {2e-3, 10e-3, 40e-3};
   double off[3];
@@ -83,7 +82,7 @@ START_TEST(offset_on_the_other_side_is_a_mirror_image) {
 }
 END_TEST
 
-/* Under a load in the middle it hangs as a platform that is guided does, up to the second order of its joints. */
+/* Under a load in the middle it hangs like a guided platform, up to the second order of its joints. */
 START_TEST(load_in_the_middle_does_not_tilt) {
   double off[3];
   for (int k = 0; k < 3; k++) {
@@ -99,7 +98,7 @@ START_TEST(load_in_the_middle_does_not_tilt) {
 }
 END_TEST
 
-/* Every mesh's platform keeps its length but for what the ribbon on it stretches, and the load its lever. */
+/* On every mesh the platform keeps its length, except for the stretch of its ribbon, and the load its lever. */
 START_TEST(platform_keeps_its_length) {
   ZpActuatorDef def = turning(21, 4e-3);
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
@@ -137,7 +136,7 @@ START_TEST(energy_balances) {
 }
 END_TEST
 
-/* What hangs at rest stays at rest: the laws of the motion are those of rest. */
+/* An equilibrium stays at rest in motion: both have the same laws. */
 START_TEST(rest_stays_at_rest) {
   ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"drive.voltage", 0});
   ZpModel *model = model_of(&def);
@@ -151,7 +150,7 @@ START_TEST(rest_stays_at_rest) {
 }
 END_TEST
 
-/* Of ribbons without mass, whose platform swings against its tilt on the masses at its ends: eqs. (19.4) and (19.5). */
+/* Massless ribbons whose platform rotates and swings on the masses at its ends: eqs. (19.4) and (19.5). */
 START_TEST(frequency_of_the_tilt) {
   static const double half_turn = 3.14159265358979323846;
   ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 81}, {"ribbon.density", 1}, {"gravity", 0});
@@ -182,7 +181,7 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
       {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates = true: requires ribbon.plane strain or stress"},
       {{"ribbon.plasticity", 1}, "platform.rotates = true: requires ribbon.plasticity false"},
       {{"load.stop_opening", 5e-3}, "platform.rotates = true: requires load.stop_opening none"},
-      {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: beyond the platform, allowed -0.005 to 0.005 m"},
+      {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: outside the platform; allowed are -0.005 to 0.005 m"},
       {{"platform.rotates", 0}, "load.offset = 0.001 m: requires platform.rotates true"},
   };
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {

@@ -85,8 +85,8 @@ START_TEST(zip_without_liquid_with_its_own_steps) {
 }
 END_TEST
 
-/* As faces land, the matrix of the iteration lacks much of the exact tangent: plain passes turned round and found no
- * derivative from 73.7 ms on. */
+/* Regression: at contact the matrix of the iteration lacks much of the exact tangent, so simple passes diverged and
+ * found no derivative from 73.7 ms on. */
 START_TEST(derivative_of_every_landing_is_found) {
   ZpActuatorDef def = dry_zip(21, 1e-3);
   ZpResult *result = run_by(&def, "ribbon.thickness");
@@ -95,7 +95,7 @@ START_TEST(derivative_of_every_landing_is_found) {
 }
 END_TEST
 
-/* Where the instant is at the end of a step, those of actuators near are before it and after it. */
+/* At an instant that ends a step, neighbouring actuators reach it before or after that step. */
 START_TEST(zip_at_the_end_of_a_step) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_SUBMERGED;
@@ -141,9 +141,9 @@ START_TEST(corners_move_with_their_key) {
 }
 END_TEST
 
-/* All steps between two corners go with them alike: those of runs whose steps have one length, a part of the period,
- * do. The last step, cut by the end of the run, is shorter than the others. Rounding of positions, 1e-17 m, over the
- * step of the key, 2.5e-5 Hz, leaves 1e-5. If steps before a corner kept their lengths, it would be 4.6e-5. */
+/* All steps between two corners scale with them: as in runs with a constant number of steps per period. The last step,
+ * cut by the end of the run, is shorter than the others. Rounding of positions, 1e-17 m, over the step of the key,
+ * 2.5e-5 Hz, leaves 1e-5. If steps before a corner kept their lengths, it would be 4.6e-5. */
 START_TEST(steps_go_with_their_corners) {
   static const double period = 4e-3, part = 1e-4;
   ZpActuatorDef def = motion();

@@ -138,7 +138,7 @@ START_TEST(quantiles_of_distributions) {
 }
 END_TEST
 
-/* 1 .. 101 in disorder, and three that are not there. */
+/* 1 .. 101 in random order, and three missing values. */
 START_TEST(statistics_in_closed_form) {
   const ZpDesign design = design_of(ZP_SAMPLING_RANDOM, 104, 1, false);
   double value[104], work[104];
@@ -189,7 +189,7 @@ START_TEST(indices_of_ishigami) {
 }
 END_TEST
 
-/* Points that lack a value are left out of the indices of the dimensions that need it, not of others. */
+/* Points without a value are excluded from the indices of the dimensions that need them, not from others. */
 START_TEST(indices_without_some_values) {
   const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 256, 2, true);
   static double value[4 * 256];

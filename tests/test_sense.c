@@ -19,8 +19,8 @@ static void read_line(const ZpMeter *meter, const double charge[2], const double
   zp_meter_read(meter, &trace, windows, reading);
 }
 
-/* A capacitance that stays is read to rounding, whatever constant current flows beside. One that grows evenly is read
- * in the middle of the window, but for what the last sample misses of it. */
+/* A constant capacitance is read to rounding, for any constant current beside it. One that grows evenly is read in the
+ * middle of the window, but for what the last sample misses of it. */
 START_TEST(test_reading) {
   ZpActuatorDef def = DEF(METER);
   ZpMeter meter = zp_meter_of(&def, 1e-9);
@@ -35,8 +35,8 @@ START_TEST(test_reading) {
 }
 END_TEST
 
-/* A current beyond the range of the samples is cut: the reading of a capacitance with twice the current of the range is
- * the first harmonic of a cut sine, 2/3 + sqrt(3) / pi of the range's. */
+/* A current beyond the range of the samples is clipped: the reading for twice the current of the range is the first
+ * harmonic of a clipped sine, 2/3 + sqrt(3) / pi of the range. */
 START_TEST(test_range) {
   ZpActuatorDef def = DEF(METER, {"sense.bits", 24}, {"sense.sampling_rate", 4e6});
   double most = 2 * PI * 1e3 * 50 * 1e-10, reading;
@@ -57,7 +57,8 @@ static double spread(const ZpMeter *meter, double *first) {
   return sqrt(sum);
 }
 
-/* White noise of n samples leaves sqrt(2 / n) of it in the amplitude of the current. One seed gives one noise. */
+/* White noise in n samples gives the amplitude of the current a noise of sqrt(2 / n) of it. One seed gives one noise.
+ */
 START_TEST(test_noise) {
   ZpActuatorDef def = DEF(METER, {"sense.noise", 1e-7});
   ZpMeter meter = zp_meter_of(&def, 1e-9), other = meter;
@@ -70,8 +71,8 @@ START_TEST(test_noise) {
 }
 END_TEST
 
-/* Few bits: every sample is off by at most half of a step, and so is the amplitude by little more than that; with two
- * more bits by about a quarter. */
+/* Few bits: the error of a sample is at most half a step, and so, approximately, is that of the amplitude; two more
+ * bits reduce it to about a quarter. */
 START_TEST(test_resolution) {
   double off[2];
   for (int k = 0; k < 2; k++) {
@@ -86,8 +87,8 @@ START_TEST(test_resolution) {
 }
 END_TEST
 
-/* Slowly up to below pull-in and back, damped: the actuator goes along its states of rest, and the meter says where it
- * is, to well below a hundredth of the stroke. */
+/* Slowly up to below pull-in and back, damped: the actuator follows its equilibria, and the meter reads its stroke to
+ * well below a hundredth. */
 START_TEST(test_stroke_along_the_states_of_rest) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 0.2},
                           {"drive.voltage", 5e3}, {"solver.end_time", 5}, {"damping.internal", 5e-3},
@@ -111,13 +112,14 @@ START_TEST(test_refused) {
   static const struct {
     Setting with[3];
     const char *says;
-  } of[] = {{{{"sense.frequency", 1e3}}, "sense.amplitude: sense.frequency is given"},
-            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}}, "sense.sampling_rate: sense.frequency is given"},
-            {{{"sense.noise", 1e-9}}, "sense.noise: requires sense.frequency"},
-            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 3e3}}, "at least 4"},
-            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 4500}}, "a whole number"},
-            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 1e9}}, "samples until"},
-            {{{"sense.frequency", 10}, {"sense.amplitude", 1}, {"sense.sampling_rate", 100}}, "sense.bandwidth"}};
+  } of[] = {
+      {{{"sense.frequency", 1e3}}, "sense.amplitude: missing; sense.frequency requires it"},
+      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}}, "sense.sampling_rate: missing; sense.frequency requires it"},
+      {{{"sense.noise", 1e-9}}, "sense.noise: requires sense.frequency"},
+      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 3e3}}, "at least 4"},
+      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 4500}}, "a whole multiple"},
+      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 1e9}}, "samples until"},
+      {{{"sense.frequency", 10}, {"sense.amplitude", 1}, {"sense.sampling_rate", 100}}, "sense.bandwidth"}};
   ZpActuatorDef def;
   ZpError err = {ZP_OK, ""};
   size_t count = 0;

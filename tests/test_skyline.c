@@ -201,7 +201,7 @@ END_TEST
 
 /* -- what is no such matrix ------------------------------------------------------------------------------ */
 
-/* One wrong number anywhere in a good matrix is found, and the matrix can be used again afterwards. */
+/* One wrong number anywhere in a good matrix is detected, and the matrix can be used again afterwards. */
 START_TEST(test_not_positive) {
   static const double wrong[] = {-1, 0, -0.0, NAN, INFINITY, -INFINITY};
   Case c = random_case(SPIKES, 37, 5);

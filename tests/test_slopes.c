@@ -32,7 +32,8 @@ static double output_at(ZpStudy study, const ZpActuatorDef *def, const char *out
   return found;
 }
 
-/* All derivatives of a result but the smallest against differences of sixth order over steps of `part` of a key. */
+/* All derivatives of a result except the smallest against finite differences of sixth order with steps of `part` of a
+ * key. */
 static void check_differences(ZpStudy study, const ZpActuatorDef *given, const char *by, double part, double allowed) {
   static const double least = 0.01; /* exponents below: what is left of an output is no better known */
   ZpActuatorDef def = *given;
@@ -157,8 +158,8 @@ START_TEST(frequencies_of_a_cantilever) {
 }
 END_TEST
 
-/* The co-energy has one mixed derivative: what a voltage adds to the force is what the opening takes from the charge,
- * (20.5). Holds to rounding on any mesh. */
+/* The co-energy has one mixed derivative: the force per voltage is the negative charge per opening, (20.5). Holds to
+ * rounding on any mesh. */
 START_TEST(force_and_charge_are_reciprocal) {
   ZpActuatorDef def = DEF({"mesh.nodes", 41}, {"drive.voltage", 4e3});
   ZpResult *result = run_by(ZP_STUDY_ISOMETRIC, &def, "drive.voltage, isometric.separation");
@@ -168,8 +169,8 @@ START_TEST(force_and_charge_are_reciprocal) {
 }
 END_TEST
 
-/* All forces c times as large, the voltages grow as its root: pull-in and closing at a limit point, and release. A
- * wrong sign at a limit point gives -1/2. */
+/* With all forces c times as large, the voltages grow by the root of c: pull-in, closing at a limit point, and release.
+ * A wrong sign at a limit point gives -1/2. */
 static void check_scaling(const ZpActuatorDef *given) {
   static const char *const outputs[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
   ZpActuatorDef def = *given;

@@ -44,7 +44,7 @@ START_TEST(test_order_one) {
 }
 END_TEST
 
-/* The scheme keeps v^2 + w^2 q^2 - w^2 dt q v exactly, so energy swings within w dt / 2 and does not drift:
+/* The scheme conserves v^2 + w^2 q^2 - w^2 dt q v exactly, so the energy oscillates within w dt / 2 and does not drift:
  * 10,000 periods, w dt = 0.1. */
 START_TEST(test_no_drift) {
   Oscillator o = {1, 0.1, 0};
@@ -98,8 +98,8 @@ static double ground(void *self, const double *q, const double *v, const double 
   return root < dt ? root : dt;
 }
 
-/* A ball dropped from 1 m lands exactly on the ground, at the time that the discrete motion takes; that
- * tends to sqrt(2 / g) with the first order of dt. */
+/* A ball dropped from 1 m lands exactly on the ground, at the time of the discrete motion, which converges to sqrt(2 /
+ * g) with the first order of dt. */
 START_TEST(test_event_cut) {
   double late[3];
   for (int k = 0; k < 3; k++) {
@@ -337,8 +337,8 @@ static double springs_energy(const Springs *s) {
          0.25 * s->c * u * u * u * u;
 }
 
-/* One mass on a spring, the second one taken along by none: q = cos(w t), error of second order. The rule turns by
- * 2 atan(w h / 2) a step, exactly. Measured ratios 4.00, off that phase by 5e-14. */
+/* One mass on a spring, the second one decoupled: q = cos(w t), error of second order. The rule turns by 2 atan(w h /
+ * 2) a step, exactly. Measured ratios 4.00, off that phase by 5e-14. */
 START_TEST(test_implicit_order_two) {
   const double omega = 2;
   double error[4];
@@ -360,8 +360,8 @@ START_TEST(test_implicit_order_two) {
 }
 END_TEST
 
-/* 10,000 steps, w h = 0.4, a cubic spring too: the energy stays, whatever the step. Its drift is that of rounding and,
- * where forces are not linear, of what Newton's method leaves. Measured: 1.3e-13, with the cubic part 8e-14. */
+/* 10,000 steps, w h = 0.4, also with a cubic spring: the energy is constant for any step. Its drift is that of rounding
+ * and, where forces are not linear, of what Newton's method leaves. Measured: 1.3e-13, with the cubic part 8e-14. */
 START_TEST(test_implicit_keeps_energy) {
   static const double cube[] = {0, 30};
   for (size_t i = 0; i < LENGTH_OF(cube); i++) {
@@ -381,9 +381,9 @@ START_TEST(test_implicit_keeps_energy) {
 }
 END_TEST
 
-/* Slow mode of a pair that a spring 1e8 times stiffer joins: w = sqrt(1 / 1.5). Steps follow the slow mode, far beyond
- * what the stiff one (w = 1.7e4) allows an explicit rule, and the pair stays together. Measured:
- * 0.027 s a step, 230 times 2 / 1.7e4, off by 4.4e-4. */
+/* Slow mode of a pair joined by a spring 1e8 times stiffer: w = sqrt(1 / 1.5). Steps follow the slow mode, far beyond
+ * what the stiff one (w = 1.7e4) allows an explicit rule, and the pair stays together. Measured: 0.027 s a step, 230
+ * times 2 / 1.7e4, off by 4.4e-4. */
 START_TEST(test_implicit_stiff) {
   Springs s;
   make_springs(&s, 1, 1e8, 0);
@@ -400,8 +400,8 @@ START_TEST(test_implicit_stiff) {
 }
 END_TEST
 
-/* Local error goes with h^3, that of a run with h^2: an eighth of the accuracy, half the step, a quarter of the error.
- * Measured: ratios of errors 3.8, 3.8, 3.9, of steps 1.94, 1.97, 1.99. */
+/* The local error is of order h^3, that of a run of order h^2: an eighth of the tolerance gives half the step and a
+ * quarter of the error. Measured: ratios of errors 3.8, 3.8, 3.9, of steps 1.94, 1.97, 1.99. */
 START_TEST(test_implicit_error_control) {
   double error[4];
   int64_t steps[4];

@@ -67,8 +67,8 @@ static double largest(const double *x, size_t n) {
   return most;
 }
 
-/* Derivatives by the voltage at the end are those of differences, with the breakdown cap and without, with the lateral
- * edges and without. A piece at which the cap just sets in has none: gaps are drawn, and none is so near. */
+/* Derivatives with respect to the voltage at the end equal finite differences, with and without the breakdown cap and
+ * lateral edges. A piece at which the cap just sets in has none: gaps are drawn, and none is so near. */
 START_TEST(test_derivatives_by_voltage) {
   static const struct { double cap, edges; } laws[] = {{0, 0}, {1, 0}, {0, 1}};
   uint64_t seed = 5;
@@ -146,8 +146,8 @@ START_TEST(test_charging_of_a_closed_actuator) {
 }
 END_TEST
 
-/* A supply of one's own, 10 kV behind 1 GOhm with a cable of 10 pF, and the built-in one. Both charge the actuator and
- * lose voltage while it closes. */
+/* A supply defined by the user, 10 kV behind 1 GOhm with a cable of 10 pF, equals the built-in one. Both charge the
+ * actuator and lose voltage while it closes. */
 START_TEST(test_slow_supply_by_both_routes) {
   Supply supply = {10e3, 1e9, 10e-12};
   ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
@@ -173,7 +173,7 @@ START_TEST(test_slow_supply_by_both_routes) {
 }
 END_TEST
 
-/* The opening after 10 ms, before ribbons meet beyond the clip; behind a resistance, 0: the ideal source. */
+/* The opening after 10 ms, before ribbons meet beyond the clip, with a resistance (the ideal source has none). */
 static double opening_behind(double R) {
   Supply supply = {10e3, R, 0};
   ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
@@ -193,8 +193,8 @@ static double opening_behind(double R) {
   return opening;
 }
 
-/* The smaller the resistance the nearer it is to the ideal source: what the opening lags behind goes with R. The energy
- * that the electrodes take balances. */
+/* With decreasing resistance it approaches the ideal source: the lag of the opening is proportional to R, and the
+ * energy of the electrodes balances. */
 START_TEST(test_small_resistance_is_ideal) {
   double ideal = opening_behind(0), less = opening_behind(2.5e6) - ideal, more = opening_behind(1e7) - ideal;
   printf("lag of the opening after 10 ms behind 2.5 and 10 Mohm: %.4f, %.4f um\n", 1e6 * less, 1e6 * more);

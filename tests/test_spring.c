@@ -3,8 +3,8 @@
 
 #include "system/system.h"
 
-/* Stiff ribbons without weight give way by c per force: under the weight W and a spring k to the opening r they open by
- * o = c (W + k (r - o)), whole actuator or half. */
+/* Stiff weightless ribbons have the compliance c: under the weight W and a spring k to the opening r they open by o = c
+ * (W + k (r - o)), whole actuator or half. */
 START_TEST(spring_and_weight_share_what_gives_way) {
   static const double k = 300, r = 4e-3;
   ZpActuatorDef def = DEF({"ribbon.thickness", 500e-6}, {"ribbon.density", 0}, {"drive.voltage", 0},
@@ -17,8 +17,8 @@ START_TEST(spring_and_weight_share_what_gives_way) {
 }
 END_TEST
 
-/* A long soft spring is a constant force: limits are those of a load that weighs as much, but for the share of its
- * length, 1e-3, by which it grows as the actuator opens. */
+/* A long soft spring is a constant force: the limits are those of an equal load, except for the fraction 1e-3 of its
+ * length by which it extends. */
 START_TEST(long_spring_is_a_weight) {
   static const double extra = 4e-3, r = 10; /* kg, m */
   ZpActuatorDef heavy = DEF({"mesh.nodes", 31}), def = DEF({"mesh.nodes", 31});
@@ -34,7 +34,7 @@ START_TEST(long_spring_is_a_weight) {
 }
 END_TEST
 
-/* Ribbons that would hang further open than a stop lie on it, and open by o = c (W + k r) / (1 + c k). */
+/* Ribbons that would open further than a stop rest on it, and open by o = c (W + k r) / (1 + c k). */
 START_TEST(stop_holds_the_platforms) {
   static const double k = 2e4, r = 1e-4;
   ZpActuatorDef def = DEF({"ribbon.thickness", 500e-6}, {"ribbon.density", 0}, {"drive.voltage", 0}, {"load.mass", 0.1},
@@ -48,8 +48,7 @@ START_TEST(stop_holds_the_platforms) {
 }
 END_TEST
 
-/* An actuator that swings open against a stop bounces off it: it goes no deeper than its energy allows, none of which
- * is lost in the books. */
+/* An actuator that swings open against a stop bounces: the depth is limited by its energy, none of which is lost. */
 START_TEST(energy_with_a_stop) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"load.stop_opening", 12e-3}, {"load.stop_stiffness", 300},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 4}, {"solver.end_time", 0.3},
@@ -79,8 +78,8 @@ START_TEST(held_platform_does_not_feel_it) {
 }
 END_TEST
 
-/* Zip, release and swings through the opening where the spring ends: energy balances, and what is not in weight is in
- * the spring. Dry, in a bath and by explicit steps. */
+/* Zip, release and swings through the opening at which the spring ends: the energy balances, including that of the
+ * spring. Dry, in a bath and by explicit steps. */
 START_TEST(energy_with_a_spring) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"load.stiffness", 3}, {"load.rest_opening", 18e-3},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 4}, {"solver.end_time", 0.4});
@@ -103,8 +102,8 @@ START_TEST(energy_with_a_spring) {
 }
 END_TEST
 
-/* The mean force over a span does the work by which the energy falls, also where the spring ends on the way, and the
- * stiffness is its derivative. */
+/* The mean force over a span does the work of the energy change, also if the spring ends within it, and the stiffness
+ * is its derivative. */
 START_TEST(force_does_the_work_of_the_spring) {
   static const double opening[][2] = {{1e-3, 2e-3}, {1e-3, 7e-3}, {7e-3, 2e-3}, {6e-3, 8e-3}};
   const double sign = _i < 4 ? 1 : -1;
@@ -152,7 +151,7 @@ START_TEST(what_a_spring_lacks_is_said) {
   static const struct {
     Setting one, other;
     const char *says;
-  } refused[] = {{{"load.stiffness", 3}, {"mesh.nodes", 21}, "load.rest_opening: load.stiffness is given"},
+  } refused[] = {{{"load.stiffness", 3}, {"mesh.nodes", 21}, "load.rest_opening: missing; load.stiffness requires it"},
                  {{"load.rest_opening", 3e-3}, {"mesh.nodes", 21}, "requires load.stiffness"},
                  {{"load.stop_stiffness", 3}, {"mesh.nodes", 21}, "requires load.stop_opening"},
                  {{"load.stop_opening", 3e-3}, {"actuator.kind", ZP_KIND_RIBBON}, "electro_ribbon"}};

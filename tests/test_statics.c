@@ -113,8 +113,8 @@ static double opening_error(int nodes) {
   return opening(0, mass, nodes) / (2 * half * elastica(p, 0, true).y) - 1;
 }
 
-/* What is left of second order is what bends against the tension T, by T l^2 / 12 beside EI: of a strip that bends by
- * an end load P at most P l^2 / (12 EI). A clamp that was a held slope over half an edge had 2 l^2 / L^2. */
+/* The remaining error of second order is bending against the tension T, by T l^2 / 12 in addition to EI: for a strip
+ * bent by an end load P at most P l^2 / (12 EI). A clamp that was a held slope over half an edge had 2 l^2 / L^2. */
 START_TEST(test_order_of_deflections) {
   static const int nodes[] = {16, 31, 61, 121};
   static const char *const names[] = {"guided", "free", "actuator"};
@@ -129,7 +129,7 @@ START_TEST(test_order_of_deflections) {
 }
 END_TEST
 
-/* Where it bends little the deflections of clamped and guided strips under an end load are exact on any mesh. */
+/* Small deflections of clamped and guided strips under an end load are exact on any mesh. */
 START_TEST(test_small_deflections_are_exact) {
   static const ZpRightEnd ends[] = {ZP_END_GUIDED, ZP_END_FREE};
   static const int nodes[] = {4, 5, 21};
@@ -184,8 +184,9 @@ static double step_error(double a, int nodes) {
   return value_of(ZP_STUDY_STATIONARY, &def, "stroke_m") / y - 1;
 }
 
-/* A segment that ended between nodes counted as if it ended at one: off by +1.8 % and -2.2 % on either side of a node,
- * 0.02 % on it. Wherever the step is, the error falls with l^2, and it changes smoothly as the step moves. */
+/* Regression: a segment that ended between nodes counted as if it ended at a node, with errors of +1.8 % and -2.2 % on
+ * either side of it, 0.02 % on it. Wherever the step is, the error falls with l^2, and it changes smoothly as the step
+ * moves. */
 START_TEST(test_step_between_nodes) {
   double least = INFINITY, most = -INFINITY;
   for (int k = 0; k <= 16; k++) {
@@ -223,7 +224,7 @@ static double bent_by_unit_moments(const ZpRodParams *rod, size_t j) {
   return 1 / rod->B[j];
 }
 
-/* Whatever the mesh, a rod has the compliance, the natural turn, the mass and the centre of mass of its segments. */
+/* On any mesh a rod has the compliance, the natural rotation, the mass and the centre of mass of its segments. */
 START_TEST(test_segments_are_integrated) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.length", L}, {"ribbon.plane", ZP_PLANE_STRESS},
                           {"mesh.nodes", 14}, {"load.mass", 0}, {"segment_1.length", 0.0113},
@@ -306,8 +307,8 @@ START_TEST(test_strong_curvature) {
 }
 END_TEST
 
-/* The same with a finer mesh, without and with 8 g: there is an equilibrium. Without load the end is above the clamp.
- */
+/* The same with a finer mesh, without load and with 8 g: an equilibrium exists. Without load the end is above the
+ * clamp. */
 START_TEST(test_curled_ribbon_is_found) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
   def.segment_1.length = L;
@@ -372,8 +373,8 @@ START_TEST(test_modes) {
 }
 END_TEST
 
-/* Eq. (11.2): an exact squared frequency is as near as the residual says. The reference has thirty rounds more, which
- * derivatives ask for; what its residual leaves is rounding. */
+/* Eq. (11.2): an exact squared frequency lies within the bound of the residual. The reference has thirty rounds more,
+ * which derivatives ask for; what its residual leaves is rounding. */
 START_TEST(residual_of_a_mode_bounds_its_error) {
   ZpActuatorDef def = DEF({"mesh.nodes", 61});
   ZpResult *found = rest_of(ZP_STUDY_MODES, &def);
@@ -394,7 +395,7 @@ START_TEST(residual_of_a_mode_bounds_its_error) {
 }
 END_TEST
 
-/* What the third mode is off by goes with l^2: extrapolated, it is the beam's. */
+/* The error of the third mode is of order l^2: extrapolated, it is that of the beam. */
 START_TEST(test_modes_converge) {
   static const int nodes[] = {61, 121};
   double f[2], unit = sqrt(bending_stiffness(thickness) / (rho * width * thickness)) / (2 * M_PI * 45e-3 * 45e-3);
@@ -407,8 +408,8 @@ START_TEST(test_modes_converge) {
 }
 END_TEST
 
-/* A good outcome of its own, where "not settled" was said. Newton's method alone would jump: at 5.7, 8 and 10 kV it
- * finds closed states, which are stable, too. */
+/* Its own outcome instead of "not settled". Newton's method alone would jump: at 5.7, 8 and 10 kV it finds closed
+ * states, which are stable, too. */
 START_TEST(test_modes_above_pull_in) {
   static const double above[] = {5663, 5700, 8e3, 10e3};
   ZpActuatorDef def = DEF({"modes.voltage", 5661.5});
@@ -488,8 +489,8 @@ START_TEST(test_pull_in) {
 }
 END_TEST
 
-/* Without weight the residual was measured by 1 mN, far above the forces of a thin flange: the finer the mesh, the
- * further its pull-in was off, whatever the tolerance: 63.41, 63.46, 63.79, 65.09 V for N = 61 to 481. */
+/* Regression: without weight the residual was relative to 1 mN, far above the forces of a thin flange: its pull-in
+ * became worse with a finer mesh, for any tolerance: 63.41, 63.46, 63.79, 65.09 V for N = 61 to 481. */
 START_TEST(test_weightless_flange_converges) {
   const double g = 0.2e-3, eps0 = 8.8541878128e-12, length = 45e-3;
   double exact = sqrt(2 * 4.38094 * bending_stiffness(thickness) * g * g * g / (eps0 * width * pow(length, 4)));
@@ -581,7 +582,7 @@ START_TEST(test_default_branches) {
 }
 END_TEST
 
-/* 61 g hangs at 10 kV, and stays closed if it is. */
+/* Under 61 g it hangs open at 10 kV, and stays closed if it is closed. */
 START_TEST(test_heavy_load) {
   ZpActuatorDef def = voltage_def(61e-3, 61);
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
@@ -634,8 +635,8 @@ static ZpActuatorDef long_def(int nodes) {
              {"drive.voltage", 15e3}, {"mesh.nodes", nodes});
 }
 
-/* The last of all limit points, or of the first 256, was taken for the release: 529, 509, 683, 5764 V for N = 31, 61,
- * 91, 121 where a slow ramp opens at 493 V. */
+/* Regression: the last of all limit points, or of the first 256, was taken for the release: 529, 509, 683, 5764 V for N
+ * = 31, 61, 91, 121 where a slow ramp opens at 493 V. */
 START_TEST(test_release_of_a_long_actuator) {
   ZpActuatorDef coarse = long_def(61), fine = long_def(91);
   double release[] = {release_of(ZP_STUDY_EQUILIBRIUM, &coarse), release_of(ZP_STUDY_EQUILIBRIUM, &fine)};
@@ -650,8 +651,8 @@ static ZpActuatorDef small_flange(double voltage) {
              {"drive.voltage", voltage});
 }
 
-/* How a flange opens does not depend on the voltage at which it was closed: at 300 V its release came out as its
- * pull-in. Across the sharp fold of its pull-in the branch is not followed back. */
+/* The release of a flange does not depend on the voltage at which it was closed; before, at 300 V it was reported as
+ * its pull-in. Across the sharp fold of its pull-in the branch is not followed back. */
 START_TEST(test_release_whatever_closed_it) {
   static const double voltages[] = {300, 500, 1e3, 3e3};
   for (size_t i = 0; i < LENGTH_OF(voltages); i++) {
@@ -690,7 +691,7 @@ static double opened_by_ramp(ZpActuatorDef def, double closing, double high, dou
   return voltage;
 }
 
-/* The release at rest is where motion opens that a voltage falling slowly makes. */
+/* The release of equilibria is the voltage at which a motion under slowly falling voltage opens. */
 START_TEST(test_release_is_that_of_a_slow_ramp) {
   const ZpActuatorDef defs[] = {
       voltage_def(8e-3, 61),
@@ -788,7 +789,7 @@ END_TEST
 
 /* -- along the load -------------------------------------------------------------------------------- */
 
-/* The branch followed along the load meets the equilibria that are found from straight, and is stable all along. */
+/* The branch along the load passes through the equilibria found from straight, and is stable everywhere. */
 START_TEST(test_branch_along_the_load) {
   ZpActuatorDef def = DEF({"load.mass", 0.008});
   ZpModel *model = model_of(&def);

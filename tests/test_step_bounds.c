@@ -215,9 +215,9 @@ static ZpRunInfo run_to(ZpSim *sim, double end) {
   return info;
 }
 
-/* A limp strand that has come to fall at v_t = sqrt(m g / c), by steps so short that drag does not bound them: a run
- * reports the first bounds of eq. (9), the least over its rows. From there on without these steps: half of the bound,
- * m / (c v_t), each. */
+/* A limp strand that falls at v_t = sqrt(m g / c), with steps so short that drag does not limit them: a run reports the
+ * first bounds of eq. (9), the smallest over its rows. From there on without these steps: half of the bound, m / (c
+ * v_t), each. */
 START_TEST(drag_bounds_the_steps) {
   const double c = 1e6, time = 1e-4, m = 7850 * 12.7e-3 * 50e-6 * 45e-3 / 21, v_t = sqrt(m * 9.81 / c);
   ZpActuatorDef def = DEF(ALONE, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", 45e-3}, {"mesh.nodes", 21},
@@ -248,7 +248,7 @@ START_TEST(drag_bounds_the_steps) {
 }
 END_TEST
 
-/* A strip released from straight is fastest half way and has come to rest at the end: what counts is half way. */
+/* A strip released from straight is fastest half way and at rest at the end: the smallest bound is that half way. */
 START_TEST(bounds_are_the_least_of_all_rows) {
   const double c = 1e-4, m = 7850 * 12.7e-3 * 50e-6 * 45e-3 / 21;
   ZpActuatorDef def = DEF(ALONE, {"ribbon.length", 45e-3}, {"mesh.nodes", 21}, {"ribbon.model", ZP_RIBBON_MASS_SPRING},

@@ -70,8 +70,7 @@ START_TEST(test_lag_of_a_sine) {
 }
 END_TEST
 
-/* A step behind a lag and a slew rate: a ramp until it meets the exponential, at the instant when S t = y(t), then
- * that. */
+/* A step behind a lag and a slew rate: a ramp until it meets the exponential, at S t = y(t), then the exponential. */
 START_TEST(test_slew_ends_at_the_right_instant) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 100}, {"drive.voltage", 1e3},
                           {"source.slew_rate", 1e5});
@@ -85,7 +84,7 @@ START_TEST(test_slew_ends_at_the_right_instant) {
 }
 END_TEST
 
-/* A sine faster than the slew rate becomes a triangle of that rate; in the end it is periodic. */
+/* A sine faster than the slew rate becomes a triangle of that rate; it finally becomes periodic. */
 START_TEST(test_slewed_sine_is_a_triangle) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5}, {"drive.frequency", 100},
                           {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 1e3}, {"drive.offset", -1e3});
@@ -144,7 +143,7 @@ static double exponential(double t, const Charging *c) {
   return V * (1 - exp(-t / (1e8 * c->C)));
 }
 
-/* Behind a resistance, with a cable: half of the source's energy is lost. */
+/* Behind a resistance, with a cable: half of the energy from the source is lost. */
 START_TEST(test_charging_behind_a_resistance) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.capacitance", CABLE}));
   ck_below(worst_error(&c, 0.25 * 1e8 * c.C, exponential), 1e-4);
@@ -198,7 +197,7 @@ static double all_stored(const Charging *c) {
   return 0.5 * c->C * V * V;
 }
 
-/* A slew rate alone: the electrodes have the ramp, and nothing is lost. */
+/* A slew rate alone: the electrodes follow the ramp, without losses. */
 START_TEST(test_slew_rate_alone) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.slew_rate", 1e2}));
   ck_below(worst_error(&c, 0.06 * V / 1e2, slewed), 1e-9);
@@ -212,7 +211,8 @@ static double bled(double t, const Charging *c) {
   return V * exp(-t / (5e8 * c->C));
 }
 
-/* A supply that cannot sink: off, the electrodes discharge through the bleeder, and all of the energy is lost there. */
+/* A supply that cannot sink, switched off: the electrodes discharge through the bleeder, in which all of their energy
+ * is lost. */
 START_TEST(test_discharge_through_the_bleeder) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.sink_limit", 0}, {"source.bleeder", 5e8}));
   ZpError err;
@@ -239,8 +239,7 @@ static double opening_after(ZpActuatorDef def, double end, double *voltage) {
   return opening;
 }
 
-/* Ten cycles at 50 Hz: what the source has given is stored, has moved something or is a loss, at the default tolerance.
- */
+/* Ten cycles at 50 Hz: the energy from the source is stored, has done work or is a loss, at the default tolerance. */
 START_TEST(test_cycles_keep_energy) {
   static const double liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_BEAD, ZP_LIQUID_SUBMERGED}, allowed[] = {1e-8, 1e-6, 1e-6};
   ZpActuatorDef def = DEF({"liquid.model", liquid[_i]}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 50},
@@ -251,8 +250,8 @@ START_TEST(test_cycles_keep_energy) {
 }
 END_TEST
 
-/* An amplifier without any limit takes the same steps as the ideal source; a limit that is never reached changes no
- * more than rounding. */
+/* An amplifier without limits takes the same steps as the ideal source; a limit that is never reached changes results
+ * by rounding only. */
 START_TEST(test_without_limits_it_is_ideal) {
   ZpActuatorDef ideal = DEF({"mesh.nodes", 21}), free = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}),
                 wide = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bleeder", 1e18});
@@ -282,8 +281,8 @@ static Books books_of(ZpSim *sim) {
   return b;
 }
 
-/* Zip and release behind each kind of supply: what it has given is stored, moved something, or is heat, at any time.
- * Measured 3.6e-10, 1.7e-10, 4.9e-10; with a tolerance of 1e-5 5e-11, 1.2e-11, 3.4e-11. */
+/* Zip and release behind each kind of supply: its energy is stored, does work, or is heat, at any time. Measured
+ * 3.6e-10, 1.7e-10, 4.9e-10; with a tolerance of 1e-5 5e-11, 1.2e-11, 3.4e-11. */
 START_TEST(test_energy_behind_supplies) {
   static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.voltage", _i == 0 ? 6e3 : 10e3},
@@ -347,7 +346,7 @@ static const char *refusal(ZpActuatorDef def) {
 /* A pocket supply to 6 kV gave 10 kV when it was asked to. */
 START_TEST(test_voltage_beyond_the_supply) {
   const char *says = refusal(DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_POCKET_6KV}));
-  ck_assert_str_eq(says, "drive.voltage: 10000 V is more than the source gives, source.voltage_limit = 6000 V");
+  ck_assert_str_eq(says, "drive.voltage: 10000 V exceeds source.voltage_limit = 6000 V");
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_POCKET_6KV}, {"drive.voltage", 5e3});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -359,12 +358,12 @@ START_TEST(test_voltage_beyond_the_supply) {
 }
 END_TEST
 
-/* A source of 10 kV that cannot sink, with nothing but a wire of 1 fF beside faces whose charge the cap holds, drove
- * their voltage to 250 kV: nothing decides it. With 10 pF it stays below 14 kV. */
+/* Regression: a source of 10 kV that cannot sink, with a wire of 1 fF beside faces whose charge the cap holds, reached
+ * 250 kV, because their voltage is undetermined. With 10 pF it stays below 14 kV. */
 START_TEST(test_undecided_voltage) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.sink_limit", 0},
                           {"source.current_limit", 0.3e-3});
-  ck_assert_ptr_nonnull(strstr(refusal(def), "nothing decides which"));
+  ck_assert_ptr_nonnull(strstr(refusal(def), "their voltage is undetermined"));
   def.source.capacitance = 10e-12;
   double U = 0;
   ZpModel *model = model_of(&def);
@@ -381,9 +380,9 @@ END_TEST
 
 /* -- charge drive ----------------------------------------------------------------------------------- */
 
-/* A wide platform on short ribbons: hardly anything but the platform attracts. A current, far too small for its inertia
- * to matter, charges it: at a given charge the force of plates does not depend on their gap, so the gap falls evenly
- * with the squared charge, past the third at which a given voltage pulls in, with no snap. */
+/* A wide platform on short ribbons: almost only the platform attracts. A current, far too small for its inertia to
+ * matter, charges it: at a given charge the force of plates does not depend on their gap, so the gap falls evenly with
+ * the squared charge, past the third at which a given voltage pulls in, with no snap. */
 START_TEST(test_charge_drive_of_plates_has_no_pull_in) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 15}, {"platform.length", 0.09}, {"ribbon.thickness", 20e-6}, {"load.mass", 2e-3},

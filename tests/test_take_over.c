@@ -104,7 +104,7 @@ static Run start_with(const Setting *set, size_t count) {
   return run;
 }
 
-/* A slow supply in place of the ideal one begins at the voltage that there is; and back again. */
+/* A slow supply that replaces the ideal one starts at the present voltage; and vice versa. */
 START_TEST(test_another_supply) {
   static const Setting ideal[] = {{"mesh.nodes", 21}, {"drive.voltage", 5e3}, {"liquid.model", ZP_LIQUID_NONE}},
                        slow[] = {{"mesh.nodes", 21},

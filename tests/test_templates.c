@@ -116,7 +116,7 @@ START_TEST(files_that_are_there_stay) {
   put_file("mine/bode.gp", "# mine\n");
   char *folder = in_base("mine");
   ck_assert_int_eq(zp_templates_write(folder, &err), ZP_BAD_INPUT);
-  ck_assert_ptr_nonnull(strstr(err.message, "is there already"));
+  ck_assert_ptr_nonnull(strstr(err.message, "exists already"));
   ck_assert(says("mine/bode.gp", "# mine"));
   free(folder);
 }

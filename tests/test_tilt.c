@@ -27,7 +27,7 @@ START_TEST(upside_down_is_a_mirror_image) {
 }
 END_TEST
 
-/* Gravity along a hanging strip: its end moves by weight and load over what its cross-section resists. */
+/* Gravity along a hanging strip: its end moves by weight and load over the axial stiffness. */
 START_TEST(gravity_along_a_strip_stretches_it) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 1},
                           {"ribbon.plane", ZP_PLANE_STRESS}, {"mount.tilt", 0.5 * half_turn}, {"mesh.nodes", 21});
@@ -43,8 +43,8 @@ START_TEST(gravity_along_a_strip_stretches_it) {
 }
 END_TEST
 
-/* Greenhill: a strip that stands on its clamp buckles under its own weight where m g L^3 = 7.8373 E I. There its
- * frequency is 0: its square falls nearly linearly before. */
+/* Greenhill: a strip upright on its clamp buckles under its own weight at m g L^3 = 7.8373 E I, where its frequency is
+ * 0; the squared frequency falls nearly linearly before. */
 START_TEST(standing_strip_buckles) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0},
                           {"mount.tilt", -0.5 * half_turn}, {"mesh.nodes", 61}, {"output.errors", false});
@@ -80,7 +80,7 @@ START_TEST(force_outweighs_the_load) {
 }
 END_TEST
 
-/* Of the weight of the load only its vertical part opens weightless ribbons, and is what they can lift. */
+/* Only the vertical component of the load opens weightless ribbons, and limits what they can lift. */
 START_TEST(guide_takes_what_is_not_vertical) {
   ZpActuatorDef def = DEF({"ribbon.density", 0}, {"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE},
                           {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
@@ -95,7 +95,7 @@ START_TEST(guide_takes_what_is_not_vertical) {
 }
 END_TEST
 
-/* A whole actuator that leans left is the mirror image of one that leans right; upside down it is as its half. */
+/* A whole actuator tilted left is the mirror image of one tilted right; upside down it equals its half. */
 START_TEST(leaning_left_mirrors_leaning_right) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 20e-6},
                           {"mount.tilt", half_turn / 4}, {"drive.voltage", 0}, {"output.errors", false});
@@ -120,8 +120,7 @@ START_TEST(leaning_left_mirrors_leaning_right) {
 }
 END_TEST
 
-/* Energy balances while a tilted actuator zips, opens and swings under weight and force, as dry as in a bath; what its
- * platform has of potential energy is that of what hangs there. */
+/* The energy balances while a tilted actuator zips, opens and swings under weight and force, dry and in a bath. */
 START_TEST(energy_at_an_angle) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", half_turn / 4},
                           {"load.force", 0.02}, {"liquid.model", _i ? ZP_LIQUID_SUBMERGED : ZP_LIQUID_NONE},

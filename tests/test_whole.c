@@ -41,7 +41,7 @@ static void destroy(Both both) {
   zp_result_destroy(both.whole);
 }
 
-/* Both say the same, or that there is none. */
+/* Half and whole give the same number, or both none. */
 static void check_scalar(Both both, const char *name, double scale) {
   double half = zp_result_get(both.half, name), whole = zp_result_get(both.whole, name);
   if (isnan(half) && isnan(whole)) return;
@@ -89,7 +89,7 @@ START_TEST(rest_is_that_of_the_half) {
 }
 END_TEST
 
-/* Those that move both halves alike are all among the modes; the others leave the platform where it is. */
+/* Symmetric modes of the whole are those of the half; the others leave the platform at rest. */
 START_TEST(modes_of_the_half_are_modes_of_the_whole) {
   enum { SYMMETRIC = 4, MODES = 8 };
   static const double of_eigenvalues = 1e-7; /* to which study modes iterates */
@@ -104,7 +104,7 @@ START_TEST(modes_of_the_half_are_modes_of_the_whole) {
 }
 END_TEST
 
-/* Between those are the modes of a half whose platform rests, as it does under a load that is too heavy to move. */
+/* The others are the modes of a half with a fixed platform, as under a very heavy load. */
 START_TEST(modes_that_hold_the_platform) {
   enum { HELD = 3, MODES = 8 };
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 1000});
@@ -130,7 +130,7 @@ static double largest_in(const ZpTable *table, const char *column) {
   return largest;
 }
 
-/* A signal until the actuator has closed, or always, within a part of a scale. */
+/* A signal until closing, or during the whole run, within a fraction of a scale. */
 static void check_signal(Both both, const char *column, double scale, bool always, double allowed) {
   double closed = zp_result_get(both.half, "zip_time_s"), most = 0;
   for (size_t row = 0; row < both.half->series->rows; row++) {
@@ -190,8 +190,8 @@ static double energy_of(ZpSim *sim) {
          zp_sim_get(sim, "gravity_energy");
 }
 
-/* One half is pushed, the other is not: the platform stays horizontal and where it is held, each clip one body, and
- * energy stays. */
+/* One half is pushed, the other is not: the platform stays horizontal and in its guide, each clip moves as one body,
+ * and the energy is constant. */
 START_TEST(platform_stays_horizontal) {
   ZpActuatorDef def =
       DEF({"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mesh.nodes", 21}, {"damping.internal", 0}, {"drive.voltage", 0});
@@ -293,8 +293,8 @@ static Strip strip_of(const ZpActuatorDef *def) {
     "drive.voltage", 0                                                                                                 \
   }
 
-/* Small deflections of two guided beams in series: each sinks by F L^3 / (12 EI) under what hangs on it and by q L^4 /
- * (24 EI) under its own weight; on the upper one hangs the lower one, too. */
+/* Small deflections of two guided beams in series: each sinks by F L^3 / (12 EI) under its load and by q L^4 / (24 EI)
+ * under its own weight; the upper one also carries the lower one. */
 START_TEST(unlike_ribbons_bend_in_series) {
   ZpActuatorDef def = DEF(THICK, {"load.mass", 10e-3}, {"gravity", 1});
   def.actuator.symmetry = _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF;
@@ -353,8 +353,8 @@ static void bend(const ZpModel *model, uint64_t *seed, double *q) {
   }
 }
 
-/* Over any span the forces of rod, attraction and faces do the work by which their energies change, and push nothing as
- * a whole. */
+/* Over any span the forces of rod, attraction and contact do the work of their energy changes, with a resultant of
+ * zero. */
 START_TEST(unlike_ribbons_keep_energy_and_momentum) {
   ZpActuatorDef def = DEF({"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF}, {"mesh.nodes", 9},
                           {"gravity", 0}, {"load.mass", 0}, {"damping.internal", 0});
@@ -392,7 +392,7 @@ START_TEST(unlike_ribbons_keep_energy_and_momentum) {
 }
 END_TEST
 
-/* A whole zip of unlike ribbons keeps its energy, and the whole actuator zips as its half. */
+/* A zip of the whole actuator with unequal ribbons conserves energy, and the whole zips like its half. */
 START_TEST(unlike_ribbons_zip) {
   double zip_time[2], opening[2];
   for (int whole = 0; whole < 2; whole++) {

@@ -23,7 +23,7 @@ const workers = {
   },
 };
 
-/** As the page's policy names an inline script or style. */
+/** The hash of an inline script or style for the security policy of the page. */
 const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
 
 const bundled = await bundle({entryPoints: ['page/main.js'], plugins: [workers], loader: {'.wasm': 'binary'}});

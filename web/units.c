@@ -1,4 +1,4 @@
-/* Units of the page, in place of src/io/units.c, which asks UDUNITS: those of keys.def with SI prefixes. */
+/* Units of the page, instead of src/io/units.c with UDUNITS: those of keys.def with SI prefixes. */
 #include "io/units.h"
 
 #include <stddef.h>
@@ -12,7 +12,7 @@ static const struct {
 } prefixes[] = {{"", 0},   {"p", -12}, {"n", -9}, {"u", -6}, {"µ", -6},
                 {"m", -3}, {"c", -2},  {"k", 3},  {"M", 6},  {"G", 9}};
 
-/* Units whose prefix is not that of the whole, or that have a name of their own. */
+/* Units whose prefix applies to a part of them, or that have their own name. */
 static const struct {
   const char *unit, *base;
   int exponent;
@@ -22,7 +22,7 @@ static const struct {
 static const char *const others[] = {"m",   "g",       "s",    "V",  "Pa",  "N", "Hz",  "V/m", "kg/m3", "m/s2",   "N/m",
                                      "1/m", "N s2/m2", "m2/s", "m3", "V/s", "A", "ohm", "F",   "ohm m", "N m/rad"};
 
-/* (unit with its prefix, unit without) => does it fit? Then its power of ten, too. */
+/* (unit with its prefix, unit without) => do they match? Then also the power of ten. */
 static bool read_prefix(const char *unit, const char *base, int *exponent) {
   for (size_t i = 0; i < sizeof prefixes / sizeof prefixes[0]; i++) {
     size_t length = strlen(prefixes[i].prefix);

@@ -1,8 +1,8 @@
-/* zipact for a web page: a scenario given as texts, a simulation that runs along, a study.
+/* zipact for a web page: a scenario given as texts, a simulation, studies.
  *
- * Made for a caller that has numbers and one buffer of text only. Names of keys, signals and columns go in through
- * that buffer, messages come out through it. All functions that may fail give a ZpStatus, with the message in the
- * buffer, or a ZpOutcome. Shapes and tables are read where they lie; pointers hold until the next call. */
+ * The caller passes only numbers and one buffer of text. Names of keys, signals and columns go into that buffer;
+ * messages come back in it. Every function that may fail returns a ZpStatus, with the message in the buffer, or a
+ * ZpOutcome. Shapes and tables are read in place; pointers are valid until the next call. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 
 #define EXPORT __attribute__((visibility("default"), used))
 
-/* How many signals there are. */
+/* Number of signals. */
 #define ZP_SIGNAL(name, unit, suffix, help) +1
 enum {
   SIGNALS = 0
@@ -60,7 +60,7 @@ static int say(ZpWeb *web, ZpStatus status, const char *message) {
   return (int)status;
 }
 
-/* The page's clock: not 0 when the time that the page allows for a call is over. */
+/* The clock of the page: not 0 if the time that the page allows for a call is over. */
 __attribute__((import_module("zipact"), import_name("expired"))) int zp_web_expired(void);
 
 static bool stop(void *user, const char *stage, double fraction) {
@@ -100,7 +100,7 @@ EXPORT double zp_web_key_default(int index) {
   return zp_key(index)->def;
 }
 
-/* How many words a choice key takes; 0: it is no choice. */
+/* Number of words of a choice key; 0: it is not a choice. */
 EXPORT int zp_web_key_choices(int index) {
   return zp_key(index)->choices ? (int)zp_key(index)->max + 1 : 0;
 }
@@ -113,7 +113,7 @@ EXPORT const char *zp_web_choice_help(int index, int choice) {
   return zp_key(index)->choices[choice].help;
 }
 
-/* Value of a key in the scenario as resolved, SI. */
+/* Value of a key in the resolved scenario, SI. */
 EXPORT double zp_web_key_value(const ZpWeb *web, int index) {
   return zp_key(index)->offset == ZP_NO_FIELD ? (double)web->study : zp_def_get(&web->def, index);
 }
@@ -138,11 +138,11 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   *sign = 0;
   int key = zp_key_find(web->text);
   double value;
-  char message[sizeof err.message + TEXT_SIZE];
-  if (key < 0)
-    snprintf(message, sizeof message, "%.80s=%.80s: unknown key; did you mean %s?", web->text, sign + 1,
-             zp_key_nearest(web->text));
-  else if (sign[1] == 0)
+  char message[sizeof err.message + TEXT_SIZE], reason[256];
+  if (key < 0) {
+    zp_key_unknown(web->text, reason, sizeof reason);
+    snprintf(message, sizeof message, "%.80s=%.80s: %s", web->text, sign + 1, reason);
+  } else if (sign[1] == 0)
     snprintf(message, sizeof message, "%s=: empty; give a value", web->text);
   else if (zp_value_read(key, sign + 1, &value, &err) != ZP_OK)
     snprintf(message, sizeof message, "%s=%.80s: %s", web->text, sign + 1, err.message);
@@ -164,26 +164,28 @@ static bool halves_differ(const ZpActuatorDef *def) {
 
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "this page shows actuator.kind electro_ribbon; the command knows the others");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page supports actuator.kind electro_ribbon only; use the command for the other kinds");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "this page runs study actuate, and equilibrium beside it; the command knows more");
+                   "this page runs studies actuate and equilibrium only; use the command for the others");
   if (zp_def_members(def) > 1)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "this page shows one actuator; the command knows stack.series, stack.distance and keys of member_K");
+                   "this page shows one actuator only; use the command for stack.series, stack.distance and keys of "
+                   "member_K");
   if (def->platform.rotates || halves_differ(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "this page draws one half and its mirror image; the command knows platform.rotates and a mount.tilt "
+                   "this page draws one half and its mirror image; use the command for platform.rotates and a mount.tilt "
                    "other than 0 and 180 degree");
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "this page has buttons for the voltage; the command knows more of drive.waveform");
+    return zp_fail(err, ZP_BAD_INPUT, "this page has buttons for the voltage; use the command for drive.waveform");
   if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
-    return zp_fail(err, ZP_BAD_INPUT, "this page has no tables; the command knows setpoint.waveform = table");
+    return zp_fail(err, ZP_BAD_INPUT, "this page has no tables; use the command for setpoint.waveform = table");
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
-    return zp_fail(err, ZP_BAD_INPUT, "this page has no files; the command knows initial.state = checkpoint");
+    return zp_fail(err, ZP_BAD_INPUT, "this page has no files; use the command for initial.state = checkpoint");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
-    return zp_fail(err, ZP_BAD_INPUT, "this page steps by solver.integrator implicit; the command knows the other");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page supports solver.integrator implicit only; use the command for explicit");
   return ZP_OK;
 }
 
@@ -195,7 +197,7 @@ static ZpStatus derive(const ZpActuatorDef *def, ZpModelInfo *info, ZpError *err
   return status;
 }
 
-/* All assignments => the scenario. What was the scenario stays if they are refused. */
+/* All assignments => the scenario. If they are refused, the scenario is unchanged. */
 EXPORT int zp_web_resolve(ZpWeb *web) {
   ZpError err;
   ZpActuatorDef def;
@@ -212,7 +214,7 @@ EXPORT int zp_web_resolve(ZpWeb *web) {
   return say(web, status, err.message);
 }
 
-/* Value of a key, SI; where the key is auto, what that stands for, NAN if it is no one value. */
+/* Value of a key, SI; if the key is auto, the value that auto means, NAN if it is not a single value. */
 EXPORT double zp_web_key_effective(const ZpWeb *web, int index) {
   const struct {
     const char *name;
@@ -229,7 +231,7 @@ EXPORT double zp_web_key_effective(const ZpWeb *web, int index) {
 
 /* -- simulation ----------------------------------------------------------------------------------- */
 
-/* A simulation of the scenario: from its hanging equilibrium, or from where the last one is. */
+/* A simulation of the scenario: from its hanging equilibrium, or from the state of the last simulation. */
 EXPORT int zp_web_start(ZpWeb *web, int go_on) {
   ZpError err;
   ZpModel *model;
@@ -254,7 +256,7 @@ EXPORT int zp_web_set_voltage(ZpWeb *web, double voltage) {
   return say(web, zp_sim_set_voltage(web->sim, voltage, &err), err.message);
 }
 
-/* Run until `end_time`, s, or until the page's time is over. => 0, or 1 if the solver failed: how is in
+/* Run until `end_time`, s, or until the time of the page is over. => 0, or 1 if the solver failed, with the reason in
  * the text. */
 EXPORT int zp_web_run(ZpWeb *web, double end_time) {
   ZpRunInfo info;
@@ -267,7 +269,7 @@ EXPORT int zp_web_good(int outcome) {
   return zp_outcome_good((ZpOutcome)outcome);
 }
 
-/* Present value of the signal named in the text. */
+/* Current value of the signal named in the text. */
 EXPORT double zp_web_signal(ZpWeb *web) {
   return zp_sim_get(web->sim, web->text);
 }
@@ -282,7 +284,7 @@ EXPORT const char *zp_web_signal_column(int index) {
   return zp_signal_columns(&count)[index].name;
 }
 
-/* A row: present values of all signals; its mean current and power count from the last row. */
+/* A row: current values of all signals; mean current and power count from the last row. */
 EXPORT const double *zp_web_read(ZpWeb *web) {
   zp_sim_read(web->sim, web->row);
   return web->row;
@@ -296,7 +298,7 @@ EXPORT double zp_web_insulator_offset(ZpWeb *web) {
   return zp_model_info(web->model).insulator_offset;
 }
 
-/* Of the left half, which the page draws with its mirror image. */
+/* Shape of the left half; the page draws it with its mirror image. */
 EXPORT int zp_web_nodes(ZpWeb *web) {
   return zp_model_def(web->model)->mesh.nodes;
 }
@@ -318,7 +320,7 @@ EXPORT const double *zp_web_line_force(ZpWeb *web) {
   return zp_sim_shape(web->sim).line_force;
 }
 
-/* Of the liquid [nodes]; NULL where there is none. */
+/* Film of the liquid [nodes]; NULL if there is none. */
 EXPORT const double *zp_web_film(ZpWeb *web) {
   return zp_sim_liquid(web->sim).thickness;
 }
@@ -329,7 +331,7 @@ EXPORT const double *zp_web_pressure(ZpWeb *web) {
 
 /* -- study ---------------------------------------------------------------------------------------- */
 
-/* Run the scenario in the study named in the text. How it ended is in the text, as a refusal is. */
+/* Run the scenario in the study named in the text. The text gets its message, or the reason of a refusal. */
 EXPORT int zp_web_study(ZpWeb *web) {
   ZpError err;
   int study = zp_key_choice(zp_key_find("study"), web->text);
@@ -344,7 +346,7 @@ EXPORT int zp_web_outcome(const ZpWeb *web) {
   return (int)web->result->outcome;
 }
 
-/* The summary's number named in the text. */
+/* The number of the summary named in the text. */
 EXPORT double zp_web_scalar(ZpWeb *web) {
   return zp_result_get(web->result, web->text);
 }

@@ -1,13 +1,13 @@
-/* zipact-mpi, the program: the first process does what zipact does, but has the cases of a sweep computed by the
- * others.
+/* The program zipact-mpi: the first process does what zipact does, except that the other processes compute the cases of
+ * a sweep.
  *
- * The first has a thread per other process, which asks that process for some cases and waits. The others know the
- * scenario from a message, so that only the first reads files; those that keys name must be found by all. Waiting
- * processes look for messages from time to time: MPI's own waiting would take a processor each.
+ * The first process has a thread per other process, which sends it some cases and waits. The others receive the
+ * scenario in a message, so that only the first process reads it; all processes must find the files that keys name.
+ * Waiting processes poll for messages: the waiting of MPI itself would occupy a processor each.
  *
- * MPI does not say that a process has died, so the first and all that compute send a sign of life every second. A
- * process that has been silent for SILENT_MOST seconds is lost, and others compute its cases (if mpirun keeps them:
- * --enable-recovery). MPI_Finalize would wait for it, so the others end without. */
+ * MPI does not say that a process has died, so the first process and all that compute send a sign of life every
+ * second. A process that has been silent for SILENT_MOST seconds is lost, and others compute its cases (if mpirun keeps
+ * them: --enable-recovery). MPI_Finalize would wait for it, so the others end without. */
 #include <mpi.h>
 
 #include <limits.h>
@@ -51,7 +51,7 @@ static bool send(const void *byte, size_t size, int rank, int tag) {
   if (MPI_Isend(byte, (int)size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, &request) != MPI_SUCCESS) return false;
   while (MPI_Test(&request, &sent, MPI_STATUS_IGNORE) == MPI_SUCCESS && !sent && seconds() - start < SILENT_MOST)
     pause_shortly();
-  return sent;
+  return sent; /* NOLINT(clang-analyzer-optin.mpi.MPI-Checker): MPI_Test has waited, or the process is lost */
 }
 
 /* Receive the next message of a process, of any length, to be freed; NULL if that fails or none comes in

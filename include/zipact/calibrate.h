@@ -1,5 +1,5 @@
-/* Studies with data: calibrate fits keys to measured strokes, stationary is compared with a reference curve,
- * actuate follows a table of voltages. Part of the io library; needs NLopt. */
+/* Studies with data: calibrate fits keys to measurements, stationary compares with a reference curve, actuate follows a
+ * table of voltages. Part of the io library; needs NLopt. */
 #ifndef ZIPACT_CALIBRATE_H
 #define ZIPACT_CALIBRATE_H
 
@@ -10,17 +10,17 @@
 extern "C" {
 #endif
 
-/* Read what data.file, drive.table, drive.file and the keys of group calibrate name, if `study` uses them, and check
- * it. ZP_BAD_INPUT names file, line, column and text, or the key. */
+/* Read and check the data of data.file, drive.table, drive.file and the keys of group calibrate, if `study` uses them.
+ * ZP_BAD_INPUT names file, line, column and text, or the key. */
 ZP_API ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
-/* A model and a simulation of it, both the caller's, for every def: also with drive.waveform table and initial.state
- * checkpoint. NULL if it fails. */
+/* A model and a simulation of it, both to be freed by the caller, for every Def, also with drive.waveform table and
+ * initial.state checkpoint. NULL on failure. */
 ZP_API ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpModel **model, ZpSim **sim,
                                    ZpError *err);
 
-/* As zp_study_run, for every study: also calibrate, stationary with area_error_m2 where there is a data.file, and
- * actuate with drive.waveform table. */
+/* As zp_study_run, for every study: also calibrate, stationary with area_error_m2 if there is a data.file, and actuate
+ * with drive.waveform table. */
 ZP_API ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
                                   ZpError *err);
 

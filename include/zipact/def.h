@@ -125,6 +125,10 @@ ZP_API int zp_word_distance(const char *a, const char *b);
 /* The key name that differs least from `name`, for "did you mean". Never NULL. */
 ZP_API const char *zp_key_nearest(const char *name);
 
+/* The reason why `name`, which zp_key_find does not find, is not a key: "unknown key; did you mean load.mass?", or
+ * "temperature is not modelled" with what to give instead. `text` gets at most `size` bytes with the final 0. */
+ZP_API void zp_key_unknown(const char *name, char *text, size_t size);
+
 /* Place of `word` in the list of the choice key `index`, or -1. */
 ZP_API int zp_key_choice(int index, const char *word);
 

@@ -1,5 +1,5 @@
-/* Values of the interpreter => keys of a scenario. The library reads them as it reads those of the command, and says
- * what is wrong: here they only become texts. */
+/* Values of the interpreter => keys of a scenario. They are converted to texts, which the library reads and checks as
+ * those of the command. */
 #include "binding.h"
 
 #include <stdio.h>
@@ -19,7 +19,7 @@ char *text_of(const mxArray *value, const char *what) {
   return text;
 }
 
-/* A text that grows, in the interpreter's memory. */
+/* A growing text, in the memory of the interpreter. */
 typedef struct Text {
   char *start;
   size_t used, size;
@@ -35,7 +35,7 @@ static void append(Text *text, const char *piece) {
   text->used += length;
 }
 
-/* In single quotes a text means itself, whatever is in it. */
+/* In single quotes every character of a text stands for itself. */
 static void append_quoted(Text *text, const char *words) {
   append(text, "'");
   for (; *words; words++)
@@ -105,7 +105,7 @@ double quantity_of(const char *key, const char *name, const mxArray *value) {
   else
     fail_input("%s: takes a number or a text with a unit", name);
   if (zp_value_parse(zp_key_find(key), text.start, &number, &err) == ZP_OK) return number;
-  fail_input("%s%s", name, err.message + strlen(key)); /* messages begin with the key's name */
+  fail_input("%s%s", name, err.message + strlen(key)); /* messages start with the name of the key */
 }
 
 /* -- keys ---------------------------------------------------------------------------------------------- */
@@ -114,7 +114,11 @@ static void set_key(const char *name, const mxArray *value) {
   Text text = {0};
   ZpError err;
   int key = zp_key_find(name);
-  if (key < 0) fail_input("%.80s: unknown key; did you mean %s?", name, zp_key_nearest(name));
+  if (key < 0) {
+    char reason[256];
+    zp_key_unknown(name, reason, sizeof reason);
+    fail_input("%.80s: %s", name, reason);
+  }
   if (zp_key(key)->type == ZP_KEY_TEXT && !mxIsChar(value)) fail_input("%s: takes a text", name);
   append(&text, name);
   append(&text, "=");

@@ -1,8 +1,8 @@
-/* What the files of the MEX function share.
+/* Common functions of the MEX function.
  *
- * An error of the interpreter (mexErrMsgIdAndTxt, but also a failed mxCreate...) jumps out of the call. So that nothing
- * is lost then, texts are the interpreter's memory, which it frees itself, and what the library made for a call hangs
- * on `call`, which is freed when the next call begins. */
+ * An error of the interpreter (mexErrMsgIdAndTxt, but also a failed mxCreate...) jumps out of the call. To lose no
+ * memory then, texts are in the memory of the interpreter, which frees it, and objects of the library belong to `call`,
+ * which is freed when the next call starts. */
 #ifndef ZIPACT_OCTAVE_BINDING_H
 #define ZIPACT_OCTAVE_BINDING_H
 
@@ -12,7 +12,7 @@
 #include <zipact/calibrate.h>
 #include <zipact/zipact.h>
 
-/* What the present call owns. */
+/* The objects of the current call. */
 typedef struct Call {
   ZpScenario *scenario;
   ZpBatch batch;
@@ -30,10 +30,10 @@ __attribute__((format(printf, 1, 2))) _Noreturn void fail_input(const char *form
 
 /* -- values => the library (arguments.c) --------------------------------------------------------------- */
 
-/* The text in a row of characters; else fails and names `what`. */
+/* The text in a row of characters; otherwise fails with a message about `what`. */
 char *text_of(const mxArray *value, const char *what);
 
-/* A quantity that has a key's unit and range but is called otherwise, as dt. */
+/* A quantity with the unit and range of a key but another name, such as dt. */
 double quantity_of(const char *key, const char *name, const mxArray *value);
 
 /* Fill call.scenario from [FILE or STRUCT,] KEY, VALUE, ... */
@@ -43,7 +43,8 @@ void read_scenario(int count, const mxArray *const *value);
 
 mxArray *new_struct(void);
 
-/* Set a field of structs[index], which is made if needed; what is no letter, digit or _ in `name` becomes _. */
+/* Set a field of structs[index], which is created if needed; characters in `name` other than letters, digits and _
+ * become _. */
 void set(mxArray *structs, size_t index, const char *name, mxArray *value);
 
 /* [rows x columns] numbers; NULL: zeros. */
@@ -55,9 +56,9 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
 
 /* -- long calls (watch.c) ------------------------------------------------------------------------------- */
 
-/* Between the two Ctrl-C stops the library instead of the interpreter. */
+/* Between these two calls Ctrl-C stops the library instead of the interpreter. */
 void watch_begin(void);
-bool watch_end(void); /* true if it did */
+bool watch_end(void); /* true if it was pressed */
 extern const ZpHooks watch_hooks;
 
 /* -- simulations by hand (simulation.c): arguments => result, NULL if there is none ---------------------- */

@@ -1,4 +1,4 @@
-/* What the library found => structs. */
+/* Results of the library => structs. */
 #include "binding.h"
 
 #include <ctype.h>
@@ -20,7 +20,7 @@ void set(mxArray *structs, size_t index, const char *name, mxArray *value) {
     if (!isalnum((unsigned char)*c)) *c = '_';
   int number = mxGetFieldNumber(structs, field);
   if (number < 0) number = mxAddField(structs, field);
-  mxDestroyArray(mxGetFieldByNumber(structs, index, number)); /* what was there, if any */
+  mxDestroyArray(mxGetFieldByNumber(structs, index, number)); /* previous value, if any */
   mxSetFieldByNumber(structs, index, number, value);
 }
 
@@ -32,7 +32,7 @@ mxArray *new_matrix(size_t rows, size_t columns, const double *value) {
 
 /* -- keys ---------------------------------------------------------------------------------------------- */
 
-/* A value as it can be given back. */
+/* A value in a form that zipact accepts again. */
 static mxArray *key_value(const ZpKey *key, double value, const char *text) {
   if (key->type == ZP_KEY_TEXT) return mxCreateString(text);
   if (key->type == ZP_KEY_ENUM) return mxCreateString(key->choices[(int)value].word);
@@ -79,7 +79,7 @@ static mxArray *group_of(mxArray *all, const char *name, const char **field) {
   return all;
 }
 
-/* All keys, groups as structs: what zipact takes, too. */
+/* All keys, with groups as structs, in a form that zipact accepts, too. */
 static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
   mxArray *all = new_struct();
   for (int i = 0; i < zp_key_count(); i++) {
@@ -150,7 +150,7 @@ mxArray *shapes_struct(const ZpShapes *film) {
   return shapes;
 }
 
-/* Rows go upwards, columns along the ribbons, as meshgrid has them. */
+/* Rows are upwards, columns along the ribbons, as in meshgrid. */
 static mxArray *map_struct(const ZpFieldMap *map) {
   mxArray *field = new_struct();
   set(field, 0, "x_m", new_matrix(map->ny, map->nx, map->x));
@@ -170,7 +170,7 @@ static mxArray *notes_cell(const ZpResult *result) {
   return notes;
 }
 
-/* Of each output a struct of its derivatives. */
+/* For each output a struct of its derivatives. */
 static mxArray *sensitivity_struct(const ZpResult *result) {
   mxArray *all = new_struct();
   for (size_t i = 0; i < result->sensitivities; i++) {

@@ -1,5 +1,5 @@
-/* Stepping by hand. The interpreter holds a number; what it stands for is looked up among the simulations that are
- * open, so that a number of anything else is an error. */
+/* Stepping by hand. The interpreter holds a number, which is looked up among the open simulations, so that any other
+ * number is an error. */
 #include "binding.h"
 
 #include <math.h>
@@ -12,11 +12,11 @@ typedef struct Simulation {
   uint64_t handle;
   ZpModel *model;
   ZpSim *sim;
-  bool ended; /* numbers are beyond use until a state is restored */
-  bool runs;  /* its controller is being asked: it can be read only */
+  bool ended; /* values are invalid until a state is restored */
+  bool runs;  /* its controller is running: it can only be read */
 } Simulation;
 
-static Simulation *simulations; /* that are open */
+static Simulation *simulations; /* open simulations */
 
 static void take_arguments(const char *command, int count, int least, int most) {
   if (count < least || count > most)
@@ -29,25 +29,25 @@ static void free_simulation(Simulation *simulation) {
   free(simulation);
 }
 
-/* The place of the pointer to a simulation. */
+/* The pointer to a simulation. */
 static Simulation **find(const mxArray *value) {
   if (!mxIsUint64(value) || mxGetNumberOfElements(value) != 1 || mxIsSparse(value) || mxIsComplex(value))
     fail_input("simulation: takes what zipact('open', ...) returned");
   uint64_t handle = *(const uint64_t *)mxGetData(value);
   for (Simulation **place = &simulations; *place; place = &(*place)->next)
     if ((*place)->handle == handle) return place;
-  fail_input("simulation: closed, or not one that zipact('open', ...) returned");
+  fail_input("simulation: is closed, or was not returned by zipact('open', ...)");
 }
 
-/* The same of one that is to move or to go. */
+/* The same for a simulation that is to be stepped, changed or closed. */
 static Simulation **find_free(const mxArray *value) {
   Simulation **place = find(value);
   if ((*place)->runs)
-    fail_input("simulation: its controller is being asked; until that has answered it can be read only");
+    fail_input("simulation: its controller is running; until it returns, the simulation can only be read");
   return place;
 }
 
-/* Numbers from the clock: none comes again, even where the function has been cleared and loaded anew. */
+/* Numbers from the clock: no number occurs twice, even if the function has been cleared and loaded again. */
 static uint64_t new_handle(void) {
   struct timespec now;
   timespec_get(&now, TIME_UTC);
@@ -64,7 +64,7 @@ mxArray *simulation_open(int count, const mxArray *const *value) {
   ZpActuatorDef def;
   ZpError err;
   read_scenario(count, value);
-  if (zp_scenario_count(call.scenario) != 1) fail_input("open: takes one actuator, no lists of values");
+  if (zp_scenario_count(call.scenario) != 1) fail_input("open: takes one actuator, not lists of values");
   if (zp_scenario_def(call.scenario, 0, &def, &err) != ZP_OK) fail(&err);
   Simulation made = {.next = simulations, .handle = new_handle()}, *simulation = malloc(sizeof made);
   if (!simulation) fail_memory();
@@ -102,16 +102,16 @@ mxArray *simulation_step(int count, const mxArray *const *value) {
 
 /* -- a controller of the user's own -------------------------------------------------------------------- */
 
-/* What is asked at each sample, and what has gone wrong. zipact.m wraps the user's function: it answers a voltage and a
- * text, empty where there was no error. */
+/* The controller, and its error. zipact.m wraps the function of the user: it returns a voltage and a text, which is
+ * empty without an error. */
 typedef struct Controller {
   mxArray *function;
   const char *signal;
-  bool failed;       /* it gave no voltage, */
-  char trouble[400]; /* for this reason, if it said one */
+  bool failed;       /* it returned no voltage, */
+  char trouble[400]; /* for this reason, if known */
 } Controller;
 
-/* An answer that is no number ends the run. */
+/* A result that is not a number ends the run. */
 static double ask(void *user, ZpSim *sim, double time) {
   Controller *controller = user;
   mxArray *given[3] = {controller->function, new_double(time), new_double(zp_sim_get(sim, controller->signal))};
@@ -141,7 +141,7 @@ static void check_signal(const char *signal) {
     bool same = strncmp(column[k].name, signal, length) == 0;
     if (same && length && (column[k].name[length] == 0 || column[k].name[length] == '_')) return;
   }
-  fail_input("signal: there is no %.60s; such as opening, contraction or capacitance", signal);
+  fail_input("signal: unknown signal %.60s; use, for example, opening, contraction or capacitance", signal);
 }
 
 /* simulation, function, signal, period, end => time */

@@ -1,5 +1,5 @@
-/* Ctrl-C during long calls. Octave blocks SIGINT for its interpreter, and a thread of its own waits for it; MATLAB's
- * windows send none, there it does nothing. */
+/* Ctrl-C during long calls. Octave blocks SIGINT for its interpreter, so a separate thread waits for it. MATLAB sends
+ * no signal, so this has no effect there. */
 #include "binding.h"
 
 #include <pthread.h>

@@ -1,5 +1,5 @@
-/* The MEX function: what is asked for, and how it fails. Its result is a cell with the value, or an empty one, so that
- * zipact.m returns as many as there are. */
+/* The MEX function: dispatches calls and reports errors. Its result is a cell with the value, or an empty cell, so that
+ * zipact.m returns as many values as there are. */
 #include "binding.h"
 
 #include <stdarg.h>
@@ -28,7 +28,7 @@ static _Noreturn void jump(const char *id, const char *message) {
   abort(); /* not reached: mex.h does not say that the function above never returns */
 }
 
-/* Keys were handed to the library as the command's --set, of which the user knows nothing. */
+/* The library sees keys as --set of the command, which the user of Octave did not write. */
 void fail(const ZpError *err) {
   static const char option[] = "--set ";
   size_t skip = strncmp(err->message, option, strlen(option)) == 0 ? strlen(option) : 0;
@@ -47,7 +47,7 @@ void fail_interrupted(void) {
   jump("zipact:interrupted", "interrupted");
 }
 
-/* Messages quote what was given, which may be no UTF-8: bytes beyond ASCII become a question mark. */
+/* Messages quote the input, which may be invalid UTF-8: bytes beyond ASCII become question marks. */
 void fail_input(const char *format, ...) {
   char message[sizeof((ZpError *)0)->message];
   va_list values;
@@ -61,7 +61,7 @@ void fail_input(const char *format, ...) {
 
 /* -- studies ------------------------------------------------------------------------------------------- */
 
-/* Runs what call.scenario stands for: a struct, of lists an array of them. */
+/* Run call.scenario: a struct, or for lists an array of structs. */
 static mxArray *run_scenario(void) {
   ZpError err;
   ZpStatus status = zp_batch_create(call.scenario, &call.batch, &err);
@@ -98,13 +98,13 @@ static mxArray *run_study(const char *study, int count, const mxArray *const *va
 
 static mxArray *keys(int count, const mxArray *const *value) {
   (void)value;
-  if (count) fail_input("keys: takes nothing more");
+  if (count) fail_input("keys: takes no further arguments");
   return keys_struct();
 }
 
 static mxArray *version(int count, const mxArray *const *value) {
   (void)value;
-  if (count) fail_input("version: takes nothing more");
+  if (count) fail_input("version: takes no further arguments");
   return mxCreateString(ZP_VERSION);
 }
 
@@ -137,7 +137,7 @@ static mxArray *answer(const char *name, int count, const mxArray *const *value)
 void mexFunction(int outputs, mxArray *output[], int inputs, const mxArray *input[]) {
   mexAtExit(at_exit);
   free_call();
-  if (inputs == 0) fail_input("what? A study, or run, keys, open ...; see help zipact");
+  if (inputs == 0) fail_input("the first argument is missing: a study, or run, keys, open ...; see help zipact");
   if (outputs > 1) fail_input("returns one value");
   mxArray *value = answer(text_of(input[0], "the first argument"), inputs - 1, input + 1);
   output[0] = mxCreateCellMatrix(1, value != NULL);

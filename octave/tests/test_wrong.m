@@ -28,8 +28,8 @@ n = refused(n, 'neither a study nor one of run', repmat('x', 1, 1e5));
 n = refused(n, 'control character', "run\0");
 n = refused(n, 'contact.model = sequential', 'open', 'study', 'stationary', 'contact.model', 'sequential');
 n = refused(n, 'short circuit', 'open', 'study', 'stationary', 'insulator.thickness', 0);
-n = refused(n, 'takes nothing more', 'keys', 1);
-n = refused(n, 'takes nothing more', 'version', 1);
+n = refused(n, 'takes no further arguments', 'keys', 1);
+n = refused(n, 'takes no further arguments', 'version', 1);
 
 % controllers
 sim = zipact('open', 'mesh.nodes', 21, 'liquid.model', 'none');
@@ -172,9 +172,9 @@ zipact('restore', sim, state);
 % used up
 zipact('close', sim);
 for command = {'read', 'shape', 'save', 'close'}
-  n = refused(n, 'simulation: closed', command{1}, sim);
+  n = refused(n, 'simulation: is closed', command{1}, sim);
 end
-n = refused(n, 'simulation: closed', 'step', sim, 1e-3);
+n = refused(n, 'simulation: is closed', 'step', sim, 1e-3);
 zipact('close', other);
 
 % numerics: the step fails, the simulation is used up until a state is restored

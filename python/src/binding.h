@@ -1,5 +1,5 @@
-/* What the files of the extension share. Every type is a thin owner of one thing of the library; what is comfortable
- * is written in Python, above it. */
+/* Common declarations of the extension. Every type only owns an object of the library; convenience functions are
+ * written in Python, above it. */
 #ifndef ZIPACT_BINDING_H
 #define ZIPACT_BINDING_H
 
@@ -15,7 +15,7 @@ typedef struct State {
   PyTypeObject *definition, *simulation, *result, *view;
 } State;
 
-/* The state of the module that `type`, or the type that it is derived from, belongs to. */
+/* The state of the module to which `type`, or its base type, belongs. */
 State *state_of_type(PyTypeObject *type);
 
 /* Free an object of a heap type. */
@@ -26,10 +26,10 @@ void free_object(PyObject *self);
 PyObject *raise_error(const State *state, const ZpError *err);
 __attribute__((format(printf, 2, 3))) PyObject *raise_input(const State *state, const char *format, ...);
 
-/* A text of the library; bytes that are no UTF-8, as of a name that was cut, are replaced. */
+/* A text of the library; invalid UTF-8, as in a truncated name, is replaced. */
 PyObject *text_from(const char *text);
 
-/* UTF-8 of a str, valid as long as it; NULL with an exception that names `what` if it is none. */
+/* UTF-8 of a str, valid as long as the str; NULL with an exception about `what` if it is not a str. */
 const char *text_of(const State *state, PyObject *text, const char *what);
 
 /* -- values (definition.c) -- */
@@ -37,21 +37,21 @@ const char *text_of(const State *state, PyObject *text, const char *what);
 /* (key, Python value) => value as in ZpAssignment; -1 with an exception. */
 int number_of(const State *state, int key, PyObject *object, double *value);
 
-/* The same for a quantity that has a key's unit and range but is called otherwise, as dt. */
+/* The same for a quantity with the unit and range of a key but another name, such as dt. */
 int quantity_of(const State *state, int key, const char *name, PyObject *object, double *value);
 
 /* -- long calls (watch.c) -- */
 
-/* A call during which other Python threads run. The library's hooks look at signals and at the caller's progress
- * function some times a second, and stop the call if either raises, or progress returns true. */
+/* A call during which other Python threads run. Some times a second the hooks of the library check signals and call the
+ * progress function of the caller; they stop the call if either raises an exception, or progress returns true. */
 typedef struct Watch {
   PyThreadState *thread;
   PyObject *progress; /* a function (stage, fraction), or NULL */
-  double next;        /* wall clock of the next look, s */
-  bool failed;        /* an exception is set: the result of the call does not count */
+  double next;        /* wall time of the next check, s */
+  bool failed;        /* an exception is set: the result of the call is discarded */
 } Watch;
 
-/* Release the interpreter, and take it again. Between the two no Python object may be touched. */
+/* Release the interpreter lock, and acquire it again. No Python object may be used in between. */
 void watch_begin(Watch *watch, PyObject *progress);
 void watch_end(Watch *watch);
 ZpHooks watch_hooks(Watch *watch);
@@ -61,12 +61,12 @@ ZpHooks watch_hooks(Watch *watch);
 PyTypeObject *make_type(PyObject *module, PyType_Spec *spec);
 extern PyType_Spec definition_spec, simulation_spec, result_spec, view_spec;
 
-/* What a simulation is compiled from and a study run on: checked, never changed. */
+/* The input of simulations and studies: checked, immutable. */
 typedef struct Definition {
   PyObject_HEAD State *state;
   ZpStudy study;
   ZpActuatorDef def;
-  ZpDriveTable drive; /* rows of arrays that drive it; 0 rows: as def says */
+  ZpDriveTable drive; /* rows of the drive given as arrays; 0 rows: the drive of def */
 } Definition;
 
 /* One Definition per run of a scenario file. */
@@ -75,14 +75,14 @@ PyObject *read_scenario(PyObject *module, PyObject *path);
 /* Takes `result` over. */
 PyObject *result_new(State *state, ZpResult *result);
 
-/* A result that was pickled, and what its names are kept in. */
+/* An unpickled result, and the memory of its names. */
 typedef struct Unpacked {
   ZpResult *result;
-  ZpColumn *column; /* of its series; malloc; NULL if it has none */
+  ZpColumn *column; /* columns of its series; malloc; NULL without a series */
   PyObject *words;  /* owns the texts */
 } Unpacked;
 
-/* What the getters of a result do not give, as plain values. */
+/* The parts of a result that its getters do not return, as plain values. */
 PyObject *result_pack(const ZpResult *result);
 
 /* (what result_pack gave, message, notes, scalars, sensitivities, columns or None) => a result; false with an
@@ -96,7 +96,7 @@ PyObject *unpack_result(PyObject *module, PyObject *args);
 PyObject *view_new(State *state, PyObject *owner, const double *data, int ndim, const Py_ssize_t *shape,
                    const Py_ssize_t *strides);
 
-/* The same, rows after one another. */
+/* The same, row after row. */
 PyObject *view_of_rows(State *state, PyObject *owner, const double *data, size_t rows, size_t columns);
 
 #endif

@@ -12,7 +12,7 @@ static bool is_number_key(int key) {
   return type == ZP_KEY_REAL || type == ZP_KEY_REAL_AUTO || type == ZP_KEY_INT;
 }
 
-/* A finite number that is neither a text nor True or False, as floats, ints and numpy's scalars are. */
+/* A finite number other than True and False: a float, an int or a scalar of numpy. */
 static bool is_plain_number(PyObject *object, double *value) {
   if (PyUnicode_Check(object) || PyBool_Check(object) || !PyNumber_Check(object)) return false;
   PyObject *number = PyNumber_Float(object);
@@ -22,7 +22,7 @@ static bool is_plain_number(PyObject *object, double *value) {
   return isfinite(*value);
 }
 
-/* Whatever is no number goes through its text to the library's parser: it says best what is wrong. */
+/* A value that is not a number is passed as a text to the parser of the library, which has the best message. */
 int number_of(const State *state, int key, PyObject *object, double *value) {
   if (is_number_key(key) && is_plain_number(object, value)) return 0;
   PyObject *text = PyObject_Str(object);
@@ -37,7 +37,7 @@ int number_of(const State *state, int key, PyObject *object, double *value) {
   return status;
 }
 
-/* Messages begin with the key's name. */
+/* Messages start with the name of the key. */
 static int fail_renamed(const State *state, int key, const char *name, const ZpError *err) {
   raise_input(state, "%s%s", name, err->message + strlen(zp_key(key)->name));
   return -1;
@@ -64,7 +64,11 @@ int quantity_of(const State *state, int key, const char *name, PyObject *object,
 static int key_of(const State *state, PyObject *name) {
   const char *words = text_of(state, name, "key");
   int key = words ? zp_key_find(words) : -1;
-  if (words && key < 0) raise_input(state, "%.80s: unknown key; did you mean %s?", words, zp_key_nearest(words));
+  if (words && key < 0) {
+    char reason[256];
+    zp_key_unknown(words, reason, sizeof reason);
+    raise_input(state, "%.80s: %s", words, reason);
+  }
   return key;
 }
 
@@ -74,7 +78,7 @@ static int set_text(const State *state, ZpActuatorDef *def, int key, PyObject *v
   ZpError err;
   ZpStatus status;
   if (!PyUnicode_Check(value)) {
-    status = zp_def_set(def, key, 0, &err); /* says that it takes a text */
+    status = zp_def_set(def, key, 0, &err); /* reports that it takes a text */
   } else {
     const char *words = text_of(state, value, zp_key(key)->name);
     if (!words) return -1;
@@ -85,13 +89,13 @@ static int set_text(const State *state, ZpActuatorDef *def, int key, PyObject *v
   return -1;
 }
 
-/* The key that is of the scenario and not of the Def. */
+/* The key of the scenario that is not part of the Def. */
 static bool is_study(int key) {
   return zp_key(key)->offset == ZP_NO_FIELD;
 }
 
-/* Numbers of the dictionary `values` => assignments and the study; how many, or -1. Values may run code of their own
- * when they are asked for their text: nobody else has this dictionary. */
+/* The dictionary `values` => assignments and the study; their number, or -1. Converting a value to a text may run
+ * Python code, but no other code has access to this dictionary. */
 static Py_ssize_t assignments(const State *state, PyObject *values, ZpAssignment *list, ZpStudy *study) {
   Py_ssize_t place = 0, used = 0;
   PyObject *name, *value;

@@ -47,7 +47,7 @@ State *state_of_type(PyTypeObject *type) {
   for (; type; type = PyType_GetSlot(type, Py_tp_base)) {
     State *state = PyType_GetModuleState(type);
     if (state) return state;
-    PyErr_Clear(); /* a class of Python, derived from ours */
+    PyErr_Clear(); /* a Python class derived from this type */
   }
   PyErr_SetString(PyExc_TypeError, "not a type of zipact");
   return NULL;

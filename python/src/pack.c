@@ -1,12 +1,12 @@
-/* A result as plain Python values, for pickle, and back. Names stay where Python has them: whoever unpacks keeps the
- * values as long as the result. */
+/* A result as plain Python values, for pickle, and back. Names stay in the memory of Python: the owner of the result
+ * must keep these values. */
 #include "binding.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Beyond any study: sizes from a damaged pickle must not overflow. */
+/* Beyond the size of any study: sizes from a damaged pickle must not overflow. */
 enum { MOST = 1 << 24 };
 
 /* -- packing --------------------------------------------------------------------------------------- */
@@ -15,7 +15,7 @@ static PyObject *pack_doubles(const double *value, size_t count) {
   return PyBytes_FromStringAndSize((const char *)value, (Py_ssize_t)(count * sizeof *value));
 }
 
-/* (rows, numbers); the columns' words are those of the getter */
+/* (rows, numbers); the getter returns the words of the columns */
 static PyObject *pack_table(const ZpTable *table) {
   if (!table) Py_RETURN_NONE;
   return Py_BuildValue("(nN)", (Py_ssize_t)table->rows, pack_doubles(table->value, table->rows * table->columns));
@@ -56,7 +56,7 @@ static bool no_memory(void) {
   return false;
 }
 
-/* Copy `count` doubles; false unless there are just as many. */
+/* Copy `count` doubles; false if the buffer has another size. */
 static bool copy_doubles(PyObject *bytes, double *value, size_t count) {
   char *data;
   Py_ssize_t size;
@@ -188,7 +188,7 @@ static bool unpack_parts(const State *state, PyObject *parts, PyObject *columns,
   if (!PyArg_ParseTuple(parts, "siiOOOO", &version, &study, &outcome, &series, &shapes, &map, &checkpoint))
     return false;
   if (strcmp(version, ZP_VERSION) != 0)
-    return raise_input(state, "result: pickled by zipact %.20s; this is %s", version, ZP_VERSION) != NULL;
+    return raise_input(state, "result: pickled by zipact %.20s, but this is zipact %s", version, ZP_VERSION) != NULL;
   if (study < 0 || study >= ZpStudy_COUNT) return false;
   to->result->study = (ZpStudy)study;
   to->result->outcome = (ZpOutcome)outcome;

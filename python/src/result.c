@@ -1,4 +1,4 @@
-/* What a study found, as plain Python values and buffers. */
+/* A result of a study, as plain Python values and buffers. */
 #include "binding.h"
 
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 typedef struct Result {
   PyObject_HEAD State *state;
   ZpResult *result;
-  ZpColumn *column; /* of one that was pickled: its columns, */
-  PyObject *words;  /* and the texts of all names; else NULL */
+  ZpColumn *column; /* of an unpickled result: its columns, */
+  PyObject *words;  /* and the texts of all names; otherwise NULL */
 } Result;
 
 PyObject *result_new(State *state, ZpResult *found) {
@@ -128,8 +128,8 @@ static PyObject *get_series(PyObject *self, void *unused) {
   return Py_BuildValue("(NN)", columns, rows);
 }
 
-/* An array of every frame of a film, by node (2 dimensions) or by node and ribbon (3); None if `first`, that of the
- * first frame, is NULL. */
+/* An array over all frames of a film, by node (2 dimensions) or by node and ribbon (3); None if `first`, the array of
+ * the first frame, is NULL. */
 static PyObject *film(PyObject *self, const double *first, int ndim) {
   if (!first) Py_RETURN_NONE;
   const ZpShapes *shapes = of(self)->shapes;
@@ -190,7 +190,7 @@ static ZpStatus write_report(const char *directory, const char *text, ZpResult *
   return status;
 }
 
-/* Keeps the interpreter's lock: HDF5 is not for several threads at once. */
+/* Keeps the interpreter lock, because HDF5 does not support several threads. */
 static PyObject *result_save(PyObject *object, PyObject *args) {
   Result *self = (Result *)object;
   PyObject *directory, *scenario;
@@ -209,11 +209,12 @@ static PyObject *result_pack_method(PyObject *self, PyObject *unused) {
 }
 
 static PyGetSetDef getters[] = {
-    {"study", get_study, NULL, "Its word.", NULL},
-    {"outcome", get_outcome, NULL, "How the solver ended: a word.", NULL},
-    {"good", get_good, NULL, "Whether the outcome is an answer.", NULL},
-    {"message", get_message, NULL, "One sentence on how it ended.", NULL},
-    {"notes", get_notes, NULL, "Sentences: breakdown, limits of the model and of the mesh that were met.", NULL},
+    {"study", get_study, NULL, "Name of the study.", NULL},
+    {"outcome", get_outcome, NULL, "Outcome: a word.", NULL},
+    {"good", get_good, NULL, "Whether the run completed; false if the solver failed or the run was interrupted.", NULL},
+    {"message", get_message, NULL, "One sentence about the outcome.", NULL},
+    {"notes", get_notes, NULL, "Notes: sentences about breakdown, yield, and limits of the model and of the mesh.",
+     NULL},
     {"scalars", get_scalars, NULL, "(name, unit, value, follows from wall time) of each number.", NULL},
     {"sensitivities", get_sensitivities, NULL, "(output, key, derivative) of each derivative.", NULL},
     {"series", get_series, NULL, "((name, unit, help) of each column, rows), or None.", NULL},
@@ -223,11 +224,11 @@ static PyGetSetDef getters[] = {
 };
 static PyMethodDef methods[] = {
     {"save", result_save, METH_VARARGS, "save(directory, scenario): write the files of the command."},
-    {"pack", result_pack_method, METH_NOARGS, "What the attributes do not give, for unpack_result."},
+    {"pack", result_pack_method, METH_NOARGS, "Everything that unpack_result needs."},
     {NULL, NULL, 0, NULL},
 };
 static PyType_Slot slots[] = {
-    {Py_tp_doc, "What a study found."},
+    {Py_tp_doc, "Result of a study."},
     {Py_tp_dealloc, result_dealloc},
     {Py_tp_getset, getters},
     {Py_tp_methods, methods},

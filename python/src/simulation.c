@@ -1,7 +1,7 @@
 /* Stepping by hand.
  *
- * A step lets other Python threads run, so a simulation may be asked for something while it steps, also by the progress
- * function and by handlers of signals: `busy` refuses it. */
+ * A step lets other Python threads run, so a simulation may be called during its step, also by the progress function
+ * and by signal handlers: `busy` refuses such calls. */
 #include "binding.h"
 
 #include <math.h>
@@ -10,15 +10,15 @@
 
 typedef struct Simulation {
   PyObject_HEAD State *state;
-  PyObject *definition; /* what it was made from */
+  PyObject *definition; /* its definition */
   ZpModel *model;
   ZpSim *sim;
-  int end_time_key, voltage_key; /* whose units and ranges dt and voltage have */
+  int end_time_key, voltage_key; /* keys with the units and ranges of dt and voltage */
   double time;                   /* s */
-  double hand_voltage;           /* set last by step, V; NAN: none yet */
-  int64_t steps;                 /* taken so far */
-  bool busy;                     /* inside a call that lets other threads run */
-  bool ended;                    /* numbers are beyond use until a state is restored */
+  double hand_voltage;           /* voltage last set by step, V; NAN: none yet */
+  int64_t steps;                 /* steps so far */
+  bool busy;                     /* within a call that lets other threads run */
+  bool ended;                    /* values are invalid until a state is restored */
 } Simulation;
 
 /* -- creation --------------------------------------------------------------------------------------- */
@@ -50,7 +50,7 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
   ZpStatus status = compile(self, &hooks, &err);
   watch_end(&watch);
   if (!watch.failed && status == ZP_OK) {
-    self->time = zp_sim_get(self->sim, "time"); /* not 0 where it starts from a checkpoint */
+    self->time = zp_sim_get(self->sim, "time"); /* not 0 if it starts from a checkpoint */
     return (PyObject *)self;
   }
   if (!watch.failed) raise_error(state, &err);
@@ -70,7 +70,7 @@ static void simulation_dealloc(PyObject *object) {
 
 static int refuse_busy(const Simulation *self) {
   if (!self->busy) return 0;
-  raise_input(self->state, "the simulation is stepping already, in another thread or in the call that led here");
+  raise_input(self->state, "the simulation is already in a step, in another thread or in the call that runs now");
   return -1;
 }
 
@@ -91,7 +91,7 @@ static int step_arguments(const State *state, PyObject *const *args, Py_ssize_t 
     found[place] = args[i];
   }
   if (found[0]) return 0;
-  raise_input(state, "dt: missing; how long is the step, in s?");
+  raise_input(state, "dt: missing; give the length of the step, in s");
   return -1;
 }
 
@@ -134,7 +134,7 @@ static PyObject *simulation_step(PyObject *object, PyObject *const *args, Py_ssi
   if (quantity_of(self->state, self->end_time_key, "dt", found[0], &dt)) return NULL;
   if (found[1] && found[1] != Py_None && quantity_of(self->state, self->voltage_key, "voltage", found[1], &voltage))
     return NULL;
-  if (refuse_busy(self)) return NULL; /* not before: to become a number, dt may have run code of its own */
+  if (refuse_busy(self)) return NULL; /* not earlier: converting dt may have run Python code */
   if (!self->ended) return step(self, dt, voltage);
   PyErr_SetString(self->state->numerics_error, "the simulation has diverged; restore a state to continue");
   return NULL;
@@ -152,7 +152,7 @@ static PyObject *simulation_set_input(PyObject *object, PyObject *args, PyObject
   while (input < ZP_INPUT_COUNT && strcmp(zp_input_name(input), name) != 0)
     input++;
   if (input == ZP_INPUT_COUNT)
-    return raise_input(self->state, "%.40s: no input; there are %s, %s, %s", name, zp_input_name(ZP_INPUT_VOLTAGE),
+    return raise_input(self->state, "%.40s: unknown input; use %s, %s or %s", name, zp_input_name(ZP_INPUT_VOLTAGE),
                        zp_input_name(ZP_INPUT_LOAD), zp_input_name(ZP_INPUT_SETPOINT));
   ZpError err;
   if (zp_sim_set_input(self->sim, input, value, rate, &err) != ZP_OK) return raise_error(self->state, &err);
@@ -262,11 +262,11 @@ static PyMethodDef methods[] = {
      "set_input(name, value, rate=0.0)\n--\n\n"
      "From now on an input has this value and changes with rate per second, until it is set again or the end of\n"
      "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N)."},
-    {"get", simulation_get, METH_O, "Present value of a signal, SI; nan if there is none of that name."},
+    {"get", simulation_get, METH_O, "Present value of a signal, SI; nan for an unknown name."},
     {"read_into", simulation_read_into, METH_O, "Fill an array of float64 with the present values of all signals."},
     {"shape", simulation_shape, METH_NOARGS,
      "(zipped, x, y, gap, line_force, insulator_field, stress); valid until the next step."},
-    {"save", simulation_save, METH_NOARGS, "save()\n--\n\nAll that evolves, as bytes for restore()."},
+    {"save", simulation_save, METH_NOARGS, "save()\n--\n\nThe complete state, as bytes for restore()."},
     {"restore", simulation_restore, METH_O,
      "restore(state)\n--\n\nReturn to a state that a simulation of the same actuator saved."},
     {NULL, NULL, 0, NULL},

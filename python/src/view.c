@@ -1,4 +1,4 @@
-/* Numbers of the library as a read-only buffer: numpy reads them where they are. */
+/* Numbers of the library as a read-only buffer: numpy reads them without copying. */
 #include "binding.h"
 
 enum { MOST_DIMENSIONS = 3 };

@@ -1,4 +1,4 @@
-/* The interpreter's lock and the library's hooks. */
+/* The interpreter lock and the hooks of the library. */
 #include "binding.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ static double wall_clock(void *user) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* With the lock held: true to stop. */
+/* Requires the lock: true to stop. */
 static bool ask(Watch *watch, const char *stage, double fraction) {
   if (PyErr_CheckSignals() != 0) return true;
   if (!watch->progress) return false;
@@ -22,7 +22,7 @@ static bool ask(Watch *watch, const char *stage, double fraction) {
 }
 
 static bool look(void *user, const char *stage, double fraction) {
-  static const double between_looks = 0.05; /* s: the lock is dear where many threads run */
+  static const double between_looks = 0.05; /* s: acquiring the lock is slow if many threads run */
   Watch *watch = user;
   double now = wall_clock(NULL);
   if (now < watch->next) return false;

@@ -35,7 +35,7 @@ def test_numbers_as_arrays():
     batch = zipact.run_batch(sweep(), "isometric")
     assert batch["force_N"].shape == VOLTAGES.shape and (np.diff(batch["force_N"]) > 0).all()
     assert isinstance(batch[2:4], zipact.Batch) and len(batch[2:4]) == 2
-    with pytest.raises(zipact.InputError, match="no number of study isometric"):
+    with pytest.raises(zipact.InputError, match="not a number of study isometric"):
         batch["zip_time_s"]
 
 
@@ -119,7 +119,7 @@ def test_exceptions_can_be_returned(tmp_path):
     assert repr(batch) == "<Batch of 3 results, 1 of them errors>"
     only = batch[1:2]
     assert np.isnan(only["stroke_m"]).all()
-    with pytest.raises(zipact.InputError, match="no number of study stationary"):
+    with pytest.raises(zipact.InputError, match="not a number of study stationary"):
         batch["zip_time_s"]
 
 

@@ -112,7 +112,7 @@ def test_progress_can_stop_an_executor():
 
 
 def test_wrong_executors():
-    with pytest.raises(zipact.InputError, match="executor: takes one of concurrent.futures"):
+    with pytest.raises(zipact.InputError, match="executor: takes an executor of concurrent.futures"):
         zipact.run_batch(loads(), executor=3)
-    with concurrent.futures.ThreadPoolExecutor(1) as pool, pytest.raises(zipact.InputError, match="workers: an executor has its own"):
+    with concurrent.futures.ThreadPoolExecutor(1) as pool, pytest.raises(zipact.InputError, match="workers: not allowed with an executor"):
         zipact.run_batch(loads(), executor=pool, workers=2)

@@ -189,7 +189,7 @@ def test_other_threads_are_refused_while_it_steps():
             refused.append(str(error))
     done.set()
     thread.join()
-    assert refused and all("is stepping" in text for text in refused)
+    assert refused and all("is already in a step" in text for text in refused)
 
 
 def test_control_c_leaves_a_state_to_go_on_from():
@@ -248,7 +248,7 @@ def test_inputs_with_a_rate(integrator):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (("mass", 1.0), "mass: no input; there are voltage, load, setpoint"),
+        (("mass", 1.0), "mass: unknown input; use voltage, load or setpoint"),
         (("load", 2e4), "load = 20000 N is out of range"),
         (("voltage", -1.0), "drive.voltage"),
         (("voltage", 1.0, float("nan")), "a rate of nan V/s is out of range"),

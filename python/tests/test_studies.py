@@ -178,7 +178,7 @@ def test_damaged_pickle_is_refused():
     for parts in wrong:
         with pytest.raises(zipact.InputError, match="result: damaged"):
             _zipact.unpack_result(parts, *words)
-    with pytest.raises(zipact.InputError, match="result: pickled by zipact 0.0.0; this is"):
+    with pytest.raises(zipact.InputError, match="result: pickled by zipact 0.0.0, but this is"):
         _zipact.unpack_result(("0.0.0", *packed[1:]), *words)
     message, notes, scalars, slopes, columns = words
     wrong_slopes = (("stroke_m", "no.key", 1.0),)

@@ -133,7 +133,7 @@ def test_wrong_out(simulation, out):
 
 @pytest.mark.parametrize("name", ["", "strok", "stroke_m", 3, None, "\ud800", "x\0"], ids=ascii)
 def test_wrong_signal(simulation, name):
-    with pytest.raises(zipact.InputError, match="no signal; there are time, voltage, stroke"):
+    with pytest.raises(zipact.InputError, match="unknown signal; the signals are time, voltage, stroke"):
         simulation[name]
 
 
@@ -218,9 +218,9 @@ def test_scenario_with_faults(tmp_path, text):
 @pytest.mark.parametrize("name", ["stroke", "", 3, None], ids=ascii)
 def test_wrong_names_in_results(name):
     result = zipact.Actuator(mesh__nodes=21).run("stationary")
-    with pytest.raises(zipact.InputError, match="there are stroke_m"):
+    with pytest.raises(zipact.InputError, match="its numbers are stroke_m"):
         result[name]
-    with pytest.raises(zipact.InputError, match="there are station"):
+    with pytest.raises(zipact.InputError, match="the columns are station"):
         result.series[name]
 
 

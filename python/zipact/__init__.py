@@ -7,8 +7,8 @@
     result["zip_time_s"], result.series["stroke_m"]
     result.plot()
 
-Keys are those of `zipact keys`, their dot written as two underscores; `zipact.KEYS` lists them. Numbers are SI, texts
-may have a unit.
+Keys are those of `zipact keys`, with two underscores in place of the dot; `zipact.KEYS` lists them. Numbers are SI,
+texts may have a unit.
 """
 
 from ._zipact import Error, InputError, MachineError, NumericsError

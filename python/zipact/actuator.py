@@ -1,4 +1,4 @@
-"""Actuators: what is simulated, by keyword."""
+"""Actuators, defined by keywords."""
 
 import itertools
 import json
@@ -13,29 +13,29 @@ from .keywords import Keywords  # made from keys.def when the wheel is built
 from .result import Result
 
 Progress = Callable[[str, float], Any]
-"""Called some times a second with the stage and its progress, 0 to 1; what it returns, if true, stops the call."""
+"""Called some times a second with the stage and its progress, 0 to 1; if it returns true, the call stops."""
 
 
 class Key(NamedTuple):
-    """What is known of a key."""
+    """The properties of a key."""
 
     name: str
     kind: str
     """real, real or auto, int, bool, word, text"""
     unit: str
-    """SI; "1" for pure numbers and words"""
+    """SI; "1" for numbers without a unit and for words"""
     default: str
     min: float
     max: float
     help: str
     choices: dict[str, str]
-    """words that a key of kind word takes, and what they mean"""
+    """words that a key of kind word takes, and their meanings"""
 
 
 KEYS: dict[str, Key] = {row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()}
 """Every key by its name, "load.mass"."""
 
-FILES = ("data.file", "drive.file", "setpoint.file", "initial.file")  # as in a scenario, they are kept absolute
+FILES = ("data.file", "drive.file", "setpoint.file", "initial.file")  # kept as absolute paths, as in a scenario
 
 
 def key_name(keyword: str) -> str:
@@ -58,11 +58,11 @@ def given_keys(groups: Mapping[str, Any] | None, keywords: Mapping[str, Any]) ->
 
 
 def plain_value(name: str, value: Any) -> Any:
-    """What the extension takes: paths as text."""
+    """A value for the extension: paths become texts."""
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if name in FILES and isinstance(value, str) and value:
-        paths = value.split(";") if name == "data.file" else [value]  # which may name several
+        paths = value.split(";") if name == "data.file" else [value]  # it may name several
         value = "; ".join(os.path.abspath(path.strip(" ")) for path in paths)
     return value
 
@@ -87,17 +87,17 @@ def drive_arrays(drive: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Actuator(Mapping[str, Any]):
-    """An actuator and what is done with it: a value for every key, checked, never changed.
+    """An actuator and its study: a value for every key, checked and immutable.
 
-    Actuator(load__mass="20 g", drive__voltage=8e3): keywords are keys with the dot written as two underscores. One would
-    not do, since keys contain single ones (mass_spring.axial). A dict takes the keys themselves, in groups or not:
-    Actuator({"load.mass": "20 g", "drive": {"voltage": "8 kV"}}), as a YAML or JSON file has them. Numbers are SI, texts
-    are read as in a scenario. What is not given has the default of `preset`, kind and materials, as in the command.
+    Actuator(load__mass="20 g", drive__voltage=8e3): keywords are keys with two underscores in place of the dot. (Keys
+    contain single underscores, as mass_spring.axial.) A dict takes the keys themselves, in groups or not:
+    Actuator({"load.mass": "20 g", "drive": {"voltage": "8 kV"}}), as in a YAML or JSON file. Numbers are SI; texts are
+    read as in a scenario. Other keys have the defaults of `preset`, kind and materials, as in the command.
 
-    drive=(times, voltages), arrays in s and V, drives study actuate and Simulation instead of drive.waveform.
+    drive=(times, voltages), arrays in s and V, replaces drive.waveform in study actuate and in Simulation.
 
-    As a mapping it has every key: actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printed, it shows
-    what differs from the defaults.
+    As a mapping it contains every key: actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printing it
+    shows the keys that differ from the defaults.
     """
 
     __slots__ = ("_definition", "_drive", "_given")
@@ -116,7 +116,7 @@ class Actuator(Mapping[str, Any]):
             self._definition = _zipact.Definition({"drive.waveform": "table", **given}, self._drive)
 
     def replace(self, groups: Mapping[str, Any] | None = None, **keys: Any) -> "Actuator":
-        """The same actuator with other values of some keys; with drive=None it is no longer driven by arrays."""
+        """The same actuator with other values of some keys; drive=None removes the arrays that drive it."""
         arrays = self._drive
         if not isinstance(keys.get("drive"), Mapping):
             arrays = keys.pop("drive", arrays)
@@ -131,13 +131,14 @@ class Actuator(Mapping[str, Any]):
         return [self.replace(dict(zip(given, row, strict=True))) for row in itertools.product(*given.values())]
 
     def run(self, study: str | None = None, *, progress: Progress | None = None) -> Result:
-        """Run a study, by default that of key `study`. Other threads run meanwhile; Ctrl-C stops it."""
+        """Run a study, by default that of key `study`. Other threads run meanwhile; Ctrl-C stops the call."""
         if study is not None and study != self["study"]:
             return self.replace(study=study).run(progress=progress)
         return Result(self._definition.run(progress), self)
 
     def drive_from(self, path: str) -> "Actuator":
-        """The same actuator, driven by a CSV file instead of arrays; writes the file. Itself if there are no arrays."""
+        """The same actuator, driven by a CSV file instead of arrays; writes this file. The actuator itself if there are no
+        arrays."""
         if self._drive is None:
             return self
         rows = np.column_stack(self._drive)
@@ -145,7 +146,8 @@ class Actuator(Mapping[str, Any]):
         return Actuator({**self._given, "drive.waveform": "table", "drive.file": path})
 
     def scenario(self) -> str:
-        """All keys as a scenario in YAML, which the command runs to the same result. Arrays that drive it are not in it."""
+        """All keys as a scenario in YAML, for which the command gives the same result. It does not contain the arrays of
+        drive."""
         lines = []
         for name, value in self.items():
             text = json.dumps(value) if KEYS[name].kind == "text" else str(value).lower()
@@ -192,13 +194,13 @@ def values_of(definition: _zipact.Definition) -> dict[str, Any]:
 
 
 def differences(definition: _zipact.Definition) -> dict[str, Any]:
-    """The keys whose values differ from the defaults. Words come first and bring their own defaults: a preset, the kind,
-    a material."""
+    """The keys whose values differ from the defaults. Words come first, because they set defaults of other keys: a preset,
+    the kind, a material."""
     values, defaults = values_of(definition), values_of(DEFAULT)
     words = {name: values[name] for name, key in KEYS.items() if key.kind == "word" and values[name] != defaults[name]}
     try:
         defaults = values_of(_zipact.Definition(words))
-    except _zipact.InputError:  # a word that needs another key: without its defaults
+    except _zipact.InputError:  # a word that requires another key: ignore its defaults
         words = {}
     return words | {name: value for name, value in values.items() if value != defaults[name]}
 
@@ -211,7 +213,7 @@ def _rebuild(given: dict[str, Any], drive: tuple[np.ndarray, np.ndarray] | None)
 
 
 def _actuator_of(definition: _zipact.Definition) -> Actuator:
-    """Given are the keys that differ from the defaults; all, should these not give the same."""
+    """An actuator with the keys that differ from the defaults; with all keys if these do not give the same definition."""
     values = values_of(definition)
     try:
         actuator = Actuator(differences(definition))
@@ -221,6 +223,6 @@ def _actuator_of(definition: _zipact.Definition) -> Actuator:
 
 
 def read_scenario(path: str | os.PathLike[str]) -> Actuator | list[Actuator]:
-    """The actuator of a scenario file; if its lists stand for several cases, the list of them, in the command's order."""
+    """The actuator of a scenario file; if it has several cases, a list of actuators in the order of the command."""
     actuators = [_actuator_of(definition) for definition in _zipact.read_scenario(os.fspath(path))]
     return actuators[0] if len(actuators) == 1 else actuators

@@ -20,17 +20,17 @@ if TYPE_CHECKING:
 
 
 class Batch(Sequence[Result]):
-    """Results in the order of their actuators. batch["zip_time_s"] is the array of a number of all of them, nan where a
-    run has none. Where a run raised an exception, that is in the place of its result."""
+    """Results in the order of their actuators. batch["zip_time_s"] is the array of this number in all runs, nan if a run
+    does not have it. If a run raised an exception, it takes the place of the result."""
 
     def __init__(self, results: Iterable[Result | Exception], actuators: Iterable[Actuator]) -> None:
         self.results = list(results)
         self.actuators = list(actuators)
-        """what was run"""
+        """the simulated actuators"""
 
     @property
     def errors(self) -> dict[int, Exception]:
-        """the exceptions of runs that have no result, by their place"""
+        """the exceptions of runs without a result, by index"""
         return {i: found for i, found in enumerate(self.results) if isinstance(found, Exception)}
 
     def __getitem__(self, item: Any) -> Any:
@@ -40,7 +40,7 @@ class Batch(Sequence[Result]):
             return self.results[item]
         found = [result for result in self.results if isinstance(result, Result)]
         if found and not any(item in result for result in found):
-            found[0][item]  # says what there is
+            found[0][item]  # raises an error that lists the numbers
         return np.array([result.get(item, np.nan) if isinstance(result, Result) else np.nan for result in self.results])
 
     def __len__(self) -> int:
@@ -53,15 +53,15 @@ class Batch(Sequence[Result]):
 
     @property
     def units(self) -> dict[str, str]:
-        """SI unit of each varied key and of each number; "1" for pure ones"""
+        """SI unit of each varied key and of each number; "1" for numbers without a unit"""
         units = {key: KEYS[key].unit for key in self.varied}
         for found in self.results:
             units |= found.units if isinstance(found, Result) else {}
         return units
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """A row for each run: the keys in which the actuators differ, the outcome, the numbers. A run without a result has
-        the outcome error, and its message in column error. Units are in .attrs["units"]."""
+        """One row per run: the keys in which the actuators differ, the outcome, the numbers. A run without a result has the
+        outcome error, and its message in column error. Units are in .attrs["units"]."""
         import pandas
 
         rows: list[dict[str, Any]] = []
@@ -74,15 +74,15 @@ class Batch(Sequence[Result]):
         return frame
 
     def plot(self, y: str | None = None, x: str | None = None, ax: "Axes | None" = None) -> "Axes":
-        """Draw a number of all runs with matplotlib: `y`, by default the study's first, against the varied key `x`, by
-        default the numeric one of most values; a line for each combination of the other varied keys."""
+        """Draw a number of all runs with matplotlib: `y`, by default the first number of the study, against the varied key
+        `x`, by default the numeric key with most values; one line per combination of the other varied keys."""
         from . import plot
 
         return plot.batch(self, y, x, ax)
 
     def save(self, directory: str | os.PathLike[str]) -> None:
-        """Write table.csv, a row for each run as the command writes it for lists in a scenario, and the files of each run
-        in run-0, run-1, ...; a run without a result has the outcome error and no folder."""
+        """Write table.csv, one row per run as in a sweep of the command, and the files of each run in run-0, run-1, ...; a
+        run without a result has the outcome error and no folder."""
         folder = os.fspath(directory)
         os.makedirs(folder, exist_ok=True)
         for place, found in enumerate(self.results):
@@ -114,12 +114,12 @@ def column_name(key: str) -> str:
 
 
 def cell(value: Any) -> Any:
-    """Whole numbers without a decimal point."""
+    """Integers without a decimal point."""
     return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
 
 
 class BatchError(Error):
-    """Some runs of a batch raised exceptions; `batch` has them and the results of the others."""
+    """Some runs of a batch raised exceptions; `batch` contains these and the results of the other runs."""
 
     def __init__(self, batch: Batch) -> None:
         place, error = next(iter(batch.errors.items()))
@@ -131,7 +131,7 @@ class BatchError(Error):
 
 
 def _run(actuator: Actuator, study: str | None, progress: Callable[[str, float], Any] | None = None) -> Result | Exception:
-    """A function of the module, so that processes find it."""
+    """A function of the module, so that other processes can import it."""
     try:
         return actuator.run(study, progress=progress)
     except Exception as error:
@@ -139,7 +139,7 @@ def _run(actuator: Actuator, study: str | None, progress: Callable[[str, float],
 
 
 def _found(run: "Future[Result | Exception]", actuator: Actuator, study: str | None) -> Result | Exception:
-    """What a run has found, or why its worker was lost. One that never began is interrupted here."""
+    """The result of a run, or the exception of its lost worker. A run that never started becomes interrupted here."""
     if run.cancelled():
         return _run(actuator, study, lambda stage, fraction: True)
     error = run.exception()
@@ -151,10 +151,10 @@ def _found(run: "Future[Result | Exception]", actuator: Actuator, study: str | N
 
 
 def _executor(given: Any) -> Any:
-    """The executor of concurrent.futures that `given` is, or has, as a Client of Dask."""
+    """`given` as an executor of concurrent.futures: itself, or that of a Client of Dask."""
     executor = given.get_executor() if hasattr(given, "get_executor") else given
     if not callable(getattr(executor, "submit", None)):
-        raise InputError(f"executor: takes one of concurrent.futures or a Client of Dask, not {type(given).__name__}")
+        raise InputError(f"executor: takes an executor of concurrent.futures or a Client of Dask, not {type(given).__name__}")
     return executor
 
 
@@ -167,27 +167,27 @@ def run_batch(
     progress: Callable[[int, int], Any] | None = None,
     return_exceptions: bool = False,
 ) -> Batch:
-    """Run a study on each actuator, as many at once as there are cores, or `workers`; the same bits as one by one.
+    """Run a study on each actuator, as many at once as there are cores, or `workers`. The results equal those of separate
+    runs to the last bit.
 
-    A run that raises an exception, as InputError where the study refuses its actuator, does not stop the others. When
-    all have ended run_batch raises BatchError, whose `batch` holds what was found. With return_exceptions=True, as in
-    asyncio.gather, it returns that batch: the exception is in the place of the result.
+    A run that raises an exception, such as InputError if the study refuses its actuator, does not stop the others. When
+    all runs have ended, run_batch raises BatchError, whose `batch` contains the other results. With
+    return_exceptions=True, as in asyncio.gather, it returns that batch: the exception takes the place of the result.
 
-    `executor` runs them elsewhere: one of concurrent.futures, as ProcessPoolExecutor or mpi4py's MPIPoolExecutor, or a
-    Client of Dask. It stays open. A run whose worker is lost has the exception that its executor gives.
+    `executor` distributes the runs: an executor of concurrent.futures, such as ProcessPoolExecutor or mpi4py's
+    MPIPoolExecutor, or a Client of Dask. It stays open. If a worker is lost, its run has the exception of the executor.
 
-    `progress` is called with the runs done and all runs; what it returns, if true, stops the rest, and so do Ctrl-C and
-    an exception that it raises. What was stopped has the outcome interrupted; in an `executor`, runs that have begun
-    end first.
+    `progress` is called with the number of finished runs and of all runs. If it returns true or raises an exception, or
+    at Ctrl-C, the other runs stop, with the outcome interrupted; in an `executor`, running ones finish first.
     """
     actuators = list(actuators)
     for actuator in actuators:
         if not isinstance(actuator, Actuator):
             raise InputError(f"run_batch: takes actuators, not {type(actuator).__name__}")
     if workers is not None and (not isinstance(workers, int) or workers < 1):
-        raise InputError(f"workers = {workers!r}: takes a whole number from 1 on")
+        raise InputError(f"workers = {workers!r}: takes a whole number of at least 1")
     if workers is not None and executor is not None:
-        raise InputError("workers: an executor has its own")
+        raise InputError("workers: not allowed with an executor, which has its own workers")
     stop = threading.Event()
     if executor is not None:
         pool, end, hooks = _executor(executor), nullcontext(), ()

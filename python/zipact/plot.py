@@ -1,4 +1,4 @@
-"""Pictures by matplotlib: each function draws one thing into an Axes, a new one if none is given, and returns it."""
+"""Pictures by matplotlib: each function draws into an Axes, a new one if none is given, and returns it."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .batch import Batch
     from .result import FieldMap, Result, Shapes, Table
 
-BLUE, RED, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#999999"  # told apart by all eyes
+BLUE, RED, GREEN, GREY = "#0072b2", "#d55e00", "#009e73", "#999999"  # distinguishable with colour blindness
 MILLI, KILO = 1e3, 1e-3  # factors from SI
 
 
@@ -28,7 +28,7 @@ def new_axes(ax: Axes | None, x: str, y: str) -> Axes:
 
 
 def nan_where(hidden: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Values with gaps: lines stop there."""
+    """Values with gaps, at which lines end."""
     return np.where(hidden, np.nan, values)
 
 
@@ -117,7 +117,7 @@ def profile(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 
 
 def residuals(table: "Table", ax: Axes | None) -> Axes:
-    """Of several kinds of measurement, kind by kind, over their standard deviations."""
+    """Residuals of several kinds of measurement, kind by kind, divided by the standard deviations."""
     ax = new_axes(ax, "row of data", "residual / standard deviation")
     for name in (name for name in table if name.startswith("residual_")):
         kind = name.removeprefix("residual_")
@@ -158,7 +158,7 @@ STUDIES = {
 
 
 def result(result: "Result", ax: Axes | None = None) -> Axes:
-    """What the study is about."""
+    """The main result of the study."""
     if result.series is None or len(result.series.values_2d) == 0:
         raise InputError(f"study {result.study} ended without a table: {result.message}")
     ax = STUDIES[result.study](result, result.series, ax)
@@ -170,7 +170,7 @@ def result(result: "Result", ax: Axes | None = None) -> Axes:
 
 
 def shown_unit(unit: str, values: np.ndarray) -> tuple[float, str]:
-    """A factor from SI, and the unit that it gives: the one in which the values are read most easily."""
+    """A factor from SI, and its unit, in which the values are easy to read."""
     usual = {"kg": (MILLI, "g"), "m2/s": (1e6, "mm2/s"), "m3": (1e9, "uL")}
     if unit in usual:
         return usual[unit]
@@ -193,7 +193,7 @@ def batch(batch: "Batch", y: str | None, x: str | None, ax: Axes | None) -> Axes
     varied = batch.varied
     numeric = [key for key in varied if KEYS[key].kind not in ("word", "text", "bool")]
     if not numeric or (x is not None and x not in varied):
-        raise InputError(f"x = {x!r}: the actuators differ in {', '.join(varied) or 'nothing'}; plot takes a key of these")
+        raise InputError(f"x = {x!r}: the actuators differ in {', '.join(varied) or 'no key'}; x must be one of these keys")
     x = x or max(numeric, key=lambda key: len({actuator[key] for actuator in batch.actuators}))
     y = y or next((name for found in batch if not isinstance(found, Exception) for name in found), "")
     unit_x, unit_y = KEYS[x].unit, batch.units.get(y, "1")
@@ -226,7 +226,7 @@ def value_text(key: str, value: Any) -> str:
 
 
 def shapes(film: "Shapes", ax: Axes | None = None) -> Axes:
-    """All shapes of a film, early ones pale."""
+    """All shapes over time, early ones pale."""
     ax = new_axes(ax, "x / mm", "y / mm")
     shades = np.linspace(1, 0.15, len(film.time))[::-1]
     for x, y, shade in zip(film.x, film.y, shades, strict=True):

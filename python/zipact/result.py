@@ -1,4 +1,4 @@
-"""What a study found, as numpy arrays with units."""
+"""Results of studies, as numpy arrays with units."""
 
 import os
 from collections.abc import Iterator, Mapping
@@ -16,21 +16,21 @@ if TYPE_CHECKING:
 
 
 class Table(Mapping[str, np.ndarray]):
-    """Columns by name: table["stroke_m"], one number per row; nan where a value does not exist. The arrays are views of
-    the library's own, read-only."""
+    """Columns by name: table["stroke_m"], one number per row; nan if a value does not exist. The arrays are read-only
+    views of the memory of the library."""
 
     def __init__(self, columns: tuple[tuple[str, str, str], ...], values: np.ndarray) -> None:
         self.values_2d = values
-        """all of it, [rows, columns]"""
+        """all columns, [rows, columns]"""
         self.units = {name: unit for name, unit, _ in columns}
-        """SI unit of each column; "1" for pure numbers"""
+        """SI unit of each column; "1" for numbers without a unit"""
         self.help = {name: text for name, _, text in columns}
-        """one line on each column"""
+        """a line of help for each column"""
         self._place = {name: i for i, (name, _, _) in enumerate(columns)}
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._place:
-            raise _zipact.InputError(f"{name}: no column; there are {', '.join(self._place)}")
+            raise _zipact.InputError(f"{name}: unknown column; the columns are {', '.join(self._place)}")
         return self.values_2d[:, self._place[name]]
 
     def __iter__(self) -> Iterator[str]:
@@ -55,7 +55,7 @@ class Table(Mapping[str, np.ndarray]):
 
 
 class Shapes(NamedTuple):
-    """A film of shapes; of study modes: the shape at rest, then one with each mode on it."""
+    """Shapes over time; in study modes: the shape at rest, then one for each mode."""
 
     time: np.ndarray
     """[frames] s"""
@@ -64,7 +64,7 @@ class Shapes(NamedTuple):
     zipped: np.ndarray
     """[frames] pairs 0 .. zipped are closed; the clip is pair 0"""
     x: np.ndarray
-    """[frames, nodes, ribbons] m, rightwards from the clip's place in the straight actuator; ribbon 0 is the upper one"""
+    """[frames, nodes, ribbons] m, to the right, from the position of the clip in the straight actuator; ribbon 0 is the upper one"""
     y: np.ndarray
     """[frames, nodes, ribbons] m, upwards from the upper platform (kind ribbon: from the clamp)"""
     gap: np.ndarray | None
@@ -74,10 +74,10 @@ class Shapes(NamedTuple):
     insulator_field: np.ndarray | None
     """[frames, nodes] V/m; None for kind ribbon; nan without insulators"""
     stress: np.ndarray | None
-    """[frames, nodes, ribbons] Pa, of the metal, the largest of its section; None in study profile"""
+    """[frames, nodes, ribbons] Pa, largest stress of the metal in the section; None in study profile"""
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Draw the film, early shapes pale, late ones dark."""
+        """Draw all shapes, early ones pale, late ones dark."""
         from . import plot
 
         return plot.shapes(self, ax)
@@ -93,9 +93,9 @@ class FieldMap(NamedTuple):
     potential: np.ndarray
     """[nx, ny] V"""
     strength: np.ndarray
-    """[nx - 1, ny - 1] V/m, in the middle of a cell"""
+    """[nx - 1, ny - 1] V/m, at the centre of a cell"""
     permittivity: np.ndarray
-    """[nx - 1, ny - 1] relative; 0 in metal"""
+    """[nx - 1, ny - 1] relative permittivity; 0 in metal"""
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the strength of the field."""
@@ -115,29 +115,29 @@ def shapes_of(parts: Mapping[str, Any]) -> Shapes:
 
 
 class Result(Mapping[str, float]):
-    """What a study found. As a mapping it has its numbers: result["zip_time_s"]; nan where there is none. It can be pickled
-    and copied, within one version of zipact."""
+    """The result of a study. As a mapping it contains the numbers: result["zip_time_s"]; nan if a number does not exist.
+    It can be pickled and copied within one version of zipact."""
 
     def __init__(self, found: _zipact.Result, actuator: "Actuator") -> None:
         self._found = found
         self.actuator = actuator
-        """what was run"""
+        """the actuator that was simulated"""
         self.study: str = found.study
         self.outcome: str = found.outcome
-        """how the numerics ended: zipped, end_time, converged, followed; or diverged, not_settled, ..."""
+        """outcome, a word: zipped, end_time, converged, followed; or diverged, not_settled, ..."""
         self.good: bool = found.good
-        """whether the outcome is an answer"""
+        """whether the run completed; false if the solver failed or the run was interrupted"""
         self.message: str = found.message
-        """one sentence on how it ended"""
+        """one sentence about the outcome"""
         self.notes: tuple[str, ...] = found.notes
-        """sentences: breakdown, yield, limits of the model and of the mesh that were met"""
+        """sentences about breakdown, yield, and limits of the model and of the mesh"""
         self.units = {name: unit for name, unit, _, _ in found.scalars}
-        """SI unit of each number; "1" for pure ones, "count" for whole ones"""
+        """SI unit of each number; "1" for numbers without a unit, "count" for counts"""
         self._numbers = {name: value for name, _, value, _ in found.scalars}
         self.timings = {name for name, _, _, timing in found.scalars if timing}
-        """names of numbers that follow from wall time: they differ from run to run"""
+        """names of numbers that depend on wall time: they differ from run to run"""
         self.sensitivity: dict[str, dict[str, float]] = {}
-        """derivatives in SI units: sensitivity["stroke_m"]["ribbon.thickness"], by the keys of sensitivity.by"""
+        """derivatives in SI units: sensitivity["stroke_m"]["ribbon.thickness"], with respect to the keys of sensitivity.by"""
         for output, key, value in found.sensitivities:
             self.sensitivity.setdefault(output, {})[key] = value
         self.series = None if found.series is None else Table(found.series[0], array(found.series[1]))
@@ -149,7 +149,7 @@ class Result(Mapping[str, float]):
 
     def __getitem__(self, name: str) -> float:
         if name not in self._numbers:
-            raise _zipact.InputError(f"{name}: no number of study {self.study}; there are {', '.join(self)}")
+            raise _zipact.InputError(f"{name}: not a number of study {self.study}; its numbers are {', '.join(self)}")
         return self._numbers[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -171,14 +171,14 @@ class Result(Mapping[str, float]):
         return self.series.to_dataframe()
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Draw what the study is about with matplotlib."""
+        """Draw the main result of the study with matplotlib."""
         from . import plot
 
         return plot.result(self, ax)
 
     def save(self, directory: str | os.PathLike[str]) -> None:
-        """Write the files that the command writes: scenario.yaml, summary.json, table.csv, results.h5, plots/, ...;
-        and drive.csv, the arrays that drove it."""
+        """Write the files of the command: scenario.yaml, summary.json, table.csv, results.h5, plots/, ...; and drive.csv
+        if arrays drove the actuator."""
         folder = os.fspath(directory)
         os.makedirs(folder, exist_ok=True)
         self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario())

@@ -23,8 +23,8 @@ SIGNALS: dict[str, Signal] = {row[0]: Signal(*row) for row in _zipact.signals()}
 
 
 class Shape(NamedTuple):
-    """Shape of the ribbons' insulator faces: x rightwards from the clip's place in the straight actuator, y upwards from
-    the upper platform (kind ribbon: from the clamp)."""
+    """Shape of the insulator faces of the ribbons: x to the right, from the position of the clip in the straight actuator,
+    y upwards, from the upper platform (kind ribbon: from the clamp)."""
 
     zipped: int
     """pairs 0 .. zipped are closed; the clip is pair 0"""
@@ -39,7 +39,7 @@ class Shape(NamedTuple):
     insulator_field: np.ndarray | None
     """[nodes] V/m; None for kind ribbon; nan without insulators"""
     stress: np.ndarray
-    """[nodes, ribbons] Pa, of the metal, the largest of its section"""
+    """[nodes, ribbons] Pa, largest stress of the metal in the section"""
 
 
 class Simulation(_zipact.Simulation):
@@ -63,14 +63,14 @@ class Simulation(_zipact.Simulation):
         return self
 
     def __getitem__(self, signal: str) -> float:
-        """Present value of a signal, SI: simulation["stroke"]."""
+        """Current value of a signal, SI: simulation["stroke"]."""
         if signal not in SIGNALS:
-            raise _zipact.InputError(f"{signal}: no signal; there are {', '.join(SIGNALS)}")
+            raise _zipact.InputError(f"{signal}: unknown signal; the signals are {', '.join(SIGNALS)}")
         return self.get(signal)
 
     def read(self, out: np.ndarray | None = None) -> np.ndarray:
-        """Present values of all SIGNALS, in their order, SI; into `out` if given. The signal current is the mean since
-        the reading before."""
+        """Current values of all SIGNALS, in their order, SI; into `out` if given. The signal current is the mean since the
+        previous reading."""
         if out is None:
             out = np.empty(len(SIGNALS))
         try:
@@ -80,12 +80,12 @@ class Simulation(_zipact.Simulation):
         return out
 
     def control(self, controller: Callable[["Simulation"], float], period: float, end_time: float) -> None:
-        """Run until `end_time` (s) with a controller: every `period` (s), first now, controller(simulation) reads what it
-        needs and returns the voltage from then on, V."""
+        """Run until `end_time` (s) with a controller: every `period` (s), starting now, controller(simulation) returns the
+        voltage of the next period, V."""
         if not (math.isfinite(period) and period > 0):
-            raise _zipact.InputError(f"period = {period} s: not a finite time above 0 s")
+            raise _zipact.InputError(f"period = {period} s: must be finite and above 0 s")
         if not (math.isfinite(end_time) and end_time >= self.time):
-            raise _zipact.InputError(f"end_time = {end_time} s: not a finite time from the present one, {self.time} s, on")
+            raise _zipact.InputError(f"end_time = {end_time} s: must be finite and at least the current time, {self.time} s")
         step, since = self.step, self.time
         whole = int((end_time - since) / period * (1 + 1e-12))
         for k in range(whole):
@@ -94,7 +94,7 @@ class Simulation(_zipact.Simulation):
             step(end_time - self.time, voltage=controller(self))
 
     def shape(self) -> Shape:
-        """Present shape, copied."""
+        """Copy of the current shape."""
         zipped, x, y, gap, line_force, insulator_field, stress = super().shape()
         flat = [None if view is None else np.array(view)[0] for view in (gap, line_force, insulator_field)]
         return Shape(zipped, np.array(x), np.array(y), *flat, np.array(stress))

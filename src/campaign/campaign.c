@@ -1,14 +1,14 @@
-/* A campaign: threads compute, the caller's thread writes the journal.
+/* A campaign: worker threads compute the cases, the thread of the caller writes the journal.
  *
- * Threads and not processes: the core has no state of its own and no call that ends the process, so nothing is gained
- * by a wall between them; results need no copies, and a rest, 0.03 ms, is cheaper than a message between processes.
- * What a crash of the whole process would lose is in the journal.
+ * Threads and not processes: the core has no global state and never ends the process, so separate processes would add
+ * no safety. Results need no copies, and an equilibrium takes 0.03 ms, less than a message between processes. If the
+ * whole process crashes, the finished rows are in the journal.
  *
- * Workers take chunks of cases (fit/case.h) in the order of their numbers. Rows go into the journal in the order in
- * which they are done, through a queue of bounded length: who computes faster than the disk writes waits. Files are
- * written from the journal, row by row in the order of the cases, so neither their bytes nor the memory depend on the
- * number of workers. A chunk that lacks a row is computed from its first case on, since its states are not in the
- * journal. */
+ * Workers take chunks of cases (fit/case.h) in the order of their numbers. Rows enter the journal in the order in which
+ * they are finished, through a queue of bounded length: a worker waits if it computes faster than the disk writes. The
+ * files are written from the journal, row by row in the order of the cases, so neither their bytes nor the memory
+ * depend on the number of workers. If a row of a chunk is missing, the chunk is computed from its first case on,
+ * because the journal does not have the states of its cases. */
 #include <zipact/campaign.h>
 
 #include <errno.h>
@@ -25,29 +25,29 @@
 #include "fit/case.h"
 #include "io/cases.h"
 
-/* How often the writer looks around, and for how long rows may wait for their commit, ms. */
+/* Interval at which the writer wakes; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
 
-/* Rows that wait to be written, at most; how many wake the writer before its PULSE, since a wake-up takes as long as
- * some rows; cases that another process computes at once, at most. */
+/* Largest number of rows that wait to be written; number of waiting rows that wakes the writer before its PULSE,
+ * because a wake-up costs as much as some rows; largest number of cases that another process computes at once. */
 enum { QUEUE = 4096, MANY = QUEUE / 8, SPAN_MOST = 64 };
 _Static_assert((int)SPAN_MOST >= (int)ZP_CHUNK_MOST, "a span has room for a chunk");
 
-/* What is known of a row. That an earlier process left is of the same case only if its hash says so. */
+/* State of a row. A row of an earlier process belongs to the same case only if its hash agrees. */
 typedef enum Mark { MARK_NONE, MARK_OLD_FAILED, MARK_OLD_GOOD, MARK_FAILED, MARK_GOOD } Mark;
 
-/* A row on its way to the journal. */
+/* A row in the queue to the journal. */
 typedef struct Row {
   size_t number;
   uint64_t hash;
-  ZpPacked *packed; /* NULL: the journal has this row */
+  ZpPacked *packed; /* NULL: the journal has this row already */
 } Row;
 
 typedef struct Worker {
   ZpCampaign *campaign;
   pthread_t thread;
   size_t number;           /* from 0 */
-  _Atomic double fraction; /* of the case that it runs, 0 .. 1 */
+  _Atomic double fraction; /* progress of the case that it runs, 0 .. 1 */
 } Worker;
 
 /* Cases from .. to - 1. */
@@ -64,23 +64,23 @@ struct ZpCampaign {
   size_t cases, chunk, span;
   bool keeps_series;
   uint64_t start;      /* zp_campaign_hash */
-  uint64_t *hash;      /* [cases] of the rows of an earlier process; 0: none */
-  unsigned char *mark; /* [cases] a Mark; the writer's */
+  uint64_t *hash;      /* [cases] hashes of the rows of an earlier process; 0: none */
+  unsigned char *mark; /* [cases] a Mark; used by the writer only */
   ZpCampaignState state;
   atomic_bool stop;
-  pthread_mutex_t lock; /* guards what follows */
+  pthread_mutex_t lock; /* guards the members below */
   pthread_cond_t more, room;
-  size_t next;           /* first case that no worker has taken */
+  size_t next;           /* first case that no worker has taken yet */
   size_t first, waiting; /* the queue: a ring */
   Row queue[QUEUE];
   struct {
     Span *span; /* [workers] */
     size_t count;
-    size_t busy;   /* spans that other processes have */
-  } lost;          /* cases of processes that were lost */
-  ZpRemote remote; /* what the results of other processes point to */
-  size_t workers;  /* that run */
-  ZpError err;     /* of the first worker that failed */
+    size_t busy;   /* spans that other processes compute */
+  } lost;          /* cases of lost processes */
+  ZpRemote remote; /* names to which the results of other processes point */
+  size_t workers;  /* number of running workers */
+  ZpError err;     /* error of the first worker that failed */
 };
 
 /* -- workers ---------------------------------------------------------------------------------------- */
@@ -97,8 +97,8 @@ static double read_clock(void *user) {
   return options->clock(options->user);
 }
 
-/* How many cases are taken at once: a chunk; of those that are computed elsewhere several, since messages take time,
- * but so few that all have some. */
+/* Number of cases that are taken at once: a chunk; several for another process, because messages take time, but few
+ * enough that every process has some. */
 static size_t span_of(const ZpCampaign *c, size_t workers) {
   enum { SPANS_FEWEST = 8 };
   if (!c->options.remote) return c->chunk;
@@ -106,8 +106,8 @@ static size_t span_of(const ZpCampaign *c, size_t workers) {
   return most > c->chunk ? most / c->chunk * c->chunk : c->chunk;
 }
 
-/* The next cases *from .. *to - 1, those first that a lost process had; false if there are none. As long as a process
- * that may be lost computes the last ones, others wait: the writer wakes them now and then. */
+/* The next cases *from .. *to - 1, first those of a lost process; false if there are none. While a process that may be
+ * lost computes the last cases, the other workers wait; the writer wakes them from time to time. */
 static bool take_chunk(ZpCampaign *c, size_t *from, size_t *to) {
   pthread_mutex_lock(&c->lock);
   while (c->next == c->cases && c->lost.count == 0 && c->lost.busy > 0 && !atomic_load(&c->stop))
@@ -126,8 +126,8 @@ static bool take_chunk(ZpCampaign *c, size_t *from, size_t *to) {
   return *from < *to && !atomic_load(&c->stop);
 }
 
-/* Cases that another process had are done, or lost: then others compute them. A worker that loses its process takes no
- * more, so there is room. */
+/* The cases of another process are done or lost; in the latter case other workers compute them. A worker that loses its
+ * process takes no more cases, so the list has room. */
 static void end_span(ZpCampaign *c, size_t from, size_t to, bool lost) {
   pthread_mutex_lock(&c->lock);
   if (lost) c->lost.span[c->lost.count++] = (Span){from, to};
@@ -152,7 +152,7 @@ static void fail(ZpCampaign *c, const ZpError *err) {
   atomic_store(&c->stop, true);
 }
 
-/* A result goes to the journal as bytes: there are many, and no thread frees the memory of another. */
+/* A result is sent to the journal as bytes: there are many results, and no thread has to free the memory of another. */
 static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *result) {
   ZpPacked *packed = zp_journal_pack(c->journal, result);
   zp_result_destroy(result);
@@ -162,8 +162,8 @@ static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, ZpResu
     fail(c, &(ZpError){ZP_MACHINE, "no memory"});
 }
 
-/* => the result, NULL where the campaign ends: stopped, or the machine failed. What ends after it was stopped is left
- * out, since it may lack estimated errors. */
+/* => the result, NULL if the campaign ends: stopped, or the machine failed. A case that ends after the stop is dropped,
+ * because its estimated errors may be missing. */
 static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
   ZpCampaign *c = worker->campaign;
   const ZpHooks hooks = {worker, on_progress, c->options.clock ? read_clock : NULL};
@@ -180,20 +180,21 @@ static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
   return NULL;
 }
 
-/* Hashes of the cases from .. to - 1. True if the journal has all of them. */
+/* Compute the hashes of the cases from .. to - 1. True if the journal has all of them. */
 static bool hash_chunk(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[ZP_CHUNK_MOST]) {
   uint64_t before = c->start;
   bool known = true;
   for (size_t i = from; i < to; i++) {
     ZpActuatorDef def;
-    const bool resolved = zp_scenario_given(c->scenario, i, &def, NULL) == ZP_OK; /* if not, running it says why */
+    const bool resolved =
+        zp_scenario_given(c->scenario, i, &def, NULL) == ZP_OK; /* otherwise the run reports the reason */
     before = hash[i - from] = resolved ? zp_case_hash(before, &def) : before;
     known = known && resolved && c->hash[i] == before;
   }
   return known;
 }
 
-/* A result goes to the writer when the next one, which starts from it, is there. */
+/* A result is sent to the writer when the next one, which starts from it, is finished. */
 static void run_chunk(Worker *worker, size_t from, size_t to) {
   ZpCampaign *c = worker->campaign;
   uint64_t hash[ZP_CHUNK_MOST];
@@ -216,7 +217,7 @@ static void run_chunk(Worker *worker, size_t from, size_t to) {
 
 /* -- cases that are computed elsewhere -------------------------------------------------------------- */
 
-/* Hashes of the chunks of a span. True if the journal has all rows. */
+/* Compute the hashes of the chunks of a span. True if the journal has all rows. */
 static bool hash_span(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[SPAN_MOST]) {
   bool known = true;
   for (size_t start = from; start < to; start += c->chunk) {
@@ -226,7 +227,7 @@ static bool hash_span(const ZpCampaign *c, size_t from, size_t to, uint64_t hash
   return known;
 }
 
-/* Read the results of a span; the names that they point to are the campaign's. */
+/* Read the results of a span; the campaign owns the names to which they point. */
 static bool read_span(ZpCampaign *c, const unsigned char *byte, size_t size, size_t count, ZpResult **result) {
   pthread_mutex_lock(&c->lock);
   const bool read = zp_remote_read(&c->remote, byte, size, c->study, count, result);
@@ -234,7 +235,7 @@ static bool read_span(ZpCampaign *c, const unsigned char *byte, size_t size, siz
   return read;
 }
 
-/* Hand over the results of a span that another process has computed. False if there will be no more of it. */
+/* Send the results of a span that another process has computed to the writer. False if the campaign ends. */
 static bool run_span(Worker *worker, size_t from, size_t to) {
   ZpCampaign *c = worker->campaign;
   uint64_t hash[SPAN_MOST] = {0};
@@ -285,8 +286,8 @@ static double now(void) {
   return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
 }
 
-/* Wait for many rows, a PULSE at most, and take those that are there => how many; *open is false once there will be no
- * more. */
+/* Wait at most a PULSE for many rows, and take those that are in the queue => their number; *open is false after the
+ * last one. */
 static size_t take_rows(ZpCampaign *c, Row row[QUEUE], bool *open) {
   struct timespec end;
   clock_gettime(CLOCK_MONOTONIC, &end);
@@ -322,7 +323,7 @@ static ZpStatus write_row(ZpCampaign *c, const Row *row, ZpError *err) {
   return ZP_OK;
 }
 
-/* Write rows, or only free them once that has failed. */
+/* Write rows; after an error, only free them. */
 static ZpStatus write_rows(ZpCampaign *c, const Row *row, size_t count, ZpStatus status, ZpError *err) {
   for (size_t i = 0; i < count; i++) {
     if (status == ZP_OK) status = write_row(c, &row[i], err);
@@ -339,7 +340,7 @@ static void look_around(ZpCampaign *c, const Worker *worker, size_t workers) {
   if (c->options.progress && c->options.progress(c->options.user, &c->state)) atomic_store(&c->stop, true);
 }
 
-/* Until the workers have ended. */
+/* Write rows until the workers have ended. */
 static ZpStatus write_all(ZpCampaign *c, const Worker *worker, size_t workers, ZpError *err) {
   ZpStatus status = ZP_OK;
   Row row[QUEUE];
@@ -360,7 +361,7 @@ static ZpStatus write_all(ZpCampaign *c, const Worker *worker, size_t workers, Z
 
 /* -- a campaign ------------------------------------------------------------------------------------- */
 
-/* Start the workers => how many there are. Where there are no more threads, fewer do. */
+/* Start the workers => their number. If threads are not available, fewer run. */
 static size_t start_workers(ZpCampaign *c, Worker *worker, size_t most) {
   c->workers = most;
   size_t started = 0;
@@ -393,7 +394,8 @@ ZpStatus zp_campaign_run(ZpCampaign *c, ZpError *err) {
     pthread_join(worker[i].thread, NULL);
   free(worker);
   if (status == ZP_OK && c->lost.count > 0)
-    status = zp_fail(err, ZP_MACHINE, "a process was lost, and with it some cases; --resume computes them");
+    status = zp_fail(err, ZP_MACHINE,
+                     "a process ended before it returned all its cases; --resume computes the missing ones");
   return status == ZP_OK && c->err.status != ZP_OK ? zp_fail(err, c->err.status, "%s", c->err.message) : status;
 }
 

@@ -1,5 +1,5 @@
-/* FNV-1a, 64 bits, of numbers eight bytes at a time. A row is looked for by its number and compared by its hash, so
- * that two cases would have to collide at the same place of a scenario that was changed: once in 2^64. */
+/* FNV-1a with 64 bits, eight bytes at a time. A row is found by its number and compared by its hash: after a change of
+ * the scenario, a wrong row counts only if two cases with the same number collide, with a probability of 1 in 2^64. */
 #include "campaign/case_hash.h"
 
 #include <errno.h>
@@ -19,15 +19,15 @@ static uint64_t add_bytes(uint64_t hash, const void *data, size_t size) {
   return hash;
 }
 
-/* With the 0 at its end, so that "a", "b" differs from "ab". */
+/* Including the final 0, so that "a", "b" differs from "ab". */
 static uint64_t add_text(uint64_t hash, const char *text) {
   return add_bytes(hash, text, strlen(text) + 1);
 }
 
-/* All eight bytes at once; the high half is folded into the low one, which a product does not reach. */
+/* All eight bytes at once; the high half is folded into the low one, which the product does not reach. */
 static uint64_t add_number(uint64_t hash, double value) {
   uint64_t bits;
-  if (isnan(value)) value = (double)NAN; /* one of its many bits */
+  if (isnan(value)) value = (double)NAN; /* an arbitrary bit */
   memcpy(&bits, &value, sizeof bits);
   hash = (hash ^ bits) * fnv_prime;
   return hash ^ hash >> 32;
@@ -59,8 +59,8 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
   return status;
 }
 
-/* Pictures are no part of a result; how cases were chosen is in their values. Asked of all keys of every case: no names
- * are compared. */
+/* Pictures are not part of a result, and the values of a case include how it was chosen. Called for all keys of every
+ * case: no names are compared. */
 static bool is_no_part(const ZpKey *key) {
 #define PART(field)                                                                                                    \
   { offsetof(ZpActuatorDef, field), sizeof(((ZpActuatorDef *)0)->field) }

@@ -1,12 +1,12 @@
-/* The journal is a database of SQLite in WAL mode: a process may be killed at any instant, and what was committed is
- * there. synchronous = FULL brings each commit to the disk, so that it is there after a loss of power, too.
+/* The journal is an SQLite database in WAL mode: a process may be killed at any instant without losing committed rows.
+ * With synchronous = FULL each commit is on the disk, so it also survives a loss of power.
  *
- *   about(name, value)                            version of the program, study, number of cases: for people
- *   name(id, name, unit, help, timing)            names of scalars and columns, once for all rows
- *   row(number, hash, outcome, message, result)   a case that is done; result: record.c
+ * about(name, value)                            version of the program, study, number of cases: for people
+ * name(id, name, unit, help, timing)            names of scalars and columns, once for all rows
+ * row(number, hash, outcome, message, result)   a finished case; result: record.c
  *
- * Names are written in the transaction of the first row that has them. Rows are packed by the threads that have
- * computed them, so the numbers of names depend on who packs first; what is read does not. */
+ * Names are written in the transaction of the first row that uses them. The threads that compute the rows also pack
+ * them, so the ids of names depend on their order; the results that are read do not. */
 #include "campaign/journal.h"
 
 #include <pthread.h>
@@ -31,12 +31,12 @@ struct ZpJournal {
   sqlite3 *base;
   sqlite3_stmt *put, *get, *put_name;
   bool open;            /* a transaction */
-  bool reading;         /* `get` stands at row `at`: the next one is a step away */
-  pthread_mutex_t lock; /* guards names and record, while rows are packed */
+  bool reading;         /* `get` is at row `at`: one step leads to the next one */
+  pthread_mutex_t lock; /* guards names and record while rows are packed */
   ZpNames names;
   size_t names_written;
   ZpRecord record;
-  ZpResult row; /* what zp_journal_get gives: row `at` */
+  ZpResult row; /* result of zp_journal_get: row `at` */
   size_t at;
   bool has_row, bad;
 };
@@ -49,7 +49,7 @@ static ZpStatus run(ZpJournal *journal, const char *sql, ZpError *err) {
   return sqlite3_exec(journal->base, sql, NULL, NULL, NULL) == SQLITE_OK ? ZP_OK : fail_base(journal, err);
 }
 
-/* => the whole number that a query answers, -1 if it cannot. */
+/* => the integer result of a query, -1 if it fails. */
 static sqlite3_int64 ask(ZpJournal *journal, const char *sql) {
   sqlite3_stmt *query = NULL;
   sqlite3_int64 answer = -1;
@@ -85,7 +85,7 @@ static bool is_ours(ZpJournal *journal) {
   return ask(journal, "PRAGMA application_id") == APPLICATION && ask(journal, "PRAGMA user_version") == LAYOUT;
 }
 
-/* Rows of a campaign that was not finished took time: only its owner may give them up. */
+/* The rows of an unfinished campaign took time to compute: only the user may discard them. */
 static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
   if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
       !is_ours(journal))
@@ -95,11 +95,11 @@ static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
   if (done <= 0 || done >= cases) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "%.300s: %lld of %lld cases of an unfinished campaign; give --resume to continue it, delete this file "
-                 "to begin again, or choose another folder",
+                 "to start again, or choose another folder",
                  journal->path, (long long)done, (long long)cases);
 }
 
-/* Begin without the journal that is there. */
+/* Discard the existing journal. */
 static ZpStatus replace_old(ZpJournal *journal, const char *directory, ZpError *err) {
   ZpStatus status = refuse_unfinished(journal, err);
   sqlite3_close(journal->base);
@@ -112,7 +112,7 @@ static ZpStatus need_tables(ZpJournal *journal, ZpError *err) {
   const sqlite3_int64 tables = ask(journal, "SELECT count(*) FROM sqlite_master");
   if (tables == 0) return make_tables(journal, err);
   if (tables > 0 && is_ours(journal)) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "%.300s: not a journal of this version of zipact; begin without --resume",
+  return zp_fail(err, ZP_BAD_INPUT, "%.300s: not a journal of this version of zipact; start without --resume",
                  journal->path);
 }
 
@@ -182,7 +182,7 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
   return status;
 }
 
-/* (journal with its path and study) => is it open, for reading? */
+/* (journal with its path and study) => true if it is open for reading */
 static bool open_reader(ZpJournal *journal) {
   return sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
          read_names(journal, NULL) == ZP_OK && prepare_get(journal, NULL) == ZP_OK;
@@ -215,7 +215,7 @@ void zp_journal_close(ZpJournal *journal) {
 
 /* -- rows ------------------------------------------------------------------------------------------- */
 
-/* The outcome of this word; ZP_BAD_ARGUMENT of any other. */
+/* The outcome with this word; ZP_BAD_ARGUMENT for any other word. */
 static ZpOutcome outcome_of(const char *word) {
   for (int i = 0; word && i <= ZP_PULLED_IN; i++)
     if (strcmp(zp_outcome_name((ZpOutcome)i), word) == 0) return (ZpOutcome)i;
@@ -235,7 +235,7 @@ ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t n
   return step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
 }
 
-/* Run a statement whose values are bound. */
+/* Run a statement with bound values. */
 static ZpStatus finish(ZpJournal *journal, sqlite3_stmt *statement, ZpError *err) {
   const bool done = sqlite3_step(statement) == SQLITE_DONE;
   ZpStatus status = done ? ZP_OK : fail_base(journal, err);
@@ -267,7 +267,7 @@ static void end_reading(ZpJournal *journal) {
   journal->reading = false;
 }
 
-/* With the lock. */
+/* Requires the lock. */
 static ZpPacked *pack(ZpJournal *journal, const ZpResult *result) {
   if (!zp_record_write(&journal->record, &journal->names, result)) return NULL;
   ZpPacked *row = malloc(sizeof *row + journal->record.used);
@@ -310,8 +310,8 @@ ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err) {
   return run(journal, "UPDATE about SET value = (SELECT count(*) FROM row) WHERE name = 'cases'", err);
 }
 
-/* Go to row `number`, a step where the row before it was read last: one transaction then reads all. False if there is
- * no such row. */
+/* Go to row `number`, one step if the row before it was read last: one transaction then reads all rows. False if there
+ * is no such row. */
 static bool find_row(ZpJournal *journal, size_t number) {
   if (!journal->reading || number != journal->at + 1) {
     end_reading(journal);

@@ -120,7 +120,7 @@ bool zp_record_write(ZpRecord *record, ZpNames *names, const ZpResult *result) {
 
 /* -- reading ---------------------------------------------------------------------------------------- */
 
-/* What is left to read; `bad` once more was asked than is there. */
+/* The remaining bytes; `bad` if more was read than there is. */
 typedef struct Reader {
   const unsigned char *byte;
   size_t left;
@@ -139,7 +139,7 @@ static uint64_t get(Reader *reader, size_t size) {
   return value;
 }
 
-/* A count of at most `most`. */
+/* Read a count of at most `most`. */
 static size_t get_count(Reader *reader, size_t most) {
   const size_t count = (size_t)get(reader, 4);
   reader->bad = reader->bad || count > most;
@@ -153,7 +153,7 @@ static double get_real(Reader *reader) {
   return value;
 }
 
-/* NULL where the record is bad. */
+/* NULL if the record is bad. */
 static const ZpName *get_name(Reader *reader) {
   const size_t number = (size_t)get(reader, 4);
   reader->bad = reader->bad || number >= reader->names->count;

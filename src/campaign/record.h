@@ -1,4 +1,4 @@
-/* A result as bytes, as a row of the journal has it: numbers, notes, derivatives and series. */
+/* A result as bytes in a row of the journal: numbers, notes, derivatives and series. */
 #ifndef ZP_CAMPAIGN_RECORD_H
 #define ZP_CAMPAIGN_RECORD_H
 
@@ -6,13 +6,13 @@
 
 #include <zipact/study.h>
 
-/* A name that results have: of a scalar or of a column. */
+/* A name in results: of a scalar or of a column. */
 typedef struct ZpName {
-  char *name, *unit, *help; /* help is NULL of a scalar */
+  char *name, *unit, *help; /* help is NULL for a scalar */
   bool timing;
 } ZpName;
 
-/* Names by number: rows have the number, the journal has each name once. */
+/* Numbered names: rows contain the numbers, the journal has each name once. */
 typedef struct ZpNames {
   ZpName *item;
   size_t count;
@@ -21,27 +21,27 @@ typedef struct ZpNames {
 /* Append a name, copied; false if there is no memory. */
 bool zp_names_add(ZpNames *names, const ZpName *name);
 
-/* => its number, appended if needed; names->count if there is no memory. */
+/* => the number of a name, which is appended if it is new; names->count if there is no memory. */
 size_t zp_names_number(ZpNames *names, const ZpName *name);
 void zp_names_free(ZpNames *names);
 
-/* Bytes that grow as a record is written. */
+/* The bytes of a record, which grow while it is written. */
 typedef struct ZpRecord {
   unsigned char *byte;
   size_t used, room;
   bool bad; /* no memory */
 } ZpRecord;
 
-/* Write `result` in place of what the record has; names that are not among `names` are appended there. False if there
+/* Write `result` in place of the previous record; names that are missing in `names` are appended to it. False if there
  * is no memory. */
 bool zp_record_write(ZpRecord *record, ZpNames *names, const ZpResult *result);
 
-/* Read a record of `size` bytes => numbers, notes, derivatives and series of `row`, whose outcome, message and study
- * are the caller's to set. Its names live as long as `names`; what it had before is freed. False if the
- * bytes are no record, or there is no memory. */
+/* Read a record of `size` bytes => numbers, notes, derivatives and series of `row`; the caller sets its outcome,
+ * message and study. The names must outlive `row`, whose previous content is freed. False if the bytes are not a
+ * record, or there is no memory. */
 bool zp_record_read(const unsigned char *byte, size_t size, const ZpNames *names, ZpResult *row);
 
-/* Free what zp_record_read has made. */
+/* Free the memory of zp_record_read. */
 void zp_record_clear(ZpResult *row);
 
 #endif

@@ -31,7 +31,7 @@ static void put_names(FILE *out, const ZpNames *names) {
   }
 }
 
-/* Append a result to what is written; its names to `names`. False if there is no memory. */
+/* Append a result to the message, and its names to `names`. False if there is no memory. */
 static bool put_result(FILE *out, ZpRecord *record, ZpNames *names, const ZpResult *result) {
   if (!zp_record_write(record, names, result)) return false;
   fputc((int)result->outcome, out);
@@ -64,7 +64,7 @@ static ZpStatus compute_all(const ZpScenario *scenario, size_t from, size_t to, 
   return status;
 }
 
-/* Names, which are known last, before results. */
+/* The names precede the results in the message, but are only known after them. */
 static ZpStatus join(const ZpNames *names, const char *results, size_t length, unsigned char **byte, size_t *size,
                      ZpError *err) {
   char *all = NULL;
@@ -123,7 +123,7 @@ static const char *get_text(Reader *reader) {
   return (const char *)take(reader, length + 1);
 }
 
-/* Their numbers are those of the message, their texts those that are kept. */
+/* Their numbers are those of the message; their texts are those of the names that are kept. */
 static void get_names(Reader *reader, ZpRemote *remote, ZpNames *names) {
   const size_t count = get_count(reader);
   reader->bad = reader->bad || count > reader->left;

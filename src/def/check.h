@@ -1,16 +1,18 @@
-/* Checks that more than one study shares, and the words of messages. All name the key in ZP_BAD_INPUT. */
+/* Checks that several studies share, and the wording of their messages. All of them fail with ZP_BAD_INPUT and name the
+ * key. */
 #ifndef ZP_DEF_CHECK_H
 #define ZP_DEF_CHECK_H
 
 #include <zipact/def.h>
 
-/* A mount.tilt nearer than this to a right angle is one: what degrees written with five digits round to, rad. */
+/* A mount.tilt that differs from a right angle by less than this counts as one: degrees written with five digits are
+ * rounded by this much, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
-/* Members of a series at most: so many groups member_K are in keys.def. */
+/* Largest number of members of a series: keys.def has this many groups member_K. */
 enum { ZP_MOST_MEMBERS = 8 };
 
-/* One byte per key, in the order of the table: where a key or a group stands in this struct is its number. */
+/* One byte per key, in the order of the table: the offset of a key or group in this struct is its number. */
 #define ZP_GROUP(group) struct {
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \
@@ -39,49 +41,49 @@ typedef struct ZpKeyGroup {
         (int)(offsetof(ZpKeyNumbers, group) + sizeof(((ZpKeyNumbers *)0)->group))                                      \
   }
 
-/* (name of a choice key, place in its list) => the word. */
+/* (name of a choice key, number of a word) => that word. */
 const char *zp_word_of(const char *key, int choice);
 
-/* What liquid.model bead asks of other keys, whatever liquid.model is: where it is refused, auto stands for none. */
+/* Conditions of liquid.model bead on other keys, whatever liquid.model is. Where they fail, auto means none. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 
 /* Does the actuator have two ribbons that face each other? */
 bool zp_def_has_two(const ZpActuatorDef *def);
 
-/* The keys of the lower ribbon: those of the upper one, but where lower.* says otherwise. */
+/* The Def of the lower ribbon: that of the upper one with the keys that lower.* gives. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 
-/* Are the members of stack.parallel unlike, since one of them has keys of its own? */
+/* Is this a stack of unequal parallel members, because a key of member_K is given? */
 bool zp_def_abreast(const ZpActuatorDef *def);
 
-/* Member 1 .. zp_def_members, alone: as the others, but where member_K.* says otherwise. Of a series the last one
- * carries load.mass and load.force, the others a link; of antagonists the first one carries them, and the last one is
- * upside down; side by side each carries its share. */
+/* Member 1 .. zp_def_members as a single actuator: the common keys, overridden by those of member_K. In a series the
+ * last member carries load.mass and load.force, each other member a link. Of two antagonists the first carries the
+ * load, and the last is upside down. Parallel members share the load equally. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
-/* Are the two members of a series antagonists, between mounts at stack.distance? Voltage of the lower one where the
+/* Are the two members of a series antagonists, between mounts at stack.distance? The voltage of the lower one if the
  * upper one has `voltage`, V. */
 bool zp_def_opposed(const ZpActuatorDef *def);
 double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
 
-/* What a stack asks of other keys; may all members have this voltage, V? */
+/* Conditions of a stack on other keys; may all members have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);
 
-/* Segments fit their ribbon, and lower.* has one. */
+/* Checks of segments, which must fit into their ribbon, and of lower.*, which requires two ribbons. */
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
 
-/* What `asks`, a key or a study, knows only ribbons whose insulators are alike; and strips of one thickness. */
+/* Conditions of `asks`, a key or a study, that supports equal insulators only; and, in addition, equal strips only. */
 ZpStatus zp_check_like_insulators(const ZpActuatorDef *def, const char *asks, ZpError *err);
 ZpStatus zp_check_like_sections(const ZpActuatorDef *def, const char *asks, ZpError *err);
 
-/* What moves needs a mass. */
+/* Motion requires a mass. */
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err);
 
-/* The grid of the field keeps closed faces a nanometre apart: the insulator must be far thicker. */
+/* The grid of the field keeps closed faces a nanometre apart, so the insulator must be much thicker than that. */
 ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err);
 
 #endif

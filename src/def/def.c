@@ -1,4 +1,4 @@
-/* The table of keys, made from keys.def, and what works on it: defaults, presets, checks. */
+/* The table of keys, made from keys.def, and its functions: defaults, presets, checks. */
 #include <zipact/def.h>
 
 #include <math.h>
@@ -46,7 +46,7 @@ static const ZpKey keys[] = {
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
-/* Values that go with a kind or a preset, at one N or (nodes 0) at any. */
+/* Values that a kind or a preset sets, for one number of nodes or (nodes 0) for any. */
 typedef struct PresetValue {
   int selector; /* ZpActuatorKind or ZpPreset */
   const char *key;
@@ -116,17 +116,17 @@ const ZpKey *zp_key(int index) {
 }
 
 int zp_key_find(const char *name) {
-  for (int i = 0; i < KEY_COUNT; i++) /* asked some twenty times per case: most names differ in the first letter */
+  for (int i = 0; i < KEY_COUNT; i++) /* called some twenty times per case; most names differ in the first letter */
     if (keys[i].name[0] == name[0] && strcmp(keys[i].name, name) == 0) return i;
   return -1;
 }
 
-/* ASCII only: names of this program have no other letters. */
+/* ASCII only: names of keys have no other letters. */
 static char lower(char c) {
   return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-/* Of a text, at most `most`. */
+/* Length of a text, at most `most`. */
 static int length_within(const char *text, int most) {
   int length = 0;
   while (length < most && text[length])
@@ -153,7 +153,7 @@ int zp_word_distance(const char *a, const char *b) {
   return row[len];
 }
 
-/* The first key of the group that `name` begins with and whose last word has that of `name` in it, or NULL. */
+/* The first key of the group in `name` whose last word contains `word`, or NULL. */
 static const char *first_with(const char *name, const char *word) {
   const char *dot = strchr(name, '.');
   for (int i = 0; dot && i < KEY_COUNT; i++)
@@ -162,8 +162,8 @@ static const char *first_with(const char *name, const char *word) {
   return NULL;
 }
 
-/* A name that no other resembles may be short for one (medium.viscosity); else its group's main key is the likelier one
- * (load.mass for load.weight). */
+/* A name that resembles no key may be a part of one (medium.viscosity). If it is not, the main key of its group is the
+ * most likely one (load.mass for load.weight). */
 static const char *first_of_group(const char *name) {
   const char *dot = strrchr(name, '.');
   const char *first = dot && dot[1] ? first_with(name, dot + 1) : NULL;
@@ -199,7 +199,7 @@ static bool has_field(const ZpKey *key) {
   return key->offset != ZP_NO_FIELD;
 }
 
-/* Write a value that is known to be right into its field. */
+/* Write a value, which has been checked, into its field. */
 static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   void *field = (char *)def + key->offset;
   switch (key->type) {
@@ -214,7 +214,7 @@ static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   case ZP_KEY_ENUM:
     memcpy(field, &(int){(int)value}, sizeof(int));
     break;
-  case ZP_KEY_TEXT: /* has no number */
+  case ZP_KEY_TEXT: /* a text has no number */
     break;
   }
 }
@@ -231,7 +231,7 @@ static ZpActuatorDef defaults(void) {
   return def;
 }
 
-/* Before anything but its first field is looked at. */
+/* To be called before any field but the first is read. */
 static bool is_ours(const ZpActuatorDef *def) {
   return def->layout == zp_def_layout();
 }
@@ -240,13 +240,12 @@ static ZpStatus check_layout(const ZpActuatorDef *def, ZpError *err) {
   if (is_ours(def)) return ZP_OK;
   return zp_fail(
       err, ZP_BAD_INPUT,
-      "ZpActuatorDef is not that of this library, zipact %s: the program was compiled with headers that have "
-      "other keys, or has not begun with zp_actuator_def_default; compile it again with the headers of the "
-      "library",
+      "ZpActuatorDef does not match this library, zipact %s: either the program was compiled with headers of another "
+      "version, or it did not start from zp_actuator_def_default; compile it again with the headers of this library",
       ZP_VERSION);
 }
 
-/* Of a key that has a field; NAN of a text. */
+/* The value of a key that has a field; NAN for a text. */
 static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
   const void *field = (const char *)def + key->offset;
   double real;
@@ -289,7 +288,7 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
 
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
   const ZpKey *key = &keys[index];
-  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: does not take a text", key->name);
+  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a number, not a text", key->name);
   ZpStatus status = check_layout(def, err);
   if (status == ZP_OK) status = check_text(key, text, err);
   if (status != ZP_OK) return status;
@@ -320,7 +319,7 @@ ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
   ZpStatus status = check_layout(def, err);
   if (status == ZP_OK) status = check_value(&keys[index], value, err);
   if (status == ZP_OK && !has_field(&keys[index]))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: belongs to a scenario, not to a definition", keys[index].name);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a ZpActuatorDef", keys[index].name);
   if (status == ZP_OK) store(def, &keys[index], value);
   return status;
 }
@@ -338,7 +337,7 @@ static ZpStatus apply_assignments(ZpActuatorDef *def, const ZpAssignment *list, 
   return status;
 }
 
-/* The values of the preset, those for `nodes` among them. */
+/* Apply the values of a preset, including those for `nodes`. */
 static void apply_preset(ZpActuatorDef *def, ZpPreset preset, int nodes) {
   for (int i = 0; i < PRESET_VALUES; i++) {
     const PresetValue *p = &preset_values[i];
@@ -347,7 +346,7 @@ static void apply_preset(ZpActuatorDef *def, ZpPreset preset, int nodes) {
   }
 }
 
-/* Those of `count` values that go with `selector`. */
+/* Apply those of `count` values that belong to `selector`. */
 static void apply_values(ZpActuatorDef *def, const PresetValue *value, int count, int selector) {
   for (int i = 0; i < count; i++)
     if (value[i].selector == selector) store(def, &keys[zp_key_find(value[i].key)], value[i].value);
@@ -355,7 +354,7 @@ static void apply_values(ZpActuatorDef *def, const PresetValue *value, int count
 
 #define VALUES_OF(array) array, sizeof(array) / sizeof(array)[0]
 
-/* Groups that a material fills: how their keys begin, where the material is named, what the table says. */
+/* Groups that a material fills: the prefix of their keys, the key that names the material, and the table of values. */
 typedef struct MaterialGroup {
   const char *prefix;
   size_t offset;
@@ -377,7 +376,8 @@ static const MaterialGroup *material_group_of(const char *key) {
   return NULL;
 }
 
-/* To give a resistivity adds the law of leakage, which not every model has: it is listed, and stays with the user. */
+/* A resistivity would add the law of leakage, which not every model supports: it is listed in the table, but the user
+ * must set it. */
 static bool is_filled(const char *name) {
   return strcmp(name, "resistivity") != 0;
 }
@@ -414,7 +414,7 @@ static void apply_materials(ZpActuatorDef *def, const ZpActuatorDef *given) {
   }
 }
 
-/* A key that the preset has only for certain N must be given for any other. */
+/* A key that the preset defines for some N only must be given for any other N. */
 static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssignment *list, size_t count,
                                       ZpError *err) {
   for (int i = 0; i < PRESET_VALUES; i++) {
@@ -425,7 +425,7 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
       has_n |= preset_values[j].selector == (int)preset && strcmp(preset_values[j].key, p->key) == 0 &&
                preset_values[j].nodes == nodes;
     if (!has_n && !is_given(zp_key_find(p->key), list, count))
-      return zp_fail(err, ZP_BAD_INPUT, "%s: preset %s has no value for mesh.nodes = %d; please give one", p->key,
+      return zp_fail(err, ZP_BAD_INPUT, "%s: preset %s has no value of this key for mesh.nodes = %d; give one", p->key,
                      words_of_ZpPreset[preset].word, nodes);
   }
   return ZP_OK;
@@ -457,7 +457,7 @@ const char *zp_word_of(const char *key, int choice) {
 }
 
 ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err) {
-  static const double thinnest = 1e-6; /* then the nanometre counts 0.2 % of the force */
+  static const double thinnest = 1e-6; /* then a nanometre changes the force by 0.2 % */
   if (def->insulator.thickness >= thinnest) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = %g m: electro.model field needs at least %g m, because its grid keeps closed "
@@ -466,7 +466,7 @@ ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err) {
                  def->insulator.thickness, thinnest);
 }
 
-/* What electro.model field asks of other keys. */
+/* Conditions of electro.model field on other keys. */
 /* Is the two-dimensional field in this build? */
 #ifdef ZP_WITHOUT_FIELD
 static const bool knows_field = false;
@@ -476,17 +476,17 @@ static const bool knows_field = true;
 
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   if (!knows_field)
-    return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: this build leaves the two-dimensional field out");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.model = field: this build does not include the two-dimensional field; use plates");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.model = field: requires actuator.kind electro_ribbon; use plates, which is accurate "
-                   "within 1 %% where a gap opens slowly");
+                   "electro.model = field: requires actuator.kind electro_ribbon; use plates, which is accurate within "
+                   "1 %% if the gap changes slowly along the ribbon");
   if (def->electro.surface != ZP_SURFACE_POLYLINE)
     return zp_fail(err, ZP_BAD_INPUT, "electro.model = field: requires electro.surface polyline");
   if (def->insulator.thickness == 0)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "insulator.thickness = 0 m: with electro.model field, faces that touch need an insulator between "
-                   "the metals");
+                   "insulator.thickness = 0 m: electro.model field requires an insulator between faces that touch");
   ZpStatus status = zp_check_like_sections(def, "electro.model = field", err);
   return status == ZP_OK ? zp_check_insulator_of_field(def, err) : status;
 }
@@ -494,7 +494,7 @@ static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
 static const ZpKeyGroup drive = ZP_KEY_GROUP(drive), setpoint = ZP_KEY_GROUP(setpoint), control = ZP_KEY_GROUP(control),
                         source = ZP_KEY_GROUP(source);
 
-/* Without the group and the point. */
+/* The name without its group and point. */
 static const char *name_in(int key, ZpKeyGroup group) {
   return keys[key].name + strlen(group.name) + 1;
 }
@@ -509,7 +509,7 @@ static double value_in(const ZpActuatorDef *def, ZpKeyGroup group, const char *n
   return zp_def_get(def, key_in(group, name));
 }
 
-/* Is a key other than by default? */
+/* Does a key differ from its default? */
 static bool is_set(const ZpActuatorDef *def, int key) {
   const char *text = zp_def_text(def, key);
   double value = text ? 0 : zp_def_get(def, key);
@@ -525,13 +525,13 @@ static ZpStatus check_square(const ZpActuatorDef *def, ZpKeyGroup group, ZpError
                  group.name, rise_time, shorter, group.name, group.name);
 }
 
-/* A key of a waveform, and what it goes with. */
+/* A key of a waveform, and the waveforms that use it. */
 typedef struct WaveformKey {
   const char *name, *goes_with;
   bool used[ZpWaveformKind_COUNT];
 } WaveformKey;
 
-/* NULL of a key that goes with every waveform. */
+/* NULL if every waveform uses it */
 static const WaveformKey *waveform_key(const char *name) {
   static const WaveformKey of[] = {{"offset", "ramp, sine or square", {0, 1, 1, 1, 0}},
                                    {"rise_time", "ramp or square", {0, 1, 0, 1, 0}},
@@ -544,7 +544,7 @@ static const WaveformKey *waveform_key(const char *name) {
   return NULL;
 }
 
-/* A key that the waveform does not use must not be given: it would be a mistake in the one or the other. */
+/* A key that the waveform does not use must not be given: either the key or the waveform would be a mistake. */
 static ZpStatus check_waveform(const ZpActuatorDef *def, ZpKeyGroup group, ZpWaveformKind kind, ZpError *err) {
   for (int i = group.first; i < group.end; i++) {
     const WaveformKey *key = waveform_key(name_in(i, group));
@@ -566,7 +566,7 @@ bool zp_def_takes_table(const ZpActuatorDef *def) {
   return (controlled ? def->setpoint.waveform : def->drive.waveform) == ZP_WAVEFORM_TABLE;
 }
 
-/* Without a controller its keys would do nothing. */
+/* Keys of a controller have no effect without one. */
 static ZpStatus check_none_set(const ZpActuatorDef *def, ZpKeyGroup group, ZpError *err) {
   for (int i = group.first; i < group.end; i++)
     if (is_set(def, i))
@@ -579,7 +579,7 @@ static ZpStatus check_no_control(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? check_none_set(def, control, err) : status;
 }
 
-/* A setpoint that no actuator can have. */
+/* Refuse a setpoint that no actuator can reach. */
 static ZpStatus check_reach(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 1;
   double value = def->setpoint.value;
@@ -588,34 +588,35 @@ static ZpStatus check_reach(const ZpActuatorDef *def, ZpError *err) {
          high = moves ? fmax(value, def->setpoint.offset) : value;
   ZpControlSignal signal = def->control.signal;
   if (def->setpoint.waveform == ZP_WAVEFORM_TABLE) return ZP_OK;
-  if (isnan(value)) return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: control.kind is given, which requires it");
+  if (isnan(value)) return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: missing; control.kind requires it");
   if (signal == ZP_CONTROL_CONTRACTION && high > most)
     return zp_fail(err, ZP_BAD_INPUT, "setpoint.value = %g: a contraction is at most %g", high, most);
   if ((signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CAPACITANCE) && low < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "setpoint.value = %g: this signal, control.signal = %s, is at least 0", low,
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "setpoint.value = %g: must be at least 0, because control.signal = %s is never negative", low,
                    zp_word_of("control.signal", (int)signal));
   return ZP_OK;
 }
 
-/* What a controller asks of the actuator and of the drive. */
+/* Conditions of a controller on the actuator and on the drive. */
 static ZpStatus check_plant(const ZpActuatorDef *def, ZpError *err) {
   bool two = zp_def_has_two(def);
   ZpControlSignal signal = def->control.signal;
   if (def->actuator.kind == ZP_KIND_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "control.kind: requires electrodes; actuator.kind is ribbon");
+    return zp_fail(err, ZP_BAD_INPUT, "control.kind: requires electrodes, which actuator.kind ribbon does not have");
   if (!two && (signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CONTRACTION))
     return zp_fail(err, ZP_BAD_INPUT, "control.signal = %s: requires actuator.kind electro_ribbon or hinge; use stroke",
                    zp_word_of("control.signal", (int)signal));
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "drive.waveform = %s: with control.kind the controller sets the voltage; use step, whose "
-                   "drive.voltage is its limit, and setpoint.waveform",
+                   "drive.waveform = %s: with control.kind the controller sets the voltage, up to drive.voltage; use "
+                   "step, and setpoint.waveform for the setpoint over time",
                    zp_word_of("drive.waveform", (int)def->drive.waveform));
   return ZP_OK;
 }
 
 static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
-  static const double periods = 8, most = 1e6; /* of the delay; samples in a run */
+  static const double periods = 8, most = 1e6; /* largest delay in periods; largest number of samples in a run */
   if (def->control.kind == ZP_CONTROL_NONE) return check_no_control(def, err);
   double period = def->control.period;
   if (def->control.delay > periods * period)
@@ -632,7 +633,7 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? check_reach(def, err) : status;
 }
 
-/* Keys of a source that would do nothing. */
+/* Keys of a source that have no effect. */
 static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   static const char *const of_amplifier[] = {"slew_rate",   "current_limit", "sink_limit", "resistance",
                                              "capacitance", "bleeder",       "bandwidth",  "voltage_limit"};
@@ -645,24 +646,23 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* Closed faces hold one charge at any voltage while the cap acts: where it cannot flow back, something else must say
- * what the voltage is. */
+/* While the breakdown cap acts, closed faces hold the same charge at any voltage. If this charge cannot flow back, the
+ * voltage is determined only by a capacitance or a resistance in parallel. */
 static ZpStatus check_undecided(const ZpActuatorDef *def, ZpError *err) {
   static const double least = 0.1e-12; /* F: a few millimetres of wire */
   double sinks = isnan(def->source.sink_limit) ? def->source.current_limit : def->source.sink_limit;
   bool leaks = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity);
   if (sinks != 0 || !def->electro.breakdown_cap || leaks || def->source.capacitance >= least) return ZP_OK;
-  return zp_fail(
-      err, ZP_BAD_INPUT,
-      "source.sink_limit = 0 A: with electro.breakdown_cap closed faces hold their charge at any voltage, and "
-      "nothing decides which; give source.capacitance of output and cable (some 10 pF, at least %g F), "
-      "source.bleeder or insulator.resistivity",
-      least);
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "source.sink_limit = 0 A: with electro.breakdown_cap closed faces hold the same charge at any "
+                 "voltage, so their voltage is undetermined; give source.capacitance of output and cable (about 10 pF, "
+                 "at least %g F), source.bleeder or insulator.resistivity",
+                 least);
 }
 
-/* Values with which an amplifier never charges, or faster than any step of time. */
+/* Values with which an amplifier would never charge the electrodes, or faster than time steps resolve. */
 static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
-  static const double fastest = 1e9; /* Hz: a thousand of the shortest steps in a time constant */
+  static const double fastest = 1e9; /* Hz: a time constant has a thousand of the shortest steps */
   if (def->source.slew_rate == 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "source.slew_rate = 0 V/s: the source would never leave 0 V; give a rate above 0 or none");
@@ -672,13 +672,13 @@ static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
                    "or none");
   if (def->source.bandwidth > fastest)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "source.bandwidth = %g Hz: time steps resolve at most %g Hz; give none for a source that follows "
-                   "at once",
+                   "source.bandwidth = %g Hz: time steps resolve at most %g Hz; give none for an unlimited bandwidth",
                    def->source.bandwidth, fastest);
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires solver.integrator implicit");
   if (def->actuator.kind == ZP_KIND_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "source.model = amplifier: requires electrodes; actuator.kind is ribbon");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "source.model = amplifier: requires electrodes, which actuator.kind ribbon does not have");
   return check_undecided(def, err);
 }
 
@@ -686,11 +686,12 @@ static ZpStatus check_source(const ZpActuatorDef *def, ZpError *err) {
   return def->source.model == ZP_SOURCE_IDEAL ? check_unused_source(def, err) : check_amplifier(def, err);
 }
 
-/* What electro.edges asks of other keys. */
+/* Conditions of electro.edges on other keys. */
 static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
   if (!knows_field)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.edges: this build leaves the two-dimensional field out, which gives them");
+                   "electro.edges = true: this build does not include the two-dimensional field, from which the edges "
+                   "are computed");
   if (def->actuator.kind == ZP_KIND_FLANGE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges: requires actuator.kind electro_ribbon, two strips of the same width; the width of "
@@ -698,9 +699,8 @@ static ZpStatus check_edges(const ZpActuatorDef *def, ZpError *err) {
   if (def->electro.surface != ZP_SURFACE_POLYLINE)
     return zp_fail(err, ZP_BAD_INPUT, "electro.edges: requires electro.surface polyline");
   if (def->insulator.thickness == 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "insulator.thickness = 0 m: with electro.edges, faces that touch need an insulator between the metals");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "insulator.thickness = 0 m: electro.edges requires an insulator between faces that touch");
   return zp_check_like_sections(def, "electro.edges", err);
 }
 
@@ -714,7 +714,7 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* What motion asks of a flange and of a hinge. */
+/* Conditions of motion for a flange and a hinge. */
 static ZpStatus check_implicit_in_motion(const ZpActuatorDef *def, ZpError *err) {
   if (def->solver.integrator == ZP_INTEGRATOR_EXPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = %s: motion requires solver.integrator implicit",
@@ -765,21 +765,21 @@ static const char *touches_at(const ZpActuatorDef *def) {
   }
 }
 
-/* Two ribbons touch where they are joined, a flange without a gap at its clamp; a flange with a gap only beyond its
- * pull-in. */
+/* Two ribbons touch at their joint; a flange touches at its clamp if its gap there is 0, otherwise only beyond pull-in.
+ */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus ours = check_layout(def, err);
   if (ours != ZP_OK) return ours;
   if (zp_def_members(def) > 1) return zp_check_members_voltage(def, voltage, err);
   bool two = zp_def_has_two(def);
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
-    return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V is more than the source gives, source.voltage_limit = %g V",
-                   voltage, def->source.voltage_limit);
+    return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
+                   def->source.voltage_limit);
   bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
   if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
-                 "insulator.thickness = 0 m: %g V is a short circuit, for the electrodes touch at the %s; give an "
-                 "insulator or no voltage",
+                 "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
+                 "insulator, or 0 V",
                  voltage, touches_at(def));
 }
 
@@ -790,16 +790,16 @@ static ZpStatus check_initial(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* A choice that another key must have. */
+/* A choice that another key requires. */
 typedef struct Need {
   const char *key;
-  size_t offset; /* of its field */
+  size_t offset; /* offset of its field */
   int word;
 } Need;
 #define NEED(group, name, word)                                                                                        \
   { #group "." #name, offsetof(ZpActuatorDef, group.name), word }
 
-/* `what` is what asks for it, `instead` what does without. */
+/* `what` is the key that requires it, `instead` the alternative. */
 static ZpStatus check_needs(const ZpActuatorDef *def, const char *what, const Need *needs, size_t count,
                             const char *instead, ZpError *err) {
   for (size_t i = 0; i < count; i++) {
@@ -812,7 +812,7 @@ static ZpStatus check_needs(const ZpActuatorDef *def, const char *what, const Ne
   return ZP_OK;
 }
 
-/* What the whole actuator asks of other keys: the paper's own numerics, and the solved field, know the half only. */
+/* Conditions of the whole actuator: the numerics of the paper and the computed field support a half only. */
 static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {
       NEED(actuator, kind, ZP_KIND_ELECTRO_RIBBON), NEED(ribbon, model, ZP_RIBBON_ROD),
@@ -823,25 +823,25 @@ static ZpStatus check_symmetry(const ZpActuatorDef *def, ZpError *err) {
                      err);
 }
 
-/* What the film of liquid asks for: it lies between two ribbons, and its heads are unknowns of implicit steps. */
+/* Conditions of the film of liquid: it lies between two ribbons, and its pressures are unknowns of implicit steps. */
 static const Need film_needs[] = {NEED(actuator, kind, ZP_KIND_ELECTRO_RIBBON), NEED(ribbon, model, ZP_RIBBON_ROD),
                                   NEED(electro, surface, ZP_SURFACE_POLYLINE),
                                   NEED(contact, model, ZP_CONTACT_UNILATERAL),
                                   NEED(solver, integrator, ZP_INTEGRATOR_IMPLICIT)};
 enum { FILM_NEEDS = sizeof film_needs / sizeof film_needs[0] };
 
-/* Beyond a bead there is air. */
+/* Conditions of a bead, beyond which there is air. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_needs(def, "liquid.model = bead", film_needs, FILM_NEEDS, "liquid.model none", err);
   if (status != ZP_OK) return status;
   if (def->electro.edges)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "liquid.model = bead: requires electro.edges false, but it is true: what lateral edges add is known "
-                   "for one liquid everywhere; use liquid.model submerged");
+                   "liquid.model = bead: requires electro.edges false, but it is true: lateral edges are modelled in a "
+                   "single liquid only; use liquid.model submerged");
   if (!isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "liquid.model = bead: requires %s none: what leaks beyond a bead is not modelled; use liquid.model "
-                   "none or submerged",
+                   "liquid.model = bead: requires %s none: leakage in the air beyond a bead is not modelled; use "
+                   "liquid.model none or submerged",
                    isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity");
   return ZP_OK;
 }
@@ -863,30 +863,30 @@ static ZpStatus check_liquid(const ZpActuatorDef *def, ZpError *err) {
   }
 }
 
-/* Interface charge is that of the plates law in implicit steps, of real insulators and a real liquid. */
+/* Interface charge is modelled with the plates law in implicit steps, for real insulators and a real liquid. */
 static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {NEED(electro, model, ZP_ELECTRO_PLATES), NEED(electro, surface, ZP_SURFACE_POLYLINE),
                                NEED(solver, integrator, ZP_INTEGRATOR_IMPLICIT)};
   const char *given = isnan(def->insulator.resistivity) ? "medium.resistivity" : "insulator.resistivity";
   if (isnan(def->insulator.resistivity) && isnan(def->medium.resistivity)) return ZP_OK;
   if (def->actuator.kind == ZP_KIND_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electrodes; actuator.kind is ribbon", given);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electrodes, which actuator.kind ribbon does not have", given);
   if (def->insulator.thickness == 0)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "insulator.thickness = 0 m: %s requires an insulator, on whose face charge gathers", given);
+                   "insulator.thickness = 0 m: %s requires an insulator, on whose face charge accumulates", given);
   if (def->electro.force_scale != 1 || def->electro.voltage_share != 1 || !isnan(def->electro.insulator_offset))
     return zp_fail(err, ZP_BAD_INPUT,
                    "%s: requires electro.force_scale 1, electro.voltage_share 1 and electro.insulator_offset auto",
                    given);
   if (def->electro.edges)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: requires electro.edges false: no charge gathers in the field at the edges",
-                   given);
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%s: requires electro.edges false; interface charge at the lateral edges is not modelled", given);
   ZpStatus alike = zp_check_like_insulators(def, given, err);
   return alike == ZP_OK ? check_needs(def, given, needs, sizeof needs / sizeof needs[0], "none", err) : alike;
 }
 
-/* What yields remembers how it was bent. The elastic states of rest that a meter and a controller are judged by do not.
- */
+/* A ribbon that yields has a history. A meter and a controller are judged by equilibria of elastic ribbons, which have
+ * none. */
 static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {NEED(ribbon, model, ZP_RIBBON_ROD), NEED(control, kind, ZP_CONTROL_NONE)};
   bool hardens = def->ribbon.hardening_modulus != 0 || !isnan(def->lower.ribbon.hardening_modulus);
@@ -896,17 +896,16 @@ static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
   if (!def->ribbon.plasticity) return ZP_OK;
   if (def->ribbon.plane == ZP_PLANE_ANTICLASTIC)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "ribbon.plane = anticlastic: a strip that curls across is elastic; ribbon.plasticity requires "
-                   "ribbon.plane strain or stress");
+                   "ribbon.plane = anticlastic: ribbon.plasticity requires ribbon.plane strain or stress");
   if (!isnan(def->sense.frequency))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "sense.frequency: its curve of strokes at rest is of elastic ribbons, which "
-                   "ribbon.plasticity excludes");
+                   "sense.frequency: requires ribbon.plasticity false, because the meter converts its reading by "
+                   "equilibria of elastic ribbons");
   return check_needs(def, "ribbon.plasticity = true", needs, sizeof needs / sizeof needs[0], "ribbon.plasticity false",
                      err);
 }
 
-/* Keys of a meter that is not there, or that it lacks. */
+/* Refuse keys of a meter without a meter, and a meter without its required keys. */
 static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
   const struct {
     const char *name;
@@ -921,20 +920,20 @@ static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
     bool given = !isnan(of[i].value);
     if (given && !on) return zp_fail(err, ZP_BAD_INPUT, "%s: requires sense.frequency", of[i].name);
     if (on && of[i].needed && !given)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: sense.frequency is given, which requires it", of[i].name);
+      return zp_fail(err, ZP_BAD_INPUT, "%s: missing; sense.frequency requires it", of[i].name);
   }
   return ZP_OK;
 }
 
-/* A reading takes whole periods of whole samples. */
+/* A reading takes whole periods, and a period whole samples. */
 static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
-  static const double fewest = 4, most = 1e8; /* samples in a period, and in a run */
+  static const double fewest = 4, most = 1e8; /* samples in a period; samples in a run */
   double samples = def->sense.sampling_rate / def->sense.frequency;
   ZpStatus status = check_meter_keys(def, err);
   if (status != ZP_OK || isnan(def->sense.frequency)) return status;
   if (samples < fewest || fabs(samples - round(samples)) > 1e-9 * samples)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "sense.sampling_rate = %g Hz: must be a whole number, at least %g, of sense.frequency = %g Hz",
+                   "sense.sampling_rate = %g Hz: must be a whole multiple, at least %g, of sense.frequency = %g Hz",
                    def->sense.sampling_rate, fewest, def->sense.frequency);
   if (def->sense.sampling_rate * def->solver.end_time > most)
     return zp_fail(err, ZP_BAD_INPUT, "sense.sampling_rate = %g Hz: more than %g samples until solver.end_time = %g s",
@@ -945,52 +944,51 @@ static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
   if (!isnan(def->sense.bits) && def->sense.bits != floor(def->sense.bits))
     return zp_fail(err, ZP_BAD_INPUT, "sense.bits = %g: not a whole number", def->sense.bits);
   if (def->actuator.kind == ZP_KIND_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "sense.frequency: requires electrodes; actuator.kind is ribbon");
+    return zp_fail(err, ZP_BAD_INPUT, "sense.frequency: requires electrodes, which actuator.kind ribbon does not have");
   return ZP_OK;
 }
 
-/* The stop of the platforms. */
+/* Checks of the stop that limits the opening. */
 static ZpStatus check_stop(const ZpActuatorDef *def, ZpError *err) {
   bool given = def->load.stop_stiffness != keys[zp_key_find("load.stop_stiffness")].def;
   if (isnan(def->load.stop_opening))
     return given ? zp_fail(err, ZP_BAD_INPUT, "load.stop_stiffness: requires load.stop_opening") : ZP_OK;
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "load.stop_opening: requires actuator.kind electro_ribbon, whose platforms it holds");
+                   "load.stop_opening: requires actuator.kind electro_ribbon, because the stop acts on its platforms");
   if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
     return zp_fail(err, ZP_BAD_INPUT, "load.stop_opening: requires contact.model unilateral");
   return ZP_OK;
 }
 
-/* The mass that is caught or dropped. */
+/* Checks of the mass that is caught or dropped. */
 static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
   bool timed = !isnan(def->load.change_time);
   if (def->load.change_mass != 0 && !timed)
-    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: load.change_mass is given, which requires it");
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: missing; load.change_mass requires it");
   if (def->load.change_mass == 0 && timed)
     return zp_fail(err, ZP_BAD_INPUT, "load.change_time: requires load.change_mass");
   if (def->load.drop_height > 0 && !(def->load.change_mass > 0))
-    return zp_fail(err, ZP_BAD_INPUT, "load.drop_height: requires a load.change_mass above 0 kg, which is caught");
+    return zp_fail(err, ZP_BAD_INPUT, "load.drop_height: requires a load.change_mass above 0 kg");
   if (-def->load.change_mass > def->load.mass)
-    return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: drops more than load.mass, %g kg",
+    return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: cannot drop more than load.mass = %g kg",
                    def->load.change_mass, def->load.mass);
   return ZP_OK;
 }
 
-/* A half is the mirror image of the other only where gravity is vertical. */
+/* The halves are mirror images only if gravity is vertical. */
 static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
   static const double half_turn = 3.14159265358979323846;
   bool mirrored = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->actuator.symmetry == ZP_SYMMETRY_HALF;
   double tilt = fabs(def->mount.tilt);
   if (!mirrored || tilt < zp_tilt_rounding || half_turn - tilt < zp_tilt_rounding) return ZP_OK;
-  return zp_fail(
-      err, ZP_BAD_INPUT,
-      "mount.tilt = %g degree: requires actuator.symmetry none, but it is half, whose halves are mirror images "
-      "at 0 and 180 degree only",
-      def->mount.tilt * 180 / half_turn);
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "mount.tilt = %g degree: requires actuator.symmetry none, but it is half; the halves are mirror "
+                 "images only at 0 and 180 degree",
+                 def->mount.tilt * 180 / half_turn);
 }
 
-/* A platform that turns: what it asks of other keys, whose laws take it as level. */
+/* Conditions of a platform that turns: the other laws assume that it is horizontal. */
 static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
   const struct {
     bool acts;
@@ -1016,44 +1014,45 @@ static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* A clip that is held. */
+/* Checks of a held clip. */
 static ZpStatus check_held_clip(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.held_clip == ZP_HELD_NONE || def->platform.rotates) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
-                 "actuator.held_clip = %s: requires platform.rotates true; the ribbons between a held clip and a "
-                 "platform that a guide keeps horizontal could only stretch",
+                 "actuator.held_clip = %s: requires platform.rotates true; between a held clip and a guided platform "
+                 "the ribbons could only stretch",
                  zp_word_of("actuator.held_clip", (int)def->actuator.held_clip));
 }
 
-/* Where the load hangs. */
+/* Checks of the place of the load. */
 static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
   double most = def->platform.length / 2, offset = def->load.offset;
   if (offset == 0) return ZP_OK;
   if (!def->platform.rotates)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "load.offset = %g m: requires platform.rotates true; a platform that is kept horizontal moves the "
-                   "same wherever its load hangs",
-                   offset);
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "load.offset = %g m: requires platform.rotates true; on a guided platform the place of the load has no effect",
+        offset);
   if (fabs(offset) <= most) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "load.offset = %g m: beyond the platform, allowed %g to %g m", offset, -most, most);
+  return zp_fail(err, ZP_BAD_INPUT, "load.offset = %g m: outside the platform; allowed are %g to %g m", offset, -most,
+                 most);
 }
 
-/* The spring beside the load. */
+/* Checks of the spring in parallel with the load. */
 static ZpStatus check_spring(const ZpActuatorDef *def, ZpError *err) {
   bool given = !isnan(def->load.rest_opening);
   if (def->load.stiffness == 0 && given)
     return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: requires load.stiffness above 0 N/m");
   if (def->load.stiffness == 0) return ZP_OK;
-  if (!given) return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: load.stiffness is given, which requires it");
+  if (!given) return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: missing; load.stiffness requires it");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "load.stiffness: requires actuator.kind electro_ribbon, whose platforms it parts");
+                   "load.stiffness: requires actuator.kind electro_ribbon, because the spring acts on its platforms");
   if (def->contact.model == ZP_CONTACT_SEQUENTIAL)
     return zp_fail(err, ZP_BAD_INPUT, "load.stiffness: requires contact.model unilateral");
   return ZP_OK;
 }
 
-/* The hinge: its keys, and what its two ribbons ask of other keys. */
+/* Checks of the keys of a hinge, and its conditions on other keys. */
 static ZpStatus check_hinge(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {NEED(ribbon, model, ZP_RIBBON_ROD), NEED(electro, surface, ZP_SURFACE_POLYLINE),
                                NEED(contact, model, ZP_CONTACT_UNILATERAL)};
@@ -1070,14 +1069,14 @@ static ZpStatus check_hinge(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* What is asked of the model of the field. */
+/* Checks of the electric model. */
 static ZpStatus check_electro(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = def->electro.model == ZP_ELECTRO_FIELD ? check_field(def, err) : ZP_OK;
   return status == ZP_OK && def->electro.edges ? check_edges(def, err) : status;
 }
 
-/* Is this plainly a value in its range, or an empty text? Asked of all keys of every case: what is not is looked at
- * more closely. */
+/* Is this clearly a value in its range, or an empty text? A quick test for all keys of every case; any other value gets
+ * the full check. */
 static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
   if (key->type == ZP_KEY_TEXT) return *((const char *)def + key->offset) == 0;
   double value = number_of(def, key);
@@ -1106,8 +1105,8 @@ ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   bool bare = isnan(offset) ? zp_insulation(def) == 0 : offset == 0;
   if (two && bare && !def->electro.breakdown_cap)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "insulator.thickness = 0 m: bare faces that touch need electro.breakdown_cap true, or the "
-                   "force is infinite");
+                   "insulator.thickness = 0 m: requires electro.breakdown_cap true; otherwise the force between bare "
+                   "faces that touch is infinite");
   if (two && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);

@@ -1,4 +1,4 @@
-/* The lower ribbon of two: what the keys of lower.* make of it, and what they ask. */
+/* The lower of two ribbons: the values of the keys lower.*, and their conditions on other keys. */
 #include <math.h>
 #include <stddef.h>
 
@@ -8,7 +8,7 @@
 static const char prefix[] = "lower.";
 static const ZpKeyGroup lower_keys = ZP_KEY_GROUP(lower);
 
-/* Is this key of lower.* given? Of a material, the word none is not. */
+/* Is this key of lower.* given? The word none of a material means that it is not. */
 static bool is_given(const ZpActuatorDef *def, int key) {
   double value = zp_def_get(def, key);
   return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
@@ -33,7 +33,7 @@ double zp_insulation(const ZpActuatorDef *def) {
 
 static ZpStatus check_not_given(const ZpActuatorDef *def, const char *key, const char *asks, ZpError *err) {
   if (isnan(zp_def_get(def, zp_key_find(key)))) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s auto, as the upper ribbon has it", asks, key);
+  return zp_fail(err, ZP_BAD_INPUT, "%s: requires %s auto, that is, the value of the upper ribbon", asks, key);
 }
 
 ZpStatus zp_check_like_insulators(const ZpActuatorDef *def, const char *asks, ZpError *err) {
@@ -46,7 +46,7 @@ ZpStatus zp_check_like_sections(const ZpActuatorDef *def, const char *asks, ZpEr
   return status == ZP_OK ? check_not_given(def, "lower.ribbon.thickness", asks, err) : status;
 }
 
-/* Has any segment another thickness than the rest of the ribbon? */
+/* Has any segment a thickness that differs from that of the ribbon? */
 static bool has_other_thickness(const ZpActuatorDef *ribbon) {
   double b = ribbon->ribbon.thickness;
   return (ribbon->segment_1.length > 0 && ribbon->segment_1.thickness != b) ||
@@ -57,15 +57,15 @@ static bool has_other_thickness(const ZpActuatorDef *ribbon) {
 static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed, double flexible, ZpError *err) {
   double segments = ribbon->segment_1.length + ribbon->segment_2.length + ribbon->segment_3.length;
   if (segments > flexible * (1 + 1e-12))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "%ssegment_1.length to %ssegment_3.length: %g m together, more than the ribbon's %g m", prefixed,
-                   prefixed, segments, flexible);
-  if (segments > 0 && ribbon->ribbon.plane == ZP_PLANE_ANTICLASTIC)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "%ssegment_1.length to %ssegment_3.length: %g m together, but ribbon.plane anticlastic knows ribbons "
-        "without segments only",
-        prefixed, prefixed, segments);
+        "%ssegment_1.length to %ssegment_3.length: %g m together, more than the flexible length of the ribbon, %g m",
+        prefixed, prefixed, segments, flexible);
+  if (segments > 0 && ribbon->ribbon.plane == ZP_PLANE_ANTICLASTIC)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%ssegment_1.length to %ssegment_3.length: %g m together, but ribbon.plane anticlastic requires a "
+                   "ribbon without segments",
+                   prefixed, prefixed, segments);
   if (ribbon->ribbon.plasticity && has_other_thickness(ribbon))
     return zp_fail(
         err, ZP_BAD_INPUT,
@@ -78,7 +78,7 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
   return ZP_OK;
 }
 
-/* Keys of a lower ribbon that is not there, or that the paper's mechanics has as the upper one. */
+/* Refuse keys of a lower ribbon if there is none, or if the mechanics of the paper makes both ribbons equal. */
 static ZpStatus check_lower(const ZpActuatorDef *def, ZpError *err) {
   const char *given = NULL;
   for (int key = lower_keys.first; key < lower_keys.end && !given; key++)

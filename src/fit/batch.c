@@ -11,7 +11,7 @@
 #include "io/guard.h"
 #include "io/report.h"
 
-/* Bytes that a run may take while it lasts. */
+/* Bytes that a run may need while it lasts. */
 enum { MARGIN = 1 << 22 };
 
 ZpStatus zp_batch_create(const ZpScenario *scenario, ZpBatch *batch, ZpError *err) {
@@ -33,7 +33,7 @@ bool zp_batch_open(const ZpBatch *batch) {
   return batch->done < batch->count && !batch->interrupted;
 }
 
-/* A sweep reports no shapes and no checkpoints: keep its memory to the series. */
+/* A sweep reports neither shapes nor checkpoints: keep only the series in memory. */
 static void keep_the_series(ZpResult *result) {
   zp_shapes_destroy(result->shapes);
   result->shapes = NULL;
@@ -43,14 +43,14 @@ static void keep_the_series(ZpResult *result) {
   result->checkpoint = NULL;
 }
 
-/* A sweep ends while what it has computed can still be written: there must be room for the report of two more runs like
- * those that are done, and for as much again as they hold. */
+/* A sweep ends while its results can still be written: there must be memory for the report of two more runs like those
+ * that are done, and as much again as they hold. */
 static ZpStatus need_room(const ZpBatch *batch, ZpError *err) {
   if (batch->done == 0) return ZP_OK;
   size_t more = 2 * batch->numbers / batch->done;
   size_t room = zp_report_room(batch->done + 2, batch->numbers + more) + more * sizeof(double) + MARGIN;
   if (zp_has_room(room)) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "no memory for run %zu of %zu; what was computed before is kept", batch->done + 1,
+  return zp_fail(err, ZP_MACHINE, "no memory for run %zu of %zu; earlier results are kept", batch->done + 1,
                  batch->count);
 }
 
@@ -58,8 +58,8 @@ static size_t at_most(size_t length, size_t most) {
   return length < most ? length : most;
 }
 
-/* The first case of a chunk, from scratch, takes as long as some 14 others. Few cases make 8 chunks, so that as many
- * processors have work; many make longer ones, but no fewer than 32. */
+/* The first case of a chunk starts from scratch and takes as long as some 14 others. A small sweep has 8 chunks, so
+ * that as many processors have work; a large one has longer chunks, of at least 32 cases. */
 size_t zp_case_chunk(const ZpScenario *scenario) {
   enum { CHUNKS_OF_FEW = 8, LONGEST_OF_FEW = 16, CHUNKS_OF_MANY = 32 };
   const size_t cases = zp_scenario_count(scenario);
@@ -81,7 +81,7 @@ ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before,
                      ZpResult **result, ZpError *err) {
   ZpActuatorDef def;
   const bool fresh = index % zp_case_chunk(scenario) == 0;
-  ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* what runs it checks it */
+  ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* the study checks it */
   if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
   if (before) zp_limits_destroy(before->limits);
   if (before) before->limits = NULL;

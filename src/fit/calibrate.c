@@ -6,7 +6,7 @@
 #include "base/fail.h"
 #include "fit/fit.h"
 
-/* Names for summary.json that are made from those of the keys, and the column of the table where the key is x. */
+/* Names for summary.json made from the names of the keys, and the column of the table if the key is x. */
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
@@ -36,12 +36,12 @@ static const ZpColumn time_column = {"time_s", "s", "time since the voltage was 
 
 enum { COLUMNS_ALONE = 3, COLUMNS_OF_KIND = 4 };
 
-/* By kind: names for summary.json of what is left, how the message says it, and the columns of the table, where the
- * kind is the only one and where there are several. */
+/* For each kind: the names of its residuals in summary.json and in the message, and the columns of its table, for one
+ * kind and for several. */
 typedef struct OfKind {
   const char *residual, *shown;
   double factor;
-  const char *residual_of, *weighted; /* where there are several */
+  const char *residual_of, *weighted; /* with several kinds */
   ZpColumn alone[COLUMNS_ALONE], several[COLUMNS_OF_KIND];
 } OfKind;
 
@@ -73,7 +73,7 @@ static const OfKind of_kind[ZP_FIT_KINDS] = {
             "no stable equilibrium"),
 };
 
-/* Inverse of J^T J in units of z, by Cholesky; false if the data do not tell the keys apart. */
+/* Inverse of J^T J in units of z, by Cholesky; false if the data cannot distinguish the keys. */
 static bool covariance(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_FIT_MOST]) {
   int n = fit->n;
   double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, M[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}};
@@ -108,14 +108,14 @@ static bool at_bound(const ZpFit *fit, const double *z, int k) {
   return z[k] <= fit->lower[k] * (1 + 1e-6) || z[k] >= fit->upper[k] * (1 - 1e-6);
 }
 
-/* The first key at a bound; NULL if there is none. */
+/* The first key that lies at its bound, or NULL. */
 static const char *key_at_bound(const ZpFit *fit, const double *z) {
   for (int k = 0; k < fit->n; k++)
     if (at_bound(fit, z, k)) return zp_key(fit->key[k])->name;
   return NULL;
 }
 
-/* What the summary says of the keys; `square`: sum of squared weighted residuals. */
+/* The numbers of the summary about the keys; `square`: sum of squared weighted residuals. */
 static void report_keys(const ZpFit *fit, const double *z, const double *J, double square, ZpResult *result) {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   bool told_apart = J && covariance(fit, J, C);
@@ -143,7 +143,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
 
 /* -- the table: what was set, then what was measured and computed, kind by kind ------------------------------------ */
 
-/* Of the columns of the table: of each thing that was set, of each kind; NAN where a row has another. */
+/* The columns of the table: one for each quantity that was set and those of each kind; NAN in rows of another one. */
 typedef struct Columns {
   size_t count, x_count, width; /* width: columns of one kind */
   ZpColumn *column;
@@ -212,7 +212,7 @@ static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result)
 
 /* -- what the summary says ------------------------------------------------------------------------- */
 
-/* The definition of a row with the fitted keys at z, and the voltage under which it is; false if it is none. */
+/* The definition of a row with the fitted keys at z, and its voltage; false if a value is out of range. */
 static bool row_under_voltage(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage) {
   const ZpFitSet *of = zp_fit_set_of(fit, row);
   if (of->x_key < 0) {
@@ -225,7 +225,7 @@ static bool row_under_voltage(const ZpFit *fit, const double *z, size_t row, ZpA
   return true;
 }
 
-/* The notes of the model as fitted, at the highest voltage of all rows. */
+/* The notes of the fitted model at the highest voltage of all rows. */
 static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpError *err) {
   ZpActuatorDef def = *fit->def, row;
   double highest = -1, voltage;
@@ -241,7 +241,7 @@ static ZpStatus note(const ZpFit *fit, const double *z, ZpResult *result, ZpErro
   return ZP_OK;
 }
 
-/* The static pull-in of the model as fitted, of the last row of zip times: they show where it is, just above it. */
+/* The static pull-in of the fitted model, for the last row of zip times: these depend most on it just above pull-in. */
 static ZpStatus note_pull_in(const ZpFit *fit, const ZpFitSet *of, const double *z, ZpResult *result) {
   ZpActuatorDef def;
   ZpResult *limits = NULL;
@@ -254,7 +254,7 @@ static ZpStatus note_pull_in(const ZpFit *fit, const ZpFitSet *of, const double 
   return status == ZP_MACHINE ? status : ZP_OK;
 }
 
-/* The last set of a kind; NULL if there is none. */
+/* The last set of a kind, or NULL. */
 static const ZpFitSet *last_set(const ZpFit *fit, ZpFitKind kind) {
   const ZpFitSet *last = NULL;
   for (size_t i = 0; i < fit->sets; i++)
@@ -262,7 +262,7 @@ static const ZpFitSet *last_set(const ZpFit *fit, ZpFitKind kind) {
   return last;
 }
 
-/* Root mean squares of the residuals of a kind, as they are and over their standard deviations. */
+/* Root mean square of the residuals of a kind, in its unit and divided by the standard deviations. */
 typedef struct Rms {
   double plain, weighted;
 } Rms;
@@ -292,7 +292,7 @@ static void report_residuals(const ZpFit *fit, const double *fitted, ZpResult *r
   }
 }
 
-/* "9 rows fitted, residual 0.00221 mm rms", or of several kinds over their standard deviations. */
+/* "9 rows fitted, residual 0.00221 mm rms"; with several kinds, residuals divided by the standard deviations. */
 static void say(const ZpFit *fit, const double *fitted, const char *bound, double square, ZpResult *result) {
   const char *done = fit->n > 0 ? "fitted" : "compared", *at = bound ? "; at its bound: " : "";
   const ZpFitKind kind = fit->set[0].kind;

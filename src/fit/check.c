@@ -1,4 +1,4 @@
-/* Checks of all cases before the first is run, shared by threads. */
+/* Checks all cases before the first one runs, in several threads. */
 #include <zipact/batch.h>
 
 #include <pthread.h>
@@ -9,19 +9,19 @@
 #include "base/fail.h"
 #include "fit/data.h"
 
-/* Cases that a thread checks before it looks how far the others are. */
+/* Number of cases that a thread checks before it looks at the progress of the others. */
 enum { BLOCK = 256 };
 
 typedef struct Check {
   const ZpScenario *scenario;
-  atomic_size_t next, wrong; /* first case that nobody checks; least that is wrong, so far */
+  atomic_size_t next, wrong; /* first case that no thread has taken; smallest number of a wrong case so far */
 } Check;
 
 typedef struct Checker {
   Check *check;
   pthread_t thread;
-  size_t wrong; /* its case that is wrong, SIZE_MAX: none */
-  ZpError err;  /* what is wrong with it */
+  size_t wrong; /* its wrong case, SIZE_MAX: none */
+  ZpError err;  /* the reason */
 } Checker;
 
 static ZpStatus check_case(const ZpScenario *scenario, size_t index, ZpError *err) {
@@ -37,7 +37,8 @@ static void note_wrong(Checker *checker, size_t index) {
     continue;
 }
 
-/* No block beyond a case that is wrong is begun, all before it are: so the first such case is found. */
+/* No thread takes a block after a wrong case, and all blocks before it are checked: so the first wrong case is found.
+ */
 static void *check_blocks(void *user) {
   Checker *checker = user;
   Check *check = checker->check;
@@ -48,7 +49,7 @@ static void *check_blocks(void *user) {
   return NULL;
 }
 
-/* Run all checkers, the first in the caller's thread. Where there are no more threads, fewer do. */
+/* Run all checkers, the first one in the thread of the caller. If threads are not available, fewer run. */
 static void check_all(Checker *checker, size_t jobs) {
   size_t started = 1;
   for (; started < jobs; started++)

@@ -1,4 +1,4 @@
-/* Studies and their files: what each study of studies.def takes from files is read here, above all studies. */
+/* Studies and their files: reads the files that each study of studies.def requires, for all studies. */
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
@@ -26,7 +26,7 @@ typedef struct Files {
   ZpDriveRows rows;
   ZpDriveTable table;
   ZpCheckpoint *start;
-  ZpStudyInput input; /* the same as the study takes it */
+  ZpStudyInput input; /* the same in the form that the study takes */
 } Files;
 
 static void close_files(Files *files) {
@@ -36,7 +36,7 @@ static void close_files(Files *files) {
 
 static ZpStatus read_checkpoint(const ZpActuatorDef *def, ZpCheckpoint **start, ZpError *err) {
   ZpError reason;
-  if (!*def->initial.file) return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: give initial.file");
+  if (!*def->initial.file) return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires initial.file");
   ZpStatus status = zp_checkpoint_read(def->initial.file, start, &reason);
   if (status != ZP_OK) return zp_fail(err, status, "initial.file: %.450s", reason.message);
   status = zp_checkpoint_check(*start, def, &reason);
@@ -44,7 +44,7 @@ static ZpStatus read_checkpoint(const ZpActuatorDef *def, ZpCheckpoint **start, 
                          : zp_fail(err, status, "initial.file: %.300s: %.180s", def->initial.file, reason.message);
 }
 
-/* To be closed whatever the status. */
+/* To be closed whatever the status is. */
 static ZpStatus open_files(const ZpActuatorDef *def, Files *files, ZpError *err) {
   ZpStatus status = ZP_OK;
   *files = (Files){0};
@@ -152,14 +152,14 @@ ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_data_check_files(study, def, err) : status;
 }
 
-/* Does a study of a known Def go without files? */
+/* Can a study with a valid Def run without files? */
 static bool needs_no_file(ZpStudy study, const ZpActuatorDef *def) {
   const bool known = (int)study >= 0 && study < ZpStudy_COUNT && def->layout == zp_def_layout();
   return known && with_files[study].run != run_measurements && *def->data.file == 0 && !zp_def_takes_table(def) &&
          def->initial.state != ZP_INITIAL_CHECKPOINT;
 }
 
-/* What is wrong with the keys is said before their files are read; where there are none the study says it. */
+/* Wrong keys are reported before their files are read; a missing file is reported by the study. */
 ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
                            ZpError *err) {
   *result = NULL;

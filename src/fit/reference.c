@@ -1,4 +1,4 @@
-/* Area between the shape at rest and a reference curve, as the paper measures its errors. */
+/* Area between the shape at rest and a reference curve, the measure of error in the paper. */
 #include "fit/reference.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ void zp_reference_free(ZpReference *reference) {
   *reference = (ZpReference){0};
 }
 
-/* The column whose name is `stem` with a unit of length, as SI numbers. */
+/* The column called `stem` with a unit of length, in SI. */
 static ZpStatus read_column(const ZpData *data, const char *stem, double *value, ZpError *err) {
   double factor = 1, divisor = 1;
   size_t column = 0;
@@ -61,13 +61,13 @@ static double reference_at(const ZpReference *r, double x) {
   return r->y[i - 1] + (r->y[i] - r->y[i - 1]) * (x - r->x[i - 1]) / (r->x[i] - r->x[i - 1]);
 }
 
-/* Area of |d| on a piece of width w where d goes straight from d0 to d1. */
+/* Area of |d| over a width w, where d changes linearly from d0 to d1. */
 static double piece(double w, double d0, double d1) {
   if (d0 * d1 >= 0) return 0.5 * w * (fabs(d0) + fabs(d1));
   return 0.5 * w * (d0 * d0 + d1 * d1) / (fabs(d0) + fabs(d1));
 }
 
-/* The same over one edge of our curve, cut where the reference has its points. */
+/* The same over one edge of our curve, divided at the points of the reference. */
 static double edge(const ZpReference *r, double x0, double y0, double x1, double y1) {
   double from = fmax(x0, r->x[0]), to = fmin(x1, r->x[r->count - 1]), slope = (y1 - y0) / (x1 - x0), area = 0;
   size_t i = 0;

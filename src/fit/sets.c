@@ -1,4 +1,4 @@
-/* CSV files => what keys are fitted to: each measured column of each file is a set of rows. */
+/* CSV files => sets of rows, one for each measured column of each file. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 
 enum { NAMES_MOST = 16 };
 
-/* Columns that a key names: "stroke_mm; frequency_Hz". */
+/* Names of columns in a key: "stroke_mm; frequency_Hz". */
 typedef struct Names {
   const char *key;
   char text[ZP_TEXT_SIZE];
@@ -22,7 +22,7 @@ typedef struct Names {
   bool used[NAMES_MOST];
 } Names;
 
-/* A file and which of its columns were set and measured. */
+/* A file, with its columns that were set and measured. */
 typedef struct Measured {
   const ZpData *data;
   int x, y[NAMES_MOST], columns;
@@ -54,7 +54,7 @@ static ZpStatus split_names(Names *names, const char *key, const char *text, ZpE
   return ZP_OK;
 }
 
-/* The columns of a file that have one of these names => columns [how many]. Without names: the one at `place`. */
+/* The columns of a file that have one of these names => columns [how many]. Without names: column `place`. */
 static int find_columns(const ZpData *data, Names *names, int place, int *columns) {
   int found = 0;
   if (names->count == 0 && place < (int)data->columns) columns[found++] = place;
@@ -71,7 +71,7 @@ static ZpStatus fail_column(const Names *names, const char *name, const char *pa
   return zp_fail(err, ZP_BAD_INPUT, "%s = \"%.60s\": no such column in %.200s", names->key, name, path);
 }
 
-/* A name that no file has is misspelt. */
+/* Refuse a name that no file has: it is misspelt. */
 static ZpStatus check_names(const Reading *r, const Names *names) {
   for (int i = 0; i < names->count; i++)
     if (!names->used[i])
@@ -79,7 +79,7 @@ static ZpStatus check_names(const Reading *r, const Names *names) {
   return ZP_OK;
 }
 
-/* Columns of every file; of the names of calibrate.x each file has the first that it knows. */
+/* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
 static ZpStatus find_measured(Reading *r) {
   ZpFit *fit = r->fit;
   for (size_t i = 0; i < r->files.count; i++) {
@@ -107,7 +107,7 @@ static bool is_measured(const Measured *measured, int column) {
 
 /* -- what was set ---------------------------------------------------------------------------------- */
 
-/* The key that a column header stands for and the unit, -1 if none. */
+/* The key and unit in the header of a column; -1 if it is not a key. */
 static int key_of_header(const ZpFit *fit, const char *name, double *factor, double *divisor) {
   if (zp_data_unit(name, "force", "N", factor, divisor) && fit->def->gravity > 0) { /* the weight of a load */
     *divisor *= fit->def->gravity;
@@ -120,7 +120,7 @@ static int key_of_header(const ZpFit *fit, const char *name, double *factor, dou
   return -1;
 }
 
-/* A column of numbers that set `key` (any number, if -1) => values [rows], SI. */
+/* Read a column of numbers that set `key` (any numbers if it is -1) => values [rows], SI. */
 static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, int key, double factor, double divisor,
                             double *values, ZpError *err) {
   ZpStatus status = ZP_OK;
@@ -133,7 +133,7 @@ static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, in
   return status;
 }
 
-/* A key that a column sets cannot be fitted as well, nor set by another column. */
+/* A key that a column sets must not be fitted or set by another column. */
 static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const char *column, ZpError *err) {
   bool twice = set->others > 0 && set->x_key == key;
   for (int i = 0; i + 1 < set->others; i++)
@@ -148,7 +148,7 @@ static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const 
   return ZP_OK;
 }
 
-/* Times of one run must rise from 0 on. */
+/* Times of one run must start at 0 or later and must not decrease. */
 static ZpStatus check_times(const double *time, const ZpData *data, ZpError *err) {
   for (size_t i = 0; i < data->rows; i++)
     if (!(time[i] >= (i ? time[i - 1] : 0)))
@@ -163,15 +163,16 @@ static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
   bool is_time = zp_data_unit(name, "time", "s", &factor, &divisor);
   set->x_key = is_time ? -1 : key_of_header(fit, name, &factor, &divisor);
   if (!is_time && set->x_key < 0)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "calibrate.x: column %.60s: is not time, load, force, voltage or a numeric key, with its unit",
-                   name);
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "calibrate.x: column %.60s: must be time, load, force, voltage or a numeric key, with its unit, such as load_g",
+        name);
   ZpStatus status = check_set(fit, set, set->x_key, name, err);
   if (status == ZP_OK) status = read_column(fit, data, column, set->x_key, factor, divisor, x, err);
   return status == ZP_OK && is_time ? check_times(x, data, err) : status;
 }
 
-/* All other columns whose header is a key. */
+/* Take all other columns whose header is a key. */
 static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured, int x, ZpError *err) {
   ZpStatus status = ZP_OK;
   const ZpData *data = measured->data;
@@ -199,25 +200,25 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
 
 /* -- are the rows possible ------------------------------------------------------------------------- */
 
-/* One run in time, through all rows. */
+/* Check one run in time, over all rows. */
 static ZpStatus check_run(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_def_check_motion(def, err);
   if (status != ZP_OK) return status;
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
 
-/* Rows must be possible ones: numbers of a study as the study says, others in their voltage. */
+/* Each row must be a valid case: by the check of the study that computes its number, otherwise by its voltage. */
 static ZpStatus check_row(ZpFitKind kind, const ZpActuatorDef *def, double voltage, ZpError *reason) {
   if (!zp_fit_number[kind].number) return zp_def_check_voltage(def, voltage, reason);
   return zp_study_check(zp_fit_number[kind].study, def, reason);
 }
 
-/* Study limits looks for pull-in and release up to drive.voltage. */
+/* Study limits searches for pull-in and release up to drive.voltage. */
 static ZpStatus check_limit(ZpFitKind kind, const ZpActuatorDef *def, double measured, ZpError *reason) {
   bool is_limit = kind == ZP_FIT_PULL_IN || kind == ZP_FIT_RELEASE;
   if (!is_limit || measured < def->drive.voltage) return ZP_OK;
   return zp_fail(reason, ZP_BAD_INPUT,
-                 "a %s of %g V was measured; the model looks for it below drive.voltage = %g V: raise drive.voltage",
+                 "the measured %s is %g V, but the model searches up to drive.voltage = %g V; raise drive.voltage",
                  kind == ZP_FIT_PULL_IN ? "pull-in voltage" : "release voltage", measured, def->drive.voltage);
 }
 
@@ -229,7 +230,7 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpFitSet *set, const ZpData *
   for (size_t i = 0; i < set->rows; i++) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
-    if (!zp_fit_row(fit, start, set->first + i, &def, &voltage)) continue; /* read_column has said it */
+    if (!zp_fit_row(fit, start, set->first + i, &def, &voltage)) continue; /* read_column has reported it */
     if (check_row(set->kind, &def, voltage, &reason) == ZP_OK &&
         check_limit(set->kind, &def, fit->y[set->first + i], &reason) == ZP_OK)
       continue;
@@ -240,7 +241,7 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpFitSet *set, const ZpData *
 
 /* -- standard deviations --------------------------------------------------------------------------- */
 
-/* "20 um" => SI; a bare number is SI. */
+/* "20 um" => SI; a number without a unit is SI. */
 static ZpStatus read_sigma_value(const char *text, const char *unit, double *value, ZpError *err) {
   char number[64] = "";
   ZpUnitScale scale = {.decimal = true};
@@ -294,7 +295,7 @@ static ZpStatus read_sigma_key(Reading *r) {
   return status;
 }
 
-/* Does a column have the standard deviations of a kind by its name: "sigma_stroke_mm"? */
+/* Is this the column of standard deviations of a kind, by its full name "sigma_stroke_mm"? */
 static bool is_sigma_of(const char *name, int kind) {
   const char *stem = zp_fit_number[kind].column;
   const size_t length = strlen(stem);
@@ -319,7 +320,7 @@ static int find_sigma(const ZpData *data, ZpFitKind kind) {
   return plain;
 }
 
-/* The unit in the name of such a column; false if it is none of what is measured. */
+/* The unit in the name of such a column; false if it is not a unit of the measured quantity. */
 static bool find_sigma_unit(const char *name, ZpFitKind kind, double *factor, double *divisor) {
   const size_t length = strlen(zp_fit_number[kind].column);
   const bool named = is_sigma_of(name, (int)kind);
@@ -331,7 +332,8 @@ static ZpStatus read_sigma_column(const ZpFitSet *set, const ZpData *data, int c
   const char *name = data->cell[column], *unit = zp_fit_number[set->kind].unit;
   double factor, divisor;
   if (!find_sigma_unit(name, set->kind, &factor, &divisor))
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: not in a unit of what is measured, %s", name, unit);
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "data.file: column %.60s: its unit must be one of the measured quantity, such as %s", name, unit);
   for (size_t i = 0; i < set->rows; i++) {
     ZpStatus status = zp_data_number(data, i, (size_t)column, &sigma[i], err);
     if (status != ZP_OK) return status;
@@ -343,14 +345,15 @@ static ZpStatus read_sigma_column(const ZpFitSet *set, const ZpData *data, int c
   return ZP_OK;
 }
 
-/* Of a column of the file, else of calibrate.sigma, else NAN. */
+/* Standard deviations of a set: from a column of the file, otherwise from calibrate.sigma, otherwise NAN. */
 static ZpStatus read_sigma(Reading *r, const ZpFitSet *set, const Measured *measured) {
   const ZpData *data = measured->data;
   double *sigma = r->fit->sigma + set->first;
   const int column = find_sigma(data, set->kind);
   if (column >= 0 && measured->columns > 1 && !is_sigma_of(data->cell[column], (int)set->kind))
     return zp_fail(r->err, ZP_BAD_INPUT,
-                   "%.200s: column %.60s: several columns are measured; name what it belongs to, as in sigma_%s_%s",
+                   "%.200s: column %.60s: the file has several measured columns; name the one that it belongs to, as "
+                   "in sigma_%s_%s",
                    data->path, data->cell[column], zp_fit_number[set->kind].column, zp_fit_number[set->kind].unit);
   if (column >= 0) return read_sigma_column(set, data, column, sigma, r->err);
   for (size_t i = 0; i < set->rows; i++)
@@ -358,8 +361,8 @@ static ZpStatus read_sigma(Reading *r, const ZpFitSet *set, const Measured *meas
   return ZP_OK;
 }
 
-/* Either all rows have a standard deviation, or none has one and all are of one kind: nothing else says how many
- * millimetres weigh as much as a volt. */
+/* Either all rows have a standard deviation, or none has one and all are of one kind: otherwise the relative weight of
+ * a millimetre and a volt is unknown. */
 static ZpStatus check_sigmas(Reading *r) {
   ZpFit *fit = r->fit;
   size_t missing = 0;
@@ -377,13 +380,13 @@ static ZpStatus check_sigmas(Reading *r) {
   }
   const ZpFitNumber *of = &zp_fit_number[without->kind];
   return zp_fail(r->err, ZP_BAD_INPUT,
-                 "data.file: measurements of %s are weighted by their standard deviations, and %s has none: add a "
-                 "column sigma_%s_%s to its file, or give calibrate.sigma = \"%s = ... %s\"",
-                 zp_fit_kinds(fit) > 1 ? "several kinds" : "several files", of->column, of->column, of->unit,
-                 of->column, of->unit);
+                 "data.file: a fit to %s requires standard deviations, but %s has none; add a column sigma_%s_%s to "
+                 "its file, or give calibrate.sigma = \"%s = ... %s\"",
+                 zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column, of->column,
+                 of->unit, of->column, of->unit);
 }
 
-/* calibrate.sigma of what is not measured is misspelt or left over. */
+/* Refuse calibrate.sigma for a quantity that is not measured: its name is misspelt or left over. */
 static ZpStatus check_sigma_key(const Reading *r) {
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
     bool measured = isnan(r->sigma[kind]);
@@ -398,13 +401,13 @@ static ZpStatus check_sigma_key(const Reading *r) {
 
 /* -- what was measured ----------------------------------------------------------------------------- */
 
-/* Whether a kind can be measured against what was set: over time only what a run shows; a weight is no force. */
+/* Can a kind be measured against this quantity? Over time, only a quantity of a run; against a weight, not a force. */
 static bool is_possible(const ZpFitSet *set, ZpFitKind kind) {
   if (set->x_key < 0) return !zp_fit_number[kind].number;
   return kind != ZP_FIT_FORCE || set->x_key != zp_key_find("load.mass");
 }
 
-/* The kind of a column by its name, and the unit; false if it is none. */
+/* The kind of a column by its name, and its unit; false if it is none. */
 static bool find_kind(ZpFitSet *set, const char *name, double *factor, double *divisor) {
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
     const ZpFitNumber *of = &zp_fit_number[kind];
@@ -442,7 +445,7 @@ static ZpStatus read_set(Reading *r, ZpFitSet *set, const Measured *measured, in
   const ZpData *data = measured->data;
   int x = measured->x;
   if (is_length(data->cell[x]) && is_force(data->cell[y])) {
-    int stroke = x; /* the model takes a force and gives a stroke, whichever of them was set on the bench */
+    int stroke = x; /* the model computes a stroke from a force, whichever of the two was set on the bench */
     x = y;
     y = stroke;
   }

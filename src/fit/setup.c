@@ -1,4 +1,4 @@
-/* Def => which keys are fitted, within which bounds; src/fit/sets.c: to what. */
+/* Def => the fitted keys and their bounds; src/fit/sets.c reads the measurements. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,7 +50,7 @@ bool zp_fit_takes(int key) {
   return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
 }
 
-/* Bounds of z: those of the scenario, and the range of the key. */
+/* Bounds of z: those of the scenario, within the range of the key. */
 static void find_bounds(ZpFit *fit, int i) {
   const ZpKey *key = zp_key(fit->key[i]);
   double start = fit->start[i], at_min = key->min / start, at_max = key->max / start;
@@ -58,7 +58,7 @@ static void find_bounds(ZpFit *fit, int i) {
   fit->upper[i] = fmin(fit->def->calibrate.upper, fmax(at_min, at_max));
 }
 
-/* "ribbon.young_modulus = 100 GPa .. 250 GPa": in place of the multiples of the start. */
+/* "ribbon.young_modulus = 100 GPa .. 250 GPa": bounds instead of multiples of the start value. */
 static ZpStatus set_bounds(ZpFit *fit, char *text, ZpError *err) {
   ZpInterval bounds;
   ZpStatus status = zp_interval_read("calibrate.bounds", text, &bounds, err);
@@ -72,7 +72,7 @@ static ZpStatus set_bounds(ZpFit *fit, char *text, ZpError *err) {
   fit->lower[i] = fmin(from, to);
   fit->upper[i] = fmax(from, to);
   if (fit->lower[i] <= 1 && fit->upper[i] >= 1) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s starts at %g %s, which is not within them", name, start,
+  return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s: the bounds must enclose its start value, %g %s", name, start,
                  zp_key(bounds.key)->unit);
 }
 
@@ -87,9 +87,11 @@ static ZpStatus read_bounds(ZpFit *fit, ZpError *err) {
 
 static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
   int key = zp_key_find(name);
-  if (key < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %.80s: unknown key; did you mean %s?", name,
-                   zp_key_nearest(name));
+  if (key < 0) {
+    char reason[256];
+    zp_key_unknown(name, reason, sizeof reason);
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %.80s: %s", name, reason);
+  }
   if (!zp_fit_takes(key))
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: is not a real number and cannot be fitted", name);
   if (fit->n == ZP_FIT_MOST)
@@ -111,7 +113,7 @@ static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
   char list[ZP_TEXT_SIZE], *rest = list;
   memcpy(list, fit->def->calibrate.fit, sizeof list);
   ZpStatus status = ZP_OK;
-  if (strspn(list, " ") == strlen(list)) return ZP_OK; /* nothing is fitted: a comparison */
+  if (strspn(list, " ") == strlen(list)) return ZP_OK; /* nothing is fitted: model and data are compared */
   for (char *name = strsep(&rest, ","); name && status == ZP_OK; name = strsep(&rest, ",")) {
     name += strspn(name, " ");
     name[strcspn(name, " ")] = 0;

@@ -1,6 +1,6 @@
-/* The least squares themselves: NLopt's COBYLA finds the way within the bounds, without derivatives, so that a
- * try without a state of rest only costs; Gauss-Newton makes the end sharp, with exact derivatives of states of rest
- * where they are known, else with finite differences. */
+/* Least squares. NLopt's COBYLA first approaches the minimum within the bounds; it needs no derivatives and tolerates
+ * trial values without an equilibrium. Gauss-Newton then converges to the minimum, with exact derivatives of equilibria
+ * if they are available, otherwise with finite differences. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,8 @@
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };
 
-/* Relative step of the finite differences: far above what Newton leaves, small against the curvature. */
+/* Relative step of the finite differences: far above the tolerance of Newton's method, small enough to neglect the
+ * curvature. */
 static const double difference = 1e-4;
 
 static double measure(ZpFit *fit, ZpFitKind kind, const ZpModel *model, double voltage) {
@@ -59,10 +60,10 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
   return set;
 }
 
-/* The study whose number is measured; NULL where it cannot be run. */
+/* The result of the study whose number is measured; NULL if it cannot be run. */
 static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   ZpResult *result = NULL;
-  def->output.samples = 10; /* only the numbers are asked for */
+  def->output.samples = 10; /* only the numbers are needed */
   def->output.shapes = 2;
   def->output.errors = false;
   ZpStatus status = zp_study_run(zp_fit_number[kind].study, def, NULL, NULL, &result, NULL);
@@ -70,7 +71,7 @@ static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   return result;
 }
 
-/* Its number, SI; NAN where it finds none. */
+/* The number of that study, SI; NAN if it has none. */
 static double predict_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   ZpResult *result = run_study(fit, kind, def);
   double value = result ? zp_result_get(result, zp_fit_number[kind].number) : NAN;
@@ -90,7 +91,7 @@ double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   return value;
 }
 
-/* One run in time through all rows of a set => fitted [its rows]; NAN from where the solver fails. */
+/* One run in time over all rows of a set => fitted [its rows]; NAN after the solver fails. */
 static void predict_run(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
   ZpActuatorDef def;
   bool set = set_fitted(fit, z, &def), runs;
@@ -114,7 +115,7 @@ static bool ask(ZpFit *fit) {
   return fit->stopped || fit->status != ZP_OK;
 }
 
-/* What the model gives at z for the rows of a set => fitted [its rows]; false if one of them is not there. */
+/* Values of the model at z for the rows of a set => fitted [its rows]; false if one of them does not exist. */
 static bool predict_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
   bool all = true;
   if (of->x_key < 0 && !ask(fit)) predict_run(fit, of, z, fitted);
@@ -125,7 +126,7 @@ static bool predict_set(ZpFit *fit, const ZpFitSet *of, const double *z, double 
   return all;
 }
 
-/* Fitted values at z; false if one of them is not there. */
+/* Fitted values at z; false if one of them does not exist. */
 static bool predict_all(ZpFit *fit, const double *z, double *fitted) {
   bool all = true;
   fit->evaluations++;
@@ -150,7 +151,7 @@ static double largest_of(const ZpFit *fit, const ZpFitSet *of) {
   return largest;
 }
 
-/* Sum of squares; a row that is not there counts as twice the largest measured value of its set. */
+/* Sum of squares. A row without a value counts as twice the largest measured value of its set. */
 static double squares(const ZpFit *fit, const double *fitted) {
   double sum = 0;
   for (size_t k = 0; k < fit->sets; k++) {
@@ -170,7 +171,7 @@ typedef struct Search {
   nlopt_opt opt;
 } Search;
 
-/* An nlopt_func: logarithm of the sum of squares, so that tolerances need no scale. */
+/* An nlopt_func: the logarithm of the sum of squares, so that tolerances are relative. */
 static double objective(unsigned n, const double *z, double *gradient, void *user) {
   Search *search = user;
   (void)n, (void)gradient;
@@ -179,7 +180,7 @@ static double objective(unsigned n, const double *z, double *gradient, void *use
   return log(squares(search->fit, search->fitted) + 1e-30);
 }
 
-/* As near as Gauss-Newton starts from: with exact derivatives that costs one evaluation a step. */
+/* Close enough for Gauss-Newton to start, which with exact derivatives costs one evaluation per step. */
 static double near_enough(const ZpFit *fit) {
   for (size_t i = 0; i < fit->sets; i++)
     if (fit->set[i].x_key < 0) return 1e-3;
@@ -203,7 +204,7 @@ static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
-/* Derivatives of a stroke or an opening by the values of the fitted keys => row [n]. */
+/* Derivatives of a stroke or an opening with respect to the fitted keys => row [n]. */
 static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def, double voltage, double *row) {
   ZpModel *model = build(fit, def);
   ZpRest *rest = NULL;
@@ -228,7 +229,7 @@ static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
     used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
 }
 
-/* The same of the number of a study. */
+/* The same for the number of a study. */
 static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *row) {
   int found = 0;
   name_keys(fit, def);
@@ -243,12 +244,12 @@ static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, dou
   return found == fit->n;
 }
 
-/* Whether the derivatives of the rows of a set are known at rest. */
+/* Are exact derivatives available for the rows of a set? */
 static bool has_slopes(const ZpFitSet *of) {
   return of->x_key >= 0 && zp_fit_number[of->kind].has_slopes;
 }
 
-/* Exact, where the derivatives of the rows by all these keys are known => rows of J of this set. */
+/* Exact derivatives, if they are available for all fitted keys => rows of J of this set. */
 static bool differentiate(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
   bool is_number = zp_fit_number[of->kind].number != NULL, good = has_slopes(of);
   for (size_t i = 0; i < of->rows && good; i++) {
@@ -263,7 +264,7 @@ static bool differentiate(ZpFit *fit, const ZpFitSet *of, const double *z, doubl
   return good;
 }
 
-/* By differences => rows of J of this set. */
+/* Derivatives by finite differences => rows of J of this set. */
 static bool difference_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
   double *up = calloc(2 * of->rows, sizeof *up), *down = up ? up + of->rows : NULL;
   bool good = up != NULL;
@@ -327,7 +328,7 @@ static bool solve_small(int n, double A[ZP_FIT_MOST][ZP_FIT_MOST], double *b) {
   return true;
 }
 
-/* The Gauss-Newton step; what is at a bound and would leave it stays. */
+/* The Gauss-Newton step; a key at its bound stays there if the step would leave the bound. */
 static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted, const double *J, double *step) {
   int n = fit->n, free_key[ZP_FIT_MOST] = {0}, used = 0;
   double A[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, b[ZP_FIT_MOST] = {0}, g[ZP_FIT_MOST] = {0};
@@ -351,7 +352,7 @@ static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted
   return true;
 }
 
-/* Go along a step as far as the sum of squares falls; => how far z moved, 0 if it does not fall. */
+/* Follow a step as far as the sum of squares decreases; => the change of z, 0 if it does not decrease. */
 static double take_step(ZpFit *fit, double *z, double *fitted, const double *step, double *trial) {
   double before = squares(fit, fitted), fraction = 1;
   for (int h = 0; h < HALVINGS; h++, fraction /= 2) {

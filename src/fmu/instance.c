@@ -1,4 +1,4 @@
-/* The life of an instance: what is set, when its simulation is built, what a step does. */
+/* The phases of an instance: when variables may be set, when its simulation is built, what a step does. */
 #include "fmu/instance.h"
 
 #include <math.h>
@@ -52,7 +52,7 @@ void zp_fmu_destroy(ZpFmu *fmu) {
 
 /* -- the simulation -------------------------------------------------------------------------------- */
 
-/* Is the model of these parameters? */
+/* Was the model built with these parameters? */
 static bool is_built(const ZpFmu *fmu) {
   if (!fmu->sim) return false;
   for (int key = 0; key < ZP_FMU_KEYS; key++) {
@@ -62,7 +62,7 @@ static bool is_built(const ZpFmu *fmu) {
   return true;
 }
 
-/* A simulation that has not found its hanging equilibrium says so where it is to run. */
+/* If the hanging equilibrium was not found, report it when the run starts. */
 static ZpStatus check_start(ZpSim *sim, ZpError *err) {
   ZpRunInfo info;
   if (zp_sim_run(sim, 0, false, NULL, &info) == ZP_REACHED_END) return ZP_OK;
@@ -79,7 +79,7 @@ static ZpStatus keep_origin(ZpFmu *fmu, ZpError *err) {
 static ZpStatus build(ZpFmu *fmu, ZpError *err) {
   drop_model(fmu);
   if (zp_def_members(&fmu->def) > 1)
-    return zp_fail(err, ZP_BAD_INPUT, "%d members of a stack: an FMU is of a single actuator",
+    return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator",
                    zp_def_members(&fmu->def));
   ZpStatus status = zp_model_create(&fmu->def, &fmu->model, err);
   if (status == ZP_OK) status = zp_sim_create(fmu->model, NULL, &fmu->sim, err);
@@ -101,14 +101,14 @@ static ZpStatus apply_input(ZpFmu *fmu, ZpInput input, ZpError *err) {
   return zp_sim_set_input(fmu->sim, input, fmu->input[input], fmu->rate[input], err);
 }
 
-/* The present signals. */
+/* Read the current signals. */
 static void read_row(ZpFmu *fmu) {
   zp_sim_read(fmu->sim, fmu->row);
   fmu->stale = false;
 }
 
-/* The same where nothing has moved: mean current and power stay those of the last step, since an input that jumps now
- * counts in the next. */
+/* The same without motion: mean current and power remain those of the last step, because a jump of an input now counts
+ * in the next step. */
 static void read_row_again(ZpFmu *fmu) {
   double current = fmu->row[ZP_FMU_SIGNAL_current], power = fmu->row[ZP_FMU_SIGNAL_power];
   read_row(fmu);
@@ -143,7 +143,7 @@ static ZpStatus find_typed(const ZpFmu *fmu, uint32_t reference, ZpKeyType type,
                            ZpError *err) {
   ZpStatus status = find(fmu, reference, variable, err);
   if (status != ZP_OK || zp_fmu_type(*variable) == type) return status;
-  return zp_fail(err, ZP_BAD_INPUT, "%s: a variable of another type", zp_fmu_name(*variable));
+  return zp_fail(err, ZP_BAD_INPUT, "%s: this variable has another type", zp_fmu_name(*variable));
 }
 
 static ZpStatus get_output(ZpFmu *fmu, int index, double *value, ZpError *err) {
@@ -170,7 +170,7 @@ ZpStatus zp_fmu_get(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double *valu
 
 static ZpStatus set_input(ZpFmu *fmu, ZpInput input, double value, double rate, ZpError *err) {
   if (fmu->phase & (ZP_FMU_TERMINATED | ZP_FMU_FAILED))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: the simulation is over", zp_input_name(input));
+    return zp_fail(err, ZP_BAD_INPUT, "%s: the simulation has ended", zp_input_name(input));
   ZpStatus status = fmu->prepared ? zp_sim_set_input(fmu->sim, input, value, rate, err) : ZP_OK;
   if (status != ZP_OK) return status;
   fmu->input[input] = value;
@@ -179,7 +179,7 @@ static ZpStatus set_input(ZpFmu *fmu, ZpInput input, double value, double rate, 
   return ZP_OK;
 }
 
-/* The simulation continues where it is, in a model with another value of a key. If that fails all is as before. */
+/* Continue the simulation in a model with another value of a key. On failure nothing changes. */
 static ZpStatus tune(ZpFmu *fmu, int key, double value, ZpError *err) {
   size_t size = zp_fmu_state_size(fmu);
   unsigned char *before = zp_calloc(2, size);
@@ -230,7 +230,8 @@ ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpE
   *step = (ZpFmuStep){false, false};
   double before = zp_sim_get(fmu->sim, "time"), dt = end - fmu->start_time - before;
   if (!(dt > 0) || isinf(dt))
-    return zp_fail(err, ZP_BAD_INPUT, "a step to %.17g s: the simulation is at %.17g s", end, fmu->time);
+    return zp_fail(err, ZP_BAD_INPUT, "a step cannot end at %.17g s: the simulation is at %.17g s already", end,
+                   fmu->time);
   ZpRunInfo info;
   ZpOutcome outcome =
       to_event ? zp_sim_step_to_event(fmu->sim, dt, NULL, &info) : zp_sim_step(fmu->sim, dt, NULL, &info);
@@ -248,7 +249,8 @@ ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], Zp
   ZpFmuVariable input;
   ZpStatus status = find(fmu, by, &input, err);
   if (status == ZP_OK && input.role != ZP_FMU_INPUT)
-    status = zp_fail(err, ZP_BAD_INPUT, "derivatives by %s: only those by inputs are known", zp_fmu_name(input));
+    status =
+        zp_fail(err, ZP_BAD_INPUT, "derivatives with respect to %s: available for inputs only", zp_fmu_name(input));
   if (status == ZP_OK) status = zp_fmu_prepare(fmu, err);
   if (status == ZP_OK) status = zp_sim_input_slopes(fmu->sim, (ZpInput)input.index, slope, err);
   for (int k = 0; k < ZP_FMU_SIGNALS && status == ZP_OK; k++)
@@ -260,7 +262,7 @@ ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpErro
   ZpFmuVariable output;
   ZpStatus status = find(fmu, reference, &output, err);
   if (status == ZP_OK && output.role != ZP_FMU_OUTPUT)
-    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: only those of outputs are known", zp_fmu_name(output));
+    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: available for outputs only", zp_fmu_name(output));
   if (status == ZP_OK) *signal = output.index;
   return status;
 }

@@ -1,12 +1,12 @@
-/* One instance of the actuator as an FMU, the same for FMI 2 and FMI 3: parameters, inputs, the simulation, and the
- * phase of its life, which says which calls are allowed. No two instances share anything that changes. */
+/* One instance of the actuator as an FMU, for FMI 2 and FMI 3: parameters, inputs, the simulation, and its phase, which
+ * determines the allowed calls. Instances share no mutable data. */
 #ifndef ZP_FMU_INSTANCE_H
 #define ZP_FMU_INSTANCE_H
 
 #include "fmu/start.h"
 #include "fmu/variables.h"
 
-/* One bit each, so that a call can name those it is allowed in. */
+/* One bit each, so that a call can name all phases in which it is allowed. */
 typedef enum ZpFmuPhase {
   ZP_FMU_INSTANTIATED = 1,
   ZP_FMU_INITIALIZING = 2,
@@ -20,20 +20,20 @@ typedef enum ZpFmuPhase {
 typedef struct ZpFmu {
   ZpFmuStart start;
   ZpFmuPhase phase;
-  double start_time, time;                            /* s, as the importer counts it */
-  double input[ZP_INPUT_COUNT], rate[ZP_INPUT_COUNT]; /* as they were set last */
+  double start_time, time;                            /* s, as counted by the importer */
+  double input[ZP_INPUT_COUNT], rate[ZP_INPUT_COUNT]; /* as last set */
   ZpActuatorDef def;                                  /* parameters */
-  ZpModel *model;                                     /* of the Def that it holds; NULL: none yet */
+  ZpModel *model;                                     /* built from its Def; NULL: not yet */
   ZpSim *sim;
-  unsigned char *origin;      /* the snapshot that every run of this model begins with */
-  bool prepared;              /* the simulation has begun with these parameters */
+  unsigned char *origin;      /* the snapshot from which every run of this model starts */
+  bool prepared;              /* the simulation has started with these parameters */
   bool stale;                 /* inputs have changed since `row` was read */
   double row[ZP_FMU_SIGNALS]; /* outputs */
 } ZpFmu;
 
 /* How a step ended. */
 typedef struct ZpFmuStep {
-  bool event;     /* at an event, before its end */
+  bool event;     /* at an event, before its planned end */
   bool terminate; /* the actuator cannot continue: a short circuit */
 } ZpFmuStep;
 
@@ -41,38 +41,39 @@ typedef struct ZpFmuStep {
 ZpStatus zp_fmu_create(const ZpFmuStart *start, ZpFmu **out, ZpError *err);
 void zp_fmu_destroy(ZpFmu *fmu);
 
-/* Back to that phase and to the start values. */
+/* Return to that phase and to the start values. */
 ZpStatus zp_fmu_reset(ZpFmu *fmu, ZpError *err);
 
-/* Build the model and its simulation of the parameters, unless that is done. ZP_BAD_INPUT says which parameters do not
- * fit one another, or that there is no hanging equilibrium. */
+/* Build the model and its simulation from the parameters, unless it is done already. ZP_BAD_INPUT names parameters that
+ * contradict each other, or reports that there is no hanging equilibrium. */
 ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err);
 
-/* The same, and begin a run at the inputs, unless that is done. ZP_BAD_INPUT also if an input is out of range. */
+/* The same, and start a run at the inputs, unless it is done already. ZP_BAD_INPUT also if an input is out of range. */
 ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err);
 
-/* The value of a variable, SI. ZP_BAD_INPUT if there is none of that type with that reference. Outputs of a phase
- * before the simulation is prepared prepare it. */
+/* The value of a variable, SI. ZP_BAD_INPUT if no variable of that type has that reference. Reading an output prepares
+ * the simulation if necessary. */
 ZpStatus zp_fmu_get(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double *value, ZpError *err);
 
-/* Set an input, whose rate becomes 0, or a parameter. ZP_BAD_INPUT, and nothing is changed, if it is neither, if a
+/* Set an input, whose rate becomes 0, or a parameter. ZP_BAD_INPUT, without any change, if it is neither, if a
  * parameter is set after initialization, or if the value is out of range. */
 ZpStatus zp_fmu_set(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double value, ZpError *err);
 
-/* Set how fast an input changes from its value on, per second. */
+/* Set the rate of change of an input, per second. */
 ZpStatus zp_fmu_set_rate(ZpFmu *fmu, uint32_t reference, double rate, ZpError *err);
 
-/* Move on to the time `end`, s, or to an event before. ZP_BAD_INPUT, and nothing moves, if that is not after the
- * present time; ZP_MACHINE, and the phase becomes failed, if the solver fails. Allocates nothing. */
+/* Advance to the time `end`, s, or to an event before it. ZP_BAD_INPUT, without any change, if that is not after the
+ * current time; ZP_MACHINE, and the phase becomes failed, if the solver fails. Does not allocate memory. */
 ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpError *err);
 
-/* The derivatives of outputs by input `by` at this instant, by signals. ZP_BAD_INPUT if `by` is no input. */
+/* The derivatives of outputs with respect to input `by` at this instant, indexed by signal. ZP_BAD_INPUT if `by` is not
+ * an input. */
 ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], ZpError *err);
 
-/* Which signal an output is. ZP_BAD_INPUT if it is none. */
+/* The signal of an output. ZP_BAD_INPUT if it is not an output. */
 ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpError *err);
 
-/* All that evolves and all that was set, as bytes that may be stored. zp_fmu_load: ZP_BAD_INPUT if they are damaged or
+/* The complete state and all set values, as bytes that may be stored. zp_fmu_load: ZP_BAD_INPUT if they are damaged or
  * of another FMU; ZP_MACHINE if there is no memory for another model. */
 size_t zp_fmu_state_size(const ZpFmu *fmu);
 void zp_fmu_save(const ZpFmu *fmu, void *bytes);

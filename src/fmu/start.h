@@ -1,6 +1,6 @@
-/* What an FMU begins with: the keys of the scenario that it was written for. A block of data that stands in the binary
- * of every FMU; `zipact fmu` fills it in where it finds its mark. So a binary reads no file, and needs no compiler to
- * be made. */
+/* The start values of an FMU: the keys of the scenario from which it was written. They are a block of data in the
+ * binary of every FMU; `zipact fmu` finds the block by its mark and writes the values. So a binary reads no file, and
+ * its writer needs no compiler. */
 #ifndef ZP_FMU_START_H
 #define ZP_FMU_START_H
 
@@ -8,7 +8,7 @@
 
 #include <zipact/def.h>
 
-/* Number of keys, of each type by one. */
+/* Number of keys, counted by one. */
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)           +1
@@ -25,33 +25,33 @@ enum {
 #include <zipact/keys.def>
 };
 
-/* 16 bytes that stand nowhere else in a binary, without a final 0; as text for a source. */
+/* 16 bytes that occur nowhere else in a binary, without a final 0; as text for a source. */
 #define ZP_FMU_MARK "\x93zipact-fmu-v1\r\n"
 
-/* Bytes of the token with the final 0. */
+/* Bytes of the token including the final 0. */
 enum { ZP_FMU_MARK_SIZE = 16, ZP_FMU_TOKEN_SIZE = 40 };
 
 typedef struct ZpFmuStart {
   char mark[ZP_FMU_MARK_SIZE];
-  uint64_t size;                 /* of this block, bytes: that of a binary of another version may be smaller */
-  uint64_t layout;               /* zp_def_layout of the program that the binary was made with */
+  uint64_t size;                 /* size of this block, bytes: that of a binary of another version may differ */
+  uint64_t layout;               /* zp_def_layout of the program with which the binary was built */
   char token[ZP_FMU_TOKEN_SIZE]; /* GUID of FMI 2, instantiation token of FMI 3 */
-  double value[ZP_FMU_KEYS];     /* of each key, as zp_def_get; 0 of keys that have none */
+  double value[ZP_FMU_KEYS];     /* of each key, as zp_def_get; 0 for keys without a number */
 } ZpFmuStart;
 
-/* That of this FMU. */
+/* The block of this FMU. */
 extern const volatile ZpFmuStart zp_fmu_start;
 
-/* (start) => the Def that it stands for. ZP_BAD_INPUT if it was never filled in, or by a program with other keys. */
+/* (start) => its Def. ZP_BAD_INPUT if it has no values, or those of a program with other keys. */
 ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *err);
 
-/* The voltage that the input has until it is set: that of a step; of other waveforms, which an FMU has not, 0. V */
+/* The initial voltage of the input: that of a step; 0 for other waveforms, which an FMU does not have. V */
 double zp_fmu_first_voltage(const ZpActuatorDef *def);
 
-/* The setpoint that the input has until it is set: setpoint.value, or where that is none, 0. */
+/* The initial setpoint of the input: setpoint.value, or 0 if it is none. */
 double zp_fmu_first_setpoint(const ZpActuatorDef *def);
 
-/* Does key `index` have a number? All but texts and keys of the scenario. */
+/* Does key `index` have a number? All keys do except texts and keys of the scenario. */
 bool zp_fmu_has_number(int index);
 
 #endif

@@ -36,7 +36,7 @@ size_t zp_fmu_state_size(const ZpFmu *fmu) {
   return sizeof(Head) + (fmu->prepared ? zp_sim_state_size(fmu->sim) : 0);
 }
 
-/* (where to write) => where to write next */
+/* (position to write) => next position */
 static double *put(double *to, const double *from, size_t count) {
   memcpy(to, from, count * sizeof *to);
   return to + count;
@@ -75,14 +75,14 @@ static ZpStatus check(const Head *head, const void *bytes, size_t size, ZpError 
   return ZP_OK;
 }
 
-/* Parameters there => def. */
+/* Read the parameters => def. */
 static ZpStatus take_def(const ZpFmu *fmu, const double *value, ZpActuatorDef *def, ZpError *err) {
   ZpFmuStart start = fmu->start;
   memcpy(start.value, value, sizeof start.value);
   return zp_fmu_start_def(&start, def, err);
 }
 
-/* The model of these parameters, and its simulation in the state of the snapshot. */
+/* Build the model of these parameters, and its simulation in the state of the snapshot. */
 static ZpStatus restore(ZpFmu *fmu, ZpRowStart row_start, const unsigned char *snapshot, size_t size, ZpError *err) {
   ZpStatus status = zp_fmu_need_model(fmu, err);
   if (status == ZP_OK) status = zp_sim_restore(fmu->sim, snapshot, size, err);

@@ -8,7 +8,7 @@
 
 #include "fmu/start.h"
 
-/* Value references begin here: far enough apart for all tables. */
+/* First value references: far enough apart for all tables. */
 enum { FIRST_INPUT = 1, FIRST_OUTPUT = 100, FIRST_PARAMETER = 1000 };
 
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
@@ -96,8 +96,8 @@ const char *zp_fmu_unit(ZpFmuVariable variable) {
 const char *zp_fmu_help(ZpFmuVariable variable) {
   static const char *const of_input[ZP_INPUT_COUNT] = {
       "commanded voltage of the source",
-      "force on the whole actuator beside load.mass, without inertia; positive pulls the lower platform down",
-      "what the controller is to hold, in the unit of control.signal, SI"};
+      "force on the whole actuator in addition to load.mass, without inertia; positive pulls the lower platform down",
+      "setpoint of the controller, in the SI unit of control.signal"};
   size_t count;
   if (variable.role == ZP_FMU_TIME) return "time since the start";
   if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];

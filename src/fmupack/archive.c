@@ -15,7 +15,7 @@ struct ZpArchive {
   ZpAtomic file;
 };
 
-/* (path) => its folder and its name, both the caller's to free. */
+/* (path) => its folder and its name, both to be freed by the caller. */
 static bool split(const char *path, char **folder, char **name) {
   const char *slash = strrchr(path, '/');
   *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");

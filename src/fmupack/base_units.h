@@ -8,7 +8,8 @@ typedef struct ZpBaseUnits {
   int kg, m, s, A; /* exponents */
 } ZpBaseUnits;
 
-/* (an SI unit of the tables of keys and signals, "N s2/m2", "1/m", "1") => its powers. False if it is none. */
+/* (an SI unit in the tables of keys and signals, "N s2/m2", "1/m", "1") => its powers. False if it is not such a unit.
+ */
 bool zp_base_units(const char *unit, ZpBaseUnits *powers);
 
 #endif

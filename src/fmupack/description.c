@@ -1,5 +1,5 @@
-/* modelDescription.xml and what stands beside it. One pass over the variables, in the order inputs, outputs,
- * parameters, serves every part of the file; FMI 2 and FMI 3 differ in words. */
+/* modelDescription.xml and the files beside it. One pass over the variables, in the order inputs, outputs, parameters,
+ * serves every part of the file; FMI 2 and FMI 3 differ in wording. */
 #include "fmupack/description.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@
 
 enum { MOST_VARIABLES = 1 + ZP_INPUT_COUNT + ZP_FMU_SIGNALS + ZP_FMU_KEYS };
 
-/* The variables of a plan, in their order. */
+/* The variables of a plan, in order. */
 typedef struct List {
   ZpFmuVariable item[MOST_VARIABLES];
   int count;
@@ -49,7 +49,7 @@ static void put_number(FILE *file, const char *attribute, double value) {
   fprintf(file, " %s=\"%s\"", attribute, text);
 }
 
-/* The unit in which people write it, where that is another; NULL if there is none. */
+/* The customary unit, if it differs; otherwise NULL. */
 static const char *display_unit(ZpFmuVariable variable) {
   if (variable.role == ZP_FMU_INPUT && variable.index == ZP_INPUT_VOLTAGE)
     return zp_key(zp_key_find("drive.voltage"))->shown;
@@ -73,7 +73,7 @@ static bool same_display(ZpFmuVariable a, ZpFmuVariable b) {
   return same_unit(a, b) && one && other && strcmp(one, other) == 0;
 }
 
-/* Is item k the first of its kind? */
+/* Is item k the first with its unit? */
 static bool is_first(const List *list, int k, bool (*same)(ZpFmuVariable, ZpFmuVariable)) {
   for (int j = 0; j < k; j++)
     if (same(list->item[j], list->item[k])) return false;
@@ -132,7 +132,7 @@ static ZpStatus put_units(FILE *file, const List *list, ZpError *err) {
 
 /* -- types ----------------------------------------------------------------------------------------- */
 
-/* The type of a key of words is called like the key, and no variable is called like it. */
+/* The type of a key of words has the name of the key; no variable has that name. */
 static void put_type_name(FILE *file, const char *attribute, ZpFmuVariable variable) {
   fprintf(file, " %s=\"words.%s\"", attribute, zp_fmu_name(variable));
 }
@@ -229,7 +229,8 @@ static void put_variable(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variab
   fputs(two ? "/>\n    </ScalarVariable>\n" : "/>\n", file);
 }
 
-/* What item k, an output, follows at once: as indices of FMI 2, which count from 1, or value references of FMI 3. */
+/* The variables on which output k depends at once: as indices of FMI 2, which count from 1, or value references of FMI
+ * 3. */
 static void put_dependencies(FILE *file, const ZpFmuPlan *plan, const List *list, int k) {
   const char *between = "";
   fputs(" dependencies=\"", file);
@@ -252,7 +253,7 @@ static void put_outputs(FILE *file, const ZpFmuPlan *plan, const List *list, con
   }
 }
 
-/* What an output is at first follows from all parameters. */
+/* The initial value of an output depends on all parameters. */
 static void put_structure(FILE *file, const ZpFmuPlan *plan, const List *list) {
   bool two = plan->version == 2;
   fputs(two ? "  <ModelStructure>\n    <Outputs>\n" : "  <ModelStructure>\n", file);
@@ -308,10 +309,9 @@ static void put_capabilities(FILE *file, const ZpFmuPlan *plan) {
 
 static void put_experiment(FILE *file, const ZpFmuPlan *plan) {
   fputs("  <LogCategories>\n"
-        "    <Category name=\"" ZP_LOG_EVENTS
-        "\" description=\"events, and what was done in place of what was asked\"/>\n"
-        "    <Category name=\"" ZP_LOG_DISCARD "\" description=\"calls that were refused\"/>\n"
-        "    <Category name=\"" ZP_LOG_ERROR "\" description=\"failures\"/>\n"
+        "    <Category name=\"" ZP_LOG_EVENTS "\" description=\"events, and deviations from what the importer "
+        "requested\"/>\n    <Category name=\"" ZP_LOG_DISCARD
+        "\" description=\"refused calls\"/>\n    <Category name=\"" ZP_LOG_ERROR "\" description=\"failures\"/>\n"
         "  </LogCategories>\n"
         "  <DefaultExperiment startTime=\"0\"",
         file);

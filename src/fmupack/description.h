@@ -9,15 +9,15 @@
 #include "fmu/start.h"
 #include "fmupack/kit.h"
 
-/* What is said about an FMU. */
+/* The content of the description of an FMU. */
 typedef struct ZpFmuPlan {
   int version;                  /* of FMI: 2 or 3 */
   const char *name;             /* of the model */
   const ZpFmuStart *start;      /* parameters */
-  bool controlled;              /* the setpoint is an input, not the voltage */
-  double first[ZP_INPUT_COUNT]; /* at which inputs start */
+  bool controlled;              /* the setpoint replaces the voltage as input */
+  double first[ZP_INPUT_COUNT]; /* start value of the input */
   double end, step;             /* default experiment, s */
-  const ZpKit *sources;         /* files of the kit, those in sources/ as well */
+  const ZpKit *sources;         /* files of the kit, including those in sources/ */
 } ZpFmuPlan;
 
 /* Name of all binaries, and of the model in them. */
@@ -30,7 +30,7 @@ ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err);
 void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan);
 void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan);
 
-/* Is this file of the kit a source to be compiled? => its name below sources/, else NULL. */
+/* Is this file of the kit a source to compile? => its name below sources/, otherwise NULL. */
 const char *zp_fmu_source_name(const char *file);
 
 #endif

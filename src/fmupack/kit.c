@@ -24,7 +24,7 @@ static bool add(ZpKit *names, char *name) {
 
 static ZpStatus walk(const char *root, const char *below, ZpKit *names, ZpError *err);
 
-/* What is called `name` in folder `below` of the root, which is "" for itself. */
+/* The path of `name` in folder `below` of the root, which is "" for the root itself. */
 static ZpStatus visit(const char *root, const char *below, const char *name, ZpKit *names, ZpError *err) {
   struct stat info;
   char *inner = *below ? zp_path_join(below, name) : strdup(name), *path = inner ? zp_path_join(root, inner) : NULL;

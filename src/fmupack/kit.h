@@ -1,4 +1,4 @@
-/* The kit from which FMUs are made: a folder with `binaries/PLATFORM/zipact.so` or `.dll` and `sources/`. */
+/* The kit for FMUs: a folder with `binaries/PLATFORM/zipact.so` or `.dll` and `sources/`. */
 #ifndef ZP_FMUPACK_KIT_H
 #define ZP_FMUPACK_KIT_H
 
@@ -7,17 +7,17 @@
 
 #include <zipact/error.h>
 
-/* Names of the files of a kit, with their folders, sorted. */
+/* Names of the files in a kit, with their folders, sorted. */
 typedef struct ZpKit {
   char **item;
   size_t count;
 } ZpKit;
 
-/* All files below `folder`. ZP_MACHINE if it cannot be read. Also on failure to be freed by zp_kit_free. */
+/* All files below `folder`. ZP_MACHINE if it cannot be read. To be freed by zp_kit_free, also on failure. */
 ZpStatus zp_kit_list(const char *folder, ZpKit *names, ZpError *err);
 void zp_kit_free(ZpKit *names);
 
-/* A whole file => *bytes, the caller's to free. */
+/* A whole file => *bytes, to be freed by the caller. */
 ZpStatus zp_file_load(const char *path, void **bytes, size_t *size, ZpError *err);
 
 #endif

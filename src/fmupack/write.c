@@ -20,7 +20,7 @@ enum { MOST_STEPS = 1000 };           /* of it */
 
 /* -- what it begins with --------------------------------------------------------------------------- */
 
-/* Two FNV-1a sums of the version and of all values, in the form of a GUID. */
+/* Two FNV-1a hashes of the version and of all values, in the form of a GUID. */
 static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
   uint64_t sum[2] = {UINT64_C(0xcbf29ce484222325), UINT64_C(0x9e3779b97f4a7c15)};
   const unsigned char *byte = (const unsigned char *)start->value;
@@ -37,14 +37,14 @@ static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
 
 static ZpStatus check(const ZpScenario *scenario, int version, const ZpActuatorDef *def, ZpError *err) {
   if (zp_def_members(def) > 1)
-    return zp_fail(err, ZP_BAD_INPUT, "%d members of a stack: an FMU is of a single actuator", zp_def_members(def));
-  if (version != 2 && version != 3) return zp_fail(err, ZP_BAD_INPUT, "FMI %d is not known: 2 or 3", version);
+    return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator", zp_def_members(def));
+  if (version != 2 && version != 3) return zp_fail(err, ZP_BAD_INPUT, "FMI %d is not supported; use 2 or 3", version);
   if (zp_scenario_count(scenario) != 1)
-    return zp_fail(err, ZP_BAD_INPUT, "an FMU is one actuator: the scenario has a list of values");
+    return zp_fail(err, ZP_BAD_INPUT, "the scenario has a list of values, but an FMU contains a single actuator");
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "initial.state = checkpoint: an FMU begins at rest or straight; the state that it "
-                   "is to begin with can be set in the tool");
+                   "initial.state = checkpoint: an FMU starts from equilibrium or straight; set any other state in the "
+                   "importing tool");
   return ZP_OK;
 }
 
@@ -58,8 +58,8 @@ static void still_setpoint(ZpActuatorDef *def) {
   def->setpoint = fresh.setpoint;
 }
 
-/* An FMU has no waveform, and no file of one: its importer says what the voltage is. A waveform other than a step is
- * kept as a ramp, at whose start there is no voltage. */
+/* An FMU has no waveform and no file of one: its importer sets the voltage. A waveform other than a step is stored as a
+ * ramp, which starts at 0 V. */
 static void fill_start(ZpActuatorDef *def, ZpFmuStart *start) {
   memset(start, 0, sizeof *start);
   if (def->drive.waveform != ZP_WAVEFORM_STEP) def->drive.waveform = ZP_WAVEFORM_RAMP;
@@ -75,7 +75,7 @@ static void fill_start(ZpActuatorDef *def, ZpFmuStart *start) {
 
 /* -- files of text --------------------------------------------------------------------------------- */
 
-/* A file of the archive that is being written as text. */
+/* A file of the archive, being written as text. */
 typedef struct Text {
   FILE *file;
   char *bytes;
@@ -108,7 +108,7 @@ static void put_row(FILE *file, ZpFmu *fmu) {
   fputc('\n', file);
 }
 
-/* The outputs of the default experiment, its inputs at their start values. */
+/* The outputs of the default experiment with the inputs at their start values. */
 static ZpStatus put_expected(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
   ZpFmu *fmu;
   ZpFmuStep step = {false, false};
@@ -142,7 +142,7 @@ static void put_page(FILE *file, const ZpFmuPlan *plan) {
       zp_input_name(plan->controlled ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
 }
 
-/* The start values as a source, in place of that of the kit. */
+/* The start values as a source, which replaces that of the kit. */
 static void put_start_source(FILE *file, const ZpFmuStart *start) {
   char text[ZP_NUMBER_SIZE];
   fprintf(file,
@@ -186,7 +186,7 @@ static ZpStatus add_texts_of_3(ZpArchive *archive, const ZpFmuPlan *plan, ZpErro
 
 /* -- files of the kit ------------------------------------------------------------------------------ */
 
-/* Write the start values where a binary has the mark. */
+/* Write the start values at the mark in a binary. */
 static ZpStatus fill_binary(const char *name, unsigned char *byte, size_t size, const ZpFmuStart *start, ZpError *err) {
   int marks = 0;
   for (size_t k = 0; k + sizeof *start <= size; k++) {
@@ -194,7 +194,8 @@ static ZpStatus fill_binary(const char *name, unsigned char *byte, size_t size, 
     if (memcmp(byte + k, ZP_FMU_MARK, ZP_FMU_MARK_SIZE) != 0) continue;
     memcpy(&room, byte + k + offsetof(ZpFmuStart, size), sizeof room);
     if (room != sizeof *start)
-      return zp_fail(err, ZP_MACHINE, "%.300s: a binary of another version of zipact; `make fmu` makes it again", name);
+      return zp_fail(err, ZP_MACHINE, "%.300s: a binary of another version of zipact; build it again with `make fmu`",
+                     name);
     memcpy(byte + k, start, sizeof *start);
     marks++;
   }
@@ -202,7 +203,7 @@ static ZpStatus fill_binary(const char *name, unsigned char *byte, size_t size, 
   return zp_fail(err, ZP_MACHINE, "%.300s: not a binary of this version's kit: it has %d marks, not 1", name, marks);
 }
 
-/* (its name in the kit, where platforms are called as in FMI 3) => its name in the archive, to be freed */
+/* (name in the kit, where platforms have the names of FMI 3) => name in the archive, to be freed */
 static char *archive_name(const char *name, int version) {
   static const char *const platform[][2] = {{"binaries/x86_64-linux/", "binaries/linux64/"},
                                             {"binaries/x86_64-windows/", "binaries/win64/"}};
@@ -251,16 +252,16 @@ static ZpStatus write_archive(const ZpFmuPlan *plan, const char *kit, const char
   return zp_archive_close(archive, status, err);
 }
 
-/* The kit's files. ZP_MACHINE if it is none. */
+/* The files of the kit. ZP_MACHINE if it is not a kit. */
 static ZpStatus look_into(const char *kit, ZpKit *names, ZpError *err) {
   ZpStatus status = zp_kit_list(kit, names, err);
   if (status != ZP_OK) return status;
   for (size_t k = 0; k < names->count; k++)
     if (strncmp(names->item[k], "binaries/", 9) == 0) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "%.300s: no kit for FMUs: it has no binaries", kit);
+  return zp_fail(err, ZP_MACHINE, "%.300s: not a kit for FMUs: it has no binaries", kit);
 }
 
-/* (path) => the name of the file without what follows its last dot, to be freed */
+/* (path) => the name of the file without its extension, to be freed */
 static char *model_name(const char *path) {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
   return dot && dot > name ? strndup(name, (size_t)(dot - name)) : strdup(name);

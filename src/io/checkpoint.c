@@ -18,7 +18,7 @@ ZpStatus zp_checkpoint_write(const ZpCheckpoint *checkpoint, FILE *file, ZpError
 
 static const char name[] = "checkpoint.zps";
 
-/* Did the runs of the report begin with the checkpoint in its own folder? */
+/* Did the runs of the report start from the checkpoint in the same folder? */
 static bool began_there(const ZpReport *report) {
   ZpActuatorDef def;
   struct stat there, start;
@@ -30,7 +30,7 @@ static bool began_there(const ZpReport *report) {
   return same;
 }
 
-/* A report without a checkpoint removes that of an earlier one, but never what its own runs began with. */
+/* A report without a checkpoint removes that of an earlier report, unless its own runs started from it. */
 ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err) {
   const ZpResult *result = zp_report_single(report);
   if (!result || !result->checkpoint) return began_there(report) ? ZP_OK : zp_remove_file(report->directory, name, err);
@@ -41,7 +41,7 @@ ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err) {
 
 /* -- in -------------------------------------------------------------------------------------------- */
 
-enum { LARGEST = 1 << 25 }; /* bytes: beyond any snapshot */
+enum { LARGEST = 1 << 25 }; /* bytes: larger than any snapshot */
 
 static ZpStatus load(const char *path, unsigned char *byte, size_t *size, ZpError *err) {
   FILE *file = fopen(path, "rb");

@@ -46,7 +46,7 @@ static void write_head(FILE *file, const ZpReport *report, const ZpScalarNames *
   fputc('\n', file);
 }
 
-/* The values of the list keys that make this run different from the others. */
+/* The values of the swept keys of this run. */
 static void write_keys(FILE *file, const ZpReport *report, size_t run, double *value) {
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);

@@ -1,5 +1,5 @@
-/* CSV: names in the first row, numbers below, as spreadsheets of any country and instruments write them. A cell is
- * looked at only when its column is used, so that columns of remarks do no harm. */
+/* CSV files, as written by spreadsheets of any country and by instruments: names in the first row, numbers below. A
+ * cell is read only if its column is used, so columns of remarks are allowed. */
 #include "io/data.h"
 
 #include <ctype.h>
@@ -48,11 +48,11 @@ static ZpStatus read_text(const char *key, const char *path, char **text, ZpErro
   (*text)[size] = 0;
   if (failed) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read: %s", key, path, strerror(errno));
   if (size == LARGEST_FILE) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: longer than 16 MB", key, path);
-  if (strlen(*text) != size) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: not a text", key, path);
+  if (strlen(*text) != size) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: not a text file", key, path);
   return ZP_OK;
 }
 
-/* Cut white space off both ends, in place. */
+/* Remove white space at both ends, in place. */
 static char *trim(char *text) {
   while (isspace((unsigned char)*text))
     text++;
@@ -71,7 +71,7 @@ static size_t count_char(const char *text, char c) {
 
 /* -- cells ------------------------------------------------------------------------------------------ */
 
-/* End of the cell that begins at `text`: its separator or the end of the line; NULL if a quote is not closed. */
+/* End of the cell that starts at `text`: its separator or the end of the line; NULL if a quote is not closed. */
 static char *cell_end(char *text, char separator) {
   bool quoted = false;
   for (; *text && (quoted || *text != separator); text++)
@@ -91,7 +91,7 @@ static char *unquote(char *cell) {
   return trim(cell);
 }
 
-/* Cut the next cell off a line, in place; NULL at the end of the line before. */
+/* Split the next cell off a line, in place; NULL after the last one. */
 static char *next_cell(char **line, char separator) {
   char *cell = *line, *end = cell_end(cell, separator);
   *line = *end ? end + 1 : NULL;
@@ -99,7 +99,7 @@ static char *next_cell(char **line, char separator) {
   return unquote(trim(cell));
 }
 
-/* Semicolon before tab before comma, as the row of names has them outside of quotes. */
+/* The separator: semicolon, tab or comma, the first of these that the row of names has outside of quotes. */
 static char find_separator(char *names) {
   static const char separators[] = ";\t,";
   for (const char *c = separators; *c; c++) {
@@ -109,7 +109,7 @@ static char find_separator(char *names) {
   return ',';
 }
 
-/* Cells of a line, 0 if a quote is not closed. */
+/* Number of cells of a line, 0 if a quote is not closed. */
 static size_t count_cells(char *line, char separator) {
   size_t count = 1;
   for (char *end = cell_end(line, separator); !end || *end; end = cell_end(end + 1, separator), count++)
@@ -137,7 +137,7 @@ static void plain_name(char *name) {
   memmove(end + 1, unit, strlen(unit) + 1);
 }
 
-/* Cut a line into the cells of the next row. */
+/* Split a line into the cells of the next row. */
 static ZpStatus take_line(ZpData *data, char *line, int number, size_t *rows, ZpError *err) {
   ZpSource source = {.name = data->path};
   size_t cells = count_cells(line, data->separator);
@@ -158,7 +158,7 @@ static bool counts(const char *line) {
   return *line && *line != '#';
 }
 
-/* Room for the rows of a text of so many lines, by its row of names. */
+/* Allocate the rows of a text with so many lines, by its row of names. */
 static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err) {
   data->separator = find_separator(names);
   data->columns = count_cells(names, data->separator);
@@ -168,7 +168,7 @@ static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err)
   return data->cell ? ZP_OK : zp_fail_memory(err);
 }
 
-/* A line without its end; blanks at the ends stay where they may be cells. */
+/* A line without its end; blanks at its ends may be empty cells and stay. */
 static char *take_end(char *start) {
   char *end = strchr(start, '\n');
   if (!end) return NULL;
@@ -206,7 +206,7 @@ ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *
 
 /* -- names ------------------------------------------------------------------------------------------- */
 
-/* Names differ in more than the case of letters; that of a unit counts. */
+/* Two names are equal if they differ only in the case of letters; the case of the unit counts. */
 static bool same_name(const char *a, const char *b) {
   const char *unit = strrchr(a, '_');
   const size_t stem = unit ? (size_t)(unit - a) : strlen(a);
@@ -238,7 +238,7 @@ static ZpStatus fail_renaming(const ZpDataFiles *files, const char *theirs, ZpEr
                  files->count > 1 ? "any file; the first is " : "", files->file->path, names);
 }
 
-/* "Gewicht = load_g": `part` is cut in place and outlives the data. */
+/* Rename a column: "Gewicht = load_g". `part` is modified and must outlive the data. */
 static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err) {
   char *equals = strchr(part, '=');
   if (!equals)

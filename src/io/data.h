@@ -7,47 +7,47 @@
 
 #include <zipact/error.h>
 
-/* CSV files as read: a row of names, then rows of cells. Empty lines and lines that start with # do not count. Cells
- * are separated by semicolons, tabs or commas, whichever the row of names has; where it is no comma, numbers may have a
- * decimal comma. Cells may be quoted. A name "Load (g)" or "Load [g]" becomes "Load_g". */
+/* CSV files as read: a row of names, then rows of cells. Empty lines and lines that start with # are ignored. The row
+ * of names determines the separator: semicolon, tab or comma; if it is not a comma, numbers may have a decimal comma.
+ * Cells may be quoted. A name "Load (g)" or "Load [g]" becomes "Load_g". */
 typedef struct ZpData {
-  const char *key;  /* that names the file, for messages */
-  const char *path; /* the file */
+  const char *key;  /* key that names the file, for messages */
+  const char *path; /* path of the file */
   size_t columns, rows;
   char separator;
   char **cell; /* [1 + rows][columns]; row 0 has the names */
   int *line;   /* [1 + rows] from 1 */
-  char *text;  /* into which cells point */
+  char *text;  /* text to which the cells point */
 } ZpData;
 
 /* Several of them. */
 typedef struct ZpDataFiles {
   ZpData *file; /* [count] */
   size_t count;
-  char *paths, *renamed; /* texts into which paths and names point */
+  char *paths, *renamed; /* texts to which paths and names point */
 } ZpDataFiles;
 
-/* (key that names the file, its path; both must outlive the data) => data, to be destroyed whatever the status. */
+/* (key that names the file, its path; both must outlive the data) => data, to be destroyed whatever the status is. */
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err);
 void zp_data_destroy(ZpData *data);
 
-/* The same of files whose paths are separated by semicolons. `renamed`, of key data.columns: "their name = our name;
- * ..."; each renames a column in all files that have it. To be destroyed whatever the status. */
+/* The same for several files whose paths are separated by semicolons. `renamed`, the value of data.columns: "their name
+ * = our name; ..."; each renames a column in all files that have it. To be destroyed whatever the status is. */
 ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpDataFiles *files, ZpError *err);
 void zp_data_files_destroy(ZpDataFiles *files);
 
-/* Place of the column called `name`, in any form that a file may have; -1 if there is none. */
+/* Number of the column called `name`, in any form that a file may have; -1 if there is none. */
 int zp_data_column(const ZpData *data, const char *name);
 
-/* The line of a row (from 0) in its file. */
+/* The line number of a row (from 0) in its file. */
 int zp_data_line(const ZpData *data, size_t row);
 
-/* The number in a row (from 0) of a column. ZP_BAD_INPUT if there is text. */
+/* The number in a row (from 0) of a column. ZP_BAD_INPUT if the cell is not a number. */
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err);
 
-/* If the header `name` is `stem`, in any case of its letters, or `stem` and a unit, "stroke_mm": true and the factor
- * that makes it SI, as number / divisor where that is exact. False if it is another stem, or the unit is none of
- * `unit`. */
+/* Is the header `name` equal to `stem`, in any case of its letters, or to `stem` and a unit, as "stroke_mm"? Then the
+ * factor that converts it to SI, as number / divisor if that is exact. False if the stem differs or the unit is not one
+ * of `unit`. */
 bool zp_data_unit(const char *name, const char *stem, const char *unit, double *factor, double *divisor);
 
 #endif

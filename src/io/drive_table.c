@@ -28,12 +28,13 @@ static ZpStatus allocate(ZpDriveRows *rows, size_t count, ZpError *err) {
   return rows->time && rows->voltage ? ZP_OK : zp_fail_memory(err);
 }
 
-/* What the rows are of: keys of a drive or of a setpoint. */
+/* Keys and words for the rows of a drive or of a setpoint. */
 typedef struct Kind {
-  const char *table, *file; /* keys that give them, and what they say */
+  const char *table, *file; /* keys that contain the rows, and their values */
   const char *text, *path;
-  const char *time_key, *value_key;               /* keys whose values they are like */
-  const char *what, *stem, *unit, *example, *row; /* words, the column and its unit, an example of it and of a row */
+  const char *time_key, *value_key; /* keys whose units and ranges apply to the rows */
+  const char *what, *stem, *unit, *example,
+      *row; /* words, the column and its unit, examples of a column and of a row */
 } Kind;
 
 static Kind kind_of(const ZpActuatorDef *def) {
@@ -53,7 +54,7 @@ static ZpStatus fail_row(const Kind *kind, size_t row, const char *reason, ZpErr
   return zp_source_fail(&source, 0, err, "row %zu: %s", row + 1, reason);
 }
 
-/* One side of a row, read as the key of that name would be. */
+/* One side of a row, read as a value of that key. */
 static ZpStatus read_side(const Kind *kind, bool time, const char *text, size_t row, double *value, ZpError *err) {
   ZpError reason;
   ZpStatus status = zp_value_read(zp_key_find(time ? kind->time_key : kind->value_key), text, value, &reason);

@@ -6,18 +6,18 @@
 #include <zipact/def.h>
 #include <zipact/drive.h>
 
-/* Rows that are owned. */
+/* Rows with their memory. */
 typedef struct ZpDriveRows {
   size_t count;
   double *time, *voltage;
 } ZpDriveRows;
 
 /* Read drive.table or drive.file, with a controller setpoint.table or setpoint.file, and check the rows. To be freed
- * whatever the status. ZP_BAD_INPUT names the row, or file, line and column, and what is wrong. */
+ * whatever the status is. ZP_BAD_INPUT names the row, or file, line and column, and the reason. */
 ZpStatus zp_drive_rows_read(const ZpActuatorDef *def, ZpDriveRows *rows, ZpError *err);
 void zp_drive_rows_free(ZpDriveRows *rows);
 
-/* The rows as the core takes them. */
+/* The rows in the form of the core. */
 ZpDriveTable zp_drive_rows_table(const ZpDriveRows *rows);
 
 #endif

@@ -1,10 +1,9 @@
 /* A folder for results, held by one run at a time.
  *
- * The lock is flock() on a file in the folder: the kernel drops it when its process dies, however that happens, so a
- * lock is never stale; the file that a killed run leaves is removed by the next one. NFS passes the lock on to its
- * server. The file says who holds it, and goes when the folder is closed: only the holder of its lock removes it, and
- * whoever gets a lock checks that the file still has its name. Where a file system knows no locks, runs do
- * without. */
+ * The lock is flock() on a file in the folder: the kernel releases it when its process ends, in any way, so a lock is
+ * never stale; the next run removes the lock file of a killed run. NFS passes the lock on to its server. The file names
+ * the holder and is removed when the folder is closed: only the holder of the lock removes it, and a process that gets
+ * the lock checks that the file still has its name. If a file system has no locks, runs continue without one. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -24,9 +23,9 @@
 #define LOCK_NAME ".zipact-lock"
 
 struct ZpFolder {
-  char *lock; /* path of the lock's file */
-  int fd;     /* of it */
-  bool held;  /* false: the file system knows no locks */
+  char *lock; /* path of the lock file */
+  int fd;     /* its descriptor */
+  bool held;  /* false: the file system has no locks */
 };
 
 static ZpStatus make_one(const char *path, ZpError *err) {
@@ -38,7 +37,7 @@ static ZpStatus make_one(const char *path, ZpError *err) {
   return zp_fail(err, ZP_MACHINE, "cannot write results to %s: it is a file, not a folder", path);
 }
 
-/* Make every folder of the path, from the first on. `path` is cut and mended on the way. */
+/* Create every folder of the path, from the first on. `path` is modified and restored on the way. */
 static ZpStatus make_all(char *path, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (char *slash = strchr(path + 1, '/'); slash && status == ZP_OK; slash = strchr(slash + 1, '/')) {
@@ -50,7 +49,7 @@ static ZpStatus make_all(char *path, ZpError *err) {
 }
 
 static ZpStatus make_folders(const char *directory, ZpError *err) {
-  if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the folder for results is empty");
+  if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the output folder is empty");
   char *path = strdup(directory);
   if (!path) return zp_fail_memory(err);
   ZpStatus status = make_all(path, err);
@@ -64,8 +63,8 @@ static ZpStatus cannot_lock(const ZpFolder *folder, ZpError *err) {
   return zp_fail(err, ZP_MACHINE, "cannot write %s: %s", folder->lock, strerror(errno));
 }
 
-/* Who holds the lock: "process 4711 on HOST". The holder writes it right after it gets the lock, so wait a little for
- * that. */
+/* The holder of the lock: "process 4711 on HOST". The holder writes this right after it gets the lock, so wait for it
+ * briefly. */
 static void read_holder(int fd, char *who, size_t size) {
   ssize_t length = 0;
   for (int tries = 0; length <= 0 && tries < 100; tries++) {
@@ -83,7 +82,7 @@ static ZpStatus fail_held(const ZpFolder *folder, const char *directory, ZpError
   return zp_fail(err, ZP_MACHINE, "cannot write results to %.300s: %s is writing there", directory, who);
 }
 
-/* Whether the file that is open is the one of that name and new. One that a killed run left is removed. */
+/* Does the open file still have its name, and is it new? The file of a killed run is removed. */
 static bool is_new(const ZpFolder *folder) {
   struct stat own, named;
   if (fstat(folder->fd, &own) != 0 || stat(folder->lock, &named) != 0) return false;
@@ -92,19 +91,19 @@ static bool is_new(const ZpFolder *folder) {
   return own.st_size == 0;
 }
 
-/* Only a file that was really written tells of rights, read-only disks, quotas and full disks alike. */
+/* Only writing a file reveals missing permissions, read-only disks, quotas and full disks alike. */
 static ZpStatus sign(const ZpFolder *folder, ZpError *err) {
   char host[65] = "", self[128];
   gethostname(host, sizeof host - 1);
   int length = snprintf(self, sizeof self, "process %ld on %s", (long)getpid(), host);
-  errno = ENOSPC; /* where only a part was written */
+  errno = ENOSPC; /* if only a part was written */
   if (write(folder->fd, self, (size_t)length) == length) return ZP_OK;
   ZpStatus status = cannot_lock(folder, err);
   unlink(folder->lock);
   return status;
 }
 
-/* One try; *again if the file was an old one, or went away meanwhile. */
+/* One attempt; *again if the file was an old one, or was removed meanwhile. */
 static ZpStatus try_lock(ZpFolder *folder, const char *directory, bool *again, ZpError *err) {
   folder->fd = open(folder->lock, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (folder->fd < 0) return cannot_lock(folder, err);
@@ -127,7 +126,7 @@ static ZpStatus take_lock(ZpFolder *folder, const char *directory, ZpError *err)
 
 /* -- open and close -------------------------------------------------------------------------------- */
 
-/* What killed runs left, here and where the frames and the pictures are. */
+/* Remove the temporary files of killed runs, here and in the folders of frames and pictures. */
 static ZpStatus clean(const char *directory, ZpError *err) {
   static const char *const below[] = {"shapes", "plots"};
   ZpStatus status = zp_atomic_clean(directory, err);
@@ -165,7 +164,7 @@ ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *err) {
 
 void zp_folder_close(ZpFolder *folder) {
   if (!folder) return;
-  unlink(folder->lock); /* before the lock goes: after that it may be another's */
+  unlink(folder->lock); /* before the lock is released: after that it may belong to another run */
   close(folder->fd);
   free(folder->lock);
   free(folder);

@@ -1,9 +1,9 @@
 /* Running gnuplot as child processes.
  *
- * Arguments go as a vector, so no shell reads file names. The child has a process group of its own: a Ctrl-C at the
- * terminal is for us, who decide whether to wait on, and what the child has started dies with it. It writes to a
- * temporary file only, so it may be killed at any time, by the signal that no program can ignore. What it prints on
- * stderr is read through a pipe; what it prints on stdout is dropped, since stdout may carry JSON. */
+ * Arguments are passed as a vector, so no shell interprets file names. The child has its own process group: Ctrl-C at
+ * the terminal reaches only this program, which decides whether to continue, and processes that the child has started
+ * end with it. It writes to a temporary file only, so it may be killed at any time, by the signal that no program can
+ * ignore. Its stderr is read through a pipe; its stdout is discarded, because our stdout may carry JSON. */
 #include "io/gnuplot.h"
 
 #include <errno.h>
@@ -19,7 +19,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* How long a wait may take, ms; where a child has closed its stderr, so that nothing wakes us when it ends. */
+/* Longest wait, ms; needed if a child has closed its stderr, so that its end does not wake us. */
 enum { PULSE = 20, SHORT_PULSE = 1 };
 
 /* => 0 or an errno. stderr of the child goes to `error_pipe`. */
@@ -30,7 +30,7 @@ static int set_files(posix_spawn_file_actions_t *actions, const char *folder, in
   return error ? error : posix_spawn_file_actions_addchdir_np(actions, folder);
 }
 
-/* A group of its own, and signals as they are by default, whatever we ignore or block. */
+/* Its own group, and default signal handling, whatever this process ignores or blocks. */
 static int set_attributes(posix_spawnattr_t *attributes) {
   sigset_t all, none;
   sigfillset(&all);
@@ -42,7 +42,7 @@ static int set_attributes(posix_spawnattr_t *attributes) {
   return error ? error : posix_spawnattr_setsigmask(attributes, &none);
 }
 
-/* => 0 and the child's id, or an errno. "-d" keeps the user's own gnuplot settings out of the picture. */
+/* => 0 and the id of the child, or an errno. "-d" ignores the gnuplot settings of the user. */
 static int spawn(pid_t *child, const char *folder, const char *script, char *set_out, int error_pipe) {
   char *const argument[] = {(char[]){"gnuplot"}, (char[]){"-d"}, (char[]){"-e"}, set_out, (char *)script, NULL};
   posix_spawn_file_actions_t actions;
@@ -60,7 +60,7 @@ static int spawn(pid_t *child, const char *folder, const char *script, char *set
   return error;
 }
 
-/* Read what is there; keep the first ZP_GNUPLOT_KEPT bytes. */
+/* Read the available output; keep the first ZP_GNUPLOT_KEPT bytes. */
 static void read_errors(ZpGnuplotChild *child) {
   char part[1024];
   for (;;) {
@@ -81,7 +81,7 @@ void zp_gnuplot_wait(ZpGnuplotChild *const *child, size_t count) {
   struct pollfd stream[ZP_GNUPLOT_MOST];
   int pulse = PULSE;
   for (size_t i = 0; i < count; i++) {
-    stream[i] = (struct pollfd){.fd = child[i]->errors, .events = POLLIN}; /* poll looks at none below 0 */
+    stream[i] = (struct pollfd){.fd = child[i]->errors, .events = POLLIN}; /* poll ignores values below 0 */
     if (child[i]->errors < 0) pulse = SHORT_PULSE;
   }
   poll(stream, count, pulse);
@@ -99,18 +99,19 @@ static void kill_group(const ZpGnuplotChild *child) {
     continue;
 }
 
-/* Whether it runs, has ended, or is to be ended now. */
+/* The state of a child: running, ended, or to be ended now. */
 static ZpGnuplot state_of(const ZpGnuplotChild *child, bool stop) {
   int status = 0;
   pid_t ended = waitpid(child->id, &status, WNOHANG);
-  if (ended < 0 && errno != EINTR) return ZP_GNUPLOT_DONE; /* someone else waits for children; the picture will tell */
+  if (ended < 0 && errno != EINTR)
+    return ZP_GNUPLOT_DONE; /* other code has waited for the child; the picture shows the result */
   if (ended > 0) return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ZP_GNUPLOT_DONE : ZP_GNUPLOT_FAILED;
   if (!stop && wall_clock() < child->end) return ZP_GNUPLOT_RUNS;
   kill_group(child);
   return stop ? ZP_GNUPLOT_INTERRUPTED : ZP_GNUPLOT_HANGS;
 }
 
-/* The first line that says something: not empty, not the mark under a quoted command, no mere warning. */
+/* The first line with a message: not empty, not the mark under a quoted command, not only a warning. */
 static void first_complaint(char *text, char *reason, size_t size) {
   char *rest = NULL;
   for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {

@@ -12,7 +12,7 @@ const char *zp_library_at_work(void) {
   return at_work;
 }
 
-/* By mmap and not by malloc, which remembers large blocks and then deals otherwise with those that follow. */
+/* By mmap and not by malloc, which remembers large blocks and then handles later requests differently. */
 bool zp_has_room(size_t bytes) {
   void *room = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return room != MAP_FAILED && munmap(room, bytes) == 0;

@@ -28,16 +28,16 @@
 #include "io/shows.h"
 #include "io/writers.h"
 
-/* The file grows in memory by this much at a time. */
+/* Increment of the file in memory, bytes. */
 #define GROWTH (1 << 20)
 
-/* What an array is, for its attributes. Strings may be NULL. */
+/* Name, unit and meaning of an array, for its attributes. Strings may be NULL. */
 typedef struct Meaning {
   const char *name, *unit, *help;
 } Meaning;
 
-/* Where a dataset goes, and how objects are made. A call that fails sets `bad`, and from then on nothing
- * is done, so that only the end of the writing has to look. */
+/* The target of datasets and the properties of new objects. A call that fails sets `bad`, after which nothing is done,
+ * so the result is only checked at the end. */
 typedef struct Store {
   hid_t file;
   hid_t plain; /* creation of datasets: no times */
@@ -68,14 +68,14 @@ static void put_attribute(Store *store, hid_t object, const char *name, const ch
   H5Tclose(type);
 }
 
-/* A name as HDF5 takes it, for which a slash is a path: that of a unit such as kg/m3 becomes "_per_". */
+/* A name for HDF5, in which a slash separates paths: the slash of a unit such as kg/m3 becomes "_per_". */
 static void spell(const char *name, size_t size, char *to) {
   size_t used = 0;
   for (; *name && used + sizeof "_per_" < size; name++)
     used += (size_t)snprintf(to + used, size - used, "%.*s", *name == '/' ? 5 : 1, *name == '/' ? "_per_" : name);
 }
 
-/* A dataset of `rank` dimensions (0: a single value) without its values, to be closed. */
+/* A dataset of `rank` dimensions (0: a single value) without values, to be closed. */
 static hid_t open_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, int rank, const hsize_t *size) {
   if (store->bad) return -1;
   char name[2 * ZP_TEXT_SIZE] = "";
@@ -114,7 +114,7 @@ static hid_t open_group(Store *store, hid_t parent, const char *name) {
   return group;
 }
 
-/* Room for `count` doubles, at least one; NULL makes the store bad. */
+/* Memory for `count` doubles, at least one; on failure the store is bad. */
 static double *numbers(Store *store, size_t count) {
   double *value = store->bad ? NULL : calloc(count + 1, sizeof *value);
   if (!value) store->bad = true;
@@ -140,7 +140,7 @@ static void put_series(Store *store, hid_t parent, const ZpTable *table) {
   H5Gclose(group);
 }
 
-/* Time, voltage and number of closed pairs of each frame. */
+/* Write time, voltage and number of closed pairs of each frame. */
 static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStudy study) {
   static const Meaning moment = {"time", "s", "time of the frame"}, mark = {"time", "1", "number of the frame's state"};
   const hsize_t size = shapes->frames;
@@ -162,7 +162,7 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStud
   free(zipped);
 }
 
-/* Numbers of a shape: of every node of each ribbon, or of every station. */
+/* The numbers of a shape: for every node of each ribbon, or for every station. */
 typedef struct Field {
   Meaning meaning;
   bool of_nodes;
@@ -181,15 +181,15 @@ ZP_FIELD(insulator_field)
 ZP_FIELD(stress)
 
 static const Field fields[] = {
-    {{"x", "m", "place of a node, to the right; [frame][ribbon][node]"}, true, x_of},
-    {{"y", "m", "place of a node, upwards; [frame][ribbon][node]"}, true, y_of},
+    {{"x", "m", "horizontal position of a node; [frame][ribbon][node]"}, true, x_of},
+    {{"y", "m", "height of a node; [frame][ribbon][node]"}, true, y_of},
     {{"gap", "m", "distance of the faces; [frame][node]"}, false, gap_of},
     {{"line_force", "N/m", "attraction per length; [frame][node]"}, false, line_force_of},
     {{"insulator_field", "V/m", "field in the insulators; [frame][node]"}, false, insulator_field_of},
-    {{"stress", "Pa", "of the metal, largest of its section; [frame][ribbon][node]"}, true, stress_of},
+    {{"stress", "Pa", "largest stress of the metal in the section; [frame][ribbon][node]"}, true, stress_of},
 };
 
-/* One field of all frames, ribbon after ribbon; nothing if the shapes do not have it. */
+/* Write one quantity of all frames, ribbon after ribbon; nothing if the shapes do not have it. */
 static void put_field(Store *store, hid_t group, const ZpShapes *shapes, const Field *field) {
   const size_t ribbons = field->of_nodes ? shapes->ribbons : 1, nodes = shapes->nodes;
   const hsize_t with_ribbons[] = {shapes->frames, ribbons, nodes}, without[] = {shapes->frames, nodes};
@@ -220,13 +220,15 @@ static void put_map(Store *store, hid_t parent, const ZpFieldMap *map) {
   if (!map) return;
   hid_t group = open_group(store, parent, "field");
   const hsize_t nodes[] = {map->nx, map->ny}, cells[] = {map->nx - 1, map->ny - 1};
-  put_reals(store, group, &(Meaning){"x", "m", "place of a node, from the clip's edge; [i][j], i along the ribbons"}, 2,
-            nodes, map->x);
-  put_reals(store, group, &(Meaning){"y", "m", "place of a node, upwards; [i][j]"}, 2, nodes, map->y);
-  put_reals(store, group, &(Meaning){"potential", "V", "of a node; [i][j]"}, 2, nodes, map->potential);
-  put_reals(store, group, &(Meaning){"strength", "V/m", "of the field in a cell; [i][j]"}, 2, cells, map->strength);
-  put_reals(store, group, &(Meaning){"permittivity", "1", "relative, of a cell, 0 in metal; [i][j]"}, 2, cells,
-            map->permittivity);
+  put_reals(
+      store, group,
+      &(Meaning){"x", "m", "horizontal position of a node, from the edge of the clip; [i][j], i along the ribbons"}, 2,
+      nodes, map->x);
+  put_reals(store, group, &(Meaning){"y", "m", "height of a node; [i][j]"}, 2, nodes, map->y);
+  put_reals(store, group, &(Meaning){"potential", "V", "potential of a node; [i][j]"}, 2, nodes, map->potential);
+  put_reals(store, group, &(Meaning){"strength", "V/m", "field strength in a cell; [i][j]"}, 2, cells, map->strength);
+  put_reals(store, group, &(Meaning){"permittivity", "1", "relative permittivity of a cell, 0 in metal; [i][j]"}, 2,
+            cells, map->permittivity);
   H5Gclose(group);
 }
 
@@ -248,22 +250,22 @@ static void put_run(Store *store, hid_t parent, const ZpResult *result) {
   put_summary(store, parent, result);
 }
 
-/* All outcomes take the same room, as an array of strings in HDF5 must. */
+/* All outcomes have the same size, as required for an array of strings in HDF5. */
 #define OUTCOME_SIZE 16
 
-/* Rows that are written at a time. */
+/* Number of rows that are written at a time. */
 enum { BLOCK = 1024 };
 
-/* The table of a sweep: first the list keys, then the scalars; outcomes apart. */
+/* The table of a sweep: the swept keys, then the scalars; the outcomes are separate. */
 typedef struct Columns {
   const ZpReport *report;
-  const int *key; /* [keys]; a choice is its place in its list of words */
+  const int *key; /* [keys]; a choice is the number of its word */
   size_t keys;
   ZpScalarNames names;
   hid_t type, outcomes;
   hid_t *set;    /* [keys + names.count] */
   double *value; /* [keys + names.count][BLOCK] */
-  double *given; /* [keys] of the row that is taken */
+  double *given; /* [keys] values of the current row */
   char outcome[BLOCK][OUTCOME_SIZE];
 } Columns;
 
@@ -281,7 +283,7 @@ static void open_scalar(Store *store, hid_t group, const ZpScalar *scalar, hsize
 
 static void open_columns(Store *store, hid_t group, Columns *c) {
   const hsize_t rows = c->report->count;
-  const Meaning outcome = {.name = "outcome", .help = "how the numerics ended"};
+  const Meaning outcome = {.name = "outcome", .help = "outcome of the run"};
   for (size_t i = 0; i < c->keys; i++)
     open_key(store, group, c->key[i], rows, &c->set[i]);
   c->type = H5Tcopy(H5T_C_S1);
@@ -298,7 +300,7 @@ static void close_columns(const Columns *c) {
   H5Tclose(c->type);
 }
 
-/* Row `run` as row `place` of the block. */
+/* Copy row `run` to row `place` of the block. */
 static void take_row(Columns *c, size_t run, size_t place) {
   const ZpResult *result = zp_report_result(c->report, run);
   double *value = c->value + place;
@@ -378,8 +380,7 @@ static void put_all(Store *store, const ZpReport *report, const char *scenario) 
   }
 }
 
-/* A file that lives in memory only. HDF5 first looks whether a file of this name is there, so the name is
- * one that cannot be. */
+/* A file in memory only. HDF5 first checks whether a file of this name exists, so the name is an impossible one. */
 static hid_t open_memory_file(void) {
   hid_t file = -1, access = H5Pcreate(H5P_FILE_ACCESS);
   if (access >= 0 && H5Pset_fapl_core(access, GROWTH, 0) >= 0)
@@ -388,8 +389,8 @@ static hid_t open_memory_file(void) {
   return file;
 }
 
-/* Write the bytes of the file, which HDF5 has in memory, to `out`, whose errors its commit finds. False if HDF5 failed.
- */
+/* Write the bytes of the file, which HDF5 has in memory, to `out`; its commit reports write errors. False if HDF5
+ * failed. */
 static bool write_image(hid_t file, FILE *out) {
   void **image = NULL;
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) return false;
@@ -410,7 +411,7 @@ static bool build(const ZpReport *report, const char *scenario, FILE *out) {
   return done;
 }
 
-/* HDF5 prints its own stack of errors on stderr unless told not to; the caller's setting comes back. */
+/* HDF5 prints its own error stack to stderr unless this is disabled; the setting of the caller is restored. */
 static bool build_silently(const ZpReport *report, const char *scenario, FILE *out) {
   H5E_auto2_t print = NULL;
   void *data = NULL;
@@ -421,7 +422,7 @@ static bool build_silently(const ZpReport *report, const char *scenario, FILE *o
   return done;
 }
 
-/* Bytes that the file takes in memory, rather too many: of a sweep without series it has the table only. */
+/* Upper estimate of the bytes of the file in memory: for a sweep without series the table only. */
 static size_t room_of(const ZpReport *report) {
   size_t numbers = 0, keys;
   zp_scenario_lists(report->scenario, &keys);

@@ -29,7 +29,7 @@ void zp_html_number(FILE *file, const char *text) {
   }
 }
 
-/* Copy a line; after each mark of an id or of a reference to one comes the prefix. */
+/* Copy a line, and insert the prefix in each id and each reference to one. */
 static void put_line(FILE *file, const char *line, const char *prefix) {
   static const char *const mark[] = {" id='", " id=\"", "href='#", "href=\"#", "url(#"};
   while (*line) {
@@ -51,7 +51,7 @@ bool zp_html_svg(FILE *file, const char *path, const char *prefix, const char *l
   FILE *picture = fopen(path, "re");
   if (!picture) return false;
   while (getline(&line, &size, picture) >= 0) {
-    if (!inside && strncmp(line, "<svg", 4) == 0) { /* before it comes what only a file of its own has */
+    if (!inside && strncmp(line, "<svg", 4) == 0) { /* the part before it belongs to a separate file only */
       inside = true;
       fputs("<svg role=\"img\" aria-label=\"", file);
       zp_html_text(file, label);

@@ -1,4 +1,4 @@
-/* JSON as summaries have it. jansson makes the tree and writes the strings; the rest is printed here. */
+/* JSON of summaries. jansson builds the tree and escapes the strings; everything else is printed here. */
 #include "io/json.h"
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 #include "base/fail.h"
 #include "io/number.h"
 
-/* Largest count that a double holds exactly. */
+/* Largest integer that a double represents exactly. */
 #define LARGEST_COUNT 9007199254740992.0
 
 bool zp_json_set(json_t *object, const char *name, json_t *value) {
@@ -21,7 +21,7 @@ json_t *zp_json_number(double value, const char *unit) {
   return json_real(value);
 }
 
-/* A real keeps a point or an exponent, so that readers do not take 75.0 for a whole number. */
+/* A real number keeps a point or an exponent, so that readers do not take 75.0 for an integer. */
 static void print_real(FILE *file, double value) {
   char text[ZP_NUMBER_SIZE];
   zp_number_print(value, text, sizeof text);
@@ -29,14 +29,14 @@ static void print_real(FILE *file, double value) {
   if (!strpbrk(text, ".e")) fputs(".0", file);
 }
 
-/* The depth at which all is on one line. */
+/* The depth from which on everything is on one line. */
 enum { FLAT = -1 };
 
 static int inside(int depth) {
   return depth == FLAT ? FLAT : depth + 1;
 }
 
-/* Two blanks a level. A tree that is deeper has no more of them. */
+/* Two blanks per level, up to the deepest level. */
 static void begin_line(FILE *file, int depth) {
   static const char line[] = "\n                                ";
   size_t length = 1 + 2 * (size_t)depth, most = sizeof line - 1;
@@ -45,7 +45,7 @@ static void begin_line(FILE *file, int depth) {
 
 static bool print_tree(FILE *file, const json_t *tree, int depth);
 
-/* All but the brace at its end. */
+/* Everything except the closing brace. */
 static bool print_members(FILE *file, const json_t *object, int depth) {
   const char *name, *mark = "{";
   json_t *value;
@@ -81,7 +81,7 @@ static bool print_array(FILE *file, const json_t *array, int depth) {
   return done;
 }
 
-/* Names of members are ours and need no escapes; jansson writes strings. */
+/* Names of members need no escapes; jansson writes strings. */
 static bool print_tree(FILE *file, const json_t *tree, int depth) {
   switch (json_typeof(tree)) {
   case JSON_OBJECT:
@@ -98,14 +98,14 @@ static bool print_tree(FILE *file, const json_t *tree, int depth) {
   }
 }
 
-/* `done`: all was printed so far. */
+/* `done`: no error so far. */
 static ZpStatus finish(FILE *file, bool done, ZpError *err) {
   done = fputc('\n', file) != EOF && done;
   if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
 }
 
-/* The list as print_array would print it. */
+/* Print the list in the format of print_array. */
 static bool print_list(FILE *file, size_t count, ZpJsonItem item, const void *user) {
   bool done = true;
   for (size_t i = 0; i < count && done; i++) {

@@ -1,4 +1,4 @@
-/* JSON as summaries have it: trees made with jansson, printed for people and programs. */
+/* JSON of summaries: trees built with jansson, printed for people and programs. */
 #ifndef ZP_IO_JSON_H
 #define ZP_IO_JSON_H
 
@@ -8,22 +8,22 @@
 
 #include <zipact/error.h>
 
-/* Steals `value`; true if both it and the place for it could be made. */
+/* Takes ownership of `value`; true if both the value and its place could be created. */
 bool zp_json_set(json_t *object, const char *name, json_t *value);
 
-/* A real, a whole number for the unit "count", null for what does not exist; JSON knows no infinity either. */
+/* A real number, an integer for the unit "count", null for NAN and infinity. */
 json_t *zp_json_number(double value, const char *unit);
 
-/* Makes item `index` of a list; NULL if there is no memory. */
+/* Creates item `index` of a list; NULL if there is no memory. */
 typedef json_t *(*ZpJsonItem)(const void *user, size_t index);
 
-/* Write the object `head` as zp_json_write, with a last member `name`: a list of `count` items, of which only one is in
- * memory at a time. */
+/* Write the object `head` as zp_json_write does, with an additional last member `name`: a list of `count` items, of
+ * which only one is in memory at a time. */
 ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
                             FILE *file, ZpError *err);
 
-/* Write the tree as lines, numbers as the shortest that read back the same (jansson writes all 17 digits of 0.075).
- * ZP_MACHINE if the file could not be written. */
+/* Write the tree in lines, with the shortest decimals that read back to the same bits (jansson writes all 17 digits of
+ * 0.075). ZP_MACHINE if the file could not be written. */
 ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err);
 
 /* The same as a single line. */

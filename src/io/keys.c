@@ -12,13 +12,13 @@
 #include "io/value.h"
 #include "io/yaml.h"
 
-enum { COMMENT_COLUMN = 34 }; /* where the comments of the starter scenario begin */
+enum { COMMENT_COLUMN = 34 }; /* column of the comments in the starter scenario */
 
 static bool is_number(const ZpKey *key) {
   return key->type != ZP_KEY_BOOL && key->type != ZP_KEY_ENUM && key->type != ZP_KEY_TEXT;
 }
 
-/* What may be given: a range, or words joined by `between`. */
+/* The allowed values: a range, or words separated by `between`. */
 static void allowed(int index, const char *between, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
   if (is_number(key)) {
@@ -37,7 +37,7 @@ static void allowed(int index, const char *between, char *text, size_t size) {
     snprintf(text + used, size - used, "%s%s", between, key->choices[i].word);
 }
 
-/* Widths of the columns that come before the help. */
+/* Widths of the columns before the help. */
 typedef struct Widths {
   int name, value, range;
 } Widths;
@@ -47,7 +47,7 @@ static int longer(int width, const char *text) {
   return length > width ? length : width;
 }
 
-/* The range column is for numbers; the words of a choice stand on lines of their own. */
+/* The range column is for numbers; the words of a choice have their own lines. */
 static void row_texts(int index, char value[ZP_VALUE_SIZE], char range[ZP_RANGE_SIZE]) {
   zp_value_print(index, zp_key(index)->def, value, ZP_VALUE_SIZE);
   range[0] = 0;
@@ -82,8 +82,8 @@ static void write_text(FILE *file) {
 static void write_yaml(FILE *file) {
   char value[ZP_VALUE_SIZE], range[ZP_VALUE_SIZE];
   const char *before = NULL;
-  fputs("# A scenario with every key at its default. Keep the lines that you change and delete the others:\n"
-        "# a line given here wins over a preset.\n",
+  fputs("# A scenario with every key at its default. Keep the lines that you change and delete the others:\n# a line "
+        "in this file overrides a preset.\n",
         file);
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpKey *key = zp_key(i);
@@ -101,7 +101,7 @@ static const char *type_word(ZpKeyType type) {
   return words[type];
 }
 
-/* A value of a key as JSON has it: number, word or bool. */
+/* A value of a key in JSON: number, word or bool. */
 static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
   switch (key->type) {
@@ -132,7 +132,7 @@ static json_t *json_of_choices(const ZpKey *key) {
   return list;
 }
 
-/* One key; NULL if there is no memory. json_pack takes over the values and frees them if it fails. */
+/* One key; NULL if there is no memory. json_pack takes ownership of the values and frees them on failure. */
 static json_t *json_of_key(int index) {
   const ZpKey *key = zp_key(index);
   json_t *least = is_number(key) ? json_of_value(index, key->min) : json_null();
@@ -142,7 +142,7 @@ static json_t *json_of_key(int index) {
                    json_of_choices(key), "help", key->help);
 }
 
-/* The list of keys => the caller's; NULL if there is no memory. */
+/* The list of keys, owned by the caller; NULL if there is no memory. */
 static json_t *list_keys(void) {
   json_t *list = json_array();
   int failed = !list;
@@ -156,8 +156,7 @@ static json_t *list_keys(void) {
 /* Write `json`, which is freed; NULL: there was no memory for it. */
 static ZpStatus write_json(json_t *json, FILE *file, ZpError *err) {
   if (!json) return zp_fail_memory(err);
-  /* 16 digits give back every number of keys.def, none of which is written with more; 17 would show
-   * 0.1 as 0.10000000000000001. */
+  /* 16 digits reproduce every number of keys.def; 17 digits would print 0.1 as 0.10000000000000001. */
   const int failed = json_dumpf(json, file, JSON_INDENT(2) | JSON_REAL_PRECISION(16));
   json_decref(json);
   if (failed) return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));

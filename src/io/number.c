@@ -18,9 +18,9 @@
 
 #define MAX_DIGITS 17
 
-/* A decimal: 0.d1d2d3... with the point moved `point` places to the right. */
+/* A decimal: 0.d1d2d3... times 10^point. */
 typedef struct Decimal {
-  char digit[MAX_DIGITS + 1]; /* no zeros at its end; at least one digit */
+  char digit[MAX_DIGITS + 1]; /* no trailing zeros; at least one digit */
   int digits;
   int point;
   bool negative;
@@ -52,13 +52,13 @@ __extension__ typedef unsigned __int128 Wide;
 
 static const uint64_t ten_to_16 = UINT64_C(10000000000000000), ten_to_17 = UINT64_C(100000000000000000);
 
-/* A double above 0 as X / 2^shift: its 17 digits as an integer, D, and below them a fraction of `shift` bits, exactly.
- * Its distance to the next double is `step` in X. */
+/* A positive double as X / 2^shift: its 17 digits as an integer, D, and below them a fraction of `shift` bits, exactly.
+ * The distance to the next double is `step` in units of X. */
 typedef struct Scaled {
   Wide X;
-  int shift, point; /* 10^(point - 17) is what D counts */
+  int shift, point; /* D is in units of 10^(point - 17) */
   uint64_t step;
-  bool lowest; /* it is a power of two, below which doubles are twice as dense */
+  bool lowest; /* it is a power of two: doubles below it are twice as dense */
 } Scaled;
 
 static uint64_t power_of_5(int k) {
@@ -72,7 +72,7 @@ static uint64_t digits_of(const Scaled *s) {
   return (uint64_t)(s->X >> s->shift);
 }
 
-/* With 10^point the power of ten above the number, if `point` is right. False where 128 bits are not enough. */
+/* 10^point is the power of ten above the number, if `point` is right. False if 128 bits are not enough. */
 static bool scale(uint64_t m, int e, int point, Scaled *s) {
   enum { MOST_FIVES = 27 };
   const int k = MAX_DIGITS - point;
@@ -89,27 +89,27 @@ static bool scale_number(double value, Scaled *s) {
   const uint64_t m = (uint64_t)ldexp(frexp(value, &e), DBL_MANT_DIG);
   e -= DBL_MANT_DIG;
   const int least =
-      (int)floor((e + DBL_MANT_DIG - 1) * 0.30102999566398120) + 1; /* log10 of 2: it is this, or one more */
+      (int)floor((e + DBL_MANT_DIG - 1) * 0.30102999566398120) + 1; /* log10 of 2: the exponent is this, or one more */
   if (!scale(m, e, least, s)) return false;
   return digits_of(s) < ten_to_17 || scale(m, e, least + 1, s);
 }
 
-/* The number rounded to a multiple of `unit` of its digits, halves to the even one. */
+/* The number rounded to a multiple of `unit` of its digits, ties to even. */
 static uint64_t rounded(const Scaled *s, uint64_t unit) {
   const uint64_t D = digits_of(s), down = D / unit;
   const Wide rest = s->X - ((Wide)(down * unit) << s->shift), half = ((Wide)unit << s->shift) / 2;
   return rest > half || (rest == half && down % 2 == 1) ? down + 1 : down;
 }
 
-/* Is this double the nearest to a decimal, D in its units? None is as near to two: that would make an odd number of
- * steps even. */
+/* Is this double the nearest one to a decimal, D in its units? A tie between two doubles cannot occur: it would make an
+ * odd number of steps even. */
 static bool reads_back(const Scaled *s, uint64_t D) {
   const Wide C = (Wide)D << s->shift;
   const bool below = C < s->X;
   return (below ? s->X - C : C - s->X) * (below && s->lowest ? 4 : 2) < s->step;
 }
 
-/* False where that is too large or too small. */
+/* False if the number is too large or too small for this. */
 static bool decimal_exactly(double value, Decimal *d) {
   Scaled s;
   uint64_t unit = 100;

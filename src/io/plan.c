@@ -1,8 +1,8 @@
-/* Limits: CASES_MOST Defs, a bound on what a run may ask for by mistake; VALUES_MOST values in all lists, with which
- * the written scenario stays below the size that is read.
+/* Limits: CASES_MOST cases, a bound against requests by mistake; VALUES_MOST values in all lists, so that the written
+ * scenario stays below the size that can be read.
  *
- * What a later --set may put right, such as lists of different lengths that are walked through together, is a problem
- * only when a Def is asked for. */
+ * A problem that a later --set may solve, such as lists of different lengths that vary together, is reported only when
+ * a Def is requested. */
 #include "io/plan.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ static bool varies(const ZpSlot *slot) {
   return slot->is_list || slot->spread.kind != ZP_DISTRIBUTION_NONE;
 }
 
-/* The value that is given for a key, else its default. */
+/* The given value of a key, otherwise its default. */
 static double value_of(const ZpSlot *const *slot, const ZpActuatorDef *defaults, const char *name) {
   const int key = zp_key_find(name);
   return slot[key]->count ? slot[key]->value[0] : zp_def_get(defaults, key);
@@ -80,7 +80,7 @@ static void find_tied(ZpPlan *plan, const ZpSlot *const *slot) {
   }
 }
 
-/* A list multiplies the cases, of those that are walked through together the shortest. */
+/* A list multiplies the number of cases; of lists that vary together only the shortest does. */
 static void find_axes(ZpPlan *plan, const ZpSlot *const *slot) {
   size_t tied = 0, seen = 0;
   plan->axes = plan->variations = 0;
@@ -126,7 +126,7 @@ static ZpStatus count_cases(ZpPlan *plan, const ZpSlot *const *slot, ZpError *er
   return ZP_OK;
 }
 
-/* How samples are drawn is the same for all cases. */
+/* All cases have the same sampling. */
 static ZpStatus check_sampling(const ZpSlot *const *slot, ZpError *err) {
   for (size_t i = 0; i < key_count(); i++) {
     const char *name = zp_key((int)i)->name;

@@ -1,4 +1,4 @@
-/* Which cases a scenario stands for: the combinations of its lists, and the samples of its distributions. */
+/* The cases of a scenario: the combinations of its lists, and the samples of its distributions. */
 #ifndef ZP_IO_PLAN_H
 #define ZP_IO_PLAN_H
 
@@ -10,40 +10,40 @@
 #include "sample/design.h"
 #include "sample/distribution.h"
 
-/* What is given for a key. */
+/* The given value of a key. */
 typedef struct ZpSlot {
-  double *value; /* [count], SI; NULL if the key is not given. Of a distribution one, which means nothing */
+  double *value; /* [count], SI; NULL if the key is not given. A distribution has one, without meaning */
   size_t count;
-  bool is_list;          /* a list of one is a list: it makes a row in the table */
-  bool is_bare;          /* of a key with a unit a value was given without one */
-  char *text;            /* of a text key, whose value is NAN; else NULL */
-  ZpDistribution spread; /* of a key whose values are drawn */
+  bool is_list;          /* it is a list, of any length: a column in the table */
+  bool is_bare;          /* the key has a unit, the value was given without one */
+  char *text;            /* value of a text key, whose number is NAN; otherwise NULL */
+  ZpDistribution spread; /* distribution of a key whose values are drawn */
 } ZpSlot;
 
 typedef struct ZpPlan {
   int *varied; /* [variations] keys with lists or distributions, in key order */
   size_t variations;
-  int *axis; /* [axes] keys whose lists are combined: of those that are walked through together the last */
+  int *axis; /* [axes] keys whose lists are combined: of those that vary together the last one */
   size_t axes;
-  bool *tied;        /* [keys] is walked through together with others */
-  size_t together;   /* how long their lists are; 1: there are none */
+  bool *tied;        /* [keys] varies together with others */
+  size_t together;   /* length of their lists; 1: there are none */
   ZpDesign design;   /* of the distributions */
   size_t count;      /* cases */
-  char problem[256]; /* what is wrong with the scenario as a whole, else empty */
+  char problem[256]; /* the error of the scenario as a whole, otherwise empty */
 } ZpPlan;
 
-/* Room for the plan of a scenario; false if there is no memory. To be freed whatever it returns. */
+/* Allocate the plan of a scenario; false if there is no memory. To be freed in every case. */
 bool zp_plan_create(ZpPlan *plan);
 void zp_plan_free(ZpPlan *plan);
 
-/* Make the plan of what is given for each key, slot [keys]. ZP_BAD_INPUT where there are too many values or cases. */
+/* Make the plan from the given values of each key, slot [keys]. ZP_BAD_INPUT if there are too many values or cases. */
 ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err);
 
-/* The values that case `index`, below plan->count, gives the keys that vary => value [variations], as in plan->varied.
+/* The values of the varied keys in case `index`, below plan->count => value [variations], in the order of plan->varied.
  */
 void zp_plan_values(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, double *value);
 
-/* The values of all keys that are given, with `value` for those that vary => how many, most of them per key. */
+/* The values of all given keys, with `value` for those that vary => their number, at most one per key. */
 size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, const double *value, ZpAssignment *list);
 
 #endif

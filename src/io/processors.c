@@ -3,7 +3,8 @@
 #include <sched.h>
 #include <unistd.h>
 
-/* Those that taskset or a batch system leave to this process; where there are more than a cpu_set_t holds, all. */
+/* The processors that taskset or a batch system allows this process; if there are more than a cpu_set_t holds, all of
+ * them. */
 int zp_processors(void) {
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);

@@ -8,7 +8,7 @@
 #include "base/fail.h"
 #include "io/value.h"
 
-/* Most values of a range; all lists together are bounded by io/scenario.c. */
+/* Largest number of values of a range; io/scenario.c limits all lists together. */
 enum { COUNT_MOST = 20000 };
 
 bool zp_range_is(const char *text) {
@@ -25,7 +25,7 @@ char *zp_trim(char *text) {
 ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err) {
   char *dots = strstr(text, ".."), *colon = dots ? strchr(dots, ':') : NULL;
   if (!colon)
-    return zp_fail(err, ZP_BAD_INPUT, "not a range; write \"10 um .. 200 um : 20\", with \"log\" at its end if wanted");
+    return zp_fail(err, ZP_BAD_INPUT, "not a range; write \"10 um .. 200 um : 20\" or \"10 um .. 200 um : 20 log\"");
   *dots = *colon = 0;
   *range = (ZpRange){.from = zp_trim(text), .to = zp_trim(dots + 2), .count = zp_trim(colon + 1)};
   char *blank = strpbrk(colon + 1 + strspn(colon + 1, " \t"), " \t");
@@ -71,7 +71,7 @@ static ZpStatus fill(int index, double from, double to, bool by_factors, double 
   for (size_t i = 0; i < count; i++) {
     value[i] = i == 0 ? from : i + 1 == count ? to : value_at(from, to, (double)i / (double)(count - 1), by_factors);
     if (whole && value[i] != floor(value[i]))
-      return zp_fail(err, ZP_BAD_INPUT, "a range with %g in it, which is not a whole number", value[i]);
+      return zp_fail(err, ZP_BAD_INPUT, "the range contains %g, which is not a whole number", value[i]);
   }
   return ZP_OK;
 }
@@ -84,7 +84,7 @@ ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *
   if (status == ZP_OK) status = read_end(index, "to", range->to, &to, err);
   if (status == ZP_OK) status = read_count(range->count, count, err);
   if (status == ZP_OK) status = read_spacing(range->spacing, from, to, &by_factors, err);
-  if (status == ZP_OK && from == to) status = zp_fail(err, ZP_BAD_INPUT, "a range from a value to itself");
+  if (status == ZP_OK && from == to) status = zp_fail(err, ZP_BAD_INPUT, "both ends of the range are equal");
   if (status != ZP_OK) return status;
   *value = calloc(*count, sizeof **value);
   if (!*value) return zp_fail_memory(err);
@@ -123,8 +123,11 @@ ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval,
   interval->by_factors = blank && strcmp(blank + 1, "log") == 0;
   if (interval->by_factors) *blank = 0;
   interval->key = zp_key_find(name);
-  if (interval->key < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: %.80s: unknown key; did you mean %s?", setting, name, zp_key_nearest(name));
+  if (interval->key < 0) {
+    char reason[ZP_VALUE_SIZE];
+    zp_key_unknown(name, reason, sizeof reason);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %.80s: %s", setting, name, reason);
+  }
   if (zp_key(interval->key)->type != ZP_KEY_REAL && zp_key(interval->key)->type != ZP_KEY_REAL_AUTO)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not a real number", setting, name);
   ZpStatus status = read_interval_end(setting, interval->key, zp_trim(equals + 1), &interval->from, err);

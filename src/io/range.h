@@ -1,4 +1,4 @@
-/* Ranges of values, in place of a list: from, to, how many, in equal steps or by equal factors. */
+/* Ranges of values instead of lists: first and last value, number of values, equal steps or equal ratios. */
 #ifndef ZP_IO_RANGE_H
 #define ZP_IO_RANGE_H
 
@@ -13,27 +13,27 @@ typedef struct ZpRange {
   const char *spacing; /* "linear", the default, or "log" */
 } ZpRange;
 
-/* Whether a value is written as a range: "10 um .. 200 um : 20". */
+/* Is a value written as a range: "10 um .. 200 um : 20"? */
 bool zp_range_is(const char *text);
 
-/* Cut such a text into its parts, in place. ZP_BAD_INPUT says how it is written. */
+/* Split such a text into its parts, in place. ZP_BAD_INPUT shows the correct form. */
 ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err);
 
-/* The values of a range of key `index`, both ends among them, the others rounded to 12 digits, so that tables show
- * 0.00002 and not 0.000019999999999999998 => *value [*count], to be freed. ZP_BAD_INPUT says which part is wrong. */
+/* The values of a range of key `index`, both ends included, the others rounded to 12 digits, so that tables show
+ * 0.00002 and not 0.000019999999999999998 => *value [*count], to be freed. ZP_BAD_INPUT names the wrong part. */
 ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *count, ZpError *err);
 
-/* The text without blanks at its ends, in place. */
+/* The text without blanks at its ends, modified in place. */
 char *zp_trim(char *text);
 
 /* An interval of a key: "ribbon.thickness = 20 um .. 200 um log". */
 typedef struct ZpInterval {
   int key;
   double from, to; /* SI */
-  bool by_factors; /* log: in equal factors, both ends above 0 */
+  bool by_factors; /* log: equal ratios, both ends above 0 */
 } ZpInterval;
 
-/* Read one, in place; `setting` is the key that has it, for messages. ZP_BAD_INPUT says what is wrong. */
+/* Read an interval, in place; messages name the key `setting` that contains it. ZP_BAD_INPUT gives the reason. */
 ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval, ZpError *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* How a report is read. */
+/* Functions that read a report. */
 #include "io/report.h"
 
 #include <math.h>
@@ -76,8 +76,8 @@ size_t zp_result_numbers(const ZpResult *result) {
   return numbers;
 }
 
-/* As measured of HDF5, which takes most: it keeps what it has freed up to 32 MB; of a run the places of its columns;
- * and all numbers as the file in memory, and while that grows, once more. */
+/* Measured for HDF5, which takes most: it keeps up to 32 MB of freed memory; for a run the offsets of its columns; and
+ * all numbers as the file in memory, twice while that grows. */
 size_t zp_report_room(size_t runs, size_t numbers) {
   const size_t base = 1 << 23, kept = 1 << 25, kept_of_run = 340000, places_of_run = 60000;
   return base + (runs < kept / kept_of_run ? runs * kept_of_run : kept) + runs * places_of_run +

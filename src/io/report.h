@@ -1,4 +1,4 @@
-/* What the writers of result files share: how a report is read. */
+/* Common functions of the writers of result files: reading a report. */
 #ifndef ZP_IO_REPORT_H
 #define ZP_IO_REPORT_H
 
@@ -6,17 +6,17 @@
 
 #include <zipact/io.h>
 
-/* Room for the column name of a key: "drive.voltage_V". */
+/* Size of the column name of a key: "drive.voltage_V". */
 #define ZP_KEY_COLUMN_SIZE 96
 
-/* The columns that a sweep has besides its list keys: every scalar that some run has, in the order of
- * the summary. Values in it mean nothing. */
+/* The columns of a sweep besides its swept keys: every scalar of any run, in the order of the summary. Their values
+ * have no meaning. */
 typedef struct ZpScalarNames {
   ZpScalar *item;
   size_t count;
 } ZpScalarNames;
 
-/* True if the scenario stands for a table of runs, not for one run. */
+/* Is the result a table of runs, not a single run? */
 bool zp_report_is_sweep(const ZpReport *report);
 
 /* The word of the study: "actuate". */
@@ -25,26 +25,26 @@ const char *zp_report_study(const ZpReport *report);
 /* Result `index` of the report, below report->count; valid until the next call. */
 const ZpResult *zp_report_result(const ZpReport *report, size_t index);
 
-/* The only run of a report that is no sweep; NULL if it was interrupted before it began. */
+/* The run of a report without a sweep; NULL if it was interrupted before it started. */
 const ZpResult *zp_report_single(const ZpReport *report);
 
-/* The scalars of all runs; with `timing`, those that follow from wall time, too. item is the caller's to
- * free. False if there is no memory. */
+/* The scalars of all runs; with `timing` including those that depend on wall time. The caller frees item. False if
+ * there is no memory. */
 bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names);
 
-/* Scalar names->item[index] of a result; NAN if it has none of this name. */
+/* Scalar names->item[index] of a result; NAN if it does not have it. */
 double zp_scalar_at(const ZpResult *result, const ZpScalarNames *names, size_t index);
 
-/* Numbers in the series, shapes and field of a result. */
+/* Number of values in the series, shapes and field of a result. */
 size_t zp_result_numbers(const ZpResult *result);
 
-/* (runs, numbers of all their results) => bytes of memory that writing their report takes, rather too many. */
+/* (runs, numbers of all their results) => upper estimate of the memory for writing their report, bytes. */
 size_t zp_report_room(size_t runs, size_t numbers);
 
-/* (key index) => its column name, with the unit as interface names have it: "insulator.density_kg_per_m3". */
+/* (key index) => its column name, with the unit in the form of interface names: "insulator.density_kg_per_m3". */
 void zp_key_column(int key, char *text, size_t size);
 
-/* The word of a choice, or of true and false, that key `key` takes at `value`; NULL if it is a number. */
+/* The word of a choice key, or of true and false, for key `key` at `value`; NULL if it is a number. */
 const char *zp_key_word(int key, double value);
 
 /* scenario.yaml as text, to be freed by the caller. */

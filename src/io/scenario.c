@@ -1,11 +1,11 @@
 /* Scenarios: values for keys, some of them lists, from a file and from --set.
  *
- * Two layers of slots, one slot per key, keep what the file gave and what --set gave; the second wins
- * whatever the order of calls. A third, below both, has the distributions of materials that sampling.tolerances asks
- * for. Nothing is resolved before a Def is asked for, so it does not matter where `preset` is written. A text is first
- * read into a layer of its own and then exchanged slot by slot with the one that it changes; exchanging again undoes
- * it, so a failure leaves the scenario as it was. Which Defs a scenario stands for is io/plan.h. What they have in
- * common is resolved once, when keys are given: a case sets what varies. */
+ * Two layers of slots, one slot per key, hold the values of the file and those of --set; the second layer wins,
+ * whatever the order of calls. A third layer, below both, has the distributions of materials for sampling.tolerances.
+ * Nothing is resolved before a Def is requested, so the position of `preset` in the file does not matter. A text is
+ * first read into its own layer and then exchanged slot by slot with the layer that it changes; a second exchange
+ * undoes it, so a failure leaves the scenario unchanged. io/plan.h lists the Defs of a scenario. Their common values
+ * are resolved once, when keys are given; a case only sets the varied keys. */
 #include <zipact/io.h>
 
 #include <errno.h>
@@ -23,22 +23,21 @@
 #include "io/sampled.h"
 #include "io/source.h"
 #include "io/spread.h"
-#include "io/unknown.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
 struct ZpScenario {
   ZpSlot *file;        /* [keys] from files */
-  ZpSlot *set;         /* [keys] from --set; these win */
-  ZpSlot *drawn;       /* [keys] of materials; both win over these. A value is that of its own distribution */
-  const ZpSlot **held; /* [keys] the one of these that holds */
+  ZpSlot *set;         /* [keys] from --set; they override those from files */
+  ZpSlot *drawn;       /* [keys] of materials; both others override them. A value is its own distribution */
+  const ZpSlot **held; /* [keys] the slot of the layer that applies */
   ZpPlan plan;
-  ZpActuatorDef common; /* the first case; others set what varies in it, unless that moves further keys */
+  ZpActuatorDef common; /* the first case; the others set their varied keys in it, unless these affect further keys */
   bool has_common;
-  char *name; /* of the file read last, NULL before */
+  char *name; /* name of the last file, NULL if none */
 };
 
-/* What a range and a distribution consist of, by the names of their parts. */
+/* The parts of a range and of a distribution, by name. */
 enum { FROM, TO, COUNT, SPACING, SIGMA, FIRST_WORD, PARTS = FIRST_WORD + ZpDistributionKind_COUNT - 1 };
 static const char *const own_part_name[FIRST_WORD] = {"from", "to", "count", "spacing", "sigma"};
 
@@ -46,18 +45,18 @@ static const char *part_name(size_t part) {
   return part < FIRST_WORD ? own_part_name[part] : zp_spread_word[part - FIRST_WORD + 1];
 }
 
-enum { DEPTHS = 2 }; /* groups and groups inside them, such as lower and lower.ribbon */
+enum { DEPTHS = 2 }; /* groups and nested groups, such as lower and lower.ribbon */
 
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
-  int key;           /* of --set; -1 when keys come from the text */
+  int key;           /* key of --set; -1 if the text contains the keys */
   ZpSlot *slot;      /* [keys] filled */
-  int *line;         /* [keys] where the key was given; 0: not yet */
-  int *group_line;   /* [keys * DEPTHS] where the group, and the one inside it, was opened whose first key this is; 0:
-                        not yet */
-  int part_key;      /* whose range is being read, where there is a part */
-  char *part[PARTS]; /* of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
+  int *line;         /* [keys] line in which the key was given; 0: not yet */
+  int *group_line;   /* [keys * DEPTHS] line in which the group, and the nested one, was opened whose first key this is;
+                        0: not yet */
+  int part_key;      /* key whose range is being read, if there is a part */
+  char *part[PARTS]; /* parts of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
 
 static size_t key_count(void) {
@@ -72,7 +71,7 @@ static void free_slots(ZpSlot *slot) {
   free(slot);
 }
 
-/* A definition with the materials and sampling.tolerances that are given, else with defaults. */
+/* A definition with the given materials and sampling.tolerances, otherwise with defaults. */
 static ZpActuatorDef materials_of(const ZpScenario *s) {
   ZpActuatorDef def = zp_actuator_def_default();
   for (size_t i = 0; i < key_count(); i++) {
@@ -82,7 +81,7 @@ static ZpActuatorDef materials_of(const ZpScenario *s) {
   return def;
 }
 
-/* Keys that are not given, but filled by a material, vary as it says. */
+/* Give the distribution of a material to keys that it fills and that are not given. */
 static void draw_materials(ZpScenario *s) {
   const ZpActuatorDef def = materials_of(s);
   for (size_t i = 0; i < key_count(); i++) {
@@ -102,7 +101,7 @@ static void hold(ZpScenario *s) {
   draw_materials(s);
 }
 
-/* The texts; nothing else depends on them. */
+/* Set the texts; nothing else depends on them. */
 static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < key_count() && status == ZP_OK; i++) {
@@ -112,7 +111,7 @@ static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err)
   return status;
 }
 
-/* A case from all that is given. */
+/* Make a case from all given values. */
 static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
   ZpAssignment *list = calloc(key_count(), sizeof *list);
   if (!list) return zp_fail_memory(err);
@@ -121,8 +120,7 @@ static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuat
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
 
-/* A case from what all have in common. Keys are set in the order of zp_plan_assign, so the same one is refused first.
- */
+/* Make a case from the common values. Keys are set in the order of zp_plan_assign, so the same key is refused first. */
 static ZpStatus resolve_varied(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   *def = s->common;
@@ -131,7 +129,7 @@ static ZpStatus resolve_varied(const ZpScenario *s, const double *value, ZpActua
   return status;
 }
 
-/* Keys that vary, of most scenarios; more are rare, and have room made for them. */
+/* Varied keys of most scenarios; for more, memory is allocated. */
 enum { VARIATIONS_USUAL = 16 };
 
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
@@ -148,14 +146,15 @@ static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, Z
   return status;
 }
 
-/* A key whose value decides what others are where they are not given: a preset has values for certain mesh.nodes. All
- * other such keys are words, which no list has. */
+/* Does the value of this key determine values of keys that are not given? A preset has values for certain mesh.nodes.
+ * All other such keys are words, which cannot have a list. */
 static bool moves_others(int key) {
   const ZpKeyType type = zp_key(key)->type;
   return type == ZP_KEY_ENUM || type == ZP_KEY_BOOL || strcmp(zp_key(key)->name, "mesh.nodes") == 0;
 }
 
-/* Resolve what the cases have in common. Where the first cannot be resolved, whoever asks for it is told why. */
+/* Resolve the common values of the cases. If the first case cannot be resolved, the request for it reports the reason.
+ */
 static void find_common(ZpScenario *s) {
   bool moves = false;
   for (size_t v = 0; v < s->plan.variations; v++)
@@ -202,7 +201,7 @@ static void exchange(const Reader *reader, ZpSlot *layer) {
   }
 }
 
-/* Let what was read replace what `layer` had for the same keys. */
+/* Replace the values of the same keys in `layer` by those that were read. */
 static ZpStatus merge(ZpScenario *s, const Reader *reader, ZpSlot *layer, ZpError *err) {
   ZpError reason;
   exchange(reader, layer);
@@ -213,7 +212,7 @@ static ZpStatus merge(ZpScenario *s, const Reader *reader, ZpSlot *layer, ZpErro
   }
   exchange(reader, layer);
   hold(s);
-  zp_plan_make(&s->plan, s->held, NULL); /* as before */
+  zp_plan_make(&s->plan, s->held, NULL); /* restored */
   return zp_source_fail(reader->source, 0, err, "%s", reason.message);
 }
 
@@ -240,7 +239,7 @@ static void close_reader(Reader *reader) {
   free(reader->group_line);
 }
 
-/* First key of the group `path`, -1 if it is no group. */
+/* First key of the group `path`, -1 if it is not a group. */
 static int first_of_group(const char *path) {
   size_t length = strlen(path);
   for (int i = 0; i < zp_key_count(); i++)
@@ -250,11 +249,11 @@ static int first_of_group(const char *path) {
 
 static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpError *err) {
   char reason[ZP_VALUE_SIZE];
-  zp_unknown_key(item->path, reason, sizeof reason);
+  zp_key_unknown(item->path, reason, sizeof reason);
   return zp_source_fail(reader->source, item->line, err, "%.80s: %s", item->path, reason);
 }
 
-/* The parts of a range or a distribution stand together, in a group of their own: what is left of one is a mistake. */
+/* The parts of a range or a distribution are in their own group: parts that remain at its end are a mistake. */
 static ZpStatus check_no_parts(const Reader *reader, int key, int line, ZpError *err) {
   bool any = false;
   for (size_t i = 0; i < PARTS; i++)
@@ -277,15 +276,15 @@ static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err)
   return ZP_OK;
 }
 
-/* "ribbon:" with nothing behind it is a group without keys; with a value it is a mistake. */
+/* "ribbon:" without a value is a group without keys; with a value it is a mistake. */
 static ZpStatus take_value_of_group(Reader *reader, const ZpYamlItem *item, int first, ZpError *err) {
   if (item->kind == ZP_YAML_VALUE && *item->word == 0) return take_group(reader, item, err);
   return zp_source_fail(reader->source, item->line, err,
-                        "%s: a group of keys, takes no value; give one of its keys, such as %s", item->path,
+                        "%s: a group of keys cannot have a value; give one of its keys, such as %s", item->path,
                         zp_key(first)->name);
 }
 
-/* Say what is wrong with a value, and where. */
+/* Report a wrong value, and its place. */
 static ZpStatus fail_value(const Reader *reader, int key, int line, const char *word, const ZpError *reason, bool alone,
                            ZpError *err) {
   if (reason->status == ZP_MACHINE) return zp_fail(err, ZP_MACHINE, "%s", reason->message);
@@ -308,9 +307,9 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
   return ZP_OK;
 }
 
-/* A file named in a scenario is looked for in the folder of that scenario, one of --set in the current folder;
- * kept as an absolute path, so that the written scenario finds it from wherever it is. => `length` bytes of `path` to
- * be freed. */
+/* The path of a file in a scenario is relative to the folder of that scenario, in --set to the current folder; it is
+ * kept as an absolute path, so that the written scenario finds the file from any folder. => `length` bytes of `path` as
+ * a path, to be freed. */
 static char *absolute_path(const ZpSource *source, const char *path, int length) {
   const char *slash = source->argument ? NULL : strrchr(source->name, '/');
   int folder = slash ? (int)(slash - source->name) + 1 : 0;
@@ -323,7 +322,7 @@ static char *absolute_path(const ZpSource *source, const char *path, int length)
   return whole;
 }
 
-/* The same of several between semicolons. */
+/* The same for several paths, separated by semicolons. */
 static char *absolute_paths(const ZpSource *source, const char *paths) {
   char *whole = strdup("");
   while (whole && *paths) {
@@ -341,7 +340,7 @@ static char *absolute_paths(const ZpSource *source, const char *paths) {
   return whole;
 }
 
-/* data.file alone may name several. */
+/* Only data.file may name several files. */
 static char *resolve_path(const Reader *reader, int key, const char *path) {
   if (strcmp(zp_key(key)->name, "data.file") == 0) return absolute_paths(reader->source, path);
   return absolute_path(reader->source, path, (int)strlen(path));
@@ -356,7 +355,7 @@ static bool names_path(int key) {
   return (last && strcmp(last, ".file") == 0) || names_folder(key);
 }
 
-/* A folder must be there: without it nothing in it would count, and nobody would say so. */
+/* The folder must exist: otherwise its templates would be ignored without notice. */
 static ZpStatus check_folder(const Reader *reader, int key, const ZpYamlItem *item, const char *path, ZpError *err) {
   struct stat there;
   if (!names_folder(key) || !*path || (stat(path, &there) == 0 && S_ISDIR(there.st_mode))) return ZP_OK;
@@ -390,7 +389,7 @@ static bool takes_range(int key) {
   return type == ZP_KEY_REAL || type == ZP_KEY_REAL_AUTO || type == ZP_KEY_INT;
 }
 
-/* The values of a range; `word` is what to quote of it. */
+/* Take the values of a range; messages quote `word`. */
 static ZpStatus take_range(Reader *reader, int key, const ZpRange *range, int line, const char *word, ZpError *err) {
   ZpSlot slot = {.is_list = true,
                  .is_bare = (range->from && zp_value_is_bare(key, range->from)) ||
@@ -407,7 +406,7 @@ static bool takes_spread(int key) {
   return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
 }
 
-/* A distribution; `word` is what to quote of it. */
+/* Take a distribution; messages quote `word`. */
 static ZpStatus take_spread(Reader *reader, int key, const ZpSpread *spread, int line, const char *word, ZpError *err) {
   ZpSlot slot = {.value = calloc(1, sizeof(double)), .count = 1};
   ZpError reason;
@@ -444,7 +443,7 @@ static ZpStatus take_range_word(Reader *reader, int key, const ZpYamlItem *item,
   return take_range(reader, key, &range, item->line, item->word, err);
 }
 
-/* The key that the path of a part, "ribbon.length.from", belongs to, and which part; -1 if it is no part of a range. */
+/* The key in the path of a part, "ribbon.length.from", and the part; -1 if it is not such a path. */
 static int key_of_part(const char *path, size_t *part) {
   char name[ZP_VALUE_SIZE];
   const char *last = strrchr(path, '.');
@@ -467,22 +466,22 @@ static ZpStatus take_part(Reader *reader, const ZpYamlItem *item, int key, size_
   return reader->part[part] ? ZP_OK : zp_fail_memory(err);
 }
 
-/* The kind of distribution one of whose parts is there. */
+/* The kind of the distribution whose first part is given. */
 static ZpDistributionKind spread_of_parts(const Reader *reader) {
   for (size_t i = FIRST_WORD; i < PARTS; i++)
     if (reader->part[i]) return (ZpDistributionKind)(i - FIRST_WORD + 1);
   return ZP_DISTRIBUTION_NONE;
 }
 
-/* The parts of a distribution; any other beside them is a mistake. */
+/* Check the parts of a distribution; any further part is a mistake. */
 static ZpStatus take_spread_parts(Reader *reader, int key, ZpDistributionKind kind, const ZpYamlItem *item,
                                   ZpError *err) {
   const size_t first = FIRST_WORD + (size_t)kind - 1, second = strcmp(zp_spread_second(kind), "to") == 0 ? TO : SIGMA;
   const ZpSpread spread = {zp_spread_word[kind], reader->part[first], reader->part[second]};
   for (size_t i = 0; i < PARTS; i++)
     if (reader->part[i] && i != first && i != second)
-      return zp_source_fail(reader->source, item->line, err, "%s: \"%s\" is no part of {%s: ..., %s: ...}", item->path,
-                            part_name(i), spread.word, part_name(second));
+      return zp_source_fail(reader->source, item->line, err, "%s: unknown part \"%s\"; write {%s: ..., %s: ...}",
+                            item->path, part_name(i), spread.word, part_name(second));
   return take_spread(reader, key, &spread, item->line, "{...}", err);
 }
 
@@ -576,7 +575,7 @@ ZpStatus zp_scenario_override(ZpScenario *s, const char *text, size_t size, cons
   return read_layer(s, text, size, name, s->set, err);
 }
 
-/* (open file) => at most one byte more than may be read, to be freed. */
+/* (open file) => its text, at most one byte more than allowed, to be freed. */
 static ZpStatus read_file(FILE *file, const char *path, char **text, size_t *size, ZpError *err) {
   *text = malloc(ZP_YAML_LARGEST + 1);
   if (!*text) return zp_fail_memory(err);
@@ -590,7 +589,7 @@ ZpStatus zp_scenario_read(ZpScenario *s, const char *path, ZpError *err) {
   char *text = NULL;
   size_t size = 0;
   FILE *file = fopen(path, "rb");
-  if (!file) /* a name that leads nowhere is wrong input; a file that may not be read is not */
+  if (!file) /* a missing file is wrong input; a file that must not be read is a failure of the machine */
     return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE, "%.300s: cannot be opened: %s",
                    path, strerror(errno));
   ZpStatus status = read_file(file, path, &text, &size, err);
@@ -610,16 +609,16 @@ static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) 
   if (key >= 0) return key;
   int first = first_of_group(name);
   char reason[ZP_VALUE_SIZE];
-  zp_unknown_key(name, reason, sizeof reason);
+  zp_key_unknown(name, reason, sizeof reason);
   if (first >= 0)
-    zp_source_fail(source, 0, err, "a group of keys, takes no value; give one of its keys, such as %s",
+    zp_source_fail(source, 0, err, "a group of keys cannot have a value; give one of its keys, such as %s",
                    zp_key(first)->name);
   else
     zp_source_fail(source, 0, err, "%s", reason);
   return -1;
 }
 
-/* A range is no YAML, which takes its colon for that of a mapping. */
+/* A range is not YAML, in which its colon would start a mapping. */
 static ZpStatus read_argument(Reader *reader, const char *text, ZpError *err) {
   const ZpYamlItem item = {ZP_YAML_VALUE, "", 1, text, 1};
   const bool is_range = takes_range(reader->key) && zp_range_is(text) && *(text + strspn(text, " ")) != '[';
@@ -672,7 +671,7 @@ bool zp_scenario_bare_number(const ZpScenario *s, int key, double *value) {
   return true;
 }
 
-/* Of the scenario, not of its Defs. */
+/* An error of the scenario, not of a single Def. */
 static bool is_study(size_t key) {
   return zp_key((int)key)->offset == ZP_NO_FIELD;
 }
@@ -683,7 +682,7 @@ ZpStudy zp_scenario_study(const ZpScenario *s) {
   return (ZpStudy)0;
 }
 
-/* Put the file and the row before the message of a Def that is wrong as a whole. */
+/* Add the file and the row to the message of a Def that is wrong as a whole. */
 static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reason, ZpError *err) {
   char row[64] = "";
   if (s->plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->plan.count);
@@ -698,7 +697,7 @@ static ZpStatus fail_plan(const ZpScenario *s, ZpError *err) {
   return zp_source_fail(&source, 0, err, "%s", s->plan.problem);
 }
 
-/* (what came of a case) => its status, with file and row before the message. */
+/* (status of a case) => the same status, with file and row in the message. */
 static ZpStatus say_of(const ZpScenario *s, size_t index, ZpStatus status, const ZpError *reason, ZpError *err) {
   return status == ZP_OK ? ZP_OK : fail_def(s, index, reason, err);
 }
@@ -729,7 +728,7 @@ ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def,
   return say_of(s, index, status, &reason, err);
 }
 
-/* Sweeps of more cases keep no series unless asked. */
+/* Sweeps with more cases keep no series by default. */
 enum { CASES_WITH_SERIES = 20 };
 
 bool zp_scenario_keeps_series(const ZpScenario *s) {
@@ -744,10 +743,9 @@ static bool same_value(double a, double b) {
   return a == b || (isnan(a) && isnan(b));
 }
 
-/* differs[key] set for every key that has no list and not the same value in both Defs, or whose auto has not the same
- * meaning. */
+/* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the Defs. */
 static void compare(const ZpScenario *s, const ZpActuatorDef *first, const ZpActuatorDef *def, bool *differs) {
-  for (int i = 0; i < zp_key_count() && !s->has_common; i++) /* else only keys with lists may */
+  for (int i = 0; i < zp_key_count() && !s->has_common; i++) /* otherwise only keys with lists may */
     differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(def, i));
   differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(def);
 }
@@ -772,13 +770,13 @@ static void write_slot(FILE *file, int key, const ZpSlot *slot) {
   fprintf(file, "]\n");
 }
 
-/* What liquid.model stands for. */
+/* The model that liquid.model auto means. */
 static const char *liquid_word(const ZpActuatorDef *def) {
   return zp_key(zp_key_find("liquid.model"))->choices[zp_def_liquid(def)].word;
 }
 
-/* One line per key. What a preset gives differently to different rows stays with the preset: reading back
- * finds it there again. */
+/* One line per key. A value that the preset sets differently in different rows is left to the preset, where it is found
+ * again on reading. */
 static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bool *differs, FILE *file) {
   const char *before = NULL;
   const int liquid = zp_key_find("liquid.model");
@@ -788,7 +786,7 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
     const char *name = zp_key(i)->name;
     const bool spreads = slot->spread.kind != ZP_DISTRIBUTION_NONE;
     if (differs[i] && !slot->is_list && !spreads) {
-      fprintf(file, "# %s: not the same in all rows, left to the preset\n", name);
+      fprintf(file, "# %s: differs between rows; the preset sets it\n", name);
       continue;
     }
     zp_yaml_write_key(file, name, before);

@@ -1,8 +1,8 @@
-/* A JSON schema of scenarios: what editors complete and check them with.
+/* A JSON schema of scenarios, with which editors complete and check them.
  *
- * Each key has a definition, to which its dotted name and its place in its group refer. The schema is as wide as the
- * reader of scenarios and wider in one respect: of units it knows those of a single dimension (length, mass, ...); what
- * is composed, such as kg/m3, is any text, since the schema cannot multiply units. */
+ * Each key has a definition, to which its dotted name and its place in its group refer. The schema accepts what the
+ * reader of scenarios accepts, and more in one respect: it checks units of a single dimension only (length, mass, ...).
+ * A compound unit, such as kg/m3, is any text, because a schema cannot multiply units. */
 #include "io/schema.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "io/spread.h"
 #include "io/value.h"
 
-/* What people write for a unit of a single dimension, as a regular expression. */
+/* Customary units of a single dimension, as a regular expression. */
 static const struct {
   const char *unit, *names;
 } unit_names[] = {
@@ -40,15 +40,15 @@ static bool is_number(const ZpKey *key) {
   return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
 }
 
-/* What may stand behind the number of a value. */
+/* The allowed text after the number of a value. */
 static const char *units_of(const ZpKey *key) {
   if (key->type == ZP_KEY_INT) return NULL;
   for (size_t i = 0; i < sizeof unit_names / sizeof unit_names[0]; i++)
     if (strcmp(key->unit, unit_names[i].unit) == 0) return unit_names[i].names;
-  return "[^0-9 ].*|1/.*"; /* a composed unit; per cent or the unit of a signal behind a pure number */
+  return "[^0-9 ].*|1/.*"; /* a compound unit; per cent or the unit of a signal after a number without a unit */
 }
 
-/* A pattern of "8 g", a range "1 g .. 9 g : 5", a distribution "normal(8 g, 1 g)", the word of the key. */
+/* A pattern for "8 g", a range "1 g .. 9 g : 5", a distribution "normal(8 g, 1 g)", and the word of the key. */
 static void write_pattern(const ZpKey *key, char *text, size_t size) {
   const char *units = units_of(key);
   snprintf(text, size, "^" BLANK "(?:" DECIMAL BLANK "(?:%s)?|.*[.][.].*:.*%s%s%s)" BLANK "$", units ? units : "",
@@ -56,7 +56,7 @@ static void write_pattern(const ZpKey *key, char *text, size_t size) {
            key->type == ZP_KEY_REAL_AUTO ? key->text : "");
 }
 
-/* What an editor says of a text that is no value. */
+/* The message of an editor for a text that is not a value. */
 static void write_advice(int index, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
   char range[ZP_RANGE_SIZE];
@@ -65,7 +65,7 @@ static void write_advice(int index, char *text, size_t size) {
            *key->shown ? " with a unit" : "", range);
 }
 
-/* One value of a number key: as a number in SI, or as a text. Limits hold for numbers, the pattern for texts. */
+/* One value of a number key: a number in SI, or a text. Limits apply to numbers, the pattern to texts. */
 static json_t *value_schema(int index) {
   const ZpKey *key = zp_key(index);
   char pattern[640], advice[ZP_RANGE_SIZE + 64];
@@ -75,7 +75,7 @@ static json_t *value_schema(int index) {
                    "minimum", key->min, "maximum", key->max, "pattern", pattern, "patternErrorMessage", advice);
 }
 
-/* Append, and drop both if that fails. => the list or NULL */
+/* Append; on failure free both. => the list or NULL */
 static json_t *with(json_t *list, json_t *item) {
   if (list && item && json_array_append(list, item) == 0) {
     json_decref(item);
@@ -107,7 +107,7 @@ static json_t *number_schema(int index) {
   return NULL;
 }
 
-/* YAML takes true and false for no words. */
+/* In YAML true and false are not texts. */
 static json_t *words_schema(const ZpKey *key) {
   json_t *words = json_array();
   for (int i = 0; i <= (int)key->max; i++) {
@@ -141,7 +141,7 @@ static json_t *description(int index) {
   return json_string(text);
 }
 
-/* What an editor inserts. */
+/* The text that an editor inserts. */
 static json_t *default_of(int index) {
   const ZpKey *key = zp_key(index);
   char value[ZP_VALUE_SIZE];
@@ -187,8 +187,7 @@ static json_t *distribution_schema(void) {
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
-/* The group `path` of `size` bytes ("" for the root): each key under it, by what follows of its name, and each group
- * in it. */
+/* The group `path` of `size` bytes ("" for the root): its keys, by the rest of their names, and its groups. */
 static json_t *group_schema(const char *path, size_t size) {
   json_t *properties = json_object();
   bool failed = !properties;

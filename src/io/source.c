@@ -1,5 +1,5 @@
-/* Where a text came from, and messages that say so. Messages quote what the user wrote, which may be
- * anything: they are cleaned and cut here, in one place. */
+/* The origin of a text, and messages that name it. Messages quote the text of the user, which may contain anything: it
+ * is cleaned and shortened here. */
 #include "io/source.h"
 
 #include <stdarg.h>
@@ -9,7 +9,7 @@
 
 #include "base/fail.h"
 
-enum { LONGEST_NAME = 200 }; /* bytes of a name that a message keeps: more than half is for the reason */
+enum { LONGEST_NAME = 200 }; /* bytes of a name that a message keeps: more than half of it is for the reason */
 
 /* Length of a character by its first byte, and the smallest code point of that length. */
 static size_t length_of_first(unsigned char first, uint32_t *least) {
@@ -47,7 +47,7 @@ void zp_text_clean(char *text) {
   }
 }
 
-/* A long path keeps its end, a long argument its start: there is what tells it from others. */
+/* A long path keeps its end, a long argument its start, which identify them. */
 static void print_place(const ZpSource *source, int line, char *text, size_t size) {
   size_t length = strlen(source->name);
   bool cut = length > LONGEST_NAME;

@@ -53,7 +53,7 @@ static ZpStatus fail_part(const char *name, const char *text, const ZpError *rea
   return zp_fail(err, reason->status, "%s = \"%.60s\": %.300s", name, text, reason->message);
 }
 
-/* A standard deviation: of the key's unit, or of a logarithm, a pure number. */
+/* A standard deviation: in the unit of the key, or of a logarithm without a unit. */
 static ZpStatus read_sigma(int index, ZpDistributionKind kind, const char *text, double *sigma, ZpError *err) {
   ZpError reason = {ZP_BAD_INPUT, "give a number above 0"};
   ZpStatus status = ZP_OK;
@@ -61,7 +61,9 @@ static ZpStatus read_sigma(int index, ZpDistributionKind kind, const char *text,
   if (kind == ZP_DISTRIBUTION_NORMAL)
     status = zp_value_quantity(index, text, sigma, &reason);
   else if (!zp_number_read(text, sigma))
-    status = zp_fail(&reason, ZP_BAD_INPUT, "of lognormal it is that of the natural logarithm, a pure number");
+    status = zp_fail(
+        &reason, ZP_BAD_INPUT,
+        "with lognormal sigma is the standard deviation of the natural logarithm; give a number without a unit");
   if (status == ZP_OK && isfinite(*sigma) && *sigma > 0) return ZP_OK;
   return fail_part("sigma", text, &reason, err);
 }

@@ -1,4 +1,4 @@
-/* summary.json: what a study found, as one JSON object. */
+/* summary.json: the results of a study, as one JSON object. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,9 +14,9 @@
 #include "io/shows.h"
 #include "io/summary.h"
 
-/* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars so that a sweep has columns, but arrays in JSON. */
+/* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars, so that a sweep has columns, but arrays in JSON. */
 typedef struct List {
-  const char *name, *pattern; /* of its scalars, for sscanf */
+  const char *name, *pattern; /* format of its scalars, for sscanf */
 } List;
 
 static const List lists[] = {{"frequencies_Hz", "frequency_%d_Hz%n"},
@@ -73,18 +73,18 @@ static bool set_scalars(json_t *object, const ZpResult *result) {
   return set_sensitivity(object, result) && done;
 }
 
-/* Different notes of all runs that the summary repeats: sentences with numbers may all differ, and each is compared
- * with all. */
+/* Largest number of different notes of all runs in the summary: notes with numbers may all differ, and each note is
+ * compared with all others. */
 enum { NOTES_MOST = 50 };
 
-/* Add the notes of a run that are not in the array yet, up to NOTES_MOST and a last one that says where the rest is. */
+/* Add the new notes of a run to the array, up to NOTES_MOST, and a last one that refers to the rows. */
 static bool add_notes(json_t *array, const ZpResult *result) {
   bool done = true;
   for (size_t i = 0; i < result->notes && json_array_size(array) <= NOTES_MOST; i++) {
     bool known = false;
     for (size_t k = 0; k < json_array_size(array) && !known; k++)
       known = strcmp(json_string_value(json_array_get(array, k)), result->note[i]) == 0;
-    const char *note = json_array_size(array) < NOTES_MOST ? result->note[i] : "there are more notes: see the rows";
+    const char *note = json_array_size(array) < NOTES_MOST ? result->note[i] : "the rows have more notes";
     if (!known) done = json_array_append_new(array, json_string(note)) == 0 && done;
   }
   return done;
@@ -122,7 +122,8 @@ static json_t *row_of(const void *user, size_t run) {
   return NULL;
 }
 
-/* The run that speaks for all: the first that failed, else the first. NULL if there is none. Valid until the next. */
+/* The run that represents all: the first that failed, otherwise the first. NULL if there is none. Valid until the next
+ * call. */
 static const ZpResult *spokesman(const ZpReport *report) {
   for (size_t i = 0; i < report->count; i++)
     if (!zp_outcome_good(zp_report_result(report, i)->outcome)) return zp_report_result(report, i);
@@ -146,7 +147,7 @@ static bool set_outcome(json_t *object, const ZpReport *report) {
   return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
 }
 
-/* {"feasible": true, "cases": [...]}: the best cases, as rows have them. */
+/* {"feasible": true, "cases": [...]}: the best cases, in the form of the rows. */
 static json_t *optimum_of(const ZpReport *report) {
   const ZpOptimum *optimum = report->optimum;
   json_t *object = json_object(), *cases = json_array();
@@ -160,7 +161,7 @@ static json_t *optimum_of(const ZpReport *report) {
   return NULL;
 }
 
-/* Numbers of a sweep as a whole. */
+/* The numbers of a sweep as a whole. */
 static bool set_largest(json_t *object, const ZpReport *report) {
   static const struct {
     ZpStudy study;
@@ -204,7 +205,8 @@ ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
                         ? zp_json_write_list(summary, "rows", report->count, row_of, report, file, err)
                         : zp_json_write(summary, file, err);
   json_decref(summary);
-  if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err); /* of all files so far */
+  if (status == ZP_OK && report->rows)
+    status = report->rows->status(report->rows->user, err); /* status of all files so far */
   return status;
 }
 

@@ -1,4 +1,4 @@
-/* What the parts of summary.json share. */
+/* Common functions of the parts of summary.json. */
 #ifndef ZP_IO_SUMMARY_H
 #define ZP_IO_SUMMARY_H
 
@@ -9,8 +9,8 @@
 /* The value of a key: a number, a word, true or false. NULL if there is no memory. */
 json_t *zp_json_key(int key, double value);
 
-/* The distribution of each output over the samples, a list with an object per combination of the lists' values: the
- * values of their keys, and "outputs". Of a report that was interrupted only complete combinations. NULL if there is no
+/* The distribution of each output over the samples: a list with an object per combination of the lists' values, with
+ * the values of the keys and "outputs". For an interrupted report only complete combinations. NULL if there is no
  * memory. */
 json_t *zp_sample_statistics(const ZpReport *report);
 

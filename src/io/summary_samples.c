@@ -1,4 +1,4 @@
-/* "statistics" of summary.json: what the samples of a campaign say of each output. */
+/* "statistics" of summary.json: the distributions of outputs over the samples of a campaign. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,13 +7,14 @@
 #include "io/summary.h"
 #include "sample/statistics.h"
 
-/* Outputs that are read at once: a campaign has more rows than memory, and reading them takes time. */
+/* Number of outputs that are read at once: a campaign may have more rows than fit into memory, and reading them takes
+ * time. */
 enum { COLUMNS = 8 };
 
 typedef struct Samples {
   const ZpReport *report;
   const ZpDesign *design;
-  size_t count;  /* samples of a combination */
+  size_t count;  /* number of samples of a combination */
   double *value; /* [COLUMNS][count] */
   double *work;  /* [count] */
 } Samples;
@@ -63,7 +64,7 @@ static json_t *describe(const Samples *s, const double *value) {
   return NULL;
 }
 
-/* All outputs over the samples from case `start` on. */
+/* Statistics of all outputs over the samples from case `start` on. */
 static json_t *outputs_of(Samples *s, const ZpScalarNames *names, size_t start) {
   json_t *object = json_object();
   bool done = object != NULL;
@@ -77,7 +78,7 @@ static json_t *outputs_of(Samples *s, const ZpScalarNames *names, size_t start) 
   return NULL;
 }
 
-/* The object of the combination whose samples begin with case `start`. */
+/* The object of the combination whose samples start with case `start`. */
 static json_t *combination(Samples *s, const ZpScalarNames *names, size_t start) {
   size_t keys;
   const int *key = zp_scenario_lists(s->report->scenario, &keys);

@@ -113,7 +113,7 @@ void zp_template_complaint(const char *script, char *reason, size_t size) {
 static ZpStatus write_text(const char *path, const char *text, ZpError *err) {
   FILE *file = fopen(path, "wxe");
   if (!file && errno == EEXIST)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: is there already, and may be edited; give the name of another folder", path);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: exists already and may have been edited; give another folder", path);
   if (!file) return zp_fail(err, ZP_MACHINE, "%s: cannot be written: %s", path, strerror(errno));
   const bool written = fputs(text, file) >= 0;
   if (fclose(file) == 0 && written) return ZP_OK;
@@ -131,7 +131,7 @@ static ZpStatus write_one(const char *folder, const ZpTemplate *one, ZpError *er
 ZpStatus zp_templates_write(const char *folder, ZpError *err) {
   ZpStatus status = ZP_OK;
   if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-    status = zp_fail(err, ZP_MACHINE, "%s: cannot be made: %s", folder, strerror(errno));
+    status = zp_fail(err, ZP_MACHINE, "%s: cannot be created: %s", folder, strerror(errno));
   for (const ZpTemplate *one = zp_templates; one->name && status == ZP_OK; one++)
     status = write_one(folder, one, err);
   return status;

@@ -1,4 +1,4 @@
-/* What values are called that have a unit of another kind than asked for. Apart from units.c, since it needs no
+/* Names of quantities with a unit of another kind than required. Separate from units.c, because it does not need
  * UDUNITS. */
 #include <stddef.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/fail.h"
 #include "io/units.h"
 
-/* What a value in a unit is called, to say what another value is not. */
+/* The name of a quantity in a unit, to say that a value is not such a quantity. */
 static const struct {
   const char *unit, *noun;
 } nouns[] = {

@@ -1,12 +1,12 @@
 /* Units of measurement, by UDUNITS-2.
  *
- * UDUNITS parses with static variables of its own, so it is used under one lock. The database is read
- * when the first unit is met, so that scenarios in bare SI need none; it then stays for the life of the
- * process, because reading it takes some 5 ms and looking a unit up some 10 us. The lock and the database
- * are mutable globals (guard.c has the only other); nothing that is computed depends on who came first.
+ * UDUNITS parses with static variables, so it is used under a lock. The database is read at the first unit, so
+ * scenarios in plain SI do not need it; it stays in memory until the process ends, because reading it takes some 5 ms
+ * and a look-up some 10 us. The lock and the database are mutable globals (guard.c has the only other ones); no result
+ * depends on the order of calls.
  *
- * UDUNITS reads more than a person means by a unit: "5 10 mm" (50 mm), "s since 1970", "mm @ 3", "Hz" as
- * the inverse of s. What is not a plain product of powers of named units is refused here. */
+ * UDUNITS accepts more than people mean by a unit: "5 10 mm" (50 mm), "s since 1970", "mm @ 3", "Hz" as the inverse of
+ * s. Anything but a plain product of powers of named units is refused here. */
 #include "io/units.h"
 
 #include <ctype.h>
@@ -25,14 +25,14 @@
 #include "io/guard.h"
 #include "io/source.h"
 
-/* Bytes that reading a unit and the database may take. */
+/* Memory for reading a unit and the database, bytes. */
 enum { ROOM = 1 << 18, DATABASE_ROOM = 1 << 23 };
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static ut_system *database; /* guarded by `lock`; NULL until the first unit is met */
+static ut_system *database; /* guarded by `lock`; NULL until the first unit is read */
 
-/* A digit belongs to an exponent (m2, m^2, m-2, m^-2), or is the 1 of "1/m". Any other would be a factor
- * that hides in the unit. */
+/* A digit must belong to an exponent (m2, m^2, m-2, m^-2), or be the 1 of "1/m". Any other digit would be a hidden
+ * factor in the unit. */
 static bool digit_allowed(const char *text, size_t i) {
   if (i == 0) return text[0] == '1' && text[1] == '/';
   char before = text[i - 1];
@@ -53,14 +53,14 @@ static bool is_plain_unit(const char *text) {
   return true;
 }
 
-/* What people also write, which the database does not have. */
+/* Common notations that the database does not have. */
 static void add_names(void) {
   ut_unit *degree = ut_parse(database, "degree", UT_UTF8);
   if (degree) ut_map_name_to_unit("deg", UT_UTF8, degree);
   ut_free(degree);
 }
 
-/* Read the database unless it is there. In the C locale, since it contains decimal points. */
+/* Read the database if it is not in memory, in the C locale, because it contains decimal points. */
 static ZpStatus need_database(ZpError *err) {
   if (database) return ZP_OK;
   locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
@@ -78,8 +78,8 @@ static ZpStatus need_database(ZpError *err) {
                  reason ? strerror(reason) : "not a unit database");
 }
 
-/* A factor that UDUNITS found by multiplying carries rounding errors (g/cm3: 999.99999999999989); those
- * of people's units are short decimals, but for that of an angle. */
+/* A factor that UDUNITS multiplies has rounding errors (g/cm3: 999.99999999999989); the factors of customary units are
+ * short decimals, except for angles. */
 static ZpUnitScale scale_of_factor(double factor) {
   static const double errors = 8 * DBL_EPSILON;
   char text[40], one[40];
@@ -94,7 +94,7 @@ static ZpUnitScale scale_of_factor(double factor) {
   return scale;
 }
 
-/* True for y = factor x with a factor that makes sense; UDUNITS also knows offsets, logarithms, inverses. */
+/* True for y = factor x with a positive finite factor; UDUNITS also has offsets, logarithms, inverses. */
 static bool is_proportional(const cv_converter *converter, double *factor) {
   *factor = cv_convert_double(converter, 1);
   double twice = cv_convert_double(converter, 2);
@@ -134,7 +134,7 @@ static ZpStatus scale_guarded(const char *from, const char *to, ZpUnitScale *sca
   ZpGuard guard;
   ZpStatus status = zp_guard_enter(&guard, "UDUNITS-2", database ? ROOM : ROOM + DATABASE_ROOM, err);
   if (status != ZP_OK) return status;
-  /* Its error messages would go to stderr; ours say the same with key and file. */
+  /* Its error messages would go to stderr; ours give the same reason with key and file. */
   ut_error_message_handler before = ut_set_error_message_handler(ut_ignore);
   status = scale_locked(from, to, scale, err);
   ut_set_error_message_handler(before);

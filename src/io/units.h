@@ -6,21 +6,20 @@
 
 #include <zipact/error.h>
 
-/* How a number in one unit becomes one in another: times 10^exponent if `decimal`, else times `factor`.
- * Powers of ten are kept apart because they can be applied to the text of a number without rounding:
- * "50 um" is then the same double as 50e-6, and 50 * 1e-6 is not. */
+/* Conversion of a number to another unit: times 10^exponent if `decimal`, otherwise times `factor`. Powers of ten are
+ * separate because they can be applied to the text of a number without rounding: "50 um" is then the same double as
+ * 50e-6, while 50 * 1e-6 is not. */
 typedef struct ZpUnitScale {
   bool decimal;
   int exponent;
   double factor;
 } ZpUnitScale;
 
-/* (unit as a person writes it, SI unit) => scale. ZP_BAD_INPUT with a message that is a part of a
- * sentence, "unknown unit xyz" or "not a length"; ZP_MACHINE if the UDUNITS database cannot be read.
- * May be called from several threads. */
+/* (unit as people write it, SI unit) => scale. ZP_BAD_INPUT with a message that is a part of a sentence, "unknown unit
+ * xyz" or "not a length"; ZP_MACHINE if the UDUNITS database cannot be read. Several threads may call it. */
 ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err);
 
-/* ZP_BAD_INPUT, "not a length": the unit is of another kind than the SI unit `to`. */
+/* ZP_BAD_INPUT, "not a length": the quantity of the unit differs from that of the SI unit `to`. */
 ZpStatus zp_unit_fail_dimension(const char *to, ZpError *err);
 
 #endif

@@ -1,9 +1,8 @@
 /* Values as people write them, "130 um", and back.
  *
- * A number is a decimal, [+-]digits[.digits][e[+-]digits], never hexadecimal, "nan" or "inf"; it is
- * read with a point in any locale of the process. A unit that is a power of ten of the SI unit is applied
- * to the exponent of the decimal before it becomes a double, so that nothing is rounded twice:
- * "50 um" and "5e-5" are the same double. */
+ * A number is a decimal, [+-]digits[.digits][e[+-]digits], never hexadecimal, "nan" or "inf"; it is read with a decimal
+ * point in any locale. A unit that is a power of ten of the SI unit is applied to the exponent of the decimal before
+ * conversion to a double, so that there is only one rounding: "50 um" and "5e-5" are the same double. */
 #include "io/value.h"
 
 #include <ctype.h>
@@ -23,9 +22,9 @@
 
 /* A decimal in a text. */
 typedef struct Decimal {
-  int mantissa;    /* characters of sign, digits and point, from the start of the text */
-  long exponent;   /* of ten; far beyond any double's is cut to EXPONENT_LIMIT */
-  const char *end; /* what follows the number */
+  int mantissa;    /* length of sign, digits and point at the start of the text */
+  long exponent;   /* power of ten; values far beyond the range of doubles are limited to EXPONENT_LIMIT */
+  const char *end; /* the text after the number */
 } Decimal;
 
 enum { EXPONENT_LIMIT = 100000 };
@@ -36,7 +35,7 @@ static const char *skip_digits(const char *c) {
   return c;
 }
 
-/* Exponent at `c`, if one is complete there: the e of "5 eV" or "5e" is none. */
+/* Read a complete exponent at `c`: the e of "5 eV" or "5e" is not one. */
 static const char *scan_exponent(const char *c, long *exponent) {
   if (*c != 'e' && *c != 'E') return c;
   const char *digits = c + 1 + (c[1] == '+' || c[1] == '-');
@@ -50,7 +49,7 @@ static const char *scan_exponent(const char *c, long *exponent) {
   return end;
 }
 
-/* (text) => the decimal that it starts with; false if it starts with none. */
+/* (text) => the decimal at its start; false if there is none. */
 static bool scan_decimal(const char *text, Decimal *decimal) {
   const char *whole = text + (*text == '+' || *text == '-');
   const char *whole_end = skip_digits(whole);
@@ -63,8 +62,8 @@ static bool scan_decimal(const char *text, Decimal *decimal) {
   return true;
 }
 
-/* Value of a decimal times 10^shift: correctly rounded, decimal point in any locale. Infinite if it is
- * beyond a double, NAN if there is no memory for the locale. */
+/* The value of a decimal times 10^shift: correctly rounded, with a decimal point in any locale. Infinite if it exceeds
+ * the range of doubles, NAN if there is no memory for the locale. */
 static double decimal_value(const char *text, const Decimal *decimal, int shift) {
   char plain[ZP_VALUE_SIZE + 32];
   snprintf(plain, sizeof plain, "%.*se%ld", decimal->mantissa, text, decimal->exponent + shift);
@@ -72,7 +71,7 @@ static double decimal_value(const char *text, const Decimal *decimal, int shift)
   if (!c_locale) return NAN;
   double value = strtod_l(plain, NULL, c_locale);
   freelocale(c_locale);
-  return value + 0.0; /* -0 becomes 0: one value, one text */
+  return value + 0.0; /* -0 becomes 0, so that a value has one text */
 }
 
 static bool is_pure(const ZpKey *key) {
@@ -98,7 +97,7 @@ static ZpStatus fail_number(int index, const char *reason, ZpError *err) {
   return zp_fail(err, ZP_BAD_INPUT, "%s; give a value in %s from %s", reason, key->shown, range);
 }
 
-/* Keys in the unit of control.signal: pure numbers in SI, with any of these units, or none. */
+/* Keys in the unit of control.signal: numbers without a unit, or with any of these units. */
 static const struct {
   const char *key, *unit[3];
 } of_signal[] = {{"control.proportional", {"V", "V/m", "V/F"}},
@@ -114,8 +113,8 @@ static bool read_unit_of_signal(const ZpKey *key, const char *unit, ZpUnitScale 
   return false;
 }
 
-/* Scale of the unit that follows a number. Of a pure number only per cent: radians and the like are
- * "convertible" to UDUNITS, too. */
+/* The scale of the unit after a number. If the key has no unit, only per cent is accepted, because UDUNITS would also
+ * convert radians and the like. */
 static ZpStatus read_unit(int index, const char *unit, ZpUnitScale *scale, ZpError *err) {
   const ZpKey *key = zp_key(index);
   *scale = (ZpUnitScale){.decimal = true, .factor = 1};
@@ -125,7 +124,7 @@ static ZpStatus read_unit(int index, const char *unit, ZpUnitScale *scale, ZpErr
     scale->exponent = -2;
     return ZP_OK;
   }
-  if (is_pure(key)) return fail_number(index, "a pure number takes no unit", err);
+  if (is_pure(key)) return fail_number(index, "this key has no unit", err);
   ZpError reason;
   ZpStatus status = zp_unit_scale(unit, key->unit, scale, &reason);
   if (status == ZP_BAD_INPUT) return fail_number(index, reason.message, err);
@@ -133,18 +132,19 @@ static ZpStatus read_unit(int index, const char *unit, ZpUnitScale *scale, ZpErr
   return ZP_OK;
 }
 
-static ZpStatus check_number(int index, double value, ZpError *err) {
+static ZpStatus check_number(int index, const char *text, double value, ZpError *err) {
   const ZpKey *key = zp_key(index);
-  char range[ZP_RANGE_SIZE];
+  char range[ZP_RANGE_SIZE], taken[ZP_VALUE_SIZE] = "";
   if (isnan(value)) return zp_fail_memory(err);
   if (isinf(value)) return fail_number(index, "too large for a number", err);
   if (key->type == ZP_KEY_INT && value != floor(value)) return fail_number(index, "not a whole number", err);
   if (value >= key->min && value <= key->max) return ZP_OK;
   zp_value_range(index, range, sizeof range);
-  return zp_fail(err, ZP_BAD_INPUT, "out of range; %s", range);
+  if (zp_value_is_bare(index, text)) snprintf(taken, sizeof taken, "taken as %.6g %s, which is ", value, key->unit);
+  return zp_fail(err, ZP_BAD_INPUT, "%sout of range; %s", taken, range);
 }
 
-/* True if some digit of the decimal is not 0: then a value of 0 has lost it. */
+/* Is some digit of the decimal not 0? Then a value of 0 is an underflow. */
 static bool has_digits(const char *text, const Decimal *decimal) {
   return strcspn(text, "123456789") < (size_t)decimal->mantissa;
 }
@@ -179,7 +179,7 @@ bool zp_value_is_bare(int index, const char *text) {
 static ZpStatus read_number(int index, const char *text, double *value, ZpError *err) {
   double number = NAN;
   ZpStatus status = zp_value_quantity(index, text, &number, err);
-  if (status == ZP_OK) status = check_number(index, number, err);
+  if (status == ZP_OK) status = check_number(index, text, number, err);
   if (status == ZP_OK) *value = number;
   return status;
 }
@@ -191,10 +191,10 @@ static ZpStatus read_bool(const char *text, double *value, ZpError *err) {
       *value = i % 2 ? 1 : 0;
       return ZP_OK;
     }
-  return zp_fail(err, ZP_BAD_INPUT, "%s; give true or false", *text ? "not a yes or no" : "empty");
+  return zp_fail(err, ZP_BAD_INPUT, "%s; give true or false", *text ? "neither true nor false" : "empty");
 }
 
-/* How far a word is from what was meant; a beginning of it is near, however long the rest. */
+/* Distance of a word from a choice; a beginning of the choice is near, whatever its length. */
 static int distance_to_choice(const char *text, const char *word) {
   size_t length = strlen(text);
   return length && strncasecmp(text, word, length) == 0 ? 1 : zp_word_distance(text, word);
@@ -222,7 +222,7 @@ static ZpStatus read_word(int index, const char *text, double *value, ZpError *e
 
 static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError *err) {
   const ZpKey *key = zp_key(index);
-  if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "this key takes a text, which has no value");
+  if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "this key takes a text, not a value");
   if (key->type == ZP_KEY_BOOL) return read_bool(text, value, err);
   if (key->type == ZP_KEY_ENUM) return read_word(index, text, value, err);
   if (*text == 0) return fail_number(index, "empty", err);
@@ -232,11 +232,11 @@ static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError
     return ZP_OK;
   }
   if (strcmp(text, "auto") == 0)
-    return fail_number(index, automatic ? "this key is none, not auto" : "this key cannot be auto", err);
+    return fail_number(index, automatic ? "this key takes none, not auto" : "this key cannot be auto", err);
   return read_number(index, text, value, err);
 }
 
-/* Bytes of the blank that `text` begins with, 0 if it begins with none. Beside those of ASCII: the no-break, figure,
+/* Number of bytes of the blank at the start of `text`, 0 if there is none. Besides ASCII blanks: the no-break, figure,
  * thin and narrow no-break spaces that web pages and word processors put between number and unit. */
 static size_t blank_at(const char *text) {
   static const char *const wide[] = {"\u00A0", "\u2007", "\u2009", "\u202F"};
@@ -245,7 +245,7 @@ static size_t blank_at(const char *text) {
   return isspace((unsigned char)*text) ? 1 : 0;
 }
 
-/* Copy without the blanks at both ends, wide blanks as spaces. False if `copy` has too little room. */
+/* Copy without the blanks at both ends, with wide blanks as spaces. False if `copy` is too small. */
 static bool copy_trimmed(const char *text, char *copy, size_t size) {
   size_t used = 0, end = 0;
   for (size_t length; *text; text += length) {
@@ -281,7 +281,7 @@ double zp_rounded(double value) {
   return strtod(text, NULL);
 }
 
-/* "90 degree" for what is no power of ten, if this reads back to the same bits. */
+/* "90 degree": for units that are not a power of ten of the SI unit, if the text reads back to the same bits. */
 static bool print_factor(const ZpKey *key, double factor, double value, char *text, size_t size) {
   char number[ZP_NUMBER_SIZE];
   double shown = zp_rounded(value / factor);
@@ -291,7 +291,7 @@ static bool print_factor(const ZpKey *key, double factor, double value, char *te
   return true;
 }
 
-/* "100 mm" for 0.1 m, if this reads back to the same bits. */
+/* "100 mm" for 0.1 m, if the text reads back to the same bits. */
 static bool print_shown(const ZpKey *key, const ZpUnitScale *scale, double value, char *text, size_t size) {
   char number[ZP_NUMBER_SIZE];
   Decimal decimal;
@@ -305,7 +305,7 @@ static bool print_shown(const ZpKey *key, const ZpUnitScale *scale, double value
   return true;
 }
 
-/* "0.1 m", what has no short form in the unit that people use. */
+/* "0.1 m": for values without a short form in the customary unit. */
 static void print_si(const ZpKey *key, double value, char *text, size_t size) {
   char number[ZP_NUMBER_SIZE];
   const bool bare = is_pure(key) || !isfinite(value) || value == 0;

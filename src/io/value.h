@@ -1,4 +1,4 @@
-/* Values as people write them: what io shares beyond zp_value_parse and zp_value_print of io.h. */
+/* Values as people write them: internal functions beside zp_value_parse and zp_value_print of io.h. */
 #ifndef ZP_IO_VALUE_H
 #define ZP_IO_VALUE_H
 
@@ -10,37 +10,37 @@
 #include "io/units.h"
 
 enum {
-  ZP_VALUE_SIZE = 256, /* bytes of the longest value that is read, with the final 0 */
-  ZP_RANGE_SIZE = 160  /* enough for zp_value_range */
+  ZP_VALUE_SIZE = 256, /* size of the longest value that can be read, with the final 0 */
+  ZP_RANGE_SIZE = 160  /* size for zp_value_range */
 };
 
-/* As zp_value_parse, but the message is only the reason, "not a length; give a value in um from ...",
- * for callers who know better how to say where the value stands. */
+/* As zp_value_parse, but the message is the reason only, "not a length; give a value in um from ...", for callers that
+ * add the place of the value. */
 ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err);
 
-/* A number with a unit of key `index`, which may be out of its range, infinite, or NAN if there is no memory: for what
- * is no value of the key itself, such as a standard deviation. ZP_BAD_INPUT: as zp_value_read. */
+/* A number with a unit of key `index`, which may be out of its range, infinite, or NAN if there is no memory: for
+ * quantities that are not values of the key itself, such as a standard deviation. ZP_BAD_INPUT: as zp_value_read. */
 ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err);
 
-/* Whether `text` is a number without a unit, other than 0, for a key that has a unit. */
+/* Is `text` a number without a unit, other than 0, for a key that has a unit? */
 bool zp_value_is_bare(int index, const char *text);
 
-/* (key) => "1 um to 5000 um", with " or auto" where that is allowed; the range of a number key. */
+/* (key) => "1 um to 5000 um", with " or auto" if that is allowed; the range of a number key. */
 void zp_value_range(int index, char *text, size_t size);
 
-/* The unit in which people write a key. `known`: it has one. */
+/* The customary unit of a key. `known`: it has one. */
 typedef struct ZpShownUnit {
   bool known;
   ZpUnitScale scale;
 } ZpShownUnit;
 
-/* Look it up, which takes longer than to print a number. */
+/* Look up the unit, which takes longer than printing a number. */
 ZpShownUnit zp_value_unit(int index);
 
-/* As zp_value_print, with the unit of this key. */
+/* As zp_value_print, with the given unit of the key. */
 void zp_value_print_in(int index, const ZpShownUnit *shown, double value, char *text, size_t size);
 
-/* To 12 digits: more than any key needs, and fewer than the rounding of what is computed reaches. */
+/* Round to 12 digits: more than any key needs, and fewer than rounding errors affect. */
 double zp_rounded(double value);
 
 #endif

@@ -21,10 +21,10 @@
 #define BYTE_ORDER_NAME "BigEndian"
 #endif
 
-/* Arrays of a frame in the order in which their bytes follow; the offset grows from one to the next. */
+/* Arrays of a frame in the order of their bytes; the offset increases from one to the next. */
 typedef struct Layout {
   size_t ribbons, nodes, points;
-  size_t lines; /* ribbons of all members of a series */
+  size_t lines; /* number of ribbons of all members */
   uint64_t offset;
 } Layout;
 
@@ -68,7 +68,7 @@ static void put_int(FILE *file, size_t value) {
   fwrite(&number, sizeof number, 1, file);
 }
 
-/* A value that belongs to a pair of nodes, once for each ribbon. */
+/* A value of a pair of nodes, written once for each ribbon. */
 static void put_pairs(FILE *file, const Layout *l, const double *value) {
   if (!value) return;
   put_length(file, l->points * sizeof(double));
@@ -85,7 +85,7 @@ static void put_nodes(FILE *file, const Layout *l, const double *value) {
       fwrite(&value[i * l->ribbons + r], sizeof *value, 1, file);
 }
 
-/* Points go ribbon after ribbon, so that each polyline is a run of numbers. */
+/* Points are written ribbon after ribbon, so that each polyline has consecutive numbers. */
 static void put_points(FILE *file, const Layout *l, const ZpShape *shape) {
   put_length(file, 3 * l->points * sizeof(double));
   for (size_t r = 0; r < l->ribbons; r++)
@@ -147,7 +147,7 @@ static ZpStatus write_collection(const ZpReport *report, const ZpShapes *shapes,
   return zp_atomic_commit(&out, err);
 }
 
-/* The number of a frame that an earlier report wrote, or -1 for a file that is not ours. */
+/* The number of a frame of an earlier report, or -1 for any other file. */
 static long long frame_of(const char *name) {
   char again[64];
   unsigned long long number;
@@ -156,7 +156,7 @@ static long long frame_of(const char *name) {
   return strcmp(name, again) == 0 ? (long long)number : -1;
 }
 
-/* Remove frames from `kept` on. A folder that is not there has none. */
+/* Remove frames from `kept` on. The folder may be missing. */
 static ZpStatus remove_frames(const char *folder, size_t kept, ZpError *err) {
   DIR *list = opendir(folder);
   if (!list && (errno == ENOENT || errno == ENOTDIR)) return ZP_OK;
@@ -185,7 +185,7 @@ static void put_array(FILE *file, const double *value, size_t count) {
   fwrite(value, sizeof *value, count, file);
 }
 
-/* VTK's first index is the one that runs fastest: ours across the ribbons. */
+/* The first index of VTK varies fastest: ours runs across the ribbons. */
 static void write_map(FILE *file, const ZpFieldMap *map) {
   Layout l = {.points = map->nx * map->ny};
   size_t cells = (map->nx - 1) * (map->ny - 1);

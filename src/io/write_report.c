@@ -1,10 +1,10 @@
-/* A report: all files that a study leaves in its folder, written in an order that keeps a promise.
+/* A report: all files that a study writes to its folder, in an order that guarantees completeness.
  *
- * summary.json goes first when old results are replaced and comes after all other numbers when new ones are written,
- * so where it stands the numbers are complete. Pictures come last: another program draws them.
+ * summary.json is removed first when old results are replaced, and written after all other numbers: if it exists, the
+ * numbers are complete. Pictures are last, because another program draws them.
  *
- * Three files have all rows of a campaign: they are written by threads of their own, each with its own reader of the
- * rows, so that neither their bytes nor the memory depend on how many there are. */
+ * Three files contain all rows of a campaign: separate threads write them, each with its own reader of the rows, so
+ * that neither their bytes nor the memory depend on the number of threads. */
 #include <locale.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -15,19 +15,19 @@
 #include "io/report.h"
 #include "io/writers.h"
 
-/* The files that have all rows or values, those first that take longest. */
+/* The files with all rows or values, the slowest first. */
 enum { SUMMARY, RESULTS, TABLE, SCENARIO, FILES };
 
 typedef struct Files {
   const ZpReport *report;
   locale_t plain;
   ZpAtomic summary;    /* under its temporary name */
-  _Atomic size_t next; /* the first file that nobody writes */
+  _Atomic size_t next; /* the first file without a writer */
   ZpStatus status[FILES];
   ZpError err[FILES];
 } Files;
 
-/* Who writes some of them. */
+/* A thread that writes some of them. */
 typedef struct Writer {
   Files *files;
   ZpRows own; /* its reader */
@@ -40,14 +40,14 @@ static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
   ZpStatus status = zp_scenario_text(report, &text, err);
   if (status == ZP_OK) status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
   if (status == ZP_OK) {
-    fputs(text, out.file); /* the commit finds what goes wrong here */
+    fputs(text, out.file); /* the commit reports errors of this */
     status = zp_atomic_commit(&out, err);
   }
   free(text);
   return status;
 }
 
-/* All but its name, which it gets last. */
+/* Write everything; the file gets its name last. */
 static ZpStatus write_summary(const ZpReport *report, ZpAtomic *summary, ZpError *err) {
   ZpStatus status = zp_atomic_open(summary, report->directory, "summary.json", err);
   if (status != ZP_OK) return status;
@@ -61,7 +61,7 @@ static ZpStatus write_file(Files *files, size_t file, const ZpReport *report, Zp
   return file == TABLE ? zp_csv_write(report, err) : zp_hdf5_write(report, err);
 }
 
-/* Write files that nobody writes yet, up to one that fails. */
+/* Write files without a writer, until one fails. */
 static void write_files(Files *files, const ZpReport *report) {
   ZpStatus status = ZP_OK;
   for (size_t file; status == ZP_OK && (file = atomic_fetch_add(&files->next, 1)) < FILES;) {
@@ -82,8 +82,8 @@ static void *write_beside(void *user) {
   return NULL;
 }
 
-/* Start writers beside the caller's thread => how many there are. Where there are no more readers or threads, fewer do.
- */
+/* Start writers in addition to the thread of the caller => their number. If readers or threads are not available, fewer
+ * start. */
 static size_t start_writers(Files *files, Writer writer[FILES]) {
   const ZpReport *report = files->report;
   const size_t jobs = (size_t)(report->jobs > 0 ? report->jobs : zp_processors()), most = jobs < FILES ? jobs : FILES;
@@ -100,8 +100,8 @@ static size_t start_writers(Files *files, Writer writer[FILES]) {
   return started;
 }
 
-/* The files that have all rows or values; summary.json is not yet under its name. What failed first in their order is
- * said. */
+/* Write the files with all rows or values; summary.json does not get its name yet. Reports the first failure in their
+ * order. */
 static ZpStatus write_tables(const ZpReport *report, Files *files, ZpError *err) {
   Writer writer[FILES];
   const size_t writers = start_writers(files, writer);
@@ -115,7 +115,7 @@ static ZpStatus write_tables(const ZpReport *report, Files *files, ZpError *err)
   return ZP_OK;
 }
 
-/* Give summary.json its name if all else was written. */
+/* Give summary.json its name if everything else was written. */
 static ZpStatus finish_summary(ZpAtomic *summary, ZpStatus status, ZpError *err) {
   if (status == ZP_OK) return zp_atomic_commit(summary, err);
   zp_atomic_abandon(summary);
@@ -135,7 +135,7 @@ static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)
   return status;
 }
 
-/* The caller's locale may write 0.5 as 0,5: files must not. */
+/* The locale of the caller may write 0.5 as 0,5: files must not. */
 static ZpStatus write_plainly(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
   if (!plain) return zp_fail_memory(err);

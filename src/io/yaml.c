@@ -1,10 +1,9 @@
-/* The part of YAML that scenarios are made of, by libfyaml's events.
+/* The part of YAML in scenarios, read through the events of libfyaml.
  *
- * Events and not its documents: so the depth is bounded here before anything is built, and each item has
- * its line. Anchors, aliases, tags, several documents and keys that are not words are refused, as none of
- * them means anything in a scenario. libfyaml collects its complaints instead of printing them, and the
- * first becomes our message. What it need not see is refused before: sizes over 1 MB, control characters,
- * text that is not UTF-8, tabs as indentation. */
+ * Events and not documents: so the depth is bounded here before anything is built, and each item has its line. Anchors,
+ * aliases, tags, several documents and keys that are not words are refused, because they have no meaning in a scenario.
+ * libfyaml collects its messages instead of printing them, and the first one becomes our message. Some input is refused
+ * before libfyaml sees it: sizes over 1 MB, control characters, invalid UTF-8, tabs as indentation. */
 #include "io/yaml.h"
 
 #include <stdarg.h>
@@ -19,26 +18,26 @@
 #include "io/value.h"
 
 enum {
-  DEEPEST = 8,        /* mappings inside one another; keys have one point */
+  DEEPEST = 8,        /* depth of nested mappings; keys have one point */
   LONGEST_PATH = 256, /* bytes */
-  ROOM = 1 << 20      /* bytes that libfyaml may take, and 4 for each of the text */
+  ROOM = 1 << 20      /* memory that libfyaml may need, bytes, and 4 for each byte of the text */
 };
 
 /* A reading in progress. */
 typedef struct Walk {
   const ZpSource *source;
   struct fy_parser *parser;
-  struct fy_diag *diag; /* collects what the parser complains of */
+  struct fy_diag *diag; /* collects messages of the parser */
   ZpYamlVisit visit;
   void *user;
   ZpError *err;
-  char path[LONGEST_PATH]; /* of the mapping or value that is being read */
-  int line;                /* of the last token that said where it stands */
-  char *words;             /* of the value or list that is being read, each with its 0 */
+  char path[LONGEST_PATH]; /* path of the mapping or value that is being read */
+  int line;                /* line of the last token that has one */
+  char *words;             /* words of the value or list that is being read, each with its 0 */
   size_t used, capacity;   /* bytes */
 } Walk;
 
-/* What libfyaml found wrong first. */
+/* The first error of libfyaml. */
 static ZpStatus fail_syntax(Walk *walk) {
   void *position = NULL;
   const struct fy_diag_error *error = fy_diag_errors_iterate(walk->diag, &position);
@@ -97,7 +96,7 @@ static struct fy_event *next_event(Walk *walk, ZpStatus *status) {
   if (mark) walk->line = mark->line + 1;
   if (!is_decorated(event)) return event;
   fy_parser_event_free(walk->parser, event);
-  *status = fail_here(walk, "anchors (&), aliases (*) and tags (!) have no meaning in a scenario");
+  *status = fail_here(walk, "a scenario cannot have anchors (&), aliases (*) and tags (!)");
   return NULL;
 }
 
@@ -148,7 +147,7 @@ static ZpStatus read_list(Walk *walk, int line) {
 
 static ZpStatus read_mapping(Walk *walk, int depth, int line);
 
-/* What stands after a key, or at the root. */
+/* The value of a key, or the root. */
 static ZpStatus read_node(Walk *walk, struct fy_event *event, int depth, int line) {
   switch (event->type) {
   case FYET_SCALAR: {
@@ -158,14 +157,14 @@ static ZpStatus read_node(Walk *walk, struct fy_event *event, int depth, int lin
   case FYET_SEQUENCE_START:
     return read_list(walk, line);
   case FYET_MAPPING_START:
-    if (depth > DEEPEST) return fail_here(walk, "nested deeper than %d", DEEPEST);
+    if (depth > DEEPEST) return fail_here(walk, "nested deeper than %d levels", DEEPEST);
     return read_mapping(walk, depth, line);
   default:
     return fail_here(walk, "a value, a list or a group of keys is expected here");
   }
 }
 
-/* (path of length `base` in walk, event of a key) => path with the key appended. */
+/* (path of length `base` in walk, event of a key) => path with that key appended. */
 static ZpStatus enter_key(Walk *walk, struct fy_event *event, size_t base) {
   if (event->type != FYET_SCALAR) return fail_here(walk, "a key must be a word");
   ZpStatus status = add_word(walk, event);
@@ -190,7 +189,7 @@ static ZpStatus read_pair(Walk *walk, struct fy_event *key, int depth, size_t ba
   return status;
 }
 
-/* The pairs of a mapping up to its end; walk->path is its path. */
+/* Read the pairs of a mapping up to its end; walk->path is its path. */
 static ZpStatus read_mapping(Walk *walk, int depth, int line) {
   size_t base = strlen(walk->path);
   ZpStatus status = ZP_OK;
@@ -205,7 +204,7 @@ static ZpStatus read_mapping(Walk *walk, int depth, int line) {
   return status;
 }
 
-/* Take an event that is there for form's sake; ZP_BAD_INPUT if it is another. */
+/* Read an event of the given type, without content; ZP_BAD_INPUT if it has another type. */
 static ZpStatus expect(Walk *walk, enum fy_event_type type, const char *otherwise) {
   ZpStatus status = ZP_OK;
   struct fy_event *event = next_event(walk, &status);
@@ -255,7 +254,7 @@ static ZpStatus read_stream(Walk *walk, ReadRoot root) {
   return status;
 }
 
-/* True if the blank start of a line holds a tab, and more than blanks follow. */
+/* Does the indentation of a line contain a tab, and does text follow it? */
 static bool has_tab_indent(const char *text, size_t size) {
   bool tab = false;
   size_t i = 0;
@@ -264,7 +263,7 @@ static bool has_tab_indent(const char *text, size_t size) {
   return tab && i < size && !strchr("#\r\n", text[i]);
 }
 
-/* Refuse what libfyaml need not see. */
+/* Refuse input that libfyaml need not see. */
 static ZpStatus check_text(const ZpSource *source, const char *text, size_t size, ZpError *err) {
   if (size > ZP_YAML_LARGEST) return zp_source_fail(source, 0, err, "larger than 1 MB, too large for a scenario");
   int line = 1;

@@ -1,4 +1,4 @@
-/* The part of YAML that scenarios are made of: mappings in mappings, words, lists of words. */
+/* The part of YAML in scenarios: nested mappings, words, lists of words. */
 #ifndef ZP_IO_YAML_H
 #define ZP_IO_YAML_H
 
@@ -9,20 +9,20 @@
 
 #include "io/source.h"
 
-/* Largest text that is read, bytes. A scenario that we write is always smaller. */
+/* Largest text that is accepted, bytes. Scenarios that we write are always smaller. */
 enum { ZP_YAML_LARGEST = 1 << 20 };
 
 typedef enum ZpYamlKind {
   ZP_YAML_VALUE, /* one word */
   ZP_YAML_LIST,  /* a sequence of words */
-  ZP_YAML_GROUP  /* a mapping, met at its end: what is in it was met before */
+  ZP_YAML_GROUP  /* a mapping, reported at its end: after its content */
 } ZpYamlKind;
 
-/* Something found in a text. */
+/* An item of a text. */
 typedef struct ZpYamlItem {
   ZpYamlKind kind;
-  const char *path; /* keys from the root, joined by points: "ribbon.length"; "" at the root */
-  int line;         /* where its key stands, from 1 */
+  const char *path; /* keys from the root, separated by points: "ribbon.length"; "" at the root */
+  int line;         /* line of its key, from 1 */
   const char *word; /* `count` words, each followed by a 0 */
   size_t count;
 } ZpYamlItem;
@@ -30,8 +30,8 @@ typedef struct ZpYamlItem {
 /* Takes an item; a status other than ZP_OK ends the reading. */
 typedef ZpStatus (*ZpYamlVisit)(void *user, const ZpYamlItem *item, ZpError *err);
 
-/* Visit all there is in a text whose root is a mapping, or that is empty. ZP_BAD_INPUT says where it is
- * not YAML, or uses more of YAML than a scenario needs. */
+/* Visit all items of a text that is a mapping or empty. ZP_BAD_INPUT gives the place where it is not YAML, or uses YAML
+ * that a scenario does not need. */
 ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visit, void *user,
                       ZpError *err);
 
@@ -46,7 +46,7 @@ int zp_yaml_write_key(FILE *file, const char *name, const char *before);
 /* Write `text`, which has no control characters, between double quotes. */
 void zp_yaml_write_text(FILE *file, const char *text);
 
-/* Bytes of the group in a key name: 6 in "ribbon.length", 0 in "gravity". */
+/* Length of the group in the name of a key: 6 in "ribbon.length", 0 in "gravity". */
 size_t zp_yaml_group(const char *name);
 
 #endif

@@ -1,7 +1,7 @@
 /* NSGA-II: K. Deb, A. Pratap, S. Agarwal, T. Meyarivan, "A fast and elitist multiobjective genetic algorithm", IEEE
  * Trans. Evol. Comput. 6 (2002) 182-197: ranks by domination, crowding distances, tournaments; simulated binary
- * crossover and polynomial mutation with its parameters. Random numbers are hashes of the seed, of the case and of what
- * they are for, so that a search that is resumed, or computed by other threads, has the same children. */
+ * crossover and polynomial mutation with the parameters of that paper. Random numbers are hashes of the seed, the case
+ * and the purpose, so a resumed search, or one with other threads, has the same children. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,14 +10,14 @@
 #include "base/mix.h"
 #include "optimize/search.h"
 
-/* Indices of crossover and mutation, the share of coordinates that are crossed. */
+/* Distribution indices of crossover and mutation; probability that a coordinate is crossed. */
 static const double crossing = 15, mutating = 20, crossed = 0.5;
 
 enum { SMALLEST = 8, LARGEST = 200, GENERATIONS = 20 };
 
 typedef struct Member {
-  size_t number; /* its case */
-  int rank;      /* 0: nobody dominates it */
+  size_t number; /* number of its case */
+  int rank;      /* 0: no member dominates it */
   double crowding;
 } Member;
 
@@ -25,10 +25,10 @@ typedef struct Population {
   ZpSearch *search;
   size_t size;
   Member *member; /* [2 size] parents, then children */
-  size_t first;   /* case of the first child */
+  size_t first;   /* number of the case of the first child */
 } Population;
 
-/* A number in (0, 1). */
+/* A random number in (0, 1). */
 static double chance(const ZpSearch *s, size_t number, uint64_t use) {
   const uint64_t x = zp_mix(zp_mix((uint64_t)s->def.sampling.seed + 1) + number * 1024 + use);
   return ((double)(x >> 11) + 0.5) / 9007199254740992.0;
@@ -40,7 +40,7 @@ static const double *value_of(const Population *p, size_t i) {
 
 /* -- selection -------------------------------------------------------------------------------------- */
 
-/* Rank: the members that only those of lower ranks dominate. */
+/* Rank r: the members that are dominated only by members of lower rank. */
 static void rank(Population *p, size_t count) {
   size_t ranked = 0;
   for (size_t i = 0; i < count; i++)
@@ -56,7 +56,7 @@ static void rank(Population *p, size_t count) {
   }
 }
 
-/* Distance from the neighbours of the same rank in one objective, over the range of that rank. */
+/* Crowding distance in one objective: distance between the neighbours of the same rank, over the range of that rank. */
 static double gap(const Population *p, size_t count, size_t i, size_t objective) {
   double below = -INFINITY, above = INFINITY, least = INFINITY, most = -INFINITY;
   const double own = value_of(p, i)[objective];
@@ -79,7 +79,7 @@ static void crowd(Population *p, size_t count) {
   }
 }
 
-/* Low ranks first, then those with room around them, then in the order of their cases: never two alike. */
+/* Low ranks first, then large crowding distances, then the order of the cases: the order is unique. */
 static int compare(const void *a, const void *b) {
   const Member *x = a, *y = b;
   if (x->rank != y->rank) return x->rank < y->rank ? -1 : 1;
@@ -95,14 +95,14 @@ static void select_best(Population *p, size_t count) {
 
 /* -- children --------------------------------------------------------------------------------------- */
 
-/* The better of two members: members are in order. */
+/* The better of two random members, which are sorted. */
 static const double *parent(const Population *p, size_t number, uint64_t use) {
   const size_t a = (size_t)(chance(p->search, number, use) * (double)p->size);
   const size_t b = (size_t)(chance(p->search, number, use + 1) * (double)p->size);
   return p->search->point[p->member[a < b ? a : b].number].z;
 }
 
-/* Between and around two values, near them more often than not. */
+/* Crossover: children between and around two values, most of them near one of these. */
 static double cross(double a, double b, double u) {
   const double power = 1 / (crossing + 1), spread = u < 0.5 ? pow(2 * u, power) : pow(1 / (2 * (1 - u)), power);
   return 0.5 * ((1 + spread) * a + (1 - spread) * b);

@@ -1,12 +1,12 @@
-/* Is there a design in the box that satisfies all constraints? Asked where a search has found none.
+/* Is there a design in the box that satisfies all constraints? Called if a search has found none.
  *
- * The box is cut into cells, each with a case in its middle. A cell holds no such design if some constraint, missed in
- * the middle, is missed wherever in the cell, as it changes with each variable at most twice as fast as anywhere
- * between two cases of the search. Cells that are not excluded are cut in three along a variable, so the case in the
- * middle stays, the two new ones beside it give a slope by that variable alone (as in DIRECT, Jones, Perttunen and
- * Stuckman 1993), and slopes that are found later count for all cells again. If all cells are excluded the box holds
- * no such design, or a constraint changes faster somewhere than all cases let expect: no proof in the strict sense,
- * which a study that solves numerically cannot give, but a statement that says what it rests on. */
+ * The box is cut into cells, each with a case at its centre. A cell contains no such design if some constraint that is
+ * violated at the centre is violated in the whole cell, assuming that it changes with each variable at most twice as
+ * fast as between any two cases of the search. A cell that is not excluded is cut in three along a variable, so the
+ * case at its centre stays, and the two new cases beside it give a slope along that variable alone (as in DIRECT:
+ * Jones, Perttunen and Stuckman 1993). Slopes that are found later apply to all cells again. If all cells are excluded,
+ * either the box contains no such design, or a constraint changes somewhere faster than the cases show. This is not a
+ * strict proof, which a numerical study cannot give; the message states the assumption. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,38 +14,38 @@
 #include "base/fail.h"
 #include "optimize/search.h"
 
-/* How many cells are cut at once, whatever the number of threads. */
+/* Number of cells that are cut at once, independent of the number of threads. */
 enum { WAVE = 16 };
 
 static const double safety = 2;
 
-/* Slopes are at least this, so that pairs of cases can raise each of them. */
+/* Lower bound of slopes, so that pairs of cases can raise each of them. */
 static const double flattest = 1e-9;
 
-/* How far constraints count as kept and as missed, logarithms: how fast an output changes far from its bound says
- * nothing of where it meets it. */
+/* Limits of the logarithm of a satisfied and of a violated constraint: far from the bound, the slope of an output says
+ * nothing about where it reaches the bound. */
 static const double kept_most = -1, missed_most = 3;
 
 typedef struct Cell {
-  size_t number; /* of the case in its middle */
+  size_t number; /* number of the case at its centre */
   double z[ZP_VARIABLES_MOST], half[ZP_VARIABLES_MOST];
 } Cell;
 
 typedef struct Exclusion {
   ZpSearch *search;
   size_t cells, most;
-  size_t compared[ZP_BOUNDS_MOST];                 /* cases whose pairs its slopes know */
+  size_t compared[ZP_BOUNDS_MOST];                 /* number of cases whose pairs are included in its slopes */
   Cell *cell;                                      /* [most] */
-  double slope[ZP_BOUNDS_MOST][ZP_VARIABLES_MOST]; /* largest known; INFINITY: none is known */
+  double slope[ZP_BOUNDS_MOST][ZP_VARIABLES_MOST]; /* upper bound of its violation; INFINITY: not known */
 } Exclusion;
 
 static size_t bounds_of(const ZpProblem *p) {
   return p->goals - p->objectives;
 }
 
-/* By which factor a constraint is missed at a case, its logarithm: outputs go by powers of the keys, so it changes as
- * fast all over the box. Where there is no such factor, the part of the bound. NAN where there is no output: nothing
- * then tells what is beside the case. */
+/* Logarithm of the factor by which a constraint is violated at a case: outputs are roughly powers of the keys, so it
+ * changes at a similar rate in the whole box. If there is no such factor, the difference over the bound. NAN if there
+ * is no output, which says nothing about the neighbourhood. */
 static double missed(const ZpSearch *s, size_t number, size_t bound) {
   const size_t g = s->problem.objectives + bound;
   const ZpGoal *goal = &s->problem.goal[g];
@@ -58,7 +58,7 @@ static double missed(const ZpSearch *s, size_t number, size_t bound) {
 
 /* -- slopes ----------------------------------------------------------------------------------------- */
 
-/* From a case to one that differs from it in one variable. */
+/* The difference between two cases that differ in one variable. */
 static void learn(Exclusion *e, const Cell *from, const Cell *to, size_t variable) {
   const double way = fabs(to->z[variable] - from->z[variable]);
   for (size_t b = 0; b < bounds_of(&e->search->problem); b++) {
@@ -68,7 +68,7 @@ static void learn(Exclusion *e, const Cell *from, const Cell *to, size_t variabl
   }
 }
 
-/* How many times faster than by the known slopes a constraint changes between two cases; NAN: nothing tells. */
+/* Ratio of the change of a constraint between two cases to that by the known slopes; NAN if it is not known. */
 static double excess(const Exclusion *e, size_t bound, const ZpPoint *one, const ZpPoint *other) {
   const ZpSearch *s = e->search;
   double most = 0;
@@ -84,7 +84,7 @@ static bool knows_slopes(const Exclusion *e, size_t bound) {
   return true;
 }
 
-/* Steeper slopes where two cases ask for them, one of which is new. */
+/* Increase slopes where pairs of cases require it, one of which is new. */
 static void learn_from_pairs(Exclusion *e, size_t bound) {
   const ZpSearch *s = e->search;
   const size_t end = s->problem.evaluations + e->cells;
@@ -118,7 +118,7 @@ static double volume(const Exclusion *e, const Cell *cell) {
   return product;
 }
 
-/* The variable along which the constraints may change most in a cell. */
+/* The variable along which the constraints may change most within a cell. */
 static size_t steepest(const Exclusion *e, const Cell *cell) {
   size_t best = 0;
   double most = -1;
@@ -131,7 +131,7 @@ static size_t steepest(const Exclusion *e, const Cell *cell) {
   return best;
 }
 
-/* The largest cells that are not excluded, of those before `cells` => how many. */
+/* The largest cells that are not excluded among those before `cells` => their number. */
 static size_t choose(const Exclusion *e, size_t chosen[WAVE]) {
   size_t count = 0;
   for (size_t k = 0; k < e->cells; k++) {
@@ -144,7 +144,7 @@ static size_t choose(const Exclusion *e, size_t chosen[WAVE]) {
   return count;
 }
 
-/* Cut a cell in three: it keeps the middle; the outer ones are added. */
+/* Cut a cell in three: it keeps the central part, and the outer ones are added. */
 static void cut(Exclusion *e, Cell *cell, size_t variable) {
   cell->half[variable] /= 3;
   for (int side = -1; side <= 1; side += 2) {
@@ -170,7 +170,7 @@ static void evaluate_new(void *user, size_t index) {
   evaluate(wave->exclusion, wave->first + index);
 }
 
-/* Cut some cells, each along its variable, and run their cases. */
+/* Cut some cells, each along its variable, and run the new cases. */
 static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *variable, size_t count, ZpError *err) {
   const Wave wave = {e, e->cells};
   for (size_t k = 0; k < count; k++)
@@ -184,7 +184,7 @@ static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *vari
   return ZP_OK;
 }
 
-/* The whole box, once along each variable. */
+/* Cut the whole box once along each variable. */
 static ZpStatus cut_box(Exclusion *e, ZpError *err) {
   const size_t whole = 0;
   ZpStatus status = zp_search_parallel(e->search, 1, evaluate, e, err);
@@ -206,7 +206,7 @@ static bool holds_one(const Exclusion *e) {
   return zp_violation(&e->search->problem, e->search->point[best_of(e)].value) == 0;
 }
 
-/* Until all cells are excluded, one holds a design, or there are no more cases. */
+/* Repeat until all cells are excluded, a feasible design is found, or no cases are left. */
 static ZpStatus exclude(Exclusion *e, ZpError *err) {
   ZpStatus status = cut_box(e, err);
   while (status == ZP_OK && !atomic_load(&e->search->stop) && !holds_one(e)) {

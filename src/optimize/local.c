@@ -1,7 +1,6 @@
-/* NLopt's searches: each from another start, in a thread of its own, so that the order of its cases is its own.
- *
- * A search has its share of the cases; a point that NLopt asks for again costs none. SLSQP takes derivatives from the
- * study where it gives them, else from differences, which take a case per variable. */
+/* Searches by NLopt: each from its own start, in its own thread, so that the order of its cases is independent of the
+ * others. Each search has its share of the cases; a repeated point costs none. SLSQP takes derivatives from the study
+ * if it has them, otherwise from finite differences, one case per variable. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,22 +12,22 @@
 
 enum { STARTS = 4 };
 
-/* Of places: the step of a difference, far above what a state of rest is solved to; how near starts are to each other
- * at least; and where a search ends. */
+/* In units of the range of a variable: the step of a finite difference, far above the tolerance of an equilibrium; the
+ * smallest distance between two starts; and the tolerance at which a search ends. */
 static const double difference = 1e-3, apart = 0.15, narrow = 1e-4;
 
-/* What an output that does not exist counts as: missed altogether. */
+/* Value that stands for a missing output: a large violation. */
 static const double not_there = 1;
 
 typedef struct Local {
   ZpSearch *search;
-  size_t first, count, used; /* its cases */
+  size_t first, count, used; /* number of its cases */
   double z[ZP_VARIABLES_MOST];
   double scale; /* of the objective */
   nlopt_opt opt;
 } Local;
 
-/* The case at z: one that is done, else a new one; NULL if there are no more. */
+/* The case at z: an earlier one, otherwise a new one; NULL if no cases are left. */
 static const ZpPoint *find(Local *local, const double *z) {
   ZpSearch *s = local->search;
   const size_t size = s->problem.variables * sizeof *z;
@@ -41,7 +40,7 @@ static const ZpPoint *find(Local *local, const double *z) {
   return &s->point[number];
 }
 
-/* As NLopt has it: scaled, and a number where there is no output. */
+/* Scaled for NLopt, and with a number for a missing output. */
 static double shown(const Local *local, size_t goal, double value) {
   const bool is_objective = goal < local->search->problem.objectives;
   if (isnan(value)) return is_objective ? 1e3 : not_there;
@@ -53,7 +52,7 @@ static double give_up(Local *local) {
   return HUGE_VAL;
 }
 
-/* Derivatives of a goal at a point. False if there are no more cases for differences. */
+/* Derivatives of a goal at a point. False if no cases are left for finite differences. */
 static bool differentiate(Local *local, const ZpPoint *at, size_t goal, double *gradient) {
   const ZpProblem *p = &local->search->problem;
   const double unit = goal < p->objectives ? local->scale : 1;
@@ -89,7 +88,7 @@ typedef struct Bound {
   size_t goal;
 } Bound;
 
-/* An nlopt_func: at most 0 where the constraint holds. */
+/* An nlopt_func: at most 0 if the constraint is satisfied. */
 static double constraint(unsigned n, const double *z, double *gradient, void *user) {
   const Bound *bound = user;
   (void)n;
@@ -103,7 +102,7 @@ static void search_from(void *user, size_t index) {
   Bound bound[ZP_BOUNDS_MOST];
   double best;
   local->opt = nlopt_create(slopes ? NLOPT_LD_SLSQP : NLOPT_LN_COBYLA, (unsigned)p->variables);
-  if (!local->opt) return; /* the other searches may have room */
+  if (!local->opt) return; /* the other searches may have cases left */
   nlopt_set_lower_bounds1(local->opt, 0);
   nlopt_set_upper_bounds1(local->opt, 1);
   nlopt_set_min_objective(local->opt, objective, local);
@@ -113,7 +112,7 @@ static void search_from(void *user, size_t index) {
   }
   nlopt_set_xtol_abs1(local->opt, narrow);
   if (!slopes) nlopt_set_initial_step1(local->opt, 0.1);
-  nlopt_optimize(local->opt, local->z, &best); /* its points are kept, however it ends */
+  nlopt_optimize(local->opt, local->z, &best); /* its points are kept, whatever its result is */
   nlopt_destroy(local->opt);
 }
 
@@ -132,7 +131,7 @@ static bool is_apart(const ZpSearch *s, const size_t *chosen, size_t count, size
   return true;
 }
 
-/* The best of the first `sampled` points, not too near to each other => how many. */
+/* The best of the first `sampled` points that keep their distance from each other => their number. */
 static size_t choose_starts(const ZpSearch *s, size_t sampled, size_t chosen[STARTS]) {
   size_t count = 0;
   for (; count < STARTS; count++) {

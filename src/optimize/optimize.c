@@ -1,4 +1,4 @@
-/* An optimisation: a search, and its cases as a report, a scenario whose lists are walked through together. */
+/* An optimisation: a search, and its cases as a report, a scenario whose lists vary together. */
 #include <zipact/optimize.h>
 
 #include <math.h>
@@ -14,8 +14,8 @@
 
 struct ZpOptimization {
   ZpSearch search;
-  ZpScenario *cases; /* what was computed */
-  size_t *number;    /* [report.count] of the case of each row */
+  ZpScenario *cases; /* all computed cases */
+  size_t *number;    /* [report.count] number of the case of each row */
   size_t *best;      /* [optimum.count] rows */
   const char *objective[ZP_GOALS_MOST];
   ZpOptimum optimum;
@@ -25,7 +25,7 @@ struct ZpOptimization {
 
 /* -- the search ------------------------------------------------------------------------------------- */
 
-/* Values of the variables do not count, all other keys have one. */
+/* The values of the variables are ignored; every other key must have a single value. */
 static ZpStatus check_lists(const ZpScenario *scenario, const ZpProblem *problem, ZpError *err) {
   size_t keys;
   const int *key = zp_scenario_lists(scenario, &keys);
@@ -40,7 +40,7 @@ static ZpStatus check_lists(const ZpScenario *scenario, const ZpProblem *problem
   return ZP_OK;
 }
 
-/* Does any goal of this result have a derivative? */
+/* Does this result have a derivative of any goal? */
 static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
   for (size_t g = 0; g < problem->goals; g++)
     for (size_t i = 0; i < result->sensitivities; i++)
@@ -49,7 +49,7 @@ static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
   return false;
 }
 
-/* Run the middle of the box, to see which outputs there are, before anything is written. */
+/* Run the centre of the box to find out which outputs exist, before anything is written. */
 static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
   ZpProblem *p = &s->problem;
   ZpActuatorDef def = s->def;
@@ -75,7 +75,7 @@ static void take_old_row(void *user, size_t number, uint64_t hash, bool good) {
   if (number < s->room) s->old[number] = hash;
 }
 
-/* With constraints as many cases again, as far as the lists of a scenario hold them. */
+/* With constraints twice as many cases, as far as the lists of a scenario can hold them. */
 static size_t room_of(const ZpProblem *p) {
   const size_t twice = 2 * p->evaluations, most = ZP_LISTED_MOST / p->variables;
   if (p->goals == p->objectives) return p->evaluations;
@@ -102,7 +102,7 @@ static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
   return status == ZP_OK ? zp_journal_visit(s->journal, take_old_row, s, err) : status;
 }
 
-/* A quarter of the cases looks all over the box, the rest goes down from the best of these. */
+/* A quarter of the cases explores the whole box, the others descend from the best of these. */
 static ZpStatus run_search(ZpSearch *s, ZpError *err) {
   if (s->problem.method == ZP_OPTIMIZER_NSGA2) return zp_search_evolve(s, err);
   const size_t sampled = s->problem.evaluations / 4;
@@ -117,7 +117,7 @@ static bool holds(const ZpSearch *s) {
   return any;
 }
 
-/* Search, and where nothing was found ask whether there is anything. */
+/* Search, and if no feasible case is found, ask whether the box contains one. */
 static ZpStatus search_all(ZpSearch *s, ZpError *err) {
   ZpStatus status = run_search(s, err);
   const bool ends = s->room == s->problem.evaluations || atomic_load(&s->stop) || holds(s);
@@ -132,7 +132,7 @@ static const ZpPoint *point_of(const ZpOptimization *o, size_t row) {
   return &o->search.point[o->number[row]];
 }
 
-/* Rows that no other is better than, or dominates. */
+/* Rows that no other row betters or dominates. */
 static void find_best(ZpOptimization *o) {
   const ZpProblem *p = &o->search.problem;
   size_t best = 0;
@@ -156,7 +156,7 @@ static void find_best(ZpOptimization *o) {
   }
 }
 
-/* That no case satisfies all constraints, and what is known of the designs between them. */
+/* The message if no case satisfies all constraints, with what is known about the designs between the cases. */
 static void describe_none(ZpOptimization *o, const char *when) {
   char *text = o->optimum.message;
   const size_t size = sizeof o->optimum.message, cases = o->report.count;
@@ -167,8 +167,8 @@ static void describe_none(ZpOptimization *o, const char *when) {
              cases);
   else if (excluded == 1)
     snprintf(text, size,
-             "no design in the box satisfies all constraints, unless one changes twice as fast somewhere as between "
-             "any of the %zu cases; the result is the case with the smallest violation",
+             "no design in the box satisfies all constraints, unless a constraint changes somewhere more than twice as "
+             "fast as between any two of the %zu cases; the result is the case with the smallest violation",
              cases);
   else
     snprintf(text, size,
@@ -193,7 +193,7 @@ static void describe(ZpOptimization *o) {
     snprintf(text, size, "%sthe best of %zu cases", when, cases);
 }
 
-/* "KEY=[value, ...]" of all rows, to be freed. */
+/* "KEY=[value, ...]" with the values of all rows, to be freed. */
 static char *list_of(const ZpOptimization *o, size_t variable) {
   const ZpInterval *v = &o->search.problem.variable[variable];
   char *text = NULL, value[ZP_NUMBER_SIZE];
@@ -230,7 +230,7 @@ static void name_variables(const ZpProblem *p, char *text, size_t size) {
                              i + 1 < p->variables ? "," : "\"");
 }
 
-/* The scenario of the cases that were computed. */
+/* The scenario of all computed cases. */
 static ZpStatus list_cases(ZpOptimization *o, ZpError *err) {
   const ZpProblem *p = &o->search.problem;
   char together[ZP_TEXT_SIZE + 32];

@@ -11,10 +11,10 @@
 #include "io/units.h"
 #include "io/value.h"
 
-/* A constraint that is missed by so small a part of its bound holds: a search ends on it but for rounding. */
+/* A constraint that is violated by such a small fraction is satisfied: a search ends on it, up to rounding. */
 static const double slack = 1e-6;
 
-/* What an output that does not exist counts as missed: more than any that does. */
+/* Violation that stands for a missing output: larger than any other. */
 static const double missing = 1e3;
 
 /* -- reading ---------------------------------------------------------------------------------------- */
@@ -74,7 +74,7 @@ static ZpStatus read_constraint(char *text, ZpProblem *problem, ZpError *err) {
                   problem->objectives + ZP_BOUNDS_MOST, err);
 }
 
-/* Read the parts of a text between semicolons. */
+/* Read the parts of a text, separated by semicolons. */
 static ZpStatus read_all(const char *text, ZpStatus (*read)(char *text, ZpProblem *problem, ZpError *err),
                          ZpProblem *problem, ZpError *err) {
   char copy[ZP_TEXT_SIZE], *rest = copy;
@@ -104,15 +104,15 @@ ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *
 
 /* -- outputs ---------------------------------------------------------------------------------------- */
 
-/* The unit of a bound, of an output in the unit `of`. A pure number takes per cent, as keys do. */
+/* The unit of a bound on an output with the SI unit `of`. A number without a unit may be in per cent, as for keys. */
 static ZpStatus read_unit(const char *unit, const char *of, ZpUnitScale *scale, ZpError *err) {
   const bool pure = strcmp(of, "1") == 0 || strcmp(of, "count") == 0;
   *scale = (ZpUnitScale){.decimal = true, .exponent = pure && strcmp(unit, "%") == 0 ? -2 : 0};
   if (!*unit || scale->exponent != 0) return ZP_OK;
-  return pure ? zp_fail(err, ZP_BAD_INPUT, "a pure number takes no unit") : zp_unit_scale(unit, of, scale, err);
+  return pure ? zp_fail(err, ZP_BAD_INPUT, "this output has no unit") : zp_unit_scale(unit, of, scale, err);
 }
 
-/* "15 mm": a number and, where letters end it, a unit. */
+/* "15 mm": a number and, if letters follow, a unit. */
 static ZpStatus read_bound(ZpGoal *goal, const ZpScalar *scalar, ZpError *err) {
   ZpUnitScale scale = {.decimal = true};
   ZpError reason = {ZP_BAD_INPUT, "not a number"};
@@ -140,7 +140,7 @@ ZpStatus zp_problem_resolve(ZpProblem *problem, const ZpResult *result, ZpError 
     while (i < result->scalars && strcmp(result->scalar[i].name, problem->goal[g].output) != 0)
       i++;
     if (i == result->scalars || result->scalar[i].timing)
-      return zp_fail(err, ZP_BAD_INPUT, "%s: %s: no output of study %s; its outputs are those of summary.json", key,
+      return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not an output of study %s; summary.json lists its outputs", key,
                      problem->goal[g].output, zp_study_name(result->study));
     ZpStatus status = is_bound ? read_bound(&problem->goal[g], &result->scalar[i], err) : ZP_OK;
     if (status != ZP_OK) return status;

@@ -1,4 +1,4 @@
-/* What is to be optimised: the texts of optimize.*, read. */
+/* The optimisation problem: the texts of optimize.*, read. */
 #ifndef ZP_OPTIMIZE_PROBLEM_H
 #define ZP_OPTIMIZE_PROBLEM_H
 
@@ -9,14 +9,14 @@
 
 #include "io/range.h"
 
-/* The last: values of variables in all cases, which become lists of a scenario. */
+/* The last one: number of values of all variables in all cases, which become lists of a scenario. */
 enum { ZP_VARIABLES_MOST = 8, ZP_GOALS_MOST = 4, ZP_BOUNDS_MOST = 12, ZP_LISTED_MOST = 20000 };
 
-/* An output that counts. */
+/* An output that is optimised or constrained. */
 typedef struct ZpGoal {
   char output[64];
-  double sign;         /* objective: 1 to be small, -1 to be large; bound: 1 for <=, -1 for >= */
-  double bound;        /* of a constraint, SI once the unit is known */
+  double sign;         /* objective: 1 for min, -1 for max; constraint: 1 for <=, -1 for >= */
+  double bound;        /* bound of a constraint, SI once the unit is known */
   char bound_text[64]; /* as written: "15 mm" */
 } ZpGoal;
 
@@ -29,31 +29,32 @@ typedef struct ZpProblem {
   size_t evaluations;
 } ZpProblem;
 
-/* Read optimize.* of a definition. ZP_BAD_INPUT names the key and what is wrong with its text. */
+/* Read the keys optimize.* of a definition. ZP_BAD_INPUT names the key and the mistake in its text. */
 ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *err);
 
-/* Read the bounds of the constraints, now that `result` tells which outputs there are and their units. ZP_BAD_INPUT
- * names an output that the study does not have, or a unit that does not fit. */
+/* Read the bounds of the constraints: `result` shows which outputs exist and their units. ZP_BAD_INPUT names an output
+ * that the study does not have, or a wrong unit. */
 ZpStatus zp_problem_resolve(ZpProblem *problem, const ZpResult *result, ZpError *err);
 
-/* The value of a variable at place z, SI, and how it changes there. */
+/* The value of a variable at position z, SI, and its derivative with respect to z. */
 double zp_variable_value(const ZpInterval *variable, double z);
 double zp_variable_slope(const ZpInterval *variable, double z);
 
-/* What counts at a point, made so that smaller is better: objectives; constraints as the part of their bound by which
- * they are missed, at most 0 where they hold. NAN where the output does not exist. */
+/* The goals at a point, such that smaller is better: objectives, then constraints as the violation over the bound, at
+ * most 0 if satisfied. NAN if the output does not exist. */
 double zp_goal_value(const ZpProblem *problem, size_t goal, double output);
 
-/* Its derivative by the output. */
+/* The derivative of a goal with respect to its output. */
 double zp_goal_slope(const ZpProblem *problem, size_t goal);
 
-/* By how much the constraints are missed together; 0 where all hold, by a millionth of their bounds at most. */
+/* Total violation of the constraints; 0 if all are satisfied within a millionth of their bounds. */
 double zp_violation(const ZpProblem *problem, const double *value);
 
-/* Is a point [goals] better than another: by its violation, where both hold by the first objective? */
+/* Is a point [goals] better than another: by its violation, or if both are feasible by the first objective? */
 bool zp_is_better(const ZpProblem *problem, const double *value, const double *than);
 
-/* Does a point dominate another: no worse in any objective and better in one, where both hold; else by violation? */
+/* Does a point dominate another: if both are feasible, not worse in any objective and better in one; otherwise by the
+ * violation? */
 bool zp_dominates(const ZpProblem *problem, const double *value, const double *other);
 
 #endif

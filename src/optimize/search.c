@@ -12,7 +12,7 @@
 #include "fit/case.h"
 #include "sample/design.h"
 
-/* How often progress is told, and for how long rows may wait for their commit, ms. */
+/* Interval of progress messages; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
 
 static double now(void) {
@@ -30,7 +30,7 @@ static void fail(ZpSearch *s, const ZpError *err) {
 
 /* -- one case --------------------------------------------------------------------------------------- */
 
-/* False if the values do not fit each other; then running says why. */
+/* False if the values contradict each other; then the run reports the reason. */
 static ZpStatus define(const ZpSearch *s, const double *z, ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   size_t used = 0;
@@ -52,7 +52,7 @@ static double slope_of(const ZpResult *result, const char *output, int key) {
   return NAN;
 }
 
-/* What counts of a result. A case without an answer has none. */
+/* The goals of a result. A case without results has none. */
 static void look(const ZpSearch *s, const ZpResult *result, ZpPoint *point) {
   const ZpProblem *p = &s->problem;
   const bool good = zp_outcome_good(result->outcome);
@@ -77,12 +77,12 @@ static double read_clock(void *user) {
   return options->clock(options->user);
 }
 
-/* Run a case => its result, without series. */
+/* Run a case => its result, without a series. */
 static ZpStatus run(ZpSearch *s, const ZpActuatorDef *def, ZpResult **result, ZpError *err) {
   const ZpHooks hooks = {s, on_progress, s->options->clock ? read_clock : NULL};
   ZpError why;
   ZpStatus status = zp_data_study_run(s->study, def, &hooks, result, &why);
-  if (status == ZP_BAD_INPUT) { /* values that do not fit each other */
+  if (status == ZP_BAD_INPUT) { /* values that contradict each other */
     *result = zp_case_impossible(s->study, &why);
     return *result ? ZP_OK : zp_fail_memory(err);
   }
@@ -98,14 +98,14 @@ static ZpStatus commit_if_due(ZpSearch *s, ZpError *err) {
   return zp_journal_commit(s->journal, err);
 }
 
-/* Count a case that is done; with the lock. */
+/* Count a finished case; requires the lock. */
 static void count(ZpSearch *s, const ZpResult *result, bool resumed) {
   s->state.done++;
   s->state.resumed += resumed;
   s->state.failed += !zp_outcome_good(result->outcome);
 }
 
-/* The row of an earlier process, if it is of this case. */
+/* The row of an earlier process, if it belongs to this case. */
 static bool take_row(ZpSearch *s, size_t number, uint64_t hash, ZpPoint *point) {
   if (s->old[number] != hash) return false;
   pthread_mutex_lock(&s->lock);
@@ -119,7 +119,7 @@ static bool take_row(ZpSearch *s, size_t number, uint64_t hash, ZpPoint *point) 
 
 static ZpStatus put_row(ZpSearch *s, size_t number, uint64_t hash, const ZpResult *result, ZpPoint *point,
                         ZpError *err) {
-  pthread_mutex_lock(&s->lock); /* before it is packed: rows of an earlier process are read meanwhile */
+  pthread_mutex_lock(&s->lock); /* before it is packed: meanwhile other threads may read rows of an earlier process */
   ZpPacked *packed = zp_journal_pack(s->journal, result);
   ZpStatus status = packed ? zp_journal_put(s->journal, number, hash, packed, err) : zp_fail_memory(err);
   if (status == ZP_OK) status = commit_if_due(s, err);
@@ -170,7 +170,7 @@ static void *labour(void *user) {
   return NULL;
 }
 
-/* Tell how far it is until all have ended. */
+/* Report progress until all searches have ended. */
 static void look_around(ZpSearch *s, Crew *crew) {
   const ZpCampaignOptions *o = s->options;
   const struct timespec pause = {.tv_nsec = 2000000};

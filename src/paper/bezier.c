@@ -33,7 +33,7 @@ void zp_bezier_fit(const ZpBezierBasis *basis, const double moment[4], const dou
     double dx = last[0] - first[0], dy = last[1] - first[1];
     a = b = sqrt(dx * dx + dy * dy) / 3;
   } else {
-    /* residual of point i without handles: r = p_i - p0 (B0 + B1) - p3 (B2 + B3) */
+    /* residual of point i for handles of length 0: r = p_i - p0 (B0 + B1) - p3 (B2 + B3) */
     double r1 = 0, r2 = 0, cosine = d0[0] * d3[0] + d0[1] * d3[1];
     for (int k = 0; k < 2; k++) {
       r1 += d0[k] * (moment[k] - first[k] * basis->B10 - last[k] * basis->B13);

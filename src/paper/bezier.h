@@ -9,12 +9,12 @@ typedef struct ZpCubic {
   double c[4];
 } ZpCubic;
 
-/* Power form of the Bezier cubic with these control values. */
+/* Power form of the cubic with these Bezier control values. */
 ZpCubic zp_bezier_cubic(double p0, double p1, double p2, double p3);
 
-/* What a least-squares fit needs of `count` points at t_i = i / (count - 1): the Bernstein weights
- * B1 = 3 t (1-t)^2 and B2 = 3 t^2 (1-t) of each and their sums. Changes only with `count`. Each weight
- * stands twice, so that two curves with interleaved points are summed in one stride. */
+/* Data of a least-squares fit to `count` points at t_i = i / (count - 1): the Bernstein weights B1 = 3 t (1-t)^2 and B2
+ * = 3 t^2 (1-t) of each point, and their sums. It depends on `count` only. Each weight is stored twice, so that two
+ * curves with interleaved points are summed in one pass. */
 typedef struct ZpBezierBasis {
   size_t count;
   double *B1, *B2;           /* [2 * count] */
@@ -22,13 +22,12 @@ typedef struct ZpBezierBasis {
   double B10, B13, B20, B23; /* sums of B1 (B0 + B1), B1 (B2 + B3), B2 (B0 + B1), B2 (B2 + B3) */
 } ZpBezierBasis;
 
-/* Fill the basis for `count` >= 2 points; B1 and B2 have room for twice as many. */
+/* Compute the data for `count` >= 2 points; B1 and B2 have room for twice as many. */
 void zp_bezier_basis(ZpBezierBasis *basis, size_t count);
 
-/* Fit through both end points, leaving the first along d0 and arriving at the last along d3 (unit
- * vectors): the handle lengths a, b that make the squared distance to the points least.
- * `moment` holds the sums over points of B1 x, B1 y, B2 x, B2 y. With fewer than two inner points the
- * handles are a third of the chord. => cubics of x and y. */
+/* Fit a cubic through both end points that starts along d0 and arrives along d3 (unit vectors): the handle lengths a, b
+ * minimise the squared distance to the points. `moment` holds the sums over points of B1 x, B1 y, B2 x, B2 y. With
+ * fewer than two inner points the handles are a third of the chord. => cubics of x and y. */
 void zp_bezier_fit(const ZpBezierBasis *basis, const double moment[4], const double first[2], const double last[2],
                    const double d0[2], const double d3[2], ZpCubic *x, ZpCubic *y);
 

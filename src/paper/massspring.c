@@ -27,12 +27,12 @@ void zp_massspring_carve(const ZpMassSpringParams *p, ZpMassSpringEval *e, ZpCar
     *with_margin[k] = array ? array + margin : NULL;
   }
   if (!carver->base) return;
-  for (size_t r = 0; r < p->ribbons; r++) /* the directions before the first edges; nothing writes there again */
+  for (size_t r = 0; r < p->ribbons; r++) /* the directions before the first edges, which stay constant */
     (e->ux - p->ribbons)[r] = p->left_slope ? 1 : 0;
 }
 
-/* Kernels go a whole number of lanes, beyond the last edge, where nodes lie on the prolonged ribbon. Two
- * lengths are inverted with one division, which is what costs here. */
+/* Kernels process a whole number of lanes, beyond the last edge, where nodes lie on the extended ribbon. Two lengths
+ * are inverted with one division, which is the expensive operation here. */
 ZP_KERNEL static void edge_directions(const ZpMassSpringParams *p, size_t padded, const double *restrict x,
                                       const double *restrict y, const ZpMassSpringEval *e) {
   enum { HALF = ZP_LANES / 2 };
@@ -80,7 +80,7 @@ ZP_KERNEL static void edge_forces(const ZpMassSpringParams *p, size_t padded, co
   }
 }
 
-/* The directions after the last edges, where the kernel has written beyond them. */
+/* Restore the directions after the last edges, which the kernel has overwritten. */
 static void hold_right_ends(const ZpMassSpringParams *p, const ZpMassSpringEval *e) {
   size_t edges = edge_count(p);
   for (size_t r = 0; r < p->ribbons; r++) {
@@ -98,7 +98,7 @@ void zp_massspring_eval(const ZpMassSpringParams *p, const double *x, const doub
     e->Rx[j] = e->Ry[j] = 0;
 }
 
-/* -dR/d(edge k) through the frame that edge k gives edge j: it turns by n_k . d(edge k) / length. */
+/* -dR/d(edge k) from the frame that edge k defines for edge j: it turns by n_k . d(edge k) / length. */
 static void frame_stiffness(const ZpMassSpringEval *e, double K_S, size_t j, ptrdiff_t k, double D[4]) {
   double ux = e->ux[k], uy = e->uy[k], nx = -uy, ny = ux, x = e->dpx[j], y = e->dpy[j];
   double ahead = ux * x + uy * y, off = nx * x + ny * y;
@@ -150,7 +150,7 @@ double zp_massspring_shear_energy(const ZpMassSpringParams *p, const ZpMassSprin
   for (size_t j = 0; j < edges; j++) {
     double dy_b = bx[j] * e->dpy[j] - by[j] * e->dpx[j];
     double dy_a = ax[j] * e->dpy[j] - ay[j] * e->dpx[j];
-    /* an inner joint is seen from both of its edges, an end joint from one */
+    /* an inner joint appears in the frames of both its edges, an end joint in one */
     sum += (j < s ? 1 : 0.5) * dy_b * dy_b + (j + s >= edges ? 1 : 0.5) * dy_a * dy_a;
   }
   return p->K_S * sum / 2;

@@ -1,7 +1,6 @@
-/* The paper's mechanics: particles, axial springs, and shear springs in two frames.
+/* The mechanics of the paper: particles, axial springs, and shear springs in two frames.
  *
- * All ribbons at once: node i of ribbon r is at [i * ribbons + r], edge i (node i to i+1) likewise.
- */
+ * All ribbons at once: node i of ribbon r is at [i * ribbons + r], and so is edge i, between nodes i and i+1. */
 #ifndef ZP_PAPER_MASSSPRING_H
 #define ZP_PAPER_MASSSPRING_H
 
@@ -12,8 +11,8 @@
 
 typedef struct ZpMassSpringParams {
   size_t ribbons;   /* s */
-  size_t nodes;     /* N per ribbon */
-  size_t stride;    /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  size_t nodes;     /* N, nodes per ribbon */
+  size_t stride;    /* length of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
   double l;         /* rest length of an edge, m */
   double K_D;       /* axial spring, N/m, eq. (3.2) */
   double K_S;       /* shear spring, N/m, eq. (3.4) */
@@ -21,27 +20,27 @@ typedef struct ZpMassSpringParams {
   bool right_slope; /* the edge direction after the last node is held horizontal */
 } ZpMassSpringParams;
 
-/* Written by zp_massspring_eval, read by those who add up forces and energies. */
+/* Written by zp_massspring_eval, read by the functions that sum forces and energies. */
 typedef struct ZpMassSpringEval {
   double *dpx, *dpy; /* [edges] node i+1 - node i, m */
-  double *ux, *uy;   /* [-s .. edges + s) unit directions of the edges; outside: held slope or 0 */
+  double *ux, *uy;   /* [-s .. edges + s) unit directions of the edges; outside the edges: the held slope, or 0 */
   double *T;         /* [edges] tension, N */
   double *Rx, *Ry;   /* [-s .. stride) force of edge on its right node, N; outside the edges: 0 */
 } ZpMassSpringEval;
 
-/* Cut the arrays of `eval` from `carver`, whose block must be zeroed. */
+/* Take the arrays of `eval` from `carver`, whose block must be zeroed. */
 void zp_massspring_carve(const ZpMassSpringParams *params, ZpMassSpringEval *eval, ZpCarver *carver);
 
-/* (positions [stride]) => edge directions, tensions and edge forces. Force on node j: R[j - s] - R[j]. */
+/* (positions [stride]) => edge directions, tensions and edge forces. The force on node j is R[j - s] - R[j]. */
 void zp_massspring_eval(const ZpMassSpringParams *params, const double *x, const double *y, ZpMassSpringEval *eval);
 
-/* Stiffness at the last eval: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row by row. Not
- * symmetric, as the shear law has no energy. `tension` as in zp_rod_stiffness. */
+/* Stiffness at the last eval: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row by row. It is not symmetric,
+ * because the shear law has no energy. `tension` as in zp_rod_stiffness. */
 void zp_massspring_stiffness(const ZpMassSpringParams *params, const ZpMassSpringEval *eval, const double *tension,
                              double (*D)[4]);
 
-/* Energies from the last eval, J. The shear law has no potential; its energy is that of the springs at
- * their present length, right for small bending angles (theory, section 3.4). */
+/* Energies at the last eval, J. The shear law has no potential; its energy is that of the springs at their current
+ * length, which is correct for small bending angles (theory, section 3.4). */
 double zp_massspring_axial_energy(const ZpMassSpringParams *params, const ZpMassSpringEval *eval);
 double zp_massspring_shear_energy(const ZpMassSpringParams *params, const ZpMassSpringEval *eval);
 

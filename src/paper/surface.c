@@ -30,7 +30,7 @@ void zp_surface_prepare(ZpBezierSurface *surface, size_t stations) {
   }
 }
 
-/* The sums over interleaved points of two curves that a fit takes: of B1 x, B1 y, B2 x, B2 y, for each curve. */
+/* The sums of a fit over interleaved points of two curves: of B1 x, B1 y, B2 x, B2 y, for each curve. */
 typedef struct Moments {
   double of[2][4];
 } Moments;
@@ -77,13 +77,13 @@ static void fit(const ZpBezierBasis *basis, const double *x, const double *y, si
     slope[k] = 0.5 * (k + 1) * (cx[0].c[k + 1] + cx[1].c[k + 1]);
 }
 
-/* What the law needs at one voltage. */
+/* The constants of the law at one voltage. */
 typedef struct Law {
   double d, K, h_c, h_on, h_switched;
 } Law;
 
-/* Attraction of each interval, from the left of a free station to it. `padded` >= count intervals are
- * worked out, a whole number of vectors; those beyond count mean nothing. */
+/* Attraction of each interval, from the left neighbour to a free station. `padded` >= count intervals are computed, a
+ * whole number of vectors; those beyond count have no meaning. */
 ZP_KERNEL static void intervals(size_t count, size_t padded, const double *gap, const double *slope, Law law,
                                 const double *restrict t0, const double *restrict t1, double *restrict closing) {
   double h_c = law.h_c, h_on = law.h_on, h_switched = law.h_switched;
@@ -99,7 +99,7 @@ ZP_KERNEL static void intervals(size_t count, size_t padded, const double *gap, 
       hh[q] = h_of * h_of;
       dx[q] = s0 + t * (s1 + t * s2);
     }
-    /* dx0 / hh0 + dx1 / hh1 with one division, which is what costs here */
+    /* dx0 / hh0 + dx1 / hh1 with one division, which is the expensive operation here */
     closing[i] = K * (dx[0] * hh[1] + dx[1] * hh[0]) / (hh[0] * hh[1]);
   }
 }
@@ -115,11 +115,11 @@ ZP_KERNEL static void spread(size_t count, const double *restrict closing, doubl
 void zp_surface_bezier(const ZpPlatesParams *p, const ZpBezierSurface *surface, const double *x, const double *y,
                        size_t front, const double direction[2], double U, double *Fy) {
   size_t end = p->nodes - 1;
-  memset(Fy, 0, 2 * (front + 1) * sizeof(double)); /* what acts between joined nodes moves nothing */
+  memset(Fy, 0, 2 * (front + 1) * sizeof(double)); /* a force between joined nodes moves nothing */
   if (front == end) return;
   double gap[4], slope[3];
   fit(&surface->fit, x, y, front, end, direction, gap, slope);
-  /* h_switched: where the authors' switch believes breakdown to be; h_on: where that is in truth */
+  /* h_switched: the gap at which the switch of the authors assumes breakdown; h_on: the gap at which it occurs */
   double h_switched = p->h_switch_per_volt * fabs(U), h_on = h_switched > 0 ? h_switched - p->switch_offset + p->d : 0;
   Law law = {p->d, p->k * U * U, zp_plates_least_h(p, U), h_on, h_switched};
   size_t count = end - front, padded = zp_round_up(count);

@@ -13,17 +13,17 @@ void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *mass
   if (state->platform) share(nodes - 1, masses, a);
 }
 
-/* First s in [0, dt] at which g + w s + c s^2 <= 0 and falls, or dt. */
+/* First s in [0, dt] at which g + w s + c s^2 <= 0 and decreases, or dt. */
 static double first_meeting(double g, double w, double c, double dt) {
   bool touching = g <= 0;
   if (touching && (w < 0 || (w == 0 && c < 0))) return 0;
-  if (g + dt * (fmin(w, 0) + dt * fmin(c, 0)) > 0) return dt; /* too far for this step: nearly always */
+  if (g + dt * (fmin(w, 0) + dt * fmin(c, 0)) > 0) return dt; /* too far for this step: the usual case */
   double discriminant = w * w - 4 * c * g;
   if (discriminant < 0) return dt;
   double q = -0.5 * (w + copysign(sqrt(discriminant), w));
-  double first = g / q, second = q / c; /* either may be infinite, negative or 0 / 0: no meeting */
+  double first = g / q, second = q / c; /* both may be infinite, negative or 0 / 0: no meeting */
   double s = dt;
-  if (first >= 0 && first < s && !touching) s = first; /* a pair that opens from contact leaves at this root */
+  if (first >= 0 && first < s && !touching) s = first; /* a pair that opens from contact has this root */
   if (second > 0 && second < s) s = second;
   return s;
 }

@@ -40,11 +40,11 @@ typedef struct ZpZipState {
   bool platform; /* the platforms' faces have met */
 } ZpZipState;
 
-/* (accelerations of free nodes along one axis) => those of joined pairs shared: the pair moves as one. */
+/* (accelerations of free nodes along one axis) => joined pairs share theirs: the pair moves as one. */
 void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, double *acceleration);
 
-/* Time until the next meeting if velocity grows by acceleration * step and position by the new velocity *
- * step (eq. (1) of the paper), at most `dt`; *pair gets the pair that meets, or stays as it is. */
+/* Time until the next meeting if velocity changes by acceleration * step and position by the new velocity * step (eq.
+ * (1) of the paper), at most `dt`; *pair becomes the pair that meets, otherwise it is unchanged. */
 double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const double *vy, const double *ay,
                    double dt, size_t *pair);
 
@@ -54,8 +54,8 @@ double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity);
 /* The state after pair i has met. */
 ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i);
 
-/* The state without voltage: the front (and the platform) opens where forces pull it apart; `ay` as free
- * nodes would have it. */
+/* The state without voltage: the front (and the platform) opens where forces pull it apart; `ay` are the accelerations
+ * of free nodes. */
 ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const double *ay);
 
 #endif

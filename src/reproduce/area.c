@@ -1,4 +1,4 @@
-/* The paper's area error. */
+/* The area error of the paper. */
 #include "reproduce/area.h"
 
 #include <math.h>
@@ -6,7 +6,8 @@
 
 #include "fit/reference.h"
 
-/* Hang `elements` in gravity `g`, m/s2. => stroke, m, NAN if there is none; *result is the caller's. */
+/* Hanging equilibrium of `elements` in gravity `g`, m/s2. => stroke, m, NAN if there is none; the caller frees *result.
+ */
 static double hang(ZpActuatorDef elements, double g, ZpResult **result) {
   elements.gravity = g;
   zp_result_destroy(*result);
@@ -15,7 +16,8 @@ static double hang(ZpActuatorDef elements, double g, ZpResult **result) {
   return zp_result_get(*result, "stroke_m");
 }
 
-/* Find the gravity at which `elements` hang at `stroke`, by secants from their own. => the result there, or NULL. */
+/* Find the gravity at which `elements` hang at `stroke`, by secants from their own gravity. => the result there, or
+ * NULL. */
 static ZpResult *hang_at(const ZpActuatorDef *elements, double stroke) {
   enum { MOST = 20 };
   static const double accuracy = 1e-8; /* relative */
@@ -33,8 +35,7 @@ static ZpResult *hang_at(const ZpActuatorDef *elements, double stroke) {
   return NULL;
 }
 
-/* The shape `from` as a curve that starts where `to` does: the clip hangs free in one model and is held in the other.
- */
+/* The shape `from`, moved to the start of `to`: the clip is free in one model and held in the other. */
 static bool move_to_clip(const ZpTable *from, const ZpTable *to, ZpReference *curve) {
   *curve = (ZpReference){from->rows, calloc(from->rows, sizeof(double)), calloc(from->rows, sizeof(double))};
   if (!curve->x || !curve->y) return false;

@@ -1,4 +1,4 @@
-/* Published numbers beside ours: what each quantity is computed from, and when two numbers agree.
+/* Published numbers beside ours: how each quantity is computed, and when two numbers agree.
  *
  * Letters: K_S shear coefficient (N/m), EI bending stiffness (N m2), l element length (m), L flexible length (m), q
  * weight per length (N/m), M mass of the load (kg), g gravity (m/s2): theory, section 3.3. */
@@ -62,7 +62,8 @@ static double fitted_shear(const ZpRuns *runs, const ZpPublished *p) {
   return fitted(runs, p, "mass_spring.shear_coefficient");
 }
 
-/* K_S is cut off, and goes with the inverse of the stroke that it is fitted to, which is rounded to 0.01 mm. */
+/* K_S is printed without rounding its last digit, and is inversely proportional to the stroke to which it is fitted,
+ * which is rounded to 0.01 mm. */
 static double fitted_shear_slack(const ZpPublished *p) {
   double rounded = 0.005 / zp_published(ZP_TABLE_1_STROKE, p->nodes, p->load);
   return fmax(last_digit(p->text), rounded * p->value);
@@ -91,7 +92,7 @@ static double fitted_relative(const ZpRuns *runs, const ZpPublished *p) {
   return 100 * fitted_error(runs, p) / zp_published(ZP_TABLE_1_STROKE, p->nodes, p->load);
 }
 
-/* mm2 between the chain and the finite elements hung at the stroke that the table has for them. */
+/* mm2 between the chain and the finite elements hung at their stroke in the table. */
 static double area_error(const ZpRuns *runs, const ZpPublished *p, const ZpResult *chain, ZpQuantity reference) {
   const ZpBatch *elements = &runs->run[ZP_RUN_FINITE_ELEMENTS].batch;
   if (!chain || elements->done == 0) return NAN;
@@ -100,7 +101,7 @@ static double area_error(const ZpRuns *runs, const ZpPublished *p, const ZpResul
   return 1e6 * zp_area_error(chain, def, 1e-3 * zp_published(reference, p->nodes, p->load));
 }
 
-/* The chain at rest with the K_S that was fitted. */
+/* The chain at rest with the fitted K_S. */
 static double fitted_area(const ZpRuns *runs, const ZpPublished *p) {
   double K_S = fitted_shear(runs, p);
   if (isnan(K_S)) return NAN;
@@ -133,7 +134,7 @@ static double error_to_published(const ZpRuns *runs, const ZpPublished *p) {
   return fabs(chain_stroke(runs, p) - published_reference(p));
 }
 
-/* The paper's errors are relative to the chain's stroke, not to the reference's. */
+/* The errors of the paper are relative to the stroke of the chain, not to that of the reference. */
 static double relative_to_published(const ZpRuns *runs, const ZpPublished *p) {
   return 100 * error_to_published(runs, p) / chain_stroke(runs, p);
 }
@@ -173,7 +174,7 @@ static double mean_step(const ZpRuns *runs, const ZpPublished *p) {
   return 1e6 * cost_scalar(runs, p, "mean_time_step_s");
 }
 
-/* Minutes per simulated second with as many steps as the paper's. */
+/* Minutes per simulated second with the number of steps of the paper. */
 static double cost(const ZpRuns *runs, const ZpPublished *p) {
   double steps = mean_step(runs, p) / zp_published(ZP_MEAN_STEP, p->nodes, 0);
   return steps / cost_scalar(runs, p, "real_time_factor") / 60;
@@ -181,7 +182,7 @@ static double cost(const ZpRuns *runs, const ZpPublished *p) {
 
 /* -- the factor */
 
-/* Mean over the cases, and the standard deviation; NAN where not all were run. */
+/* Mean over the cases, and standard deviation; NAN if some were not run. */
 static double mean_of_cases(const ZpRuns *runs, const char *scalar, double *deviation) {
   const ZpBatch *batch = &runs->run[ZP_RUN_FACTOR].batch;
   double sum = 0, squares = 0, n = (double)batch->done;
@@ -256,14 +257,15 @@ const ZpSubject zp_subjects[] = {
     {.title = NULL},
 };
 
-/* Nothing is within a tolerance of NAN: there, and where the difference is larger, the reason decides. */
+/* No difference is within a tolerance of NAN: then, or if the difference is larger, the reason determines the verdict.
+ */
 static ZpVerdict verdict_on(const ZpSubject *subject, double ours, double published, double tolerance) {
   const ZpVerdict otherwise = reason[subject->reason].verdict;
   if (isnan(ours)) return ZP_VERDICT_NOT_RUN;
   return fabs(ours - published) <= tolerance ? ZP_VERDICT_AGREES : otherwise;
 }
 
-/* |ours - published| that still agrees; NAN where the reason says that nothing can be judged. */
+/* Largest |ours - published| that counts as agreement; NAN if the reason says that the numbers cannot be judged. */
 static double tolerance_of(const ZpSubject *subject, const ZpPublished *published) {
   if (!verdict_info[reason[subject->reason].verdict].judged) return NAN;
   double slack = subject->slack ? subject->slack(published) : last_digit(published->text);
@@ -281,14 +283,14 @@ static ZpComparison compare(const ZpSubject *subject, const ZpPublished *publish
                         .verdict = verdict_on(subject, ours, published->value, tolerance)};
 }
 
-/* Is the same number, for the same load, among these already? */
+/* Is the same number, for the same load, already among these? */
 static bool is_repeated(const ZpComparison *of_subject, const ZpComparison *end, const ZpPublished *published) {
   for (const ZpComparison *c = of_subject; c < end; c++)
     if (c->subject->any_nodes && c->published->load == published->load) return true;
   return false;
 }
 
-/* Add what is published of one subject. */
+/* Add the published numbers of one subject. */
 static void add(const ZpSubject *subject, const ZpRuns *runs, ZpComparisons *comparisons) {
   size_t count;
   const ZpPublished *published = zp_published_list(&count);

@@ -14,8 +14,8 @@ typedef enum ZpVerdict {
 
 typedef struct ZpVerdictInfo {
   const char *word;  /* in files */
-  bool judged;       /* by the tolerance; false: given whatever the numbers are */
-  const char *title; /* on the page, after their count */
+  bool judged;       /* determined by the tolerance; false: independent of the numbers */
+  const char *title; /* text on the page, after the count */
 } ZpVerdictInfo;
 
 const ZpVerdictInfo *zp_verdict_info(ZpVerdict verdict);
@@ -28,39 +28,42 @@ typedef enum ZpReasonId {
 #undef ZP_REASON
 
 typedef struct ZpReason {
-  ZpVerdict verdict; /* on numbers that differ for this reason */
+  ZpVerdict verdict; /* verdict on numbers that differ for this reason */
   const char *title, *section, *sentence;
 } ZpReason;
 
 const ZpReason *zp_reason(ZpReasonId id);
 
-/* A quantity that is compared: one table of the page. */
+/* A compared quantity: one table of the page. */
 typedef struct ZpSubject {
-  ZpQuantity quantity; /* what is published */
+  ZpQuantity quantity; /* published quantity */
   const char *place;   /* "Table I" */
-  const char *title;   /* what ours is; no commas, since it stands in a CSV */
+  const char *title;   /* our quantity; no commas, because it is a cell of a CSV file */
   const char *unit;
-  const char *source; /* of what is published: "paper", or "program" where its authors' program was run again */
+  const char
+      *source; /* origin of the published number: "paper", or "program" if the program of its authors was run again */
   double (*ours)(const ZpRuns *runs, const ZpPublished *published);
-  ZpReasonId reason;                             /* why it may differ */
-  double (*slack)(const ZpPublished *published); /* that the printed digits leave; NULL: one of the last digit */
-  bool any_nodes;                                /* the same for all N, and compared once */
+  ZpReasonId reason; /* possible reason of a difference */
+  double (*slack)(
+      const ZpPublished *published); /* uncertainty by the printed digits; NULL: one unit of the last digit */
+  bool any_nodes;                    /* independent of N, compared once */
 } ZpSubject;
 
 /* All subjects; the last has no title. */
 extern const ZpSubject zp_subjects[];
 
-/* Ours agrees with what is published within this, relative, or within what the printed digits leave. */
+/* Our number agrees with the published one within this relative tolerance, or within the uncertainty of the printed
+ * digits. */
 #define ZP_AGREEMENT 0.005
 
 /* One published number beside ours. */
 typedef struct ZpComparison {
   const ZpSubject *subject;
   const ZpPublished *published;
-  int nodes;         /* N; 0 where it does not matter */
+  int nodes;         /* N; 0 if it does not matter */
   double ours;       /* in the unit of the published number; NAN: not run */
   double difference; /* ours / published - 1 */
-  double tolerance;  /* |ours - published| that still agrees, in the same unit; NAN where nothing is judged */
+  double tolerance; /* largest |ours - published| that counts as agreement, in the same unit; NAN if it is not judged */
   ZpVerdict verdict;
 } ZpComparison;
 
@@ -73,10 +76,10 @@ typedef struct ZpComparisons {
   size_t count;
 } ZpComparisons;
 
-/* How many of them came to `verdict`. */
+/* Number of comparisons with `verdict`. */
 size_t zp_comparisons_count(const ZpComparisons *comparisons, ZpVerdict verdict);
 
-/* To be freed (item) whatever the status. */
+/* To be freed (item) whatever the status is. */
 ZpStatus zp_compare(const ZpRuns *runs, ZpComparisons *comparisons, ZpError *err);
 
 #endif

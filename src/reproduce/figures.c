@@ -1,4 +1,4 @@
-/* Pictures that show several runs together, drawn as those of any report: NAME.gp and NAME.dat stay beside NAME.svg. */
+/* Pictures of several runs together, drawn like those of any report: NAME.gp and NAME.dat stay beside NAME.svg. */
 #include "reproduce/figures.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static bool has_run(const ZpPlot *plot, ZpRunId id) {
   return plot->runs->run[id].batch.done > 0;
 }
 
-/* An index of the .dat file: a row of a table each, columns in SI; two empty lines end it. */
+/* An index of the .dat file: one row per row of a table, columns in SI; two empty lines end it. */
 static void put_table(FILE *file, const ZpTable *table, const char *x, const char *y) {
   for (size_t row = 0; table && row < table->rows; row++) {
     zp_plot_put(file, zp_table_get(table, row, x), ' ');
@@ -30,7 +30,7 @@ static bool has_shapes(const ZpPlot *plot) {
   return has_run(plot, ZP_RUN_FINITE_ELEMENTS) && has_run(plot, ZP_RUN_TABLE_2_61);
 }
 
-/* From the clip on, so that both models lie on each other. */
+/* From the clip on, so that both models start at the same point. */
 static void put_shape(FILE *file, const ZpResult *result) {
   const ZpTable *table = result ? result->series : NULL;
   for (size_t row = 0; table && row < table->rows; row++) {
@@ -80,7 +80,7 @@ static bool has_forces(const ZpPlot *plot) {
   return has_run(plot, ZP_RUN_FIG_8) && has_run(plot, ZP_RUN_FIG_8_PAPER);
 }
 
-/* The runs `from` .. `to` of a sweep over the separation as one index. */
+/* The runs `from` .. `to` of a sweep of the separation, as one index. */
 static void put_forces(FILE *file, const ZpRuns *runs, ZpRunId id, size_t from, size_t to) {
   const ZpBatch *batch = &runs->run[id].batch;
   for (size_t i = from; i < to && i < batch->done; i++) {

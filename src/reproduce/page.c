@@ -1,4 +1,4 @@
-/* report.html. Sections are a table; numbers come from comparisons and runs, none is typed here. */
+/* report.html. The sections are a table; all numbers come from comparisons and runs. */
 #include "reproduce/page.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static size_t decimals_of(const char *text) {
   return point ? strspn(point + 1, "0123456789") : 0;
 }
 
-/* Ours with one digit more than is printed; where that shows next to nothing, two digits of what there is. */
+/* Our number with one digit more than is printed; if that shows almost nothing, with two significant digits. */
 static void put_ours(FILE *file, const ZpComparison *c) {
   char text[64];
   const char *printed = c->published->text;
@@ -62,7 +62,7 @@ static void put_ours(FILE *file, const ZpComparison *c) {
   zp_html_number(file, text);
 }
 
-/* A percentage, or how many times less or more. */
+/* A percentage, or a factor. */
 static void put_difference(FILE *file, double difference) {
   char text[64];
   double ratio = 1 + difference;
@@ -80,7 +80,7 @@ static const char *class_of(ZpVerdict verdict) {
   return zp_verdict_info(verdict)->judged ? "off" : "unjudged";
 }
 
-/* What still agrees, with the digits that matter; no cell where nothing is judged. */
+/* The tolerance with its significant digits; an empty cell if nothing is judged. */
 static void put_tolerance(FILE *file, double tolerance) {
   char text[64];
   if (isnan(tolerance)) return;
@@ -95,7 +95,7 @@ static void put_letter(FILE *file, ZpReasonId reason) {
   fprintf(file, "<a href=\"#why-%c\">%c</a>", 'a' + (int)reason, 'a' + (int)reason);
 }
 
-/* Ours, difference, tolerance, and a tick or the letter of the reason. */
+/* Our number, difference, tolerance, and a tick or the letter of the reason. */
 static void put_verdict(FILE *file, const ZpComparison *c) {
   if (c->verdict == ZP_VERDICT_NOT_RUN) {
     fputs("<td>not run</td><td>–</td>", file);
@@ -133,7 +133,7 @@ static void put_row(FILE *file, const ZpComparison *c, const ZpComparison *first
   fputs("</tr>\n", file);
 }
 
-/* The comparisons of one subject from `first` on. => the first of the next. */
+/* The comparisons of one subject from `first` on. => the first one of the next subject. */
 static const ZpComparison *put_subject(FILE *file, const ZpComparison *first, const ZpComparison *end) {
   const ZpSubject *subject = first->subject;
   const bool nodes = first->nodes > 0, loads = strncmp(subject->place, "Table", 5) == 0;
@@ -167,7 +167,7 @@ static void put_comparisons(FILE *file, const ZpPage *page, const char *place) {
 
 /* -- tables of our own numbers --------------------------------------------------------------------- */
 
-/* A cell; empty where there is no number. */
+/* A cell; empty if there is no number. */
 static void put_cell(FILE *file, const char *format, double value) {
   char text[64];
   snprintf(text, sizeof text, format, value);
@@ -195,7 +195,7 @@ static void put_by_load_and_nodes(FILE *file, const ZpRuns *runs, const char *ca
   fputs("</tbody></table></figure>\n", file);
 }
 
-/* Relative to the chain's stroke, in per cent, as the paper has it. */
+/* Relative to the stroke of the chain, in per cent, as in the paper. */
 static double error_to_converged(const ZpRuns *runs, ZpWhich which) {
   const ZpRunId chain = which.nodes == 21   ? ZP_RUN_TABLE_2_21
                         : which.nodes == 61 ? ZP_RUN_TABLE_2_61
@@ -282,7 +282,7 @@ static void put_causes(FILE *file, const ZpRuns *runs) {
         "<th>opening</th><th>field / plates</th><th>voltage</th><th>half</th><th>tape</th><th>gap</th><th>product</th>"
         "</tr></thead><tbody>\n",
         file);
-  for (size_t i = 0; i < batch->done; i++) { /* the same at every voltage: those of the first */
+  for (size_t i = 0; i < batch->done; i++) { /* independent of the voltage: those of the first voltage */
     ZpActuatorDef def = zp_runs_def(runs, ZP_RUN_FACTOR, i);
     if (def.drive.voltage > zp_runs_def(runs, ZP_RUN_FACTOR, 0).drive.voltage) break;
     fprintf(file, "<tr><td>%g&nbsp;mm</td>", 1e3 * def.isometric.separation);
@@ -303,12 +303,12 @@ typedef struct Section {
   const char *id, *title;
   const char *text[3]; /* paragraphs, HTML */
   const char *formula; /* HTML */
-  const char *place;   /* whose comparisons it shows */
+  const char *place;   /* subject whose comparisons it shows */
   void (*more)(FILE *file, const ZpRuns *runs);
   Picture picture[4];
 } Section;
 
-/* Formulas are made of plain elements: MathML needs a font that not every machine has. */
+/* Formulas are plain HTML elements: MathML needs a font that not every machine has. */
 #define OVER(above, below)  "<span class=\"over\"><span>" above "</span><span>" below "</span></span>"
 #define SUM_OF_LOADS(share) "M g<sub>0</sub>" share " + q L/2"
 
@@ -419,7 +419,7 @@ static const Section sections[] = {
 
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 
-/* The page says so where gnuplot could not draw a picture, or its run was not reached. */
+/* The page reports a picture that gnuplot could not draw, or whose run was not reached. */
 static void put_picture(FILE *file, const ZpPage *page, const Picture *picture) {
   char prefix[96], *path = zp_path_join(page->directory, picture->path);
   snprintf(prefix, sizeof prefix, "%s", picture->path);
@@ -456,7 +456,7 @@ static void put_section(FILE *file, const ZpPage *page, const Section *section) 
 
 /* -- the page -------------------------------------------------------------------------------------- */
 
-/* How many comparisons have this reason. */
+/* Number of comparisons with this reason. */
 static size_t count_reason(const ZpPage *page, int reason) {
   size_t count = 0;
   for (size_t i = 0; i < page->comparisons->count; i++) {
@@ -478,7 +478,7 @@ static void put_verdict_row(FILE *file, const ZpPage *page, ZpVerdict verdict, s
   fputs("</td></tr>\n", file);
 }
 
-/* One line per verdict that was reached. */
+/* One line per verdict that occurs. */
 static void put_verdicts(FILE *file, const ZpPage *page) {
   fputs("<table class=\"verdict\"><tbody>\n", file);
   for (int i = 0; i < ZP_VERDICT_COUNT; i++) {
@@ -508,7 +508,7 @@ static void put_head(FILE *file, const ZpPage *page) {
       100 * ZP_AGREEMENT, drag_note);
 }
 
-/* How many of the comparisons of a subject, which begin at `first`, agree. => the first of the next subject. */
+/* Number of comparisons of a subject, from `first` on, that agree. => the first one of the next subject. */
 static const ZpComparison *put_overview_row(FILE *file, const ZpComparison *first, const ZpComparison *end) {
   const ZpComparison *c = first;
   const ZpReasonId reason = first->subject->reason;
@@ -539,7 +539,7 @@ static void put_overview(FILE *file, const ZpPage *page) {
   fputs("</tbody></table></figure>\n", file);
 }
 
-/* Beside the overview. */
+/* The contents, beside the overview. */
 static void put_contents(FILE *file) {
   fputs("<nav><b>Contents</b><ul>\n", file);
   for (size_t i = 0; i < SECTIONS; i++) {

@@ -1,12 +1,12 @@
-/* report.html: the paper's tables and figures beside ours on one page that needs nothing else. */
+/* report.html: tables and figures of the paper beside ours on one page without other files. */
 #ifndef ZP_REPRODUCE_PAGE_H
 #define ZP_REPRODUCE_PAGE_H
 
 #include "reproduce/compare.h"
 
-/* What the page is made of. */
+/* The content of the page. */
 typedef struct ZpPage {
-  const char *directory; /* of the pictures */
+  const char *directory; /* folder of the pictures */
   const ZpRuns *runs;
   const ZpComparisons *comparisons;
   double wall_time; /* s */

@@ -1,4 +1,4 @@
-/* Reproduce the paper: run, compare, write. summary.json goes first and comes last, as in any report. */
+/* Reproduce the paper: run, compare, write. summary.json is removed first and written last, as in any report. */
 
 #include <locale.h>
 #include <math.h>
@@ -71,7 +71,7 @@ static const char *message_of(ZpOutcome outcome) {
   return zp_outcome_good(outcome) ? "all runs done" : "a run failed: see its summary.json";
 }
 
-/* {"agrees": 81, ...}: how many comparisons came to each verdict. NULL if there is no memory. */
+/* {"agrees": 81, ...}: number of comparisons with each verdict. NULL if there is no memory. */
 static json_t *verdicts_of(const ZpComparisons *comparisons) {
   json_t *object = json_object();
   bool done = true;
@@ -149,7 +149,7 @@ static ZpStatus run_and_write(const char *directory, const ZpHooks *hooks, void 
   return status;
 }
 
-/* The caller's locale may write 0.5 as 0,5: files must not. */
+/* The locale of the caller may write 0.5 as 0,5: files must not. */
 static ZpStatus reproduce_plainly(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message),
                                   FILE *summary, ZpOutcome *outcome, ZpError *err) {
   locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);

@@ -29,7 +29,7 @@ const char *zp_run_name(ZpRunId id) {
 
 /* -- scenarios ------------------------------------------------------------------------------------- */
 
-/* The stroke that Table I was calibrated to, as a file for the study. */
+/* The stroke for the calibration of Table I, as a file for the study. */
 static ZpStatus write_published_stroke(const char *folder, double load, ZpError *err) {
   ZpAtomic out;
   ZpStatus status = zp_atomic_open(&out, folder, "published.csv", err);
@@ -49,7 +49,7 @@ static ZpStatus calibrate_at(ZpScenario *scenario, const char *folder, double lo
   return status;
 }
 
-/* The chain with the K_S of the authors' saved states. */
+/* The chain with the K_S in the saved states of the authors. */
 static ZpStatus saved_chain(ZpScenario *scenario, int nodes, ZpError *err) {
   char text[80];
   snprintf(text, sizeof text, "mesh.nodes=%d", nodes);
@@ -79,11 +79,11 @@ static ZpStatus add_published(ZpRunId id, ZpScenario *scenario, const char *fold
 
 /* -- running --------------------------------------------------------------------------------------- */
 
-/* Hooks of a run inside those of the whole. */
+/* Hooks of a run within those of the whole. */
 typedef struct Inner {
   const ZpHooks *outer;
   const char *name;
-  double from, span; /* of the whole, 0 .. 1 */
+  double from, span; /* progress of the whole, 0 .. 1 */
 } Inner;
 
 static bool on_progress(void *user, const char *stage, double fraction) {
@@ -98,7 +98,7 @@ static double read_clock(void *user) {
   return inner->outer && inner->outer->clock ? inner->outer->clock(inner->outer->user) : (double)NAN;
 }
 
-/* Others may use this machine, too: what a run costs is the time of the processor. */
+/* Other programs may use this machine, too, so the cost of a run is its CPU time. */
 static double read_processor_clock(void *user) {
   struct timespec now;
   (void)user;
@@ -106,7 +106,7 @@ static double read_processor_clock(void *user) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Share of the whole that the runs before `id` take. */
+/* Share of the runs before `id` in the whole. */
 static double share_before(unsigned id) {
   int before = 0, all = 0;
   for (unsigned i = 0; i < ZP_RUN_COUNT; i++) {
@@ -131,7 +131,7 @@ static ZpStatus run_batch(ZpRunId id, ZpRun *run, const ZpHooks *outer, double *
   return status;
 }
 
-/* The run and its report in the folder `where`, which is open. */
+/* Run and report in the open folder `where`. */
 static ZpStatus run_and_report(ZpRunId id, const char *where, const ZpFolder *folder, const ZpHooks *hooks,
                                void (*notice)(const char *message), ZpRun *run, ZpError *err) {
   double wall_time;
@@ -196,11 +196,11 @@ void zp_runs_free(ZpRuns *runs) {
 
 ZpActuatorDef zp_runs_def(const ZpRuns *runs, ZpRunId id, size_t index) {
   ZpActuatorDef def = zp_actuator_def_default();
-  zp_scenario_def(runs->run[id].scenario, index, &def, NULL); /* it was checked before the run */
+  zp_scenario_def(runs->run[id].scenario, index, &def, NULL); /* checked before the run */
   return def;
 }
 
-/* Both come from the same decimals, but by other arithmetic. */
+/* Both values come from the same decimals, but by different arithmetic. */
 static bool same(double value, double wanted) {
   return fabs(value - wanted) <= 1e-9 * fabs(wanted);
 }

@@ -1,4 +1,4 @@
-/* The runs behind the page: scenarios of runs.def, run and reported like any other. */
+/* The runs behind the page: scenarios of runs.def, run and reported like any other scenario. */
 #ifndef ZP_REPRODUCE_RUNS_H
 #define ZP_REPRODUCE_RUNS_H
 
@@ -13,24 +13,24 @@ typedef enum ZpRunId {
 
 typedef struct ZpRun {
   ZpScenario *scenario;
-  ZpBatch batch; /* empty where it was not run */
+  ZpBatch batch; /* empty if it was not run */
 } ZpRun;
 
 typedef struct ZpRuns {
   ZpRun run[ZP_RUN_COUNT];
-  ZpOutcome outcome; /* ZP_CONVERGED, ZP_INTERRUPTED, or the first that is no answer */
+  ZpOutcome outcome; /* ZP_CONVERGED, ZP_INTERRUPTED, or the first failure */
 } ZpRuns;
 
 /* The folder of a run in the report: "table-1-0g". */
 const char *zp_run_name(ZpRunId id);
 
-/* Run all, each with its own report in `directory`/runs/NAME, until one is interrupted. To be freed whatever the
- * status. */
+/* Run all, each with its own report in `directory`/runs/NAME, until one is interrupted. To be freed whatever the status
+ * is. */
 ZpStatus zp_runs_make(const char *directory, const ZpHooks *hooks, void (*notice)(const char *message), ZpRuns *runs,
                       ZpError *err);
 void zp_runs_free(ZpRuns *runs);
 
-/* Which of a sweep: what is 0 (the load: NAN) does not matter. */
+/* Selects a case of a sweep; a value of 0 (the load: NAN) is ignored. */
 typedef struct ZpWhich {
   double load; /* g */
   int nodes;
@@ -38,10 +38,10 @@ typedef struct ZpWhich {
   double separation; /* m */
 } ZpWhich;
 
-/* The first result of a run at these values; NULL if there is none. */
+/* The first result of a run with these values; NULL if there is none. */
 const ZpResult *zp_runs_find(const ZpRuns *runs, ZpRunId id, ZpWhich which);
 
-/* A scalar of it; NAN if there is none. */
+/* A scalar of that result; NAN if there is none. */
 double zp_runs_get(const ZpRuns *runs, ZpRunId id, ZpWhich which, const char *scalar);
 
 /* The Def of result `index` of a run. */

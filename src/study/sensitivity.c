@@ -13,9 +13,11 @@ typedef struct KeyList {
 
 static ZpStatus add_key(const ZpActuatorDef *def, const char *name, KeyList *list, ZpError *err) {
   int key = zp_key_find(name);
-  if (key < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %.80s: unknown key; did you mean %s?", name,
-                   zp_key_nearest(name));
+  if (key < 0) {
+    char reason[256];
+    zp_key_unknown(name, reason, sizeof reason);
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %.80s: %s", name, reason);
+  }
   if (list->count == ZP_MAX_SENSITIVITY_KEYS)
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: more than %d keys", ZP_MAX_SENSITIVITY_KEYS);
   for (int i = 0; i < list->count; i++)

@@ -1,7 +1,7 @@
-// The form: sliders and presets made from lists, each within what the core allows.
+// The form: sliders and presets made from lists, each within the range of its key.
 import {digits, pretty} from './numbers.js';
 
-/** "0.1 m" in the key's own unit, "mm": the number that a slider stands at. */
+/** "0.1 m" in the unit of the key, "mm": the number of the slider. */
 function inShown(core, name, value) {
   return Number.parseFloat(core.print(name, value));
 }
@@ -11,7 +11,7 @@ export class Sliders {
   #rows = new Map();
   #changed;
 
-  /** `changed` gets (key, text) while one drags, `done` comes when the drag is over. */
+  /** `changed` gets (key, text) during a drag, `done` is called at its end. */
   constructor(place, core, list, changed, done) {
     this.#core = core;
     this.#changed = changed;
@@ -39,7 +39,7 @@ export class Sliders {
     return {spec, key, row, input, output, auto};
   }
 
-  /** The way back for a key that may be auto. */
+  /** The button that sets a key back to auto. */
   #auto(spec, done) {
     const button = document.createElement('button');
     Object.assign(button, {type: 'button', className: 'auto', textContent: 'auto', title: `${spec.label}: auto, the default`});
@@ -50,8 +50,8 @@ export class Sliders {
     return button;
   }
 
-  /** Show the scenario as the core has it: auto where the value is that it stands for. A value beyond the usual range
-   * widens it. */
+  /** Show the scenario of the core: auto with the value that it means. A value outside the usual range extends the
+   * range. */
   show() {
     for (const {spec, key, row, input, output, auto} of this.#rows.values()) {
       row.hidden = spec.acts ? !spec.acts(this.#core) : false;
@@ -73,14 +73,14 @@ export class Sliders {
   }
 }
 
-/** A list of the words of a key, with a line below on the one that is chosen. */
+/** A list of the words of a key, with a line of help for the chosen one. */
 export class Choice {
   #core;
   #key;
   #select = document.createElement('select');
   #line = document.createElement('p');
 
-  /** spec: {key, label, words}; `choose` gets a word. */
+  /** spec: {key, label, words}; `choose` gets the chosen word. */
   constructor(place, core, {key, label, words = {}}, choose) {
     this.#core = core;
     this.#key = core.keys.get(key);
@@ -95,7 +95,7 @@ export class Choice {
     place.append(row);
   }
 
-  /** `more`: what there is to say beside the word's own help; null: nothing. */
+  /** `more`: a text in addition to the help of the word; null: none. */
   show(more = null) {
     const chosen = this.#key.choices[this.#core.value(this.#key.name)];
     this.#select.value = chosen.word;
@@ -103,7 +103,7 @@ export class Choice {
   }
 }
 
-/** Buttons, one per preset, below what they show; `choose` gets its values. */
+/** Buttons, one per preset, grouped by topic; `choose` gets the values of the preset. */
 export function makePresets(place, presets, choose) {
   const rows = new Map();
   for (const {of, name, help, values} of presets) {
@@ -123,7 +123,7 @@ function presetRow(place, of) {
   return row;
 }
 
-/** How many times slower than life: a list of round factors on a slider. */
+/** Slow motion: a slider over a list of round factors. */
 export class SlowMotion {
   static factors = [1, 2, 5, 10, 20, 50, 100, 200, 500];
 
@@ -142,7 +142,7 @@ export class SlowMotion {
     return SlowMotion.factors[this.input.value];
   }
 
-  /** `pace`: share of that speed that this machine keeps up. */
+  /** `pace`: fraction of that speed that this machine reaches. */
   show(pace) {
     const text = pace > 0.9 ? `${this.factor}×` : `≈ ${digits(this.factor / pace, 2)}×`;
     if (this.output.textContent === text) return;

@@ -1,6 +1,6 @@
-// zipact's C core as a JavaScript object: web/zipact_web.c, its one buffer of text, its numbers where they lie.
+// zipact's C core as a JavaScript object: web/zipact_web.c with its buffer of text, and its numbers without copying.
 
-// What the C library asks of a system: no files, no environment, the end of the world as an exception.
+// The system calls of the C library: no files, no environment; exit is an exception.
 const system = {
   environ_get: () => 0,
   environ_sizes_get: () => 0,
@@ -12,7 +12,7 @@ const system = {
   },
 };
 
-/** A wrong value, a refused scenario, no memory: in the words of the command. */
+/** A wrong value, a refused scenario, no memory: with the message of the command. */
 export class Refused extends Error {}
 
 export class Core {
@@ -84,7 +84,7 @@ export class Core {
     return new Float64Array(this.#c.memory.buffer, pointer, length);
   }
 
-  /** What follows may take `ms` from now on; what it has reached then is kept, and `expired` is true. */
+  /** Limit the following calls to `ms` from now on; then they stop with their results so far, and `expired` is true. */
   allow(ms) {
     this.#deadline = performance.now() + ms;
     this.expired = false;
@@ -92,7 +92,7 @@ export class Core {
 
   // -- scenario
 
-  /** Take `values`, a Map of key => text ("8 g"), over the defaults. Refused: the scenario stays as it was. */
+  /** Take `values`, a Map of key => text ("8 g"), over the defaults. If they are refused, the scenario is unchanged. */
   resolve(values) {
     this.#c.zp_web_clear(this.#web);
     for (const [key, text] of values) {
@@ -107,7 +107,7 @@ export class Core {
     return this.#c.zp_web_key_value(this.#web, this.keys.get(name).index);
   }
 
-  /** The same; where it is auto, what that stands for, NaN if it is no one value. */
+  /** The same; for auto the value that it means, NaN if that is not a single value. */
   effective(name) {
     return this.#c.zp_web_key_effective(this.#web, this.keys.get(name).index);
   }
@@ -120,7 +120,7 @@ export class Core {
 
   // -- simulation
 
-  /** A simulation of the scenario, from its hanging equilibrium or on from where the last one is. */
+  /** A simulation of the scenario, from its hanging equilibrium or from the state of the last simulation. */
   start(goOn = false) {
     this.#check(this.#c.zp_web_start(this.#web, goOn ? 1 : 0));
     this.nodes = this.#c.zp_web_nodes(this.#web);
@@ -131,18 +131,18 @@ export class Core {
     this.#check(this.#c.zp_web_set_voltage(this.#web, voltage));
   }
 
-  /** Run until `time`, s, or until the time allowed is over. => null, or how the solver failed. */
+  /** Run until `time`, s, or until the allowed time is over. => null, or the reason why the solver failed. */
   run(time) {
     return this.#c.zp_web_run(this.#web, time) === 0 ? null : this.#get();
   }
 
-  /** Present value of a signal of signals.def. */
+  /** Current value of a signal of signals.def. */
   signal(name) {
     this.#put(name);
     return this.#c.zp_web_signal(this.#web);
   }
 
-  /** Present values of the signals in these columns, of one row: its mean current counts from the row before. */
+  /** Current values of the signals in these columns, as a row: its mean current counts from the previous row. */
   read(columns) {
     const row = this.#doubles(this.#c.zp_web_read(this.#web), this.#columns.size);
     return columns.map((name) => row[this.#columns.get(name)]);
@@ -152,8 +152,8 @@ export class Core {
     return this.#c.zp_web_zip_time(this.#web);
   }
 
-  /** Insulator faces: x, y [2 nodes], upper and lower by turns; gap, lineForce [nodes]; film and pressure of the liquid
-   * [nodes], empty where there is none. Valid until the next call. */
+  /** Insulator faces: x, y [2 nodes], upper and lower alternating; gap, lineForce [nodes]; film and pressure of the
+   * liquid [nodes], empty if there is none. Valid until the next call. */
   shape() {
     const c = this.#c, web = this.#web, n = this.nodes;
     const x = c.zp_web_x(web), y = c.zp_web_y(web), gap = c.zp_web_gap(web), force = c.zp_web_line_force(web);
@@ -170,8 +170,8 @@ export class Core {
 
   // -- studies
 
-  /** Run the scenario in study `name` => its message, whether it ended well, notes, the scalars asked for, the columns
-   * of its table, or those of `wanted`. */
+  /** Run the scenario in study `name` => its message, whether it completed, notes, the requested scalars, the columns of
+   * its table, or those of `wanted`. */
   study(name, scalars, wanted = null) {
     const c = this.#c, web = this.#web;
     this.#put(name);

@@ -1,4 +1,4 @@
-// Answers the page's questions with a core of its own: in a worker, or, where there is none, between two frames.
+// Answers requests of the page with its own core: in a worker, or, if there is none, between two frames.
 import {Core, Refused} from './core.js';
 import {write} from './frame.js';
 import {Motion} from './motion.js';
@@ -21,7 +21,7 @@ export class Engine {
     this.#limits = limits;
   }
 
-  /** Question of a Study or of Live => its answer; {refused} where the core refuses it. */
+  /** Request of a Study or of Live => its answer; {refused} if the core refuses it. */
   answer(question) {
     try {
       return question.study ? this.#study(question) : this.#move(question);
@@ -31,7 +31,7 @@ export class Engine {
     }
   }
 
-  /** {study, values, scalars, columns} => {result, stopped: s after which it was, or null} */
+  /** {study, values, scalars, columns} => {result, stopped: seconds after which it was stopped, or null} */
   #study({study, values, scalars, columns}) {
     const core = this.#core, limit = this.#limits.study;
     core.resolve(values);
@@ -40,9 +40,9 @@ export class Engine {
     return {result, stopped: core.expired ? {seconds: limit / 1e3} : null};
   }
 
-  /** {values: of the scenario if it has changed, voltage: to go with it, V, restart: from hanging, pressed: the voltage is
-   * a button's, span: to run, s, frame: array to fill} => {frame, failure, stopped} of Motion. The answer to a restart
-   * is the instant where it starts. */
+  /** {values: those of the scenario if it has changed, voltage: of the source, V, restart: from hanging, pressed: a button
+   * set the voltage, span: time to run, s, frame: array to fill} => {frame, failure, stopped} of Motion. The answer to a
+   * restart is its first instant. */
   #move({values, voltage, restart, pressed, span, frame}) {
     const motion = this.#motion, {start, frame: budget} = this.#limits;
     if (values) this.#core.resolve(values);

@@ -1,10 +1,10 @@
-// The actuator in motion, as the page sees it: frames that an engine computes, and what was seen so far.
+// The actuator in motion on the page: frames from an engine, and the curves so far.
 import {Frame} from './frame.js';
 import {Remote} from './remote.js';
 
 const mostOwed = 0.25; // s of simulated time; what a slow engine cannot run is left out
 
-/** What was seen of the motion: s, m, V, V, A. */
+/** The motion so far: s, m, V, V, A. */
 const noTrace = () => ({time: [], stroke: [], voltage: [], command: [], current: []});
 
 export class Live {
@@ -25,7 +25,7 @@ export class Live {
     this.#remote = new Remote(module, (answer) => this.#take(answer));
   }
 
-  /** From the hanging equilibrium of the scenario, the voltage on from now. */
+  /** Start from the hanging equilibrium of the scenario, with the voltage on from now. */
   restart(values, voltage) {
     this.#want({values, voltage, restart: true});
   }
@@ -35,12 +35,12 @@ export class Live {
     this.#want({values, voltage});
   }
 
-  /** A button: another voltage from now on. */
+  /** A button was pressed: another voltage from now on. */
   switchTo(voltage) {
     this.#want({voltage, pressed: true});
   }
 
-  /** What is wished for while the engine is busy is asked in one, of each wish the newest. */
+  /** Changes while the engine is busy are sent together, the newest of each kind. */
   #want(wish) {
     this.end = null;
     this.#values = wish.values ?? this.#values;
@@ -48,7 +48,7 @@ export class Live {
     this.#wish = {...this.#wish, ...whole, ...wish};
   }
 
-  /** Once a frame: `span` seconds more are to be run, 0 for a pause. */
+  /** Called once per frame: simulate another `span` seconds, 0 for a pause. */
   advance(span) {
     this.#owed = span ? Math.min(this.#owed + span, mostOwed) : 0;
     if (this.#remote.busy || (!this.#wish && (this.end || !span))) return;
@@ -84,7 +84,7 @@ export class Live {
     if (this.#asked > 0) this.pace += 0.1 * (frame.get('advanced') / this.#asked - this.pace);
   }
 
-  /** `sample`: in the order of the trace's lists. */
+  /** `sample`: in the order of the lists of the trace. */
   #note(sample) {
     const most = 4000, lists = Object.entries(this.trace);
     lists.forEach(([, list], k) => list.push(sample[k]));

@@ -1,4 +1,4 @@
-// The page: one scenario, one simulation that runs along, two studies that follow, and what a person does with them.
+// The page: one scenario, a running simulation of it, two studies that follow its changes, and the controls.
 import wasm from '../build/zipact.wasm';
 import {Choice, makePresets, Sliders, SlowMotion} from './controls.js';
 import {Core, Refused} from './core.js';
@@ -11,14 +11,14 @@ import {Tour} from './tour.js';
 import {View} from './view.js';
 
 const $ = (id) => document.getElementById(id);
-const highest = 1e3 * scenario.sliders[0].max; // V, to which the states of rest are followed
+const highest = 1e3 * scenario.sliders[0].max; // V, highest voltage of the equilibria
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-/** The page begins in short tasks: between two, the browser answers the person. */
+/** The page starts in short tasks, between which the browser responds to the user. */
 const breath = () => new Promise((done) => setTimeout(done));
 
 const module = await WebAssembly.compile(wasm); // in another thread
-const core = new Core(module); // of the scenario; what is computed from it, engines do
+const core = new Core(module); // of the scenario; engines compute with it
 const live = new Live(module);
 const volts = Array.from({length: 11}, (_, k) => highest * (k + 1.2) / 11.2); // of the design chart
 const chart = new Chart(module, 'limits', 'max_load_kg', volts, () => view.showChart());
@@ -27,12 +27,12 @@ await view.makePlots(breath);
 
 // -- messages
 
-let refusal = null; // of the last change, in the core's words
+let refusal = null; // of the last change: the message of the core
 let field = null; // the control of that change; null: the address
 
 const broken = (words) => `The computation failed: ${words}. Please report it, with the link.`;
 
-/** Why nothing moves; null if it does. */
+/** The reason why nothing moves; null if it does. */
 function standstill() {
   if (!live.end) return null;
   const {failure, stopped, refused, broken: words} = live.end;
@@ -40,7 +40,7 @@ function standstill() {
   return refused ?? (stopped ? scenario.tooLong(core, stopped) : broken(words));
 }
 
-/** What is refused is said beside the control, whatever else stands still above the picture. */
+/** A refusal is shown beside its control, and the reason of a standstill above the picture. */
 function showAlert() {
   const beside = refusal !== null && field !== null, text = beside ? standstill() : refusal ?? standstill();
   if (beside && $('refusal').previousElementSibling !== field) field.after($('refusal'));
@@ -55,7 +55,7 @@ function say(text) {
   $('status').textContent = text;
 }
 
-/** Make `values` the scenario, unless the core refuses them: then it stays, and the page says why. => was it done? */
+/** Make `values` the scenario. If the core refuses them, the scenario is unchanged and the page shows the reason. => true if accepted */
 function take(values) {
   try {
     core.resolve(values);
@@ -68,7 +68,7 @@ function take(values) {
   return refusal === null;
 }
 
-// -- the voltage: three buttons, one of which holds
+// -- the voltage: three buttons, one of which is active
 
 let pressed = 'release';
 let held = 0; // V, of hold
@@ -78,12 +78,12 @@ function voltage() {
   return {step: core.value('drive.voltage'), hold: held, release: 0}[pressed];
 }
 
-/** What keeps it closed with some reserve, V; NaN where that is not known. */
+/** A voltage that keeps it closed with some reserve, V; NaN if that is not known. */
 function holdingVoltage() {
   return Math.ceil((1.25 * view.release) / 10) * 10;
 }
 
-/** Step starts again from hanging, as the command does; hold and release change the voltage of what is. */
+/** Step starts again from hanging, as the command does; hold and release change the voltage of the current state. */
 function press(button) {
   pressed = button;
   if (button === 'hold') held = holdingVoltage();
@@ -101,18 +101,18 @@ function showButtons() {
   $('step').lastChild.textContent = pretty(core.print('drive.voltage', core.value('drive.voltage')));
   $('hold').disabled = !known;
   $('hold').lastChild.textContent = known ? `${fixed((pressed === 'hold' ? held : holdingVoltage()) / 1e3, 2)} kV` : '–';
-  $('hold').title = known ? '25 % above the voltage at which it opens again' : 'It has no voltage at which it opens again';
+  $('hold').title = known ? '25 % above the voltage at which it opens again' : 'There is no voltage at which it opens again';
 }
 
 function pause(now) {
   paused = now;
   $('pause').setAttribute('aria-pressed', String(now));
-  $('pause').textContent = now ? 'Go on' : 'Pause';
+  $('pause').textContent = now ? 'Resume' : 'Pause';
 }
 
 // -- studies
 
-/** How a study ended, in words. */
+/** The message of a study. */
 function ending({result, refused, stopped, broken: words}) {
   if (words) return broken(words);
   return refused ?? (stopped ? scenario.tooLong(core, stopped) : result.message);
@@ -125,9 +125,9 @@ const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'releas
   showButtons();
 });
 
-const kept = [['output.samples', '1000'], ['output.shapes', '2']]; // what is kept for files, no plot needs
+const kept = [['output.samples', '1000'], ['output.shapes', '2']]; // the plots need only few samples and shapes
 
-/** The run is to the zip time, also behind a supply. */
+/** The run ends at the zip time, also with a supply. */
 function askStudies(values) {
   runStudy.ask(new Map([['solver.stop_when_zipped', 'true'], ...values, ...kept]));
   const rest = scenario.atRest(values);
@@ -151,7 +151,7 @@ function apply(values) {
   return done;
 }
 
-/** Where `kind` is that of the change before, such as one drag of a slider, they are undone together. */
+/** Changes of the same `kind` in a row, such as one drag of a slider, are undone together. */
 function change(values, kind = null) {
   if (!apply(values)) return false;
   history.add(values, kind);
@@ -159,7 +159,7 @@ function change(values, kind = null) {
   return true;
 }
 
-/** A change by the control that is in `row`: a refusal is said beside it. */
+/** A change by the control in `row`: a refusal is shown beside it. */
 function by(row, act) {
   field = row;
   const done = act();
@@ -169,7 +169,7 @@ function by(row, act) {
 
 const rowOf = (key) => $(key.replace('.', '-')).parentElement;
 
-/** What a material is, or that its keys are as they are set. */
+/** The name of a material, or a text for none. */
 const materialWords = ({key}) => (core.value(key) === 0 ? 'the values of the other keys' : null);
 
 function set(key, text, kind = null) {
@@ -192,7 +192,7 @@ function show() {
 
 let writing = 0;
 
-/** The address keeps the scenario. It is written when a drag is over, for browsers count such writes. */
+/** The address contains the scenario. It is written at the end of a drag, because browsers limit such writes. */
 function remember() {
   show();
   clearTimeout(writing);
@@ -223,10 +223,10 @@ function work(passed) {
   slow.show(live.end ? 1 : live.pace);
 }
 
-/** Once a second, what need not be at once. */
+/** Updates once per second. */
 function describe() {
   if (live.frame) view.describe();
-  if (Remote.local !== null) view.notice(`This browser starts no worker for this page (${Remote.local}), so the page computes between frames, and more slowly.`);
+  if (Remote.local !== null) view.notice(`This browser does not start a worker for this page (${Remote.local}), so the page computes between frames, which is slower.`);
   $('frame').textContent = `A frame takes ${fixed(cost.mean, 1)} ms, ${fixed(cost.worst, 1)} ms at most.`;
   cost.worst = 0;
 }
@@ -246,7 +246,7 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 
-// -- what a person does
+// -- controls
 
 const slow = new SlowMotion($('slow'), $('slow-value'), given.slow, remember);
 const liquidChoice = new Choice($('liquid'), core, scenario.liquidChoice, (word) => by(rowOf('liquid.model'), () => set('liquid.model', word)));
@@ -287,7 +287,7 @@ new Tour($('tour'), $('guide'), (values, button) => {
   if (change(new Map([...scenario.beginning, ...Object.entries(values)]))) press(button);
 });
 
-/** Copy, and say so on the button. Where copying is forbidden, the text stands in the address or on the page. */
+/** Copy, and confirm on the button. If copying is forbidden, the text is in the address or on the page. */
 async function copy(button, text) {
   const words = button.textContent;
   const done = await navigator.clipboard?.writeText(text).then(() => true, () => false);
@@ -298,7 +298,7 @@ async function copy(button, text) {
 $('share').addEventListener('click', ({target}) => copy(target, location.href));
 $('copy').addEventListener('click', ({target}) => copy(target, $('command').textContent));
 
-// -- beginning: the scenario of the address; where that is refused, the page's own beside the refusal
+// -- start: the scenario of the address; if it is refused, the default one with the message
 
 await breath();
 take(scenario.beginning);

@@ -1,4 +1,4 @@
-// The actuator in motion, as the core computes it, piece by piece.
+// The actuator in motion, computed by the core step by step.
 import {mostSamples, sampled} from './frame.js';
 
 const longest = 1e-3; // s of simulated time between two samples of the stroke
@@ -8,8 +8,8 @@ export class Motion {
   time = 0; // s, as the simulation counts
   zero = 0; // s, when the voltage last changed by a button
   marks = 0; // how often that was
-  samples = []; // rows of `sampled`, one after the other, since they were last taken
-  failure = 'nothing to run'; // how the solver failed, until something changes
+  samples = []; // rows of `sampled`, one after the other, since the last frame
+  failure = 'nothing to run'; // reason why the solver failed, until something changes
   stopped = null; // {seconds, moved} that was computed in vain, until something changes
   #effort = {spent: 0, asked: 0, moved: 0}; // ms, s, s
   #jumped = false; // an ideal source has charged the electrodes at once: the next mean current has that charge
@@ -22,7 +22,7 @@ export class Motion {
     return this.failure !== null || this.stopped !== null;
   }
 
-  /** From the hanging equilibrium, found within `limit` ms, the voltage on from now. */
+  /** Start from the hanging equilibrium, found within `limit` ms, with the voltage on from now. */
   restart(voltage, limit) {
     this.#begin(false, limit);
     this.#switch(voltage);
@@ -38,7 +38,7 @@ export class Motion {
     if (core.signal('command') !== voltage) this.#switch(voltage);
   }
 
-  /** A button: another voltage from now on. */
+  /** A button was pressed: another voltage from now on. */
   switchTo(voltage, limit) {
     if (this.ended) return this.restart(voltage, limit);
     this.#switch(voltage);
@@ -74,13 +74,13 @@ export class Motion {
     this.#since();
   }
 
-  /** Times of the last sample count from the mark. */
+  /** The times of samples count from the mark. */
   #since() {
     const at = this.samples.length - sampled.length;
     this.samples[at] = this.time - this.zero;
   }
 
-  /** Run `span` seconds, or as far as `budget` ms go. => seconds run */
+  /** Run `span` seconds, or as many as `budget` ms allow. => simulated seconds */
   advance(span, budget) {
     const {core} = this, begin = this.time, end = begin + span, start = performance.now();
     const piece = Math.max(longest, span / (mostSamples - 2));
@@ -95,7 +95,7 @@ export class Motion {
     return this.time - begin;
   }
 
-  /** Give up where all the computing does not move it. */
+  /** Give up if it does not move in spite of all computing. */
   #judge(spent, asked, moved) {
     const effort = this.#effort;
     effort.spent += spent;

@@ -1,4 +1,4 @@
-// Numbers as people read them, and the tiles that show them.
+// Numbers for people, and the tiles that show them.
 
 /** Three significant digits, no exponent: 0.0787 => "0.0787", 78.72 => "78.7", 5624.5 => "5620". */
 export function digits(value, count = 3) {
@@ -15,15 +15,15 @@ export function fixed(value, places) {
   return (Number(text) === 0 ? (0).toFixed(places) : text).replace('-', '−');
 }
 
-/** At least `value`, on a round step; 0 for what is not positive, or no number. */
+/** The next round number, at least `value`; 0 for NaN and values that are not positive. */
 function roundUp(value) {
   if (!(value > 1e-300 && value < Infinity)) return 0;
   const power = 10 ** Math.floor(Math.log10(value));
   return power * [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9));
 }
 
-/** Round ends of an axis for 0 and all values of the lists, so that it does not tremble; what is below 0 counts where it is
- * more than a hundredth of what is above. */
+/** Round ends of an axis for 0 and all values of the lists, so that it does not jump; values below 0 count if they exceed a
+ * hundredth of those above. */
 export function axisEnds(...lists) {
   let least = 0, most = 0;
   for (const list of lists)
@@ -35,12 +35,12 @@ export function axisEnds(...lists) {
   return top > bottom ? [bottom, top] : [0, 1];
 }
 
-/** "8 g" as the command writes it => as people do: "8 g", "50 µm", "50 mm²/s", "5 MΩ". */
+/** "8 g" in the form of the command => in the form for people: "8 g", "50 µm", "50 mm²/s", "5 MΩ". */
 export function pretty(text) {
   return text.replace(/ohm\b/, 'Ω').replace(/\bmm2\b/, 'mm²').replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');
 }
 
-/** Tiles of a description list: name => {label, unit, title, study: it is the whole scenario's}. */
+/** Tiles of a description list: name => {label, unit, title, study: from a study, not of this instant}. */
 export class Tiles {
   #values = new Map();
 

@@ -41,8 +41,8 @@ class Half {
     context.fill();
   }
 
-  /** What is between the ribbons, as far as `outward` of their faces, coloured by the field; of a bead as far as it
-   * reaches, with its meniscus. */
+  /** The liquid between the ribbons, up to `outward` from their faces, coloured by the field; a bead up to its end, with
+   * its meniscus. */
   liquid(context, {field, largest, electrode, wetEnd}, outward) {
     const x = this.x[0], span = x.at(-2) - x[1];
     const gradient = context.createLinearGradient(x[1], 0, x.at(-2), 0);
@@ -63,7 +63,7 @@ class Half {
   }
 }
 
-/** Where, from the clip on, the gap first opens as far as one insulator is thick; at the platform if nowhere. */
+/** The first place, from the clip on, where the gap equals the thickness of an insulator; the platform if there is none. */
 function zipFront({shape: {x, y, gap}, nodes, centre, insulator}) {
   let i = 1;
   while (i < nodes - 1 && gap[i] < insulator) i++;
@@ -107,7 +107,7 @@ export class Picture {
     this.#where(scene, width);
   }
 
-  /** What the ribbons are in. */
+  /** The surroundings of the ribbons. */
   #where({texts}, width) {
     if (!texts.liquid) return;
     const context = this.#context;
@@ -118,7 +118,7 @@ export class Picture {
     context.fillText(texts.liquid, width - 12, 10);
   }
 
-  /** The whole actuator, its load and some air, in one scale for both directions. */
+  /** The view: the whole actuator, its load and some margin, with the same scale in both directions. */
   #fit(scene, width, height, still) {
     const opening = Math.max(scene.opening, 1.1 * (scene.hanging || 0));
     const wanted = {
@@ -218,7 +218,7 @@ export class Picture {
     context.fillText(scene.texts.mass, inside ? x : x + side / 2 + 7, y + side / 2);
   }
 
-  /** How far the platforms are apart, beside them. */
+  /** The opening, beside the platforms. */
   #opening(scene, to) {
     const context = this.#context, x = to.x(scene.platform / 2 + 3e-3), top = to.y(0), bottom = to.y(-scene.opening);
     if (bottom - top < 26) return;
@@ -299,7 +299,7 @@ export class Picture {
     this.#layers(scene, at.x + radius + 8, height - 40);
   }
 
-  /** What the layers of the lens are, from the lowest line up. */
+  /** Labels of the layers in the lens, from the lowest line up. */
   #layers({bath, texts}, x, y) {
     const context = this.#context, gap = context.createLinearGradient(x, 0, x + 14, 0);
     [0, 0.25, 1].forEach((share) => gap.addColorStop(Math.sqrt(share), shade(share)));

@@ -3,7 +3,7 @@ import uPlot from 'uplot';
 import {axisEnds} from './numbers.js';
 import {theme} from './theme.js';
 
-/** Draw xs, ys over scale `y` of `plot`, with a gap where y is no number. */
+/** Draw xs, ys over scale `y` of `plot`, with gaps at NaN. */
 function curve(plot, xs, ys, {colour, width = 2, dash = [], y = 'y'}) {
   const context = plot.ctx, ratio = devicePixelRatio;
   context.save();
@@ -35,7 +35,7 @@ function dot(plot, x, y, colour) {
   context.restore();
 }
 
-/** Numbers beside an axis: such that there is room for them. */
+/** Numbers beside an axis, short enough for the margin. */
 const ticks = (values) => values.map((v) => (v === null ? '' : Math.abs(v) < 1e6 ? String(Number(v.toPrecision(6))) : v.toExponential()));
 
 const axis = (label, more = {}) => ({
@@ -84,7 +84,7 @@ class Plot {
 
 const scaled = (values, factor) => Array.from(values, (value) => value * factor);
 
-/** Stroke over time: the run that the command gives, and what is happening. */
+/** Stroke over time: the run of study actuate, and the live simulation. */
 export function timePlot(place, data) {
   const ends = () => ({
     x: axisEnds([data.run, data.trace].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), [10]),
@@ -97,7 +97,7 @@ export function timePlot(place, data) {
   });
 }
 
-/** Runs of points of one branch that are all stable or all not; each takes the next one's first point along. */
+/** Consecutive points of one branch with the same stability; each piece includes the first point of the next one. */
 function pieces({branch, stable}) {
   const found = [];
   for (let k = 0, start = 0; k < branch.length; k++) {
@@ -109,7 +109,7 @@ function pieces({branch, stable}) {
   return found;
 }
 
-/** Stroke over voltage: all states of rest, and where it is now. */
+/** Stroke over voltage: all equilibria, and the current state. */
 export function voltagePlot(place, data) {
   const ends = () => ({
     x: axisEnds([data.highest / 1e3]),
@@ -125,7 +125,7 @@ export function voltagePlot(place, data) {
   });
 }
 
-/** The design chart: the largest load that closes, over voltage, dashed where it is of an older scenario; and where the scenario is. */
+/** The design chart: the largest load that closes, over voltage, dashed for an older scenario; and the point of the scenario. */
 export function chartPlot(place, data) {
   const ends = () => ({x: axisEnds([data.volts.at(-1) / 1e3]), y: axisEnds(scaled(data.y, 1e3).filter((v) => v > 0), [1e3 * data.mass, 1e-3])});
   return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('load / g', {size: 44})}, ends, (plot) => {
@@ -144,7 +144,7 @@ function decades(values) {
   return [10 ** low, 10 ** Math.max(high, low + 1)];
 }
 
-/** Current out of the source, and the voltage of the electrodes beside what the source is told. */
+/** Current out of the source, voltage of the electrodes, and command to the source. */
 export function currentPlot(place, data) {
   const ends = () => ({
     x: axisEnds([1e3 * (data.trace.time.at(-1) ?? 0), 10]),

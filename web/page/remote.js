@@ -1,4 +1,4 @@
-// An engine in a worker, asked one question at a time. One that does not answer in time is ended, and another begins.
+// An engine in a worker, with one request at a time. If it does not answer in time, it is ended and replaced.
 import {Engine, limits} from './engine.js';
 import source from 'worker:worker.js';
 
@@ -10,7 +10,7 @@ const grace = 2; // an engine stops by itself after its own limit; after this ma
 let place; // address of the worker's script
 
 export class Remote {
-  /** Why engines run on the page's own thread, null if they do not. All of a page run in the same place. */
+  /** The reason why engines run on the thread of the page, null if they run in workers. It is the same for all engines. */
   static local = null;
 
   #module;
@@ -22,7 +22,7 @@ export class Remote {
   #waited = 0; // ticks
 
   /** `answered` gets each answer of an Engine; {stopped: {seconds}, lost: true} if it had to be ended, {broken: words,
-   * lost: true} if it failed. What is lost is all that the engine had; the next question goes to another. */
+   * lost: true} if it failed. The state of the engine is then lost; the next request starts another engine. */
   constructor(module, answered) {
     this.#module = module;
     this.#answered = answered;
@@ -34,12 +34,12 @@ export class Remote {
     return this.#question !== null;
   }
 
-  /** ms that the engine has been busy with its question, about. */
+  /** Approximate time for which the engine has been busy with its request, ms. */
   get waited() {
     return this.busy && this.#ready ? this.#waited * tick : 0;
   }
 
-  /** Ask while not busy. Arrays in `given` go to the engine, and are empty here from now on. */
+  /** Send a request, if not busy. Arrays in `given` are transferred to the engine and are empty here afterwards. */
   ask(question, given = []) {
     this.#question = question;
     this.#waited = 0;
@@ -47,7 +47,7 @@ export class Remote {
     else setTimeout(() => this.#answerHere(question));
   }
 
-  /** The answer is not wanted any more. */
+  /** Discard the answer. */
   drop() {
     if (!this.#worker) return;
     this.#question = null;
@@ -67,7 +67,7 @@ export class Remote {
     }
   }
 
-  /** To the worker that there is: one that has been ended may still have said something. */
+  /** Accept messages of the current worker only: an ended one may still have sent some. */
   #listen(worker) {
     this.#worker = worker;
     worker.onmessage = ({data}) => worker === this.#worker && this.#hear(data);

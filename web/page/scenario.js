@@ -2,10 +2,10 @@
 
 import {pretty} from './numbers.js';
 
-/** Where the page starts: at the command's defaults. */
+/** The initial scenario: the defaults of the command. */
 export const beginning = new Map();
 
-/** Sliders in their order: range and step in the key's own unit, within the key's own range. */
+/** Sliders in their order: range and step in the unit of the key, within its range. */
 export const sliders = [
   {key: 'drive.voltage', label: 'Voltage', min: 0, max: 12, step: 0.1},
   {key: 'load.mass', label: 'Load', min: 0, max: 100, step: 0.5},
@@ -19,7 +19,7 @@ export const sliders = [
   {key: 'damping.internal', label: 'Damping', min: 0, max: 1000, step: 10},
 ];
 
-/** What the liquid is, as liquid.model says it, auto resolved. */
+/** The liquid model, with auto resolved. */
 const liquid = (core) => {
   const {choices} = core.keys.get('liquid.model');
   return choices[core.effective('liquid.model')].word;
@@ -27,7 +27,7 @@ const liquid = (core) => {
 const isWet = (core) => liquid(core) !== 'none', isBead = (core) => liquid(core) === 'bead';
 const isFed = (core) => core.value('source.model') !== 0;
 
-/** Sliders of the liquid and of the supply, shown where their keys do something (`acts`); `log`: by powers. */
+/** Sliders of the liquid and of the supply, shown if their keys have an effect (`acts`); `log`: logarithmic. */
 export const liquidSliders = [
   {key: 'medium.kinematic_viscosity', label: 'Viscosity', min: 0.5, max: 5000, log: true, acts: isWet},
   {key: 'bead.volume', label: 'Bead volume', min: 5, max: 500, log: true, acts: isBead},
@@ -35,25 +35,25 @@ export const liquidSliders = [
 ];
 export const supplySliders = [{key: 'source.resistance', label: 'Series resistance', min: 0, max: 2000, step: 10, acts: isFed}];
 
-/** Choices: keys of which a word is taken. `words`: what stands on the list for a word of the key's table. */
+/** Choices: keys that take a word. `words`: the text in the list for a word of the key. */
 export const liquidChoice = {key: 'liquid.model', label: 'Liquid'};
 export const supplyChoice = {key: 'source.supply', label: 'Supply', words: {none: 'ideal'}};
 
-/** Materials: keys of which a word fills others, and these. */
+/** Materials: keys whose word sets other keys, and these keys. */
 export const materials = [
   {key: 'ribbon.material', label: 'Strip', fills: ['young_modulus', 'poisson_ratio', 'density', 'yield_stress'], words: {none: 'as set'}},
   {key: 'insulator.material', label: 'Insulator', fills: ['permittivity', 'density', 'young_modulus', 'breakdown_field'], words: {none: 'as set'}},
   {key: 'medium.material', label: 'Liquid', fills: ['permittivity', 'breakdown_field', 'kinematic_viscosity', 'density', 'surface_tension'], words: {none: 'as set'}},
 ];
 
-/** Another material: what it fills is not given otherwise. */
+/** Another material: the keys that it sets are no longer given. */
 export function withMaterial(values, {key, fills}, word) {
   const group = key.split('.')[0];
   const others = new Map([...values].filter(([name]) => name !== key && !fills.some((filled) => name === `${group}.${filled}`)));
   return word === 'none' ? others : others.set(key, word);
 }
 
-/** Another supply: none of the old one's values stays, and the drive is no higher than it can be. */
+/** Another supply: the values of the old one are removed, and the drive is limited to its largest voltage. */
 export function withSupply(core, values, word) {
   const others = new Map([...values].filter(([key]) => !key.startsWith('source.')));
   if (word === 'none') return others;
@@ -64,9 +64,9 @@ export function withSupply(core, values, word) {
   return others.set('source.supply', word);
 }
 
-/** What the supply of the scenario can do, in a line; what of it is unusual in the words of its keys. */
+/** The limits of the supply in one line, and its other keys that are given. */
 export function supplyWords(core) {
-  if (!isFed(core)) return 'ideal: the electrodes have the voltage of the buttons at once, whatever the current';
+  if (!isFed(core)) return 'ideal: the electrodes have the voltage of the buttons at once, at any current';
   const shown = (key) => pretty(core.print(key, core.value(key)));
   const sink = core.value('source.sink_limit') === 0 ? 'none (it cannot sink current)' : shown('source.sink_limit').replace('auto', 'as current');
   const three = [`slew rate ${shown('source.slew_rate').replace('none', 'unlimited')}`,
@@ -76,22 +76,22 @@ export function supplyWords(core) {
   return [...three, ...others.map(([key, text]) => `${key.slice('source.'.length).replace('_', ' ')} ${pretty(text)}`)].join(', ');
 }
 
-/** The same actuator at rest: studies of rest take the drive's voltage at the electrodes, whatever the supply. */
+/** The same actuator for studies of equilibria, which apply drive.voltage to the electrodes without a supply. */
 export const atRest = (values) => new Map([...values].filter(([key]) => !key.startsWith('source.')));
 
-/** By what they show. Values in the sliders' own order of keys. A preset replaces the whole scenario. */
+/** Presets by topic, with their values in the order of the sliders. A preset replaces the whole scenario. */
 export const presets = [
   {of: 'Actuators', name: 'The paper’s', help: '50 µm steel lifts 8 g', values: {}},
   {of: 'Actuators', name: 'Thin and far', help: '20 µm steel: the largest stroke', values: {'ribbon.thickness': '20 um', 'load.mass': '1 g', 'drive.voltage': '8 kV'}},
   {of: 'Actuators', name: 'Thick and strong', help: '200 µm steel lifts 60 g by 2.5 mm, in a bath', values: {'ribbon.thickness': '200 um', 'load.mass': '60 g', 'liquid.model': 'submerged'}},
   {of: 'Actuators', name: 'Too heavy', help: '30 g: it does not close', values: {'load.mass': '30 g'}},
   {of: 'Liquids', name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'liquid.model': 'none', 'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
-  {of: 'Liquids', name: 'In a bath', help: 'submerged ribbons: a film between them, and oil to move outside', values: {'liquid.model': 'submerged'}},
+  {of: 'Liquids', name: 'In a bath', help: 'submerged ribbons: a film of oil between them, and oil that they move outside', values: {'liquid.model': 'submerged'}},
   {of: 'Liquids', name: 'With beads', help: 'a bead of oil at each zip front, air beyond', values: {'liquid.model': 'bead', 'bead.volume': '100 uL'}},
   {of: 'Materials', name: 'Kapton on spring steel', help: 'a thin polyimide film takes a high field: more force at less voltage', values: {'drive.voltage': '6 kV', 'ribbon.material': 'steel_1.4310', 'insulator.thickness': '50 um', 'insulator.material': 'kapton', 'bead.volume': '100 uL'}},
   {of: 'Materials', name: 'Mylar in ester', help: 'polyester film in a natural ester: a higher permittivity, a more viscous liquid', values: {'drive.voltage': '8 kV', 'insulator.thickness': '100 um', 'insulator.material': 'mylar', 'medium.material': 'fr3'}},
   {of: 'Materials', name: 'Tape on brass', help: 'brass is half as stiff as steel and yields earlier', values: {'load.mass': '5 g', 'ribbon.material': 'brass', 'insulator.material': 'pvc_tape'}},
-  {of: 'Supplies', name: 'Pocket, 6 kV', help: '0.1 V/µs: it takes 60 ms to 6 kV; lifts 4 g', values: {'drive.voltage': '6 kV', 'load.mass': '4 g', 'source.supply': 'pocket_6kv'}},
+  {of: 'Supplies', name: 'Pocket, 6 kV', help: '0.1 V/µs: reaches 6 kV after 60 ms; lifts 4 g', values: {'drive.voltage': '6 kV', 'load.mass': '4 g', 'source.supply': 'pocket_6kv'}},
   {of: 'Supplies', name: 'Open hardware, 5 kV', help: '15 V/µs; lifts 4 g', values: {'drive.voltage': '5 kV', 'load.mass': '4 g', 'bead.volume': '100 uL', 'source.supply': 'open_5kv'}},
   {of: 'Supplies', name: 'Laboratory, 10 kV', help: '700 V/µs and 10 mA: nearly ideal', values: {'source.supply': 'laboratory_10kv'}},
   {of: 'Supplies', name: 'Converter, 10 kV', help: '0.3 mA, and a bleeder of 500 MΩ through which it discharges', values: {'source.supply': 'converter_10kv'}},
@@ -99,13 +99,13 @@ export const presets = [
 
 const usualFactor = 10; // of slow motion
 
-/** => "#load.mass=8g&…&slow=20"; the blank between number and unit is left out. */
+/** => "#load.mass=8g&…&slow=20"; without the blank between number and unit. */
 export function toAddress(values, slow) {
   const pairs = [...values].map(([key, text]) => `${key}=${encodeURIComponent(text.replace(' ', ''))}`);
   return `#${[...pairs, ...(slow === usualFactor ? [] : [`slow=${slow}`])].join('&')}`;
 }
 
-/** The other way; without a scenario that of the beginning. What is no key=value is left for the core to refuse. */
+/** The reverse; without a scenario the initial one. The core refuses text that is not key=value. */
 export function fromAddress(hash) {
   const values = new Map(hash.replace(/^#/, '').split('&').filter(Boolean).map((pair) => {
     const [key, ...text] = pair.split('=').map(decode);
@@ -116,7 +116,7 @@ export function fromAddress(hash) {
   return {values: values.size ? values : beginning, slow};
 }
 
-/** As it was typed, where it is not encoded. */
+/** The text as typed, if it is not encoded. */
 function decode(text) {
   try {
     return decodeURIComponent(text);
@@ -125,7 +125,7 @@ function decode(text) {
   }
 }
 
-/** Keys of the resolved scenario that are not the command's defaults => [[key, text]]. */
+/** Keys of the resolved scenario that differ from the defaults of the command => [[key, text]]. */
 export function changed(core) {
   return [...core.keys.values()]
     .filter(({name, default: def}) => !Object.is(core.value(name), def))
@@ -138,7 +138,7 @@ export function toCommand(core) {
   return ['zipact actuate', ...settings].join(' \\\n');
 }
 
-/** What to do about a computation that was stopped after `seconds`, having `moved` the actuator for so many seconds of its time. */
+/** The message about a computation that was stopped after `seconds`, in which it simulated `moved` seconds. */
 export function tooLong(core, {seconds, moved}) {
   const after = `Stopped after ${seconds} s of computing${moved ? `, which gave only ${brief(moved)} of motion` : ''}`;
   const unusual = changed(core).filter(([key]) => !/^(study|preset)$/.test(key)).map(([key, text]) => `${key}=${text}`);
@@ -153,7 +153,7 @@ function brief(time) {
   return `${Number((time / size).toPrecision(2))} ${unit}`;
 }
 
-/** A list of states with a present one. Changes of the same kind that follow each other are one. */
+/** A list of states with a current one. Consecutive changes of the same kind count as one. */
 export class History {
   #states;
   #at = 0;
@@ -175,7 +175,7 @@ export class History {
     return this.#at + 1 < this.#states.length;
   }
 
-  /** `kind` says what the change belongs to, such as one drag of a slider; null: to nothing. */
+  /** `kind` groups changes, such as those of one drag of a slider; null: none. */
   add(state, kind = null) {
     const joins = kind !== null && kind === this.#kind;
     if (!joins) this.#at++;
@@ -184,7 +184,7 @@ export class History {
     this.#kind = kind;
   }
 
-  /** The change under way is over: the next one is another. */
+  /** The current change ends: the next one is separate. */
   close() {
     this.#kind = null;
   }

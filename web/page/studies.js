@@ -1,10 +1,10 @@
-// One study that follows the scenario: the newest question is answered, those that were overtaken are not.
+// A study that follows the scenario: only the newest request is answered.
 import {Remote} from './remote.js';
 
 const tooOld = 500; // ms after which a question that is overtaken is given up
 
-/** A number of a study at each of several voltages. Voltages are asked for in turn, each for the newest scenario: while one
- * drags, the curve follows from one end to the other. */
+/** A number of a study at each of several voltages. The voltages are computed in turn, each for the newest scenario:
+ * during a drag, the curve follows from one end to the other. */
 export class Chart {
   #remote;
   #values = null;
@@ -12,7 +12,7 @@ export class Chart {
   #drawn; // version of each point
   #next = 0;
 
-  /** `volts` ascending; `changed` comes after each point, which are in `y`, NaN where there is none. */
+  /** `volts` ascending; `changed` is called after each point; the points are in `y`, NaN if there is none. */
   constructor(module, study, scalar, volts, changed) {
     this.volts = volts;
     this.y = volts.map(() => NaN);
@@ -26,12 +26,12 @@ export class Chart {
     this.form = {study, scalars: [scalar], columns: []};
   }
 
-  /** True while points are due. */
+  /** Are points missing? */
   get due() {
     return this.#drawn.some((version) => version < this.#version);
   }
 
-  /** Whether point `k` is of the newest scenario. */
+  /** Does point `k` belong to the newest scenario? */
   fresh(k) {
     return this.#drawn[k] === this.#version && !(this.#remote.busy && k === this.#next);
   }
@@ -54,7 +54,7 @@ export class Study {
   #remote;
   #waiting = null;
 
-  /** `answer` gets {result, stopped}, {refused}, {stopped} or {broken}; results have the `scalars` and `columns` asked for. */
+  /** `answer` gets {result, stopped}, {refused}, {stopped} or {broken}; results have the requested `scalars` and `columns`. */
   constructor(module, study, scalars, columns, answer) {
     this.form = {study, scalars, columns};
     this.#remote = new Remote(module, (data) => {
@@ -63,7 +63,7 @@ export class Study {
     });
   }
 
-  /** True while an answer is due. */
+  /** Is an answer missing? */
   get due() {
     return this.#remote.busy;
   }

@@ -1,4 +1,4 @@
-// Colours of style.css for what is drawn on a canvas, and the scale of colours for the field.
+// Colours of style.css for the canvas, and the colour scale of the field.
 
 const names = ['paper', 'panel', 'ink', 'soft', 'line', 'accent', 'warm', 'metal', 'insulator', 'load', 'bath'];
 const shades = 256;

@@ -1,4 +1,4 @@
-// A tour of five steps, for a lecture: each sets a scenario, presses a button and says what to look at.
+// A tour of five steps, for example for a lecture: each sets a scenario, presses a button and explains what to look at.
 
 export const steps = [
   {

@@ -1,19 +1,19 @@
-// What is seen of the actuator: picture, numbers, plots; now, and what the two studies say of the whole scenario.
+// The view of the actuator: picture, numbers and plots of the current instant, and the results of the two studies.
 import {digits, fixed, pretty, Tiles} from './numbers.js';
 import {Picture} from './picture.js';
 
 const tiles = {
-  voltage: {label: 'Voltage', unit: 'kV', title: 'between the electrodes, now'},
+  voltage: {label: 'Voltage', unit: 'kV', title: 'voltage between the electrodes'},
   stroke: {label: 'Stroke', unit: 'mm', title: 'height of the clip over the lower platform'},
   opening: {label: 'Opening', unit: 'mm', title: 'distance of the platforms’ faces'},
   contraction: {label: 'Contraction', unit: '%', title: '1 − opening / opening when hanging without voltage'},
   zipped: {label: 'Zipped', unit: 'mm', title: 'closed length from the clip, one half'},
   force: {label: 'Attraction', unit: 'N', title: 'electric attraction of the ribbons, vertical'},
-  field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; at most its breakdown field where electro.breakdown_cap is true'},
+  field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; with electro.breakdown_cap at most its breakdown field'},
   inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
   capacitance: {label: 'Capacitance', unit: 'pF', title: 'of the electrodes'},
   bent: {label: 'Stress', unit: 'MPa', title: 'largest stress of the metal, from bending and tension'},
-  time: {label: 'Time', unit: 'ms', title: 'simulated, since the last button'},
+  time: {label: 'Time', unit: 'ms', title: 'simulated time since the last button was pressed'},
   zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
   stress: {label: 'Largest stress', unit: 'MPa', title: 'largest stress of the metal from hanging to closed, at the voltage of Step', study: true},
   yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal stays bent', study: true},
@@ -25,7 +25,7 @@ const tiles = {
 
 const $ = (id) => document.getElementById(id);
 
-/** Sentences, one an item of a list. */
+/** Sentences as items of a list. */
 function list(place, sentences) {
   place.replaceChildren(...sentences.map((words) => {
     const item = document.createElement('li');
@@ -33,7 +33,7 @@ function list(place, sentences) {
     return item;
   }));
 }
-/** Of liquid.model, beside the picture. */
+/** Text for liquid.model beside the picture. */
 const wetWords = {bead: 'a bead of oil at each clip, air beyond', submerged: 'in a bath of oil'};
 const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
@@ -51,7 +51,7 @@ export class View {
   #plots = [];
   #next = 0; // plot to draw
 
-  /** `highest`: voltage to which the states of rest are followed, V; `chart`: {volts, y, fresh} of the design chart. */
+  /** `highest`: highest voltage of the equilibria, V; `chart`: {volts, y, fresh} of the design chart. */
   constructor(core, live, highest, chart) {
     this.core = core;
     this.live = live;
@@ -63,7 +63,7 @@ export class View {
     this.#chart = {volts: chart.volts, y: chart.y, fresh: (k) => chart.fresh(k), voltage: 0, mass: 0};
   }
 
-  /** One plot a task: each draws its axes at once. Their library takes a task of its own to begin. */
+  /** One plot per task: each draws its axes at once. Loading their library is a separate task. */
   async makePlots(breath) {
     await breath();
     const plots = await import('./plots.js');
@@ -81,7 +81,7 @@ export class View {
     }
   }
 
-  /** `words`: what holds for the page as long as it is open. */
+  /** `words`: a note that applies as long as the page is open. */
   notice(words) {
     if (words === this.#notice) return;
     this.#notice = words;
@@ -92,7 +92,7 @@ export class View {
     list($('notes'), this.#notice ? [this.#notice, ...this.#notes] : this.#notes);
   }
 
-  /** The answer of study actuate, with `words` on how it ended. */
+  /** The answer of study actuate, with its message `words`. */
   showRun({result}, words) {
     const columns = result?.columns;
     this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
@@ -108,7 +108,7 @@ export class View {
     this.#showNotes();
   }
 
-  /** The answer of study equilibrium, with `words` on how it ended. Its notes hold for the highest voltage of its plot. */
+  /** The answer of study equilibrium, with its message `words`. Its notes refer to the highest voltage of its plot. */
   showRest({result}, words) {
     const columns = result?.columns;
     this.#rest.rest = columns
@@ -128,7 +128,7 @@ export class View {
     $('legend-end').textContent = `${strongest} MV/m`;
   }
 
-  /** The scenario's place in the design chart. */
+  /** The point of the scenario in the design chart. */
   showChart() {
     this.#chart.voltage = this.core.value('drive.voltage');
     this.#chart.mass = this.core.value('load.mass');
@@ -136,7 +136,7 @@ export class View {
     $('plot-chart').setAttribute('aria-label', `Largest load that closes over voltage: up to ${most} grams at ${this.#chart.volts.at(-1) / 1e3} kilovolts`);
   }
 
-  /** The newest frame. `still`: nothing moves but the actuator. */
+  /** Show the newest frame. `still`: only the actuator moves, not the view. */
   draw(still) {
     const {frame} = this.live, scene = this.#scene(frame);
     this.picture.draw(scene, still);
@@ -158,14 +158,14 @@ export class View {
     });
   }
 
-  /** Where there is liquid: the model's word, and where a bead ends, as a number of stations. */
+  /** The liquid: the word of its model, and the end of a bead, as a number of stations. */
   #wet(frame) {
     const {word} = this.core.keys.get('liquid.model').choices[frame.get('liquid')];
     const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / (frame.get('nodes') - 1);
     return {word, end: word === 'bead' ? frame.get('wet_length') / l : Infinity};
   }
 
-  /** Of a bead below the platform, too: as a number of points of the picture, which has one more before the clip. */
+  /** The end of a bead, also below the platform, as a number of points of the picture, which has one more before the clip. */
   #wetEnd(frame, end) {
     const beyond = end - (frame.get('nodes') - 1);
     if (beyond <= 0) return 1 + end;
@@ -210,7 +210,7 @@ export class View {
     shown.show('time', fixed(1e3 * frame.get('since'), 1));
   }
 
-  /** The same in words, for who does not see it. */
+  /** The same in words, for screen readers. */
   describe() {
     const {frame} = this.live;
     $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * frame.get('opening'), 1)} millimetres open, ` +

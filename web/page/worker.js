@@ -1,4 +1,4 @@
-// A worker: an engine away from the thread that draws.
+// A worker: an engine on a separate thread.
 import {Engine, limits} from './engine.js';
 
 let engine;

@@ -277,7 +277,7 @@ const noWorkers = {
 for (const [name, prepare] of Object.entries(noWorkers)) {
   test(`workers ${name}: the page computes between frames, and says so`, {timeout: 180e3}, async () => {
     const cost = await longestTask(() => open('#slow=5', async (page) => {
-      await page.waitForFunction(() => /starts no worker .*not from a file/.test(document.getElementById('notes').textContent));
+      await page.waitForFunction(() => /does not start a worker .*not from a file/.test(document.getElementById('notes').textContent));
       await page.waitForFunction(() => Number(document.getElementById('n-contraction').textContent) > 99, null, {timeout: 90e3});
       assert.ok(await page.textContent('#time-note'));
     }, prepare));

@@ -379,7 +379,7 @@ pageTest('a link with a bead and a supply comes back; its states of rest are wit
 });
 
 pageTest('a link whose supply cannot give the voltage is refused in a sentence', {hash: '#source.supply=open_5kv'}, async (page) => {
-  assert.match(await page.textContent('[role=alert]'), /^drive\.voltage: 10000 V is more than the source gives, source\.voltage_limit = 5000 V/);
+  assert.match(await page.textContent('[role=alert]'), /^drive\.voltage: 10000 V exceeds source\.voltage_limit = 5000 V/);
 });
 
 for (const hash of ['', '#liquid.model=bead'])

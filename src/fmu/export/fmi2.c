@@ -77,9 +77,8 @@ fmi2Status fmi2Reset(fmi2Component c) {
 
 /* -- variables ------------------------------------------------------------------------------------- */
 
-/* The functions of one type: they differ in the type of the values alone. All values are tried; the worst status
- * counts.
- */
+/* The functions of one type: they differ only in the type of the values. All values are processed; the worst status is
+ * returned. */
 #define VARIABLES_OF_TYPE(Type, type)                                                                                  \
   fmi2Status fmi2Get##Type(fmi2Component c, const fmi2ValueReference reference[], size_t count, fmi2##Type value[]) {  \
     ZpSlaveStatus worst = ZP_SLAVE_OK;                                                                                 \
@@ -103,7 +102,7 @@ fmi2Status fmi2Reset(fmi2Component c) {
     return (fmi2Status)worst;                                                                                          \
   }
 
-/* Enumerations are integers here. */
+/* FMI 2 passes enumerations as integers. */
 static ZpKeyType integer_type(fmi2ValueReference reference) {
   ZpFmuVariable variable;
   bool words = zp_fmu_find(reference, &variable) && zp_fmu_type(variable) == ZP_KEY_ENUM;
@@ -141,7 +140,8 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
   ZpSlaveStatus worst = ZP_SLAVE_OK;
   if (!zp_slave_allows(slave, SETTABLE, "fmi2SetRealInputDerivatives")) return fmi2Error;
   for (size_t k = 0; k < count; k++) {
-    if (order[k] != 1) return (fmi2Status)zp_slave_say(slave, ZP_SLAVE_ERROR, "only first derivatives of inputs act");
+    if (order[k] != 1)
+      return (fmi2Status)zp_slave_say(slave, ZP_SLAVE_ERROR, "only first derivatives of inputs are supported");
     ZpSlaveStatus status = zp_slave_after(slave, zp_fmu_set_rate(slave->fmu, reference[k], value[k], &err), &err);
     worst = status > worst ? status : worst;
   }
@@ -152,7 +152,9 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2Integer order[], fmi2Real value[]) {
   (void)reference, (void)order, (void)value;
   if (!zp_slave_allows(c, READABLE, "fmi2GetRealOutputDerivatives")) return fmi2Error;
-  return count == 0 ? fmi2OK : (fmi2Status)zp_slave_say(c, ZP_SLAVE_ERROR, "derivatives of outputs are not known");
+  return count == 0 ? fmi2OK
+                    : (fmi2Status)zp_slave_say(c, ZP_SLAVE_ERROR,
+                                               "derivatives of outputs with respect to time are not available");
 }
 
 /* -- states ---------------------------------------------------------------------------------------- */
@@ -197,13 +199,13 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real now, fmi2Real size, fmi2Boolean 
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c) {
-  zp_slave_allows(c, 0, "fmi2CancelStep"); /* no step ever waits */
+  zp_slave_allows(c, 0, "fmi2CancelStep"); /* no step is ever pending */
   return fmi2Error;
 }
 
 static fmi2Status no_status(fmi2Component c, const char *what) {
   if (!zp_slave_allows(c, ZP_FMU_ANY, what)) return fmi2Error;
-  return (fmi2Status)zp_slave_say(c, ZP_SLAVE_DISCARD, "there is no such status: no step is ever pending");
+  return (fmi2Status)zp_slave_say(c, ZP_SLAVE_DISCARD, "no such status, because a step is never pending");
 }
 
 fmi2Status fmi2GetStatus(fmi2Component c, fmi2StatusKind kind, fmi2Status *value) {

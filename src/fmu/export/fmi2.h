@@ -1,5 +1,5 @@
-/* The interface of FMI 2.0 for co-simulation, as far as a slave offers it: types and functions of the standard, under
- * its names. */
+/* The interface of FMI 2.0 for co-simulation that a slave provides: types and functions of the standard, under its
+ * names. */
 #ifndef ZP_FMU_EXPORT_FMI2_H
 #define ZP_FMU_EXPORT_FMI2_H
 

@@ -34,7 +34,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                         .environment = environment,
                         .callback = (void (*)(void))log};
   (void)resources, (void)visible, (void)intermediate, (void)update;
-  return count == 0 ? zp_slave_create(&like, name, token) : NULL; /* there is no intermediate update */
+  return count == 0 ? zp_slave_create(&like, name, token) : NULL; /* intermediate update is not supported */
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
@@ -66,7 +66,7 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t cou
   return fmi3OK;
 }
 
-/* From one of `phases` to another. */
+/* Change from one of `phases` to another phase. */
 static fmi3Status move(ZpSlave *slave, unsigned phases, ZpFmuPhase next, const char *what) {
   if (!slave || !zp_slave_allows(slave, phases, what)) return fmi3Error;
   slave->fmu->phase = next;
@@ -118,7 +118,7 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
 
 /* -- variables ------------------------------------------------------------------------------------- */
 
-/* The functions of a type that variables have: every variable has one value. */
+/* The functions of a type that has variables: every variable has one value. */
 #define VARIABLES_OF_TYPE(Type, type)                                                                                  \
   fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,                  \
                            fmi3##Type value[], size_t values) {                                                        \
@@ -148,7 +148,7 @@ VARIABLES_OF_TYPE(Int32, ZP_KEY_INT)
 VARIABLES_OF_TYPE(Int64, ZP_KEY_ENUM)
 VARIABLES_OF_TYPE(Boolean, ZP_KEY_BOOL)
 
-/* A call about variables of which there are none: right only if it asks for none. */
+/* A call for a type without variables: it is correct only if it requests none. */
 static fmi3Status of_none(ZpSlave *slave, unsigned phases, const char *what, size_t count) {
   if (!zp_slave_allows(slave, phases, what)) return fmi3Error;
   return count == 0 ? fmi3OK : (fmi3Status)zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no variable of this type");
@@ -246,7 +246,7 @@ fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference 
   return of_none(instance, SETTABLE, "fmi3SetShiftFraction", count);
 }
 
-/* What modelDescription.xml says does not change, so there is nothing to ask for. */
+/* The dependencies in modelDescription.xml do not change, so there is nothing to query. */
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference reference, size_t *count) {
   (void)reference, (void)count;
   return of_none(instance, ZP_FMU_ANY, "fmi3GetNumberOfVariableDependencies", 1);
@@ -337,7 +337,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 now, fmi3Float64 size, 
   return status;
 }
 
-/* There are no discrete states: an event is over as soon as it was looked at. */
+/* There are no discrete states: an event ends as soon as it is handled. */
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance) {
   return of_none(instance, ZP_FMU_INITIALIZING | ZP_FMU_AT_EVENT, "fmi3EvaluateDiscreteStates", 0);
 }

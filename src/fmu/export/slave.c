@@ -1,4 +1,4 @@
-/* What FMI 2 and FMI 3 have in common. */
+/* Common functions of FMI 2 and FMI 3. */
 #include "fmu/export/slave.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ ZpSlave *zp_slave_create(const ZpSlave *like, const char *name, const char *toke
   *slave = *like;
   snprintf(slave->name, sizeof slave->name, "%s", name ? name : "");
   if (!token || strcmp(token, start.token) != 0)
-    zp_slave_say(slave, ZP_SLAVE_ERROR, "the token is not that of this FMU's modelDescription.xml");
+    zp_slave_say(slave, ZP_SLAVE_ERROR, "the token differs from that in modelDescription.xml of this FMU");
   else if (zp_fmu_create(&start, &slave->fmu, &err) == ZP_OK)
     return slave;
   else
@@ -61,7 +61,7 @@ static ZpSlaveStatus use_tolerance(ZpSlave *slave, double tolerance) {
 
 ZpSlaveStatus zp_slave_setup(ZpSlave *slave, double start, double tolerance, double stop) {
   if (!isfinite(start) || !(stop > start))
-    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the experiment does not begin at a finite time before its end");
+    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the start time must be finite and before the stop time");
   slave->fmu->start_time = slave->fmu->time = start;
   return isnan(tolerance) ? ZP_SLAVE_OK : use_tolerance(slave, tolerance);
 }
@@ -81,13 +81,13 @@ ZpSlaveStatus zp_slave_reset(ZpSlave *slave) {
 /* -- steps and variables --------------------------------------------------------------------------- */
 
 ZpSlaveStatus zp_slave_step(ZpSlave *slave, double now, double size, ZpFmuStep *step) {
-  static const double rounding = 1e-9; /* of times that importers add up */
+  static const double rounding = 1e-9; /* tolerance for times that importers sum up */
   ZpError err;
   ZpFmu *fmu = slave->fmu;
   *step = (ZpFmuStep){false, false};
-  if (!(size > 0) || isinf(size)) return zp_slave_say(slave, ZP_SLAVE_ERROR, "the size of a step is not above 0 s");
+  if (!(size > 0) || isinf(size)) return zp_slave_say(slave, ZP_SLAVE_ERROR, "the step size must be above 0 s");
   if (!(fabs(now - fmu->time) <= rounding * fmax(size, fabs(now))))
-    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the communication point is not the time that was reached");
+    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the communication point differs from the time of the simulation");
   ZpStatus status = zp_fmu_step(fmu, now + size, slave->uses_events && slave->returns_early, step, &err);
   slave->terminates = step->terminate;
   if (status != ZP_OK) return zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
@@ -178,7 +178,7 @@ ZpSlaveStatus zp_slave_get_state(ZpSlave *slave, void **place) {
 }
 
 static ZpSlaveStatus refuse_state(const ZpSlave *slave) {
-  return zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no state, or its size is another");
+  return zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no state, or the buffer has another size");
 }
 
 ZpSlaveStatus zp_slave_set_state(ZpSlave *slave, const void *place) {
@@ -203,7 +203,7 @@ ZpSlaveStatus zp_slave_serialize(const ZpSlave *slave, const void *place, void *
   return ZP_SLAVE_OK;
 }
 
-/* Whether the bytes are a state, zp_slave_set_state says. */
+/* zp_slave_set_state checks whether the bytes are a state. */
 ZpSlaveStatus zp_slave_deserialize(ZpSlave *slave, const void *bytes, size_t size, void **place) {
   if (!bytes || !place) return refuse_state(slave);
   if (!need_state(slave, place, size)) return ZP_SLAVE_ERROR;

@@ -1,4 +1,4 @@
-/* What the binary of an FMU exports: the functions of the standard, nothing else. */
+/* The exports of the binary of an FMU: only the functions of the standard. */
 #ifndef ZP_FMU_EXPORT_VISIBLE_H
 #define ZP_FMU_EXPORT_VISIBLE_H
 

@@ -28,8 +28,8 @@ void zp_paper_motion_destroy(ZpPaperMotion *motion) {
 
 /* -- unilateral contact --------------------------------------------------------------------------- */
 
-/* The damper takes relative velocity from station i => the loss, J: its kinetic energy, and half of
- * what attraction and ribbons do over the step with the velocity taken, since symplectic steps keep the energy of
+/* The damper removes relative velocity from station i => the loss, J: its kinetic energy, and half of the work of
+ * attraction and ribbons over the step at the removed velocity, because symplectic steps conserve the energy of
  * velocities half a step later. */
 static double damp(const ZpPaperMotion *m, size_t i, const double *ay, double dt, double *vy) {
   const double *inverse = m->model->masses.y.inverse;
@@ -43,8 +43,8 @@ static double damp(const ZpPaperMotion *m, size_t i, const double *ay, double dt
   return 0.5 * ((apart - lost) + apart) * lost / both + 0.5 * dt * other * lost;
 }
 
-/* After a step dt: what the push of overlapping faces does at the mean velocity is lost, and what the damper takes. How
- * far faces are closed goes into the state. */
+/* After a step dt: the loss is the work of the contact force at the mean velocity, and the loss of the damper. Updates
+ * the closed length of the state. */
 static void damp_faces(ZpPaperMotion *m, double dt) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
@@ -69,7 +69,7 @@ static double next_meeting(void *self, const double *q, const double *v, const d
   return zp_zip_next(&m->state->zip, m->model->nodes, q + stride, v + stride, a + stride, dt, &m->met);
 }
 
-/* The pair that has met moves as one from now on, and a held electric force is out of date. */
+/* The pair that has met moves as one from now on, and a held electric force must be updated. */
 static void meet(ZpPaperMotion *m) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
@@ -86,8 +86,8 @@ static void meet(ZpPaperMotion *m) {
 static double bound_step(ZpPaperMotion *m) {
   const ZpActuatorDef *def = &m->model->def;
   double dt = fmin(m->model->stable_step, m->longest);
-  /* Half of the first bound of eq. (9): at the bound itself drag would turn a speed round, undiminished.
-   * Infinite without drag. */
+  /* Half of the first bound of eq. (9): at the bound itself drag would reverse a velocity without reducing it. Infinite
+   * without drag. */
   double drag = 1 / (def->damping.drag * m->eval->drag_rate);
   m->limit = ZP_PAPER_STABILITY;
   if (def->solver.time_step < dt) {
