@@ -174,9 +174,10 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
                    "this page shows one actuator only; use the command for stack.series, stack.distance and keys of "
                    "member_K");
   if (def->platform.rotates || halves_differ(def))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "this page draws one half and its mirror image; use the command for platform.rotates and a mount.tilt "
-                   "other than 0 and 180 degree");
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "this page draws one half and its mirror image; use the command for platform.rotates and a mount.tilt "
+        "other than 0 and 180 degree");
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT, "this page has buttons for the voltage; use the command for drive.waveform");
   if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
