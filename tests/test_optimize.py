@@ -148,6 +148,15 @@ def check_empty_box(zipact, scratch):
         ok("%g of the least stroke: not excluded" % part, code == 0 and (found["optimum"]["feasible"] or found["optimum"]["excluded_share"] < 1))
 
 
+def check_steep_corner(zipact, scratch):
+    """In a wide box the stroke changes faster at thin strips than between the centres of cells: pairs of cases show it,
+    so the corner that holds the design is not excluded."""
+    stroke = 10e-6 * 9.81 * 0.1**3 * (1 - 0.285**2) / (200e9 * 20e-3 * 40e-6**3)  # m, of the widest strip of 40 um
+    sets = [*STRIP, "optimize.variables=ribbon.thickness = 10 um .. 400 um; ribbon.width = 10 mm .. 20 mm", "optimize.method=cobyla", "optimize.evaluations=10"]
+    code, found = optimum_of(zipact, [*sets, "optimize.constraints=stroke_m <= %.8g um; stroke_m >= %.8g um" % (1.01e6 * stroke, 0.99e6 * stroke)], scratch / "steep")
+    ok("a steep corner is not excluded", code == 0 and (found["optimum"]["feasible"] or found["optimum"]["excluded_share"] < 1))
+
+
 def check_search_after_exclusion(zipact, scratch):
     """Ten cases find no strip in the window, cells of the box do, and what is left of the cases goes towards its upper end."""
     least = 10e-6 * 9.81 * 0.1**3 * (1 - 0.285**2) / (200e9 * 20e-3 * 60e-6**3)
@@ -187,6 +196,7 @@ def main():
     check_kills(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_empty_box(zipact, scratch)
+    check_steep_corner(zipact, scratch)
     check_search_after_exclusion(zipact, scratch)
     check_refusals(zipact, scratch)
     return finish()
