@@ -525,10 +525,10 @@ static double travel_of(Follower *f) {
 
 static void find_limits(Follower *f) {
   ZpResult *r = f->result;
-  double mass = 0;
+  double mass = zp_limits_mass(f->model);
   find_voltages(f);
   zp_result_add(r, "travel_m", "m", travel_of(f));
-  for (const ZpModel *m = f->model; m; m = m->below)
+  for (const ZpModel *m = f->model->below; m; m = m->below)
     mass += zp_limits_mass(m);
   zp_result_add(r, "mass_kg", "kg", mass);
   for (int k = 0; k < LIMITS; k++)
