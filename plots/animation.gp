@@ -107,7 +107,7 @@ do for [k=1:frames + hold] {
   volts = potential[i]
   liquid = bead ? 2*i - 1 : shapes
   if (coloured && has_platform && members == 1 && !bead) {
-    set object 5 rectangle from -platform,v to platform,0 behind fc rgb (platform_electrode > 0 ? shown(-end_y[i], volts) : field_colour(0)) fs solid noborder
+    set object 5 rectangle from -platform,v to platform,0 back fc rgb (platform_electrode > 0 ? shown(-end_y[i], volts) : field_colour(0)) fs solid noborder
   }
   if (lensed) { set multiplot }
   if (ribbons > 1) {

@@ -4,5 +4,5 @@ title = !held ? 'Electric force on a ribbon of one half' \
 load 'held_curves.gp'
 factor = scale(largest('force_N'), 'N')
 set ylabel label('force', unit(largest('force_N'), 'N')) offset 0.5
-plot for [k=1:|curve|] '../table.csv' every ::first[k]::last[k] using (x(0)):(column('force_N')*factor)@word_tics \
+plot for [k=1:|curve|] '../table.csv' every ::first[k]::last[k] using (x(0)):(column('force_N')*factor) \
      with linespoints lw 2 dt dash(k) pt mark(k) ps 0.7 lc rgb shade_of(k) title curve[k]

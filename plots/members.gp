@@ -4,11 +4,13 @@ foot = note
 remark = 'member 1 is the uppermost'
 letters = 8
 load 'style.gp'
+list = ''
+do for [k=1:stack_series] { list = list.sprintf('member_%d_opening_m ', k) }
 set datafile separator ','
 set xrange [0:*]
 time = scale(largest('time_s'), 's')
-length = scale(largest('member_1_opening_m member_2_opening_m'), 'm')
+length = scale(largest(list), 'm')
 set xlabel label('time', unit(largest('time_s'), 's'))
-set ylabel label('opening', unit(largest('member_1_opening_m member_2_opening_m'), 'm'))
-plot for [k=1:stack_series] '../table.csv' using (column('time_s')*time):(column(sprintf('member_%d_opening_m', k))*length) \
-     with lines lw 2 dt dash(k) lc rgb colour(k) title sprintf('member %d', k)
+set ylabel label('opening', unit(largest(list), 'm'))
+plot for [k=1:stack_series] '../table.csv' using (column('time_s')*time):(column(word(list, k))*length) \
+     with lines lw (k == 1 ? 4 : 2) dt dash(k) lc rgb colour(k) title sprintf('member %d', k)

@@ -12,8 +12,7 @@ set datafile separator ','
 set datafile columnheaders
 if (many) set key spacing 1 title legend(|list_key| - 1) left font ',12'
 set xlabel label(x_name, x_unit)
-x(first) = x_words ? column(0) : column(x_column)*x_factor
-word_tics = x_words ? ':xticlabels(x_column)' : ''
+x(first) = column(x_column)*x_factor
 shade_of(k) = shade(alike > 1 ? (alike > 2 ? 0.9 : 0.6)*((k - 1) % alike)/(alike - 1.0) : 0.3)
 style_of(k) = alike < |curve| ? (k - 1)/alike + 1 : k
 dash(k) = (style_of(k) - 1) % 8 + 1

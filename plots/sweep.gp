@@ -24,7 +24,7 @@ mark(j) = nth(j) == 2 ? 4 : 7
 paint(j, k) = many ? shade_of(k) : colour(nth(j))
 line(j, k) = many ? dash(k) : nth(j)
 named(j) = many && number_name[nth(j)] ne ''
-plot for [k=1:|curve|] for [j in drawn] '../table.csv' every ::first[k]::last[k] using (x(0)):(column(number[nth(j)])*factor)@word_tics \
+plot for [k=1:|curve|] for [j in drawn] '../table.csv' every ::first[k]::last[k] using (x(0)):(column(number[nth(j)])*factor) \
        with linespoints lw 2 dt line(j, k) pt mark(j) ps 0.8 lc rgb paint(j, k) \
        title (!many ? number_name[nth(j)] : j eq word(drawn, 1) ? curve[k] : ''), \
      for [j in drawn] NaN with points pt mark(j) ps 0.8 lc rgb '#555555' title named(j) ? number_name[nth(j)] : ''

@@ -48,11 +48,29 @@ static Thinned of_shapes(ZpShapes *s) {
   return (Thinned){s->value, s->frame_size, &s->frames, &s->stride, &s->offered, s->capacity};
 }
 
+static size_t length_of_names(const ZpColumn *column, size_t columns) {
+  size_t length = 0;
+  for (size_t c = 0; c < columns; c++)
+    length += strlen(column[c].name) + 1;
+  return length;
+}
+
+/* Copy the columns, and behind them their names. */
+static void copy_columns(const ZpColumn *column, size_t columns, ZpColumn *own) {
+  char *name = (char *)(own + columns);
+  for (size_t c = 0; c < columns; c++) {
+    const size_t size = strlen(column[c].name) + 1;
+    own[c] = column[c];
+    own[c].name = memcpy(name, column[c].name, size);
+    name += size;
+  }
+}
+
 ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
-  ZpTable *table = zp_calloc(1, sizeof *table + columns * sizeof *column);
+  ZpTable *table = zp_calloc(1, sizeof *table + columns * sizeof *column + length_of_names(column, columns));
   if (!table) return NULL;
   ZpColumn *own = (ZpColumn *)(table + 1);
-  memcpy(own, column, columns * sizeof *own);
+  copy_columns(column, columns, own);
   *table = (ZpTable){.column = own, .columns = columns, .capacity = capacity, .stride = 1};
   table->value = zp_calloc(capacity, columns * sizeof(double));
   if (table->value) return table;

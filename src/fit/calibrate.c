@@ -5,29 +5,27 @@
 
 #include "base/fail.h"
 #include "fit/fit.h"
+#include "io/report.h"
 
-/* Names for summary.json made from the names of the keys, and the column of the table if the key is x. */
+/* Names for summary.json made from the names of the keys. */
 typedef struct Names {
   const char *error;
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-  ZpColumn x;
 } Names;
 
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
-#define NAMES(key, unit)                                                                                               \
-  {key "_standard_error",                                                                                              \
-   {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"},                           \
-   {key "_" unit, unit, "value set on the bench"}},
-#define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name, unit)
-#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name, unit)
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           NAMES(#path #name, unit)
-#define ZP_INT(path, name, def, min, max, help)                         NAMES(#path #name, "1")
-#define ZP_BOOL(path, name, def, help)                                  NAMES(#path #name, "1")
-#define ZP_ENUM(path, name, type, def, help)                            NAMES(#path #name, "1")
-#define ZP_TEXT(path, name, def, help)                                  NAMES(#path #name, "1")
-#define ZP_OF_SCENARIO(name, type, def, help)                           NAMES(#name, "1")
+#define NAMES(key)                                                                                                     \
+  {key "_standard_error", {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"}},
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name)
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name)
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name)
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           NAMES(#path #name)
+#define ZP_INT(path, name, def, min, max, help)                         NAMES(#path #name)
+#define ZP_BOOL(path, name, def, help)                                  NAMES(#path #name)
+#define ZP_ENUM(path, name, type, def, help)                            NAMES(#path #name)
+#define ZP_TEXT(path, name, def, help)                                  NAMES(#path #name)
+#define ZP_OF_SCENARIO(name, type, def, help)                           NAMES(#name)
 static const Names names[] = {
 #include <zipact/keys.def>
 };
@@ -148,6 +146,7 @@ typedef struct Columns {
   size_t count, x_count, width; /* width: columns of one kind */
   ZpColumn *column;
   int *x_key;                /* [x_count] */
+  char (*x_name)[ZP_KEY_COLUMN_SIZE];
   size_t kind[ZP_FIT_KINDS]; /* first column of a kind; 0: none yet */
 } Columns;
 
@@ -160,8 +159,11 @@ static size_t place_of_x(const Columns *columns, int key) {
 
 static void add_x(Columns *columns, int key) {
   if (place_of_x(columns, key) < columns->x_count) return;
+  char *name = columns->x_name[columns->x_count];
   columns->x_key[columns->x_count++] = key;
-  columns->column[columns->count++] = key < 0 ? time_column : names[key].x;
+  if (key >= 0) zp_key_column(key, name, sizeof columns->x_name[0]);
+  columns->column[columns->count++] =
+      key < 0 ? time_column : (ZpColumn){name, zp_key(key)->unit, "value set on the bench"};
 }
 
 static void add_kind(Columns *columns, ZpFitKind kind) {
@@ -176,7 +178,8 @@ static bool open_columns(const ZpFit *fit, Columns *columns) {
   *columns = (Columns){.width = zp_fit_kinds(fit) > 1 ? COLUMNS_OF_KIND : COLUMNS_ALONE};
   columns->column = calloc(fit->sets + (size_t)ZP_FIT_KINDS * COLUMNS_OF_KIND, sizeof *columns->column);
   columns->x_key = calloc(fit->sets, sizeof *columns->x_key);
-  if (!columns->column || !columns->x_key) return false;
+  columns->x_name = calloc(fit->sets, sizeof *columns->x_name);
+  if (!columns->column || !columns->x_key || !columns->x_name) return false;
   for (size_t i = 0; i < fit->sets; i++)
     add_x(columns, fit->set[i].x_key);
   for (size_t i = 0; i < fit->sets; i++)
@@ -207,6 +210,7 @@ static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result)
   free(value);
   free(columns.column);
   free(columns.x_key);
+  free(columns.x_name);
   return result->series != NULL;
 }
 

@@ -52,14 +52,14 @@ static void put_place(const ZpPlot *plot, FILE *file, const ZpShape *shape, cons
   }
 }
 
-/* Lines of x and both y where there is liquid between the ribbons of one half, from its clip on. */
-static void put_liquid(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Side *side) {
+/* Lines of x and both y where there is liquid between the ribbons of one half, from its clip on, `parts` an element. */
+static void put_liquid(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Side *side, size_t parts) {
   double length = (plot->def.ribbon.length - plot->def.platform.length) / 2, reach = reach_at(plot, shape->time);
   size_t last = half_nodes(plot) - 1;
   double end = fmin(reach / length, 1) * (double)last;
   if (!isfinite(end)) return;
-  for (size_t k = 0; (double)k < end; k++)
-    put_place(plot, file, shape, side, (double)k);
+  for (size_t k = 0; (double)k < end * (double)parts; k++)
+    put_place(plot, file, shape, side, (double)k / (double)parts);
   put_place(plot, file, shape, side, end);
 }
 
@@ -76,7 +76,7 @@ static void data_film(const ZpPlot *plot, FILE *file) {
   fputs("# x_m y_upper_m y_lower_m where there is liquid, of the left half; one index per snapshot\n", file);
   for (size_t k = 0; k < count; k++) {
     const ZpShape shape = zp_shapes_get(film(plot), frame[k]);
-    put_liquid(plot, file, &shape, &left);
+    put_liquid(plot, file, &shape, &left, 1);
     fputs("\n\n", file);
   }
 }
@@ -135,35 +135,58 @@ static size_t film_frame(const ZpShapes *shapes, const Stage *stage, size_t inde
   return zp_plot_frame_at(shapes, (double)index / (double)(stage->frames - 1));
 }
 
-static void put_node(FILE *file, const ZpShape *shape, const ZpShapes *shapes, const Stage *stage, size_t node,
-                     double side) {
-  for (size_t r = 0; r < shapes->ribbons; r++) {
-    zp_plot_put(file, side * (shape->x[node * shapes->ribbons + r] - stage->middle), ' ');
-    zp_plot_put(file, shape->y[node * shapes->ribbons + r], r + 1 < shapes->ribbons ? ' ' : '\n');
+/* Points of a member's ribbons as they are drawn: `parts` an element. */
+typedef struct Points {
+  size_t first, parts, count; /* its first node; how many points in all */
+} Points;
+
+/* Each point of a pair colours a bar of what is between them, 5 pixels wide. So many leave no gaps between the bars. */
+static size_t parts_of(const ZpPlot *plot) {
+  enum { ELEMENTS = 60 };
+  const size_t elements = half_nodes(plot) / film(plot)->members - 1;
+  return (ELEMENTS + elements - 1) / elements;
+}
+
+static Points points_of(const ZpPlot *plot, size_t member) {
+  const size_t nodes = film(plot)->nodes / film(plot)->members, parts = parts_of(plot);
+  return (Points){member * nodes, parts, (nodes - 1) * parts + 1};
+}
+
+static double between(const double *value, size_t ribbons, const Points *points, size_t i, size_t ribbon) {
+  const size_t near = points->first + i / points->parts, far = near + (i % points->parts > 0);
+  const double part = (double)(i % points->parts) / (double)points->parts, at = value[near * ribbons + ribbon];
+  return at + part * (value[far * ribbons + ribbon] - at);
+}
+
+static void put_point(FILE *file, const ZpShape *shape, const Stage *stage, size_t ribbons, const Points *points,
+                      size_t i, double side) {
+  for (size_t r = 0; r < ribbons; r++) {
+    zp_plot_put(file, side * (between(shape->x, ribbons, points, i, r) - stage->middle), ' ');
+    zp_plot_put(file, between(shape->y, ribbons, points, i, r), r + 1 < ribbons ? ' ' : '\n');
   }
 }
 
-/* All nodes of a member from clip to clip, and a blank line. */
+/* A member from clip to clip, and a blank line. */
 static void put_member(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Stage *stage, size_t member) {
-  const ZpShapes *shapes = film(plot);
-  size_t nodes = shapes->nodes / shapes->members, first = member * nodes;
-  for (size_t i = first; i < first + nodes; i++)
-    put_node(file, shape, shapes, stage, i, 1);
-  for (size_t i = first + nodes; zp_plot_is_half(plot) && i-- > first;)
-    put_node(file, shape, shapes, stage, i, -1);
+  const size_t ribbons = film(plot)->ribbons;
+  const Points points = points_of(plot, member);
+  for (size_t i = 0; i < points.count; i++)
+    put_point(file, shape, stage, ribbons, &points, i, 1);
+  for (size_t i = points.count; zp_plot_is_half(plot) && i-- > 0;)
+    put_point(file, shape, stage, ribbons, &points, i, -1);
   fputc('\n', file);
 }
 
 /* Of one frame where a bead is: a block of the left half, one of the right. */
 static void put_beads(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Stage *stage) {
   const bool half = zp_plot_is_half(plot);
-  put_liquid(plot, file, shape, &(Side){stage->middle, 1, false});
+  put_liquid(plot, file, shape, &(Side){stage->middle, 1, false}, parts_of(plot));
   fputc('\n', file);
-  put_liquid(plot, file, shape, &(Side){stage->middle, half ? -1 : 1, !half});
+  put_liquid(plot, file, shape, &(Side){stage->middle, half ? -1 : 1, !half}, parts_of(plot));
   fputs("\n\n", file);
 }
 
-/* One index per frame: all nodes, of the left half then those of its mirror image. Of a bead one more. */
+/* One index per frame: points of the left half, then those of its mirror image. Of a bead one more. */
 static void data_animation(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   const Stage stage = stage_of(plot);
@@ -219,7 +242,7 @@ static void define_animation(const ZpPlot *plot, FILE *file) {
   zp_plot_define_count(file, "bead", has_bead(plot));
   zp_plot_define_count(file, "bath", has_liquid(plot) && zp_def_liquid(&plot->def) != ZP_LIQUID_BEAD);
   zp_plot_define_count(file, "platform_point",
-                       (zp_plot_is_half(plot) ? 2 : 1) * film(plot)->nodes / film(plot)->members - 1);
+                       (zp_plot_is_half(plot) ? 2 : 1) * points_of(plot, 0).count - 1);
   zp_plot_define(file, "middle", stage.middle);
   zp_plot_define(file, "reach", stage.half);
   zp_plot_define(file, "clamp", stage.clamp);

@@ -66,14 +66,14 @@ static void data_fit(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* The key that was set, load.mass of "load.mass_kg"; -1: none, it is the time. */
+/* The key that was set, load.mass of "load.mass_kg", load.share of "load.share"; -1: none, it is the time. */
 static int key_of(const ZpColumn *column) {
   int found = -1;
   size_t longest = 0;
   for (int key = 0; key < zp_key_count(); key++) {
     const size_t length = strlen(zp_key(key)->name);
-    if (length < longest || strncmp(column->name, zp_key(key)->name, length) != 0 || column->name[length] != '_')
-      continue;
+    if (length < longest || strncmp(column->name, zp_key(key)->name, length) != 0) continue;
+    if (column->name[length] != '_' && column->name[length] != 0) continue;
     longest = length;
     found = key;
   }

@@ -53,23 +53,47 @@ static bool begins_curve(const ZpPlot *plot, size_t run) {
   return run == 0;
 }
 
-/* Runs that begin a curve, at most LEGEND evenly chosen. => how many */
-static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
-  size_t curves = 0, kept = 0, at = 0;
-  for (size_t run = 0; run < plot->report->count; run++)
-    curves += begins_curve(plot, run);
-  for (size_t run = 0; run < plot->report->count && kept < LEGEND; run++) {
-    if (!begins_curve(plot, run)) continue;
-    if (curves <= LEGEND || at * (LEGEND - 1) >= kept * (curves - 1)) chosen[kept++] = run;
-    at++;
-  }
-  return kept;
-}
-
 static size_t last_of_curve(const ZpPlot *plot, size_t run) {
   while (run + 1 < plot->report->count && !begins_curve(plot, run + 1))
     run++;
   return run;
+}
+
+static bool has_number(const ZpPlot *plot, size_t run, const char *scalar) {
+  return scalar && isfinite(zp_table_get(plot->table, run, scalar));
+}
+
+/* Has the run a point in a picture, by the answer of its study or in one of the pictures without? */
+static bool has_point(const ZpPlot *plot, size_t run) {
+  static const char *const other[] = {"force_N", "torque_N_m", "stroke_amplitude_m"};
+  bool has = false;
+  for (size_t i = 0; plot->answer && i < 2; i++)
+    has |= has_number(plot, run, plot->answer->scalar[i]);
+  for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
+    has |= has_number(plot, run, other[i]);
+  return has;
+}
+
+/* Does a curve with points begin with this run? One without would only be a name in the legend. */
+static bool begins_drawn(const ZpPlot *plot, size_t first) {
+  if (!begins_curve(plot, first)) return false;
+  size_t run = first, last = last_of_curve(plot, first);
+  while (run < last && !has_point(plot, run))
+    run++;
+  return has_point(plot, run);
+}
+
+/* Runs that begin a curve with points, at most LEGEND evenly chosen. => how many */
+static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
+  size_t curves = 0, kept = 0, at = 0;
+  for (size_t run = 0; run < plot->report->count; run++)
+    curves += begins_drawn(plot, run);
+  for (size_t run = 0; run < plot->report->count && kept < LEGEND; run++) {
+    if (!begins_drawn(plot, run)) continue;
+    if (curves <= LEGEND || at * (LEGEND - 1) >= kept * (curves - 1)) chosen[kept++] = run;
+    at++;
+  }
+  return kept;
 }
 
 /* Of more than two keys: how many curves follow each other in which the first key has one value, all if that varies. */
@@ -101,7 +125,7 @@ static void define_curves(const ZpPlot *plot, FILE *file) {
   zp_plot_define_count(file, "alike", curves_alike(plot, chosen, curves));
 }
 
-/* x, y and z: x is the key that varies fastest. Its values are in a column of the table, as words or as numbers. */
+/* x, y and z: x is the key that varies fastest; its values are in the column x_column of the table. */
 static void define_axes(const ZpPlot *plot, FILE *file) {
   static const char *const axis[] = {"x", "y", "z"};
   char column[ZP_KEY_COLUMN_SIZE];
@@ -109,7 +133,6 @@ static void define_axes(const ZpPlot *plot, FILE *file) {
     zp_plot_define_key_axis(file, axis[i], 0, zp_sweep_key(plot, i));
   zp_key_column(zp_sweep_key(plot, 0), column, sizeof column);
   zp_plot_define_word(file, "x_column", column);
-  zp_plot_define_count(file, "x_words", zp_key_word(zp_sweep_key(plot, 0), 0) != NULL);
 }
 
 static void define_answer(const ZpAnswer *a, const ZpPlot *plot, FILE *file) {
