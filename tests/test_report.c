@@ -19,6 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <zipact/calibrate.h>
 #include <zipact/io.h>
 
 #include "io/atomic.h"
@@ -224,7 +225,7 @@ static void write_scenario(const char *name, ZpScenario *scenario) {
   for (size_t i = 0; i < count; i++) {
     ZpActuatorDef def;
     ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
-    ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
+    ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result[i], &err) == ZP_OK, "%s",
                   err.message);
   }
   const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0, NULL};
@@ -722,6 +723,94 @@ START_TEST(design_chart) {
 }
 END_TEST
 
+/* Has the file base/name this text? */
+static bool file_says(const char *name, const char *text) {
+  size_t size;
+  char *whole = read_whole(in_base(name), &size);
+  const bool says = strstr(whole, text) != NULL;
+  free(whole);
+  return says;
+}
+
+static void write_rest(const char *name, const char *study, const char *const *more) {
+  ZpScenario *scenario = scenario_of("mesh.nodes=15");
+  ZpError err = {0};
+  char choice[64];
+  snprintf(choice, sizeof choice, "study=%s", study);
+  ck_assert_int_eq(zp_scenario_set(scenario, choice, NULL), ZP_OK);
+  for (; *more; more++)
+    ck_assert_msg(zp_scenario_set(scenario, *more, &err) == ZP_OK, "%s", err.message);
+  write_scenario(name, scenario);
+}
+
+/* Of three keys the first has a style of line and the second a shade. Where curves are left out, not every value of the
+ * first key has as many, and each curve has a shade of its own. Names have at most four digits. */
+START_TEST(shades_of_three_keys) {
+  write_rest("s", "stationary",
+             (const char *const[]){"ribbon.width=[10 mm, 12 mm, 14 mm]", "ribbon.thickness=20 um .. 200 um : 3 log",
+                                   "load.mass=[8 g, 20 g]", NULL});
+  ck_assert(file_says("s/plots/strokes.gp", "\nalike = 3\n") && file_says("s/plots/strokes.gp", "array curve[9]\n"));
+  ck_assert(file_says("s/plots/strokes.svg", ">12 mm, 63.25 µm<"));
+  ck_assert(file_says("s/table.csv", "6.32455532034e-05"));
+  write_rest("t", "stationary",
+             (const char *const[]){"ribbon.width=[10 mm, 11 mm, 12 mm, 14 mm]",
+                                   "ribbon.thickness=20 um .. 200 um : 3 log", "load.mass=[8 g, 20 g]", NULL});
+  ck_assert(file_says("t/plots/strokes.gp", "\nalike = 10\n") && file_says("t/plots/strokes.gp", "array curve[10]\n"));
+}
+END_TEST
+
+/* Under 500 g there is neither pull-in nor release: the legend named a curve that has no point. */
+START_TEST(legend_names_what_is_drawn) {
+  write_rest("e", "equilibrium",
+             (const char *const[]){"load.mass=[8 g, 500 g]", "drive.voltage=[6.5 kV, 7 kV]", "liquid.model=none",
+                                   "output.errors=false", NULL});
+  ck_assert(file_says("e/plots/voltages.gp", "array curve[1]\n"));
+  ck_assert(file_says("e/plots/voltages.svg", ">8 g<") && !file_says("e/plots/voltages.svg", ">500 g<"));
+}
+END_TEST
+
+/* How often a letter stands in the first curve of a picture: M begins a piece, L goes on. */
+static size_t letters_of_curve(const char *name, char letter) {
+  size_t size, count = 0;
+  char *whole = read_whole(in_base(name), &size), *at = strstr(whole, "id=\"gnuplot_plot_1\"");
+  ck_assert_ptr_nonnull(at);
+  at = strstr(at, " d='");
+  ck_assert_ptr_nonnull(at);
+  for (at += 4; *at && *at != '\''; at++)
+    count += *at == letter;
+  free(whole);
+  return count;
+}
+
+/* With indices only some of the rows are independent samples. Their line fell to pieces at the others. */
+START_TEST(distribution_with_indices) {
+  write_rest("d", "stationary",
+             (const char *const[]){"load.mass=normal(8 g, 0.2 g)", "ribbon.thickness=normal(50 um, 1 um)",
+                                   "sampling.count=8", "sampling.indices=true", NULL});
+  ck_assert(file_says("d/plots/distribution.svg", ">16 samples per curve"));
+  ck_assert_uint_eq(letters_of_curve("d/plots/distribution.svg", 'M'), 1);
+  ck_assert_uint_eq(letters_of_curve("d/plots/distribution.svg", 'L'), 15);
+  ck_assert(file_says("d/plots/indices.svg", ">load.mass<") && file_says("d/plots/indices.svg", ">ribbon.thickness<"));
+}
+END_TEST
+
+/* The axes of a fit had no name; a unit such as m2/s had another spelling in its column than in that of a sweep. */
+START_TEST(axes_of_a_fit) {
+  char file[1100];
+  put_file("bench.csv", "medium.kinematic_viscosity_mm2/s,load_g,stroke_mm\n50,8,10\n50,20,20\n");
+  snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
+  write_rest("f", "calibrate",
+             (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", "calibrate.x=load_g",
+                                   "calibrate.y=stroke_mm", NULL});
+  ck_assert(file_says("f/plots/fit.svg", ">load.mass / g<") && file_says("f/plots/fit.svg", ">stroke / mm<"));
+  write_rest("g", "calibrate",
+             (const char *const[]){file, "calibrate.fit=ribbon.young_modulus",
+                                   "calibrate.x=medium.kinematic_viscosity_mm2/s", "calibrate.y=stroke_mm", NULL});
+  ck_assert(file_says("g/table.csv", "medium.kinematic_viscosity_m2_per_s,measured_m,"));
+  ck_assert(file_says("g/plots/fit.svg", ">medium.kinematic_viscosity / mm²/s<"));
+}
+END_TEST
+
 /* Neither a NaN nor infinity may be spelled out where other programs read. */
 static void check_numbers(const char *name) {
   char path[128];
@@ -1190,6 +1279,10 @@ static Suite *suite_of_report(void) {
                                files_of_rest,
                                sweeps_of_rest,
                                design_chart,
+                               shades_of_three_keys,
+                               legend_names_what_is_drawn,
+                               distribution_with_indices,
+                               axes_of_a_fit,
                                rest_is_the_same_each_time,
                                field_of_a_profile,
                                field_of_equal_permittivities,

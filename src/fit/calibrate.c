@@ -145,7 +145,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
 typedef struct Columns {
   size_t count, x_count, width; /* width: columns of one kind */
   ZpColumn *column;
-  int *x_key;                /* [x_count] */
+  int *x_key; /* [x_count] */
   char (*x_name)[ZP_KEY_COLUMN_SIZE];
   size_t kind[ZP_FIT_KINDS]; /* first column of a kind; 0: none yet */
 } Columns;
