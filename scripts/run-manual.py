@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
-PAGES = ["getting-started.md", "studies.md", "actuators.md", "paper.md"]
+PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "paper.md"]
 PICTURES = {
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
