@@ -325,7 +325,8 @@ static const Section sections[] = {
      {"Study <code>calibrate</code> fits K<sub>S</sub> to the stroke that the paper prints for its finite elements. "
       "The "
       "chain is that of preset <code>paper-code</code>, with a quarter of the load on it, as in the authors' program.",
-      "Beside it stands K<sub>S</sub> from theory, without any fit. The finite elements carried the whole load on the "
+      "The last column is K<sub>S</sub> from theory, without any fit. The finite elements carried the whole load on "
+      "the "
       "half-beam, the particles a quarter of it; the paper's calibration absorbed the difference:"},
      shear_formula,
      "Table I",

@@ -67,13 +67,13 @@ static void predict(ZpImplicit *s, double h, const double *q, const double *v, c
   if (s->system->attempt) s->system->attempt(s->system->self, s->q);
 }
 
-/* The residual f - M a of (18.1) as work over the step, J: by so much the energy of a step that ends here is off. */
+/* The residual f - M a of (18.1) as work over the step, J: the error of the energy if a step ends here. */
 typedef struct Imbalance {
   double work;
   double allowed; /* as a share of the energies there, and what the rounding of q makes */
 } Imbalance;
 
-/* What an algebraic unknown's equation is off by does work with the whole of the unknown, not with its change alone. */
+/* The residual of an algebraic unknown's equation does work with the whole of the unknown, not with its change alone. */
 static double algebraic_work(const ZpImplicit *s, const double *q) {
   double work = 0;
   for (size_t i = 0; s->system->kind && i < s->system->n; i++)
