@@ -444,6 +444,30 @@ static void stiffness(void *self, ZpBand *K, double *r) {
   if (is_held(s)) hold_equation(s, K, r);
 }
 
+/* The exact stiffness is that with the tensions of the present point. */
+static void exact_residual(ZpStatics *s, double *r) {
+  residual(s, r, NULL);
+  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+}
+
+/* How the force on the platform falls with a step, were it free. */
+static double fall_along(ZpStatics *s, const double *step, ZpBand *K) {
+  double opening = s->opening;
+  s->opening = NAN;
+  stiffness(s, K, NULL);
+  s->opening = opening;
+  zp_band_multiply(K, step, s->force);
+  return s->force[zp_statics_platform(s)];
+}
+
+double zp_statics_holding(ZpStatics *s, ZpNewtonWork *work) {
+  exact_residual(s, work->r);
+  stiffness(s, &work->K, work->r);
+  if (!zp_band_factor(&work->K)) return s->reaction;
+  zp_band_solve(&work->K, work->r);
+  return s->reaction - fall_along(s, work->r, &work->K);
+}
+
 double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
   residual(s, r, NULL);
   stiffness(s, K, NULL);
@@ -826,9 +850,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
 }
 
 bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
-  system.residual(s, work->r, NULL);
-  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
-  system.stiffness(s, &work->K, NULL);
+  exact_residual(s, work->r);
+  stiffness(s, &work->K, NULL);
   return zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0;
 }

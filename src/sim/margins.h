@@ -6,7 +6,14 @@
 
 #include "actuator/shape.h"
 
-/* The worst over all rows and shapes that were recorded, thinned out or not. */
-const ZpMargins *zp_sim_margins(const ZpSim *sim);
+/* From now on the worst counts: of every implicit step that is taken, and of every row that is recorded, thinned out or
+ * not. Explicit steps are shorter than what a material sees changes in, and hardly dearer than a look at it. */
+void zp_sim_watch(ZpSim *sim);
+
+/* The present state counts, if any does. */
+void zp_sim_see(ZpSim *sim);
+
+/* The worst since zp_sim_watch. */
+ZpMargins zp_sim_margins(const ZpSim *sim);
 
 #endif

@@ -237,10 +237,16 @@ static ZpShape shape_of(ZpSim *sim) {
   return shape;
 }
 
-static void fill_margins(ZpSim *sim, double *row) {
+/* Of one member, whose shape is taken. */
+static ZpMargins margins_of(ZpSim *sim) {
   sim->shape = shape_of(sim);
-  sim->now = zp_margins_of(sim->model, &sim->shape);
-  if (sim->model->leaks) sim->now.liquid = zp_sim_leak(sim).liquid;
+  ZpMargins margins = zp_margins_of(sim->model, &sim->shape);
+  if (sim->model->leaks) margins.liquid = zp_sim_leak(sim).liquid;
+  return margins;
+}
+
+static void fill_margins(ZpSim *sim, double *row) {
+  sim->now = margins_of(sim);
   row[SIGNAL_insulator_field] = sim->now.insulator;
   row[SIGNAL_max_stress] = sim->now.stress;
 }
@@ -468,14 +474,34 @@ ZpLiquid zp_sim_liquid(ZpSim *sim) {
   return (ZpLiquid){room->film, room->pressure};
 }
 
-const ZpMargins *zp_sim_margins(const ZpSim *sim) {
-  return &sim->margins;
+void zp_sim_watch(ZpSim *sim) {
+  for (ZpSim *m = sim; m; m = m->below) {
+    m->watched = true;
+    m->seen = zp_margins_none();
+  }
 }
 
-/* The present row, which counts as what the materials have seen, thinned out or not. */
+void zp_sim_see_one(ZpSim *sim) {
+  if (sim->watched) zp_margins_join(&sim->seen, margins_of(sim));
+}
+
+void zp_sim_see(ZpSim *sim) {
+  for (ZpSim *m = sim; m; m = m->below)
+    zp_sim_see_one(m);
+}
+
+ZpMargins zp_sim_margins(const ZpSim *sim) {
+  ZpMargins worst = zp_margins_none();
+  for (const ZpSim *m = sim; m; m = m->below)
+    zp_margins_join(&worst, m->seen);
+  return worst;
+}
+
+/* The present row. */
 static void look(ZpSim *sim) {
   make_row(sim);
-  zp_margins_join(&sim->margins, sim->now);
+  for (ZpSim *m = sim; m; m = m->below)
+    if (m->watched) zp_margins_join(&m->seen, m->now);
 }
 
 void zp_sim_trace(ZpSim *sim, ZpTable *trace) {

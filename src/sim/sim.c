@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "sim/hooks.h"
+#include "sim/margins.h"
 #include "sim/run_rates.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
@@ -50,7 +51,7 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   sim->before = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
-  sim->margins = zp_margins_none();
+  sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
   return zp_system_create(model, true, &sim->eval) && (!uppermost || sim->stepping->create(sim)) && sim->state &&
          sim->kept && sim->before && sim->relax_work && sim->row && make_shape_room(sim);
@@ -280,6 +281,12 @@ static double resolution(ZpSim *sim) {
   return fmin(voltage, hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(model), t));
 }
 
+/* What the materials see before a jump counts, as after it. */
+static void jump_to(ZpSim *sim, double voltage) {
+  if (voltage != sim->state->U) zp_sim_see_one(sim);
+  zp_sim_jump(sim, voltage);
+}
+
 /* The voltage at the time that a step has reached. By explicit steps it was that of the step's start all the way. */
 static void follow_voltage(ZpSim *sim) {
   if (sim->dynamics.source) return;
@@ -290,7 +297,7 @@ static void follow_voltage(ZpSim *sim) {
     return;
   }
   zp_sim_glide(sim, zp_waveform_voltage_before(waveform, state->t));
-  zp_sim_jump(sim, zp_waveform_voltage(waveform, state->t));
+  jump_to(sim, zp_waveform_voltage(waveform, state->t));
 }
 
 /* Before anything moves: a jump of the voltage is over, and what is held is up to date. Without that there is no step:
@@ -449,6 +456,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   limit = limit_of(sim, limit, corner, end_time);
   info->limited[limit]++;
   zp_sim_arrive(sim);
+  if (!sim->stepping->fine) zp_sim_see(sim);
   if (sim->rates) zp_run_rates_follow(sim->rates);
   sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(zp_sim_zip_time(sim)));
 }

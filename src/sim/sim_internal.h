@@ -91,7 +91,9 @@ struct ZpSim {
   ZpShapeRoom shape_room;        /* of the shape handed out, */
   void *shape_memory;            /* and where it is */
   ZpShape shape;                 /* this member at the last row with margins */
-  ZpMargins now, margins;        /* the worst that materials see in the row, and saw in all that were recorded */
+  ZpMargins now;                 /* the worst that materials see in the row, */
+  bool watched;                  /* and whether they are watched over time: */
+  ZpMargins seen;                /* the worst that those of this member saw */
   double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part, behind a
                                     supply what that has given; */
   double row_energy;             /* and for the mean power, of the whole actuator */
@@ -123,6 +125,9 @@ double zp_sim_next_corner(ZpSim *sim);
 /* Copy the states of all members of a series, or of the only one, to `before`, and back. */
 void zp_sim_keep_states(ZpSim *sim);
 void zp_sim_take_states_back(ZpSim *sim);
+
+/* What the materials of one member see counts, if they are watched (sim/margins.h). */
+void zp_sim_see_one(ZpSim *sim);
 
 /* Before a step moves anything; false: it cannot. And where it has ended. */
 bool zp_sim_prepare(ZpSim *sim);

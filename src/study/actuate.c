@@ -157,11 +157,12 @@ static void note_start(const ZpSim *sim, const ZpModel *model, ZpResult *result)
 
 static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double highest = zp_waveform_largest(&model->waveform);
+  ZpMargins seen = zp_sim_margins(sim);
   note_imbalance(zp_model_def(model), result);
   if (model->field)
-    zp_add_margins(result, model, zp_sim_margins(sim));
+    zp_add_margins(result, model, &seen);
   else
-    zp_add_stress(result, model, zp_sim_margins(sim));
+    zp_add_stress(result, model, &seen);
   zp_note_mesh(result, model, highest);
   if (highest > 0) note_start(sim, model, result);
   zp_note_liquid(result, model);
@@ -256,6 +257,7 @@ static bool ends_when_zipped(const ZpModel *model) {
 static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
                          ZpResult *result, ZpError *err) {
   zp_sim_record(sim, result->series, result->shapes);
+  zp_sim_watch(sim);
   ZpStatus status = start ? zp_sim_continue(sim, start, err) : ZP_OK;
   if (status != ZP_OK) return status;
   const ZpActuatorDef *def = zp_model_def(model);

@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "math/elementary.h"
+#include "sim/margins.h"
 #include "sim/sim_internal.h"
 #include "solve/fixed_point.h"
 #include "study/notes.h"
@@ -29,7 +30,6 @@ typedef struct Cycles {
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpTable *rows;              /* of the last cycle */
-  ZpMargins margins;          /* what materials saw in it */
   double period;              /* s */
   double highest;             /* size of the command, V, */
   double far, fast;           /* what distances and rates are compared with, m, m/s */
@@ -53,13 +53,13 @@ typedef struct Cycles {
 static void keep_row(Cycles *c) {
   zp_sim_read(c->sim, c->rows->value + c->rows->rows * c->rows->columns);
   c->rows->rows++;
-  zp_margins_join(&c->margins, c->sim->now);
+  zp_sim_see(c->sim);
 }
 
 /* => false if the run ended before: c->info says how. */
 static bool run_cycle(Cycles *c) {
   c->rows->rows = 0;
-  c->margins = zp_margins_none();
+  zp_sim_watch(c->sim);
   keep_row(c);
   for (int k = 1; k <= PHASES; k++) {
     double end = k == PHASES ? (c->done + 1.0) * c->period : (c->done + (double)k / PHASES) * c->period;
@@ -360,7 +360,8 @@ static void summarize(const Cycles *c, ZpResult *result) {
   summarize_energy(c, result);
   rebase_time(c);
   zp_result_add(result, "steps", "count", (double)c->steps);
-  zp_add_margins(result, c->model, &c->margins);
+  ZpMargins seen = zp_sim_margins(c->sim);
+  zp_add_margins(result, c->model, &seen);
   zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
   zp_note_start(result, c->model, c->sim->state->opening0);
   zp_note_liquid(result, c->model);

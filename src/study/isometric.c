@@ -62,7 +62,12 @@ static void carve(void *user, ZpCarver *carver) {
     *point[k] = zp_carve(carver, zp_rest_save_size(&h->rest));
 }
 
-/* Whole actuator, N. */
+/* What holds the platform, whole actuator, N. */
+static double holding(Holder *h) {
+  return h->model->parts * zp_statics_holding(&h->rest.statics, &h->rest.branch.newton);
+}
+
+/* The force under voltage, whole actuator, N; as exact as states to be compared need it. */
 static double force(const Holder *h) {
   return h->model->parts * h->rest.statics.reaction - h->unpowered;
 }
@@ -76,7 +81,7 @@ static double lever(ZpStatics *s, void *user) {
 
 /* Moment about the hinge of what holds that end, N m. */
 static double moment(Holder *h) {
-  return h->model->parts * h->rest.statics.reaction * lever(&h->rest.statics, NULL);
+  return holding(h) * lever(&h->rest.statics, NULL);
 }
 
 static double zipped_length(const Holder *h) {
@@ -92,8 +97,9 @@ static void record(Holder *h, bool passed, bool last) {
   bool stable = is_stable(h);
   ZpShape shape = zp_statics_shape(s, h->points++, &h->rest.shape_room);
   ZpMargins margins = zp_margins_of(h->model, &shape);
-  double row[COLUMNS] = {s->U,   force(h), zipped_length(h),         zp_statics_charge(s), zp_statics_capacitance(s),
-                         stable, passed,   ZP_MARGIN_VALUES(margins)};
+  double row[COLUMNS] = {
+      s->U,   holding(h) - h->unpowered, zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s), stable,
+      passed, ZP_MARGIN_VALUES(margins)};
   zp_margins_join(&h->margins, margins);
   zp_table_offer(h->result->series, row);
   zp_shapes_offer(h->result->shapes, &shape);
@@ -244,7 +250,7 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
   ZpResult *r = h->result;
   const ZpStatics *s = &h->rest.statics;
   bool found = h->outcome == ZP_CONVERGED, held = h->outcome != ZP_NOT_SETTLED;
-  zp_result_add(r, "force_N", "N", found ? force(h) : NAN);
+  zp_result_add(r, "force_N", "N", found ? holding(h) - h->unpowered : NAN);
   zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
   zp_result_add(r, "opening_m", "m", held ? zp_statics_opening(s) : NAN);
   if (zp_is_hinge(&h->model->topology)) {
@@ -379,7 +385,7 @@ static void run(Holder *h) {
   s->caller = h;
   ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
   if (zp_newton_good(info.end)) {
-    h->unpowered = h->model->parts * s->reaction;
+    h->unpowered = holding(h);
     h->unpowered_moment = moment(h);
     h->rest.system.save(s, h->unpowered_state);
     record(h, true, false);
