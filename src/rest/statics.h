@@ -84,8 +84,8 @@ void zp_statics_put_platform(ZpStatics *statics, double height);
 size_t zp_statics_platform(const ZpStatics *statics);
 
 /* What holds the platform at the present point, an equilibrium, N, one part, positive downwards: `reaction` and what a
- * last step of Newton's method would add. Positions are rounded, stiff edges make forces of that, and no step of rounded
- * ones takes them away. K and r are left with no meaning. */
+ * last step of Newton's method would add. Positions are rounded, stiff edges make forces of that, and no step of
+ * rounded ones takes them away. K and r are left with no meaning. */
 double zp_statics_holding(ZpStatics *statics, ZpNewtonWork *work);
 
 /* From the straight shape, which of two ribbons has all faces closed, to a stable equilibrium at `voltage`. */

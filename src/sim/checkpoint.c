@@ -76,7 +76,8 @@ bool zp_checkpoint_holds(int index) {
 static ZpStatus check_time(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
   double t = zp_checkpoint_time(checkpoint);
   if (def->solver.end_time > t) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "it ends at %.9g s, so solver.end_time must be larger than %.9g s", t, def->solver.end_time);
+  return zp_fail(err, ZP_BAD_INPUT, "it ends at %.9g s, so solver.end_time must be larger than %.9g s", t,
+                 def->solver.end_time);
 }
 
 ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
