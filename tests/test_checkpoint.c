@@ -459,7 +459,7 @@ START_TEST(test_keys) {
       {path, ZP_INITIAL_STRAIGHT, ZP_STUDY_ACTUATE, 2e-3, "initial.file: requires initial.state checkpoint"},
       {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_STATIONARY, 2e-3, "requires study actuate"},
       {"nowhere.zps", ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 2e-3, "nowhere.zps: cannot be opened"},
-      {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 0.5e-3, "solver.end_time is 0.0005 s"},
+      {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 0.5e-3, "solver.end_time must be larger than 0.0005 s"},
   };
   size_t size;
   free(short_run(&size));

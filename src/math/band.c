@@ -347,7 +347,7 @@ ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {
 
 ZP_KERNEL static void multiply_symmetric(const ZpBand *band, const double *x, double *y) {
   if (blocks_of(band) == TWO_RIBBONS)
-    multiply_rows(band, TWO_RIBBONS * ZP_BAND_BLOCK, x, y);
+    multiply_rows(band, (size_t)TWO_RIBBONS * ZP_BAND_BLOCK, x, y);
   else
     multiply_rows(band, band->stride, x, y);
 }
