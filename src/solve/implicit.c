@@ -22,7 +22,7 @@ void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *
   s->q = zp_carve(carver, system->n);
   s->r = zp_carve(carver, system->n);
   s->x = zp_carve(carver, system->n);
-  zp_bordered_carve(&s->A, system->n, system->border, system->lower, system->bandwidth, system->groups, carver);
+  zp_bordered_carve(&s->A, system->n, system->border, system->lower, system->bandwidth, carver);
 }
 
 static ZpUnknown kind_of(const ZpImplicitSystem *system, size_t i) {
@@ -73,8 +73,7 @@ typedef struct Imbalance {
   double allowed; /* as a share of the energies there, and what the rounding of q makes */
 } Imbalance;
 
-/* The residual of an algebraic unknown's equation does work with the whole of the unknown, not with its change alone.
- */
+/* The residual of an algebraic unknown's equation does work with the whole of the unknown, not with its change alone. */
 static double algebraic_work(const ZpImplicit *s, const double *q) {
   double work = 0;
   for (size_t i = 0; s->system->kind && i < s->system->n; i++)
@@ -498,7 +497,7 @@ bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate
 /* -- the exact tangent ----------------------------------------------------------------------------- */
 
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver) {
-  zp_bordered_carve(J, system->n, system->border, system->bandwidth, system->bandwidth, system->groups, carver);
+  zp_bordered_carve(J, system->n, system->border, system->bandwidth, system->bandwidth, carver);
 }
 
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J) {
