@@ -73,7 +73,8 @@ typedef struct Imbalance {
   double allowed; /* as a share of the energies there, and what the rounding of q makes */
 } Imbalance;
 
-/* The residual of an algebraic unknown's equation does work with the whole of the unknown, not with its change alone. */
+/* The residual of an algebraic unknown's equation does work with the whole of the unknown, not with its change alone.
+ */
 static double algebraic_work(const ZpImplicit *s, const double *q) {
   double work = 0;
   for (size_t i = 0; s->system->kind && i < s->system->n; i++)
