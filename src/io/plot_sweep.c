@@ -83,7 +83,8 @@ static bool begins_drawn(const ZpPlot *plot, size_t first) {
   return has_point(plot, run);
 }
 
-/* Runs that begin a curve with points, at most LEGEND evenly chosen. => how many */
+/* Runs that begin a curve with points, at most LEGEND evenly chosen. => how many; where there is none the first run,
+ * since gnuplot has no array without entries. */
 static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
   size_t curves = 0, kept = 0, at = 0;
   for (size_t run = 0; run < plot->report->count; run++)
@@ -93,7 +94,7 @@ static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
     if (curves <= LEGEND || at * (LEGEND - 1) >= kept * (curves - 1)) chosen[kept++] = run;
     at++;
   }
-  return kept;
+  return kept > 0 ? kept : 1;
 }
 
 /* Of more than two keys: how many curves follow each other in which the first key has one value, all if that varies. */
