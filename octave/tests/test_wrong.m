@@ -16,7 +16,7 @@ end
 n = 0;
 
 % commands
-n = refused(n, 'A study, or run');
+n = refused(n, 'a study, or run');
 n = refused(n, 'the first argument: takes a text', 3);
 n = refused(n, 'the first argument: takes a text', {});
 n = refused(n, 'the first argument: takes a text', struct());
@@ -35,11 +35,11 @@ n = refused(n, 'takes no further arguments', 'version', 1);
 sim = zipact('open', 'mesh.nodes', 21, 'liquid.model', 'none');
 n = refused(n, 'control: takes 5 to 5', 'control', sim);
 n = refused(n, 'takes a function handle', 'control', sim, 3, 'opening', 1e-3, 1e-2);
-n = refused(n, 'there is no openin;', 'control', sim, @(t, y) 0, 'openin', 1e-3, 1e-2);
+n = refused(n, 'unknown signal openin;', 'control', sim, @(t, y) 0, 'openin', 1e-3, 1e-2);
 n = refused(n, 'period', 'control', sim, @(t, y) 0, 'opening', 0, 1e-2);
 n = refused(n, 'returns one number', 'control', sim, @(t, y) 'a lot', 'opening', 1e-3, 1e-2);
 n = refused(n, 'controller''s voltage at', 'control', sim, @(t, y) -1, 'opening', 1e-3, 1e-2);
-n = refused(n, 'read only', 'control', sim, @(t, y) zipact('step', sim, 1e-3), 'opening', 1e-3, 1e-2);
+n = refused(n, 'can only be read', 'control', sim, @(t, y) zipact('step', sim, 1e-3), 'opening', 1e-3, 1e-2);
 n = refused(n, 'controller: of its own', 'control', sim, @(t, y) error('of its own'), 'opening', 1e-3, 1e-2);
 zipact('close', sim);
 
@@ -138,7 +138,7 @@ n = refused(n, 'step: takes 2 to 3', 'step', sim, 1e-3, 1, 1);
 n = refused(n, 'step: takes 2 to 3', 'step');
 n = refused(n, 'read: takes', 'read');
 n = refused(n, 'read: takes', 'read', sim, sim);
-n = refused(n, 'no lists', 'open', 'load.mass', [8e-3 9e-3]);
+n = refused(n, 'not lists', 'open', 'load.mass', [8e-3 9e-3]);
 n = refused(n, 'load.mas', 'open', 'load.mas', 1);
 n = refused(n, 'contact.model', 'open', 'solver.integrator', 'implicit', 'contact.model', 'sequential');
 

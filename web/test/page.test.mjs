@@ -176,7 +176,7 @@ pageTest('what the command refuses is refused in its words, and the page goes on
   for (const [given, words] of [
     ['platform.length=95 mm', 'platform.length = 0.095 m: at most 0.9 of ribbon.length, 0.09 m'],
     ['ribbon.lenght=1', 'ribbon.lenght=1: unknown key; did you mean ribbon.length?'],
-    ['ribbon.length=20', 'ribbon.length=20: out of range; 1 mm to 10000 mm'],
+    ['ribbon.length=20', 'ribbon.length=20: taken as 20 m, which is out of range; 1 mm to 10000 mm'],
   ]) {
     await page.fill('#any-key', given);
     await page.keyboard.press('Enter');
@@ -235,7 +235,7 @@ pageTest('the tour has five steps and ends where it began', {}, async (page) => 
 });
 
 pageTest('an address that is refused says so', {hash: '#ribbon.length=20'}, async (page) => {
-  assert.equal(await page.textContent('[role=alert]'), 'ribbon.length=20: out of range; 1 mm to 10000 mm');
+  assert.equal(await page.textContent('[role=alert]'), 'ribbon.length=20: taken as 20 m, which is out of range; 1 mm to 10000 mm');
   await page.click('#step');
   await until(page, 'contraction', (c) => c > 90, 'it goes on');
 });
