@@ -484,6 +484,39 @@ START_TEST(large_changes_stay_on_their_branch) {
 }
 END_TEST
 
+/* From 0 to one voltage in small changes, then to another in so many. */
+static void change_in(int changes, double from, double to, ZpChain *chain) {
+  enum { SMALL = 100 };
+  ck_assert(zp_chain_hang(chain));
+  for (int k = 1; k <= SMALL; k++)
+    ck_assert(zp_chain_change(chain, from * k / SMALL));
+  for (int k = 1; k <= changes; k++)
+    ck_assert(zp_chain_change(chain, from + (to - from) * k / changes));
+}
+
+/* One change leads to where many small ones do. Newton's method alone ends elsewhere: below a fold at the unstable
+ * state near it, else at a stable one that is far away. */
+START_TEST(one_change_leads_to_where_many_do) {
+  static const struct {
+    double thickness, mass, from, to;
+  } cases[] = {{85e-6, 18e-3, 5540, 5625}, {60e-6, 6e-3, 3000, 2500}};
+  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 11}, {"ribbon.thickness", cases[_i].thickness},
+                          {"load.mass", cases[_i].mass}, {"drive.voltage", 9e3});
+  double opening[2];
+  ZpModel *model = model_of(&def);
+  ZpChain chain;
+  ck_assert(zp_chain_open(&chain, model, NULL) == ZP_OK);
+  change_in(50, cases[_i].from, cases[_i].to, &chain);
+  for (size_t k = 0; k < LENGTH_OF(opening); k++)
+    opening[k] = zp_statics_opening(&chain.of[k].statics);
+  change_in(1, cases[_i].from, cases[_i].to, &chain);
+  for (size_t k = 0; k < LENGTH_OF(opening); k++)
+    ck_below(fabs(zp_statics_opening(&chain.of[k].statics) - opening[k]), 1e-8);
+  zp_chain_close(&chain);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A member that hardly bends is a mass on the one above it. */
 START_TEST(stiff_member_is_a_mass) {
   ZpActuatorDef series = DEF({"stack.series", 2}, {"member_2.ribbon.thickness", 2e-3}, {"mesh.nodes", 31}),
@@ -625,6 +658,7 @@ int main(void) {
   tcase_add_loop_test(rest, limits_of_unlike_ones_are_at_their_states, 0, 2);
   tcase_add_loop_test(rest, gaps_of_modes_are_those_of_their_shapes, 0, 2);
   tcase_add_test(rest, large_changes_stay_on_their_branch);
+  tcase_add_loop_test(rest, one_change_leads_to_where_many_do, 0, 2);
   tcase_add_test(rest, chain_of_springs_and_masses);
   tcase_add_test(rest, stiff_member_is_a_mass);
   tcase_add_test(rest, voltage_softens_a_series);
