@@ -440,6 +440,33 @@ START_TEST(limits_of_unlike_ones_are_at_their_states) {
 }
 END_TEST
 
+/* Along the points of a branch, from its first on or back from its last: where the voltage, having gone up (`sign` 1)
+ * or down (-1), turns by more than the ripple of a mesh, V. */
+static double first_turn(const ZpTable *branch, bool back, double sign) {
+  static const double ripple = 0.005;
+  double farthest = -INFINITY;
+  for (size_t k = 0; k < branch->rows; k++) {
+    double along = sign * zp_table_get(branch, back ? branch->rows - 1 - k : k, "voltage_V");
+    farthest = fmax(farthest, along);
+    if (along < farthest - ripple * fabs(farthest)) break;
+  }
+  return sign * farthest;
+}
+
+/* On coarse meshes, where one limit point follows another, pull-in and release are those of the branch's points, which
+ * lie up to a hundredth apart. */
+START_TEST(limits_of_unlike_ones_are_turns_of_their_branch) {
+  static const double mass[] = {4e-3, 8e-3};
+  ZpActuatorDef def = DEF({"stack.parallel", 2}, {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 11},
+                          {"load.mass", mass[_i]}, {"drive.voltage", 8e3}, {"output.samples", 5000});
+  ZpResult *branch = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_near(zp_result_get(limits, "pull_in_voltage_V"), first_turn(branch->series, false, 1), 1e-2);
+  ck_near(zp_result_get(limits, "release_voltage_V"), first_turn(branch->series, true, -1), 1e-2);
+  zp_result_destroy(branch);
+  zp_result_destroy(limits);
+}
+END_TEST
+
 /* Gaps in the shapes of modes are those of the moved ribbons, of each member. */
 START_TEST(gaps_of_modes_are_those_of_their_shapes) {
   ZpActuatorDef def =
@@ -656,6 +683,7 @@ int main(void) {
   tcase_add_test(rest, members_rest_together_as_alone);
   tcase_add_test(rest, members_close_and_open_one_by_one);
   tcase_add_loop_test(rest, limits_of_unlike_ones_are_at_their_states, 0, 2);
+  tcase_add_loop_test(rest, limits_of_unlike_ones_are_turns_of_their_branch, 0, 2);
   tcase_add_loop_test(rest, gaps_of_modes_are_those_of_their_shapes, 0, 2);
   tcase_add_test(rest, large_changes_stay_on_their_branch);
   tcase_add_loop_test(rest, one_change_leads_to_where_many_do, 0, 2);

@@ -62,7 +62,7 @@ _Static_assert((int)MOST_COLUMNS > (int)OPPOSED, "a row has room for the columns
 
 /* States that are kept: where the limits are, limit points of which it is not yet known whether they are one, and where
  * the last step began. */
-typedef enum Kept { PULL_IN, CLOSING, RELEASE, PASSED, CREST, HIGHEST, TROUGH, BEFORE, KEPT } Kept;
+typedef enum Kept { PULL_IN, CLOSING, RELEASE, PASSED, CREST, HIGHEST, BEFORE, KEPT } Kept;
 enum { LIMITS = RELEASE + 1 };
 
 typedef struct Follower {
@@ -77,9 +77,10 @@ typedef struct Follower {
   double crest;     /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
   double highest;   /* of the voltage on the way, V, */
   double before;    /* and until the last step */
-  double trough;    /* of the voltage, from which it has not yet gone far up, V; NAN: there is none */
+  double trough;    /* of the voltage, where one that is closed opens as it falls slowly, V; NAN: there is none */
+  double summit;    /* highest voltage of a point since then, V */
   double pull_in;   /* V; NAN: there is none */
-  double release;   /* V; the last trough: where one that is closed opens as the voltage falls */
+  double release;   /* V; NAN: none is closed at drive.voltage */
   double closing;   /* V; NAN: neither has closed */
   double start;     /* opening of the first one without voltage, m */
   double *kept[KEPT], *here;
@@ -319,19 +320,21 @@ static void look_for_crest(Follower *f, bool rose) {
   keep(f, CREST, PULL_IN);
 }
 
+/* Is a trough of the voltage, from which the branch came down, another one than the last, and no ripple of a mesh above
+ * it? Way back from here the voltage first rises to the summit between both. */
+static bool is_next_trough(const Follower *f, double trough) {
+  return isnan(f->trough) || trough < f->trough || trough < (1 - ZP_FOLD_RIPPLE) * f->summit;
+}
+
 /* A limit point may be a trough of the voltage, too. Where one of both is closed at drive.voltage, a slowly falling
- * voltage comes to the last one from which the branch goes up by more than the ripple of a mesh => release. */
+ * voltage comes to the last one, of a group that only ripples of a mesh part to the lowest. */
 static void look_for_trough(Follower *f, bool rose) {
   double voltage = upper(f)->U, trough = !rose && f->all.branch.direction_m > 0 ? pass_limit(f) : NAN;
-  if (fmin(voltage, trough) < f->trough) f->trough = NAN;
-  if (isnan(f->trough) && !isnan(trough)) {
-    f->trough = trough;
-    keep(f, PASSED, TROUGH);
-  }
-  if (!(voltage * (1 - ZP_FOLD_RIPPLE) > f->trough)) return;
-  f->release = f->trough;
-  f->trough = NAN;
-  keep(f, TROUGH, RELEASE);
+  bool next = !isnan(trough) && is_next_trough(f, trough);
+  f->summit = next ? voltage : fmax(f->summit, voltage);
+  if (!next) return;
+  f->trough = trough;
+  keep(f, PASSED, RELEASE);
 }
 
 /* Solve for where one has closed, from the end of the last step, or else from its beginning. */
@@ -442,7 +445,7 @@ static void follow(Follower *f) {
   for (int k = 0; k < MOST_POINTS && !ends; k++)
     ends = advance(f);
   bool arrived = f->result->outcome == ZP_FOLLOWED && is_at_top(f);
-  if (!arrived || zp_together_left(&f->all) > 0) f->release = NAN;
+  if (arrived && zp_together_left(&f->all) <= 0) f->release = f->trough;
   describe(f);
   if (zp_together_stopped(&f->all)) f->result->outcome = ZP_INTERRUPTED;
 }
