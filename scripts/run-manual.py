@@ -67,8 +67,8 @@ def run(command, folder):
 
 
 def label(line):
-    """What a line says before its first number, or of a sentence its first word: "zip time" of "  zip time   152 ms"."""
-    found = re.match(r"\s*(.*?\S)(?:  +[-+.\d]|  +-$|: )", line + " ")
+    """What a line says before its first number: "zip time" of "  zip time   152 ms"; of a note its first two words, of another sentence its first."""
+    found = re.match(r"\s*(note: \S+ \S+)", line) or re.match(r"\s*(.*?\S)(?:  +[-+.\d]|  +-$|: )", line + " ")
     return found.group(1) if found else line.split()[0] if line.split() else ""
 
 
