@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
-PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "paper.md"]
+PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "materials.md", "paper.md"]
 PICTURES = {
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
@@ -54,6 +54,10 @@ PICTURES = {
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
     "off-centre.svg": "off-centre/plots/profiles.svg",
     "held-clip.svg": "held-clip/plots/profiles.svg",
+    "control.svg": "control/plots/control.svg",
+    "tilted.svg": "tilted/plots/stroke.svg",
+    "wide-strip.svg": "wide-strip/plots/strokes.svg",
+    "materials.svg": "materials/plots/distribution.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 
