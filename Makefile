@@ -7,7 +7,7 @@
 # make fmu     the actuator of examples/fmu.yaml as an FMU in out/, with a binary for Windows if mingw-w64 is there
 # make install; make uninstall removes what it installed
 # make deb     Debian packages in build-deb
-# make windows the library for Windows as a zip in build/win64, tried under wine
+# make windows the command and the library for Windows as a zip in build/win64, tried under wine
 # make docs    the manual as HTML in build/docs/html, with all numbers and pictures of docs/ remade; make html without
 #              remaking them; make check-docs looks at it
 # Each installs what is missing (make deps alone does that), configures, builds and runs.

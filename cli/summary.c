@@ -165,12 +165,17 @@ static void print_rows(const ZpReport *report) {
 }
 
 void summary_print(const ZpReport *report, bool plots) {
+#ifdef _WIN32
+  static const char results[] = "";
+#else
+  static const char results[] = ", results.h5";
+#endif
   if (report->optimum)
     print_optimum(report);
   else if (report->rows)
     print_rows(report);
   else if (report->count > 0)
     print_result(report->result[0]);
-  printf("results: %s/ (all numbers: summary.json; table.csv, results.h5%s)\n", report->directory,
+  printf("results: %s/ (all numbers: summary.json; table.csv%s%s)\n", report->directory, results,
          plots ? ", plots/" : "");
 }

@@ -13,11 +13,11 @@ unset ylabel
 across = |panel_at| <= 4 ? 2 : 3
 down = (|panel_at| + across - 1)/across
 panel_width = (right + 0.02 - left)/across
-panel_height = (0.86 - bottom)/down
+panel_height = (top - bottom)/down
 set multiplot
 do for [k=1:|panel_at|] {
   panel_left = left + panel_width*((k - 1) % across)
-  panel_top = 0.86 - panel_height*((k - 1)/across)
+  panel_top = top - panel_height*((k - 1)/across)
   set lmargin at screen panel_left
   set rmargin at screen panel_left + panel_width - 0.02
   set tmargin at screen panel_top - 0.05

@@ -3,15 +3,21 @@ title = (ribbons > 1 ? 'Shapes of the ribbons' : 'Shapes of the ribbon').(half ?
 foot = note
 if (!same_scale) remark = 'x and y have different scales'
 right = 0.79
+if (same_scale) {
+  load 'shape_ratio.gp'
+}
 load 'style.gp'
 load 'of_shapes.gp'
 time = scale(end, 's')
 load 'scale_of_shades.gp'
 set cblabel label('time', unit(end, 's')) offset 0.5
 set cbrange [begin*time:end*time]
+set cbtics step((end - begin)*time, 5)
 tics = 12
 if (same_scale) {
-  load 'same_scale.gp'
+  load 'fill_shapes.gp'
+} else {
+  set autoscale noextend
+  set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 }
-set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 plot 'profiles.dat' using ($1*length):($2*length):($3*time) with lines lw 2 lc palette z notitle

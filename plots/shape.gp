@@ -2,16 +2,20 @@
 title = 'Shape at rest'.(half ? ', left half' : '')
 if (ribbons > 1) { letters = 6 } else { right = 0.96 }
 if (!same_scale) remark = 'x and y have different scales'
+if (same_scale) {
+  load 'shape_ratio.gp'
+}
 load 'style.gp'
 load 'of_shapes.gp'
-set autoscale noextend
-set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 tics = 10
 if (same_scale) {
-  load 'same_scale.gp'
+  load 'fill_shapes.gp'
+} else {
+  set autoscale noextend
+  set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 }
 stroke = number('stroke_m')
-if (stroke == stroke) set label 5 sprintf('stroke %.4g %s', stroke*length, length_unit) at screen 0.985,0.905 right font ',12' tc rgb '#555555'
+if (stroke == stroke) set label 5 sprintf('stroke %.4g %s', stroke*length, length_unit) at screen 0.985, 1 - px(39.9) right font ',12' tc rgb '#555555'
 if (ribbons > 1) {
   plot for [k=1:ribbons] 'shape.dat' using ($1*length):($4 == k-1 ? $2*length : NaN) with lines lw 2.5 dt dash(k) lc rgb colour(k) \
        title word('upper lower', k)

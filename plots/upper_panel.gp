@@ -1,6 +1,6 @@
 # The upper of two panels.
 set multiplot
-middle = (bottom + 0.86)/2
+middle = (bottom + top)/2
 y_tics = 5
 set bmargin at screen middle + 0.025
 set format x ''

@@ -36,7 +36,10 @@ A resistivity is listed but sets no key, because setting it adds [leakage](theor
 With `sampling.tolerances: materials` every key that a material sets is drawn from a lognormal distribution. Its median is the value of the table; the standard deviation of its logarithm is the spread.
 Keys that are given keep their value, or their own [distribution](campaigns.md#tolerances). [examples/materials.yaml](../examples/materials.yaml):
 
-    zipact run examples/materials.yaml -o out/materials --quiet
+```console
+$ zipact run examples/materials.yaml -o out/materials
+...
+```
 
 ![Distribution of the largest load that results from the spreads of the materials](images/materials.svg)
 """

@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
-PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "paper.md"]
+PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "materials.md", "paper.md"]
 PICTURES = {
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
@@ -54,6 +54,10 @@ PICTURES = {
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
     "off-centre.svg": "off-centre/plots/profiles.svg",
     "held-clip.svg": "held-clip/plots/profiles.svg",
+    "control.svg": "control/plots/control.svg",
+    "tilted.svg": "tilted/plots/stroke.svg",
+    "wide-strip.svg": "wide-strip/plots/strokes.svg",
+    "materials.svg": "materials/plots/distribution.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 
@@ -67,8 +71,8 @@ def run(command, folder):
 
 
 def label(line):
-    """What a line says before its first number, or of a sentence its first word: "zip time" of "  zip time   152 ms"."""
-    found = re.match(r"\s*(.*?\S)(?:  +[-+.\d]|  +-$|: )", line + " ")
+    """What a line says before its first number: "zip time" of "  zip time   152 ms"; of a note its first two words, of another sentence its first."""
+    found = re.match(r"\s*(note: \S+ \S+)", line) or re.match(r"\s*(.*?\S)(?:  +[-+.\d]|  +-$|: )", line + " ")
     return found.group(1) if found else line.split()[0] if line.split() else ""
 
 

@@ -244,6 +244,21 @@ START_TEST(zip_times_show_the_pull_in) {
 }
 END_TEST
 
+START_TEST(columns_without_units_are_told) {
+  write_file("bare.csv", "load,stroke,sigma\n0.004,0.0061,0.0001\n0.008,0.0112,0.0001\n");
+  ZpActuatorDef bare = calibration("bare.csv", "ribbon.young_modulus");
+  ZpResult *result = fit(&bare);
+  ck_assert_uint_eq(result->notes, 1);
+  ck_assert_str_eq(result->note[0],
+                   "columns without a unit in their name are read in SI: load in kg, stroke in m, sigma in m");
+  zp_result_destroy(result);
+  write_file("bare.csv", "load_g,stroke_mm,sigma_mm\n4,6.1,0.1\n8,11.2,0.1\n");
+  result = fit(&bare);
+  ck_assert_uint_eq(result->notes, 0);
+  zp_result_destroy(result);
+}
+END_TEST
+
 START_TEST(bounds_are_kept) {
   ZpActuatorDef def = calibration("bounds.csv", "ribbon.young_modulus"), truth = def;
   truth.ribbon.young_modulus = 100e9;
@@ -577,7 +592,7 @@ START_TEST(bad_mixtures_are_refused) {
   refuse(ZP_STUDY_CALIBRATE, &one, "column sigma_stroke_g: its unit must be one of the measured quantity, such as m");
   write_file("kind-3.csv", "load_g,stroke_mm,frequency_mm,sigma_stroke_mm\n8,2,3,0.1\n");
   set_text(&one, "calibrate.y", "stroke_mm; frequency_mm");
-  refuse(ZP_STUDY_CALIBRATE, &one, "calibrate.y: column frequency_mm: takes stroke, opening");
+  refuse(ZP_STUDY_CALIBRATE, &one, "kind-3.csv:1: column frequency_mm: unknown; calibrate.y takes stroke, opening");
 }
 END_TEST
 
@@ -595,8 +610,8 @@ START_TEST(bad_input_is_refused) {
   refuse_file("load_g,stroke_mm\n8,0x10\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm\n8,1e999\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm\n8,2,3\n", E, "bad.csv:2: 3 cells; the header has 2");
-  refuse_file("load_s,stroke_mm\n8,2\n", E, "calibrate.x");
-  refuse_file("load_g,stroke_kg\n8,2\n", E, "calibrate.y");
+  refuse_file("load_s,stroke_mm\n8,2\n", E, "bad.csv:1: column load_s: unknown; calibrate.x takes");
+  refuse_file("load_g,stroke_kg\n8,2\n", E, "bad.csv:1: column stroke_kg: unknown; calibrate.y takes");
   refuse_file("load_g\n8\n", E, "calibrate.y");
   refuse_file("isometric.separation_mm,force_N\n2,1\n89,2\n", E, "bad.csv:3: isometric.separation = 0.089 m");
   refuse_file("load_g,stroke_mm\n-8,2\n", E, "load.mass");
@@ -937,6 +952,7 @@ int main(void) {
   tcase_add_test(fits, zip_times_have_derivatives);
   tcase_add_test(fits, voltage_data);
   tcase_add_test(fits, zip_times_show_the_pull_in);
+  tcase_add_test(fits, columns_without_units_are_told);
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, bounds_have_units);
   tcase_add_test(fits, files_of_all_kinds);

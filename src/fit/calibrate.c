@@ -133,6 +133,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
       zp_result_note(result, "%s is at a bound of its range, so it has no standard error", key->name);
   }
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
+  if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);
   if (!told_apart && n > 0)
     zp_result_note(
         result,

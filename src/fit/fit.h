@@ -52,8 +52,9 @@ typedef struct ZpFit {
   double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
   ZpFitSet *set;                                 /* [sets] */
   size_t sets, rows;
-  double *x, *y; /* [rows] SI, one set after the other */
-  double *sigma; /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
+  double *x, *y;  /* [rows] SI, one set after the other */
+  char bare[160]; /* columns without a unit in their name: "load in kg, stroke in m" */
+  double *sigma;  /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */
   ZpStatus status; /* of the machine */

@@ -1,5 +1,6 @@
 /* CSV files => sets of rows, one for each measured column of each file. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -107,16 +108,29 @@ static bool is_measured(const Measured *measured, int column) {
 
 /* -- what was set ---------------------------------------------------------------------------------- */
 
+/* zp_data_unit; remembers a column that has no unit. */
+static bool take_unit(ZpFit *fit, const char *name, const char *stem, const char *unit, double *factor,
+                      double *divisor) {
+  char text[80];
+  if (!zp_data_unit(name, stem, unit, factor, divisor)) return false;
+  const bool bare = strlen(name) == strlen(stem) && *unit && strcmp(unit, "1") != 0;
+  snprintf(text, sizeof text, "%.60s in %s", name, unit);
+  const size_t used = strlen(fit->bare);
+  if (bare && !strstr(fit->bare, text))
+    snprintf(fit->bare + used, sizeof fit->bare - used, "%s%s", used ? ", " : "", text);
+  return true;
+}
+
 /* The key and unit in the header of a column; -1 if it is not a key. */
-static int key_of_header(const ZpFit *fit, const char *name, double *factor, double *divisor) {
-  if (zp_data_unit(name, "force", "N", factor, divisor) && fit->def->gravity > 0) { /* the weight of a load */
+static int key_of_header(ZpFit *fit, const char *name, double *factor, double *divisor) {
+  if (fit->def->gravity > 0 && take_unit(fit, name, "force", "N", factor, divisor)) { /* the weight of a load */
     *divisor *= fit->def->gravity;
     return zp_key_find("load.mass");
   }
-  if (zp_data_unit(name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
-  if (zp_data_unit(name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
+  if (take_unit(fit, name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
+  if (take_unit(fit, name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
   for (int i = 0; i < zp_key_count(); i++)
-    if (zp_fit_takes(i) && zp_data_unit(name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
+    if (zp_fit_takes(i) && take_unit(fit, name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
   return -1;
 }
 
@@ -160,13 +174,14 @@ static ZpStatus check_times(const double *time, const ZpData *data, ZpError *err
 static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
   double factor, divisor, *x = fit->x + set->first;
   const char *name = data->cell[column];
-  bool is_time = zp_data_unit(name, "time", "s", &factor, &divisor);
+  bool is_time = take_unit(fit, name, "time", "s", &factor, &divisor);
   set->x_key = is_time ? -1 : key_of_header(fit, name, &factor, &divisor);
   if (!is_time && set->x_key < 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "calibrate.x: column %.60s: must be time, load, force, voltage or a numeric key, with its unit, such as load_g",
-        name);
+        "%.200s:1: column %.60s: unknown; calibrate.x takes time, load, force, voltage or a numeric key, with its "
+        "unit, such as load_g; give another name by data.columns: %.60s = load_g",
+        data->path, name, name);
   ZpStatus status = check_set(fit, set, set->x_key, name, err);
   if (status == ZP_OK) status = read_column(fit, data, column, set->x_key, factor, divisor, x, err);
   return status == ZP_OK && is_time ? check_times(x, data, err) : status;
@@ -321,17 +336,18 @@ static int find_sigma(const ZpData *data, ZpFitKind kind) {
 }
 
 /* The unit in the name of such a column; false if it is not a unit of the measured quantity. */
-static bool find_sigma_unit(const char *name, ZpFitKind kind, double *factor, double *divisor) {
+static bool find_sigma_unit(ZpFit *fit, const char *name, ZpFitKind kind, double *factor, double *divisor) {
   const size_t length = strlen(zp_fit_number[kind].column);
   const bool named = is_sigma_of(name, (int)kind);
   if (named) name += 6 + length; /* "_mm" */
-  return zp_data_unit(name, named ? "" : "sigma", zp_fit_number[kind].unit, factor, divisor);
+  return take_unit(fit, name, named ? "" : "sigma", zp_fit_number[kind].unit, factor, divisor);
 }
 
-static ZpStatus read_sigma_column(const ZpFitSet *set, const ZpData *data, int column, double *sigma, ZpError *err) {
+static ZpStatus read_sigma_column(ZpFit *fit, const ZpFitSet *set, const ZpData *data, int column, double *sigma,
+                                  ZpError *err) {
   const char *name = data->cell[column], *unit = zp_fit_number[set->kind].unit;
   double factor, divisor;
-  if (!find_sigma_unit(name, set->kind, &factor, &divisor))
+  if (!find_sigma_unit(fit, name, set->kind, &factor, &divisor))
     return zp_fail(err, ZP_BAD_INPUT,
                    "data.file: column %.60s: its unit must be one of the measured quantity, such as %s", name, unit);
   for (size_t i = 0; i < set->rows; i++) {
@@ -355,7 +371,7 @@ static ZpStatus read_sigma(Reading *r, const ZpFitSet *set, const Measured *meas
                    "%.200s: column %.60s: the file has several measured columns; name the one that it belongs to, as "
                    "in sigma_%s_%s",
                    data->path, data->cell[column], zp_fit_number[set->kind].column, zp_fit_number[set->kind].unit);
-  if (column >= 0) return read_sigma_column(set, data, column, sigma, r->err);
+  if (column >= 0) return read_sigma_column(r->fit, set, data, column, sigma, r->err);
   for (size_t i = 0; i < set->rows; i++)
     sigma[i] = r->sigma[set->kind];
   return ZP_OK;
@@ -408,11 +424,11 @@ static bool is_possible(const ZpFitSet *set, ZpFitKind kind) {
 }
 
 /* The kind of a column by its name, and its unit; false if it is none. */
-static bool find_kind(ZpFitSet *set, const char *name, double *factor, double *divisor) {
+static bool find_kind(ZpFit *fit, ZpFitSet *set, const char *name, double *factor, double *divisor) {
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
     const ZpFitNumber *of = &zp_fit_number[kind];
     set->kind = (ZpFitKind)kind;
-    if (is_possible(set, set->kind) && zp_data_unit(name, of->column, of->unit, factor, divisor)) return true;
+    if (is_possible(set, set->kind) && take_unit(fit, name, of->column, of->unit, factor, divisor)) return true;
   }
   return false;
 }
@@ -420,12 +436,14 @@ static bool find_kind(ZpFitSet *set, const char *name, double *factor, double *d
 static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
   double factor, divisor;
   const char *name = data->cell[column];
-  if (!find_kind(set, name, &factor, &divisor))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "calibrate.y: column %.60s: takes stroke, opening or capacitance with its unit; against a key, not "
-                   "over time, also zip_time, pull_in_voltage, release_voltage or frequency; against a key that is not "
-                   "the load, also force",
-                   name);
+  if (!find_kind(fit, set, name, &factor, &divisor))
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "%.200s:1: column %.60s: unknown; calibrate.y takes stroke, opening or capacitance with its unit; against a "
+        "key, "
+        "not over time, also zip_time, pull_in_voltage, release_voltage or frequency; against a key that is not "
+        "the load, also force; give another name by data.columns: %.60s = stroke_mm",
+        data->path, name, name);
   if (set->kind == ZP_FIT_OPENING && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   return read_column(fit, data, column, -1, factor, divisor, fit->y + set->first, err);

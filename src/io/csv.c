@@ -46,17 +46,13 @@ static void write_head(FILE *file, const ZpReport *report, const ZpScalarNames *
   fputc('\n', file);
 }
 
-/* The values of the swept keys of this run. */
+/* The values of the swept keys of this run, which are numbers: words take no lists. */
 static void write_keys(FILE *file, const ZpReport *report, size_t run, double *value) {
   size_t keys;
-  const int *key = zp_scenario_lists(report->scenario, &keys);
+  zp_scenario_lists(report->scenario, &keys);
   zp_scenario_values(report->scenario, run, value);
   for (size_t i = 0; i < keys; i++) {
-    const char *word = zp_key_word(key[i], value[i]);
-    if (word)
-      fputs(word, file);
-    else
-      put_number(file, value[i]);
+    put_number(file, value[i]);
     fputc(',', file);
   }
 }

@@ -8,6 +8,7 @@
  * are resolved once, when keys are given; a case only sets the varied keys. */
 #include <zipact/io.h>
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdbool.h>
@@ -307,14 +308,21 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
   return ZP_OK;
 }
 
+static bool is_absolute(const char *path) {
+#ifdef _WIN32
+  if (isalpha((unsigned char)path[0]) && path[1] == ':') return true;
+#endif
+  return *path == '/';
+}
+
 /* The path of a file in a scenario is relative to the folder of that scenario, in --set to the current folder; it is
  * kept as an absolute path, so that the written scenario finds the file from any folder. => `length` bytes of `path` as
  * a path, to be freed. */
 static char *absolute_path(const ZpSource *source, const char *path, int length) {
   const char *slash = source->argument ? NULL : strrchr(source->name, '/');
   int folder = slash ? (int)(slash - source->name) + 1 : 0;
-  if (length == 0 || *path == '/') return strndup(path, (size_t)length);
-  char *here = slash == NULL || *source->name != '/' ? getcwd(NULL, 0) : strdup("");
+  if (length == 0 || is_absolute(path)) return strndup(path, (size_t)length);
+  char *here = slash == NULL || !is_absolute(source->name) ? getcwd(NULL, 0) : strdup("");
   char *whole = NULL;
   const char *between = here && *here && strcmp(here, "/") != 0 ? "/" : "";
   if (here && asprintf(&whole, "%s%s%.*s%.*s", here, between, folder, source->name, length, path) < 0) whole = NULL;

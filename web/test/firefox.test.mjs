@@ -58,7 +58,7 @@ class Session {
   }
 }
 
-test('the page in Firefox: it zips, the chart and the tour work', {skip: !existsSync(firefox), timeout: 120e3}, async () => {
+test('the page in Firefox: it zips; the chart, undo, a link and the tour work', {skip: !existsSync(firefox), timeout: 120e3}, async () => {
   const profile = mkdtempSync(join(tmpdir(), 'zipact-firefox-')), port = await freePort();
   const browser = spawn(firefox, ['--headless', '--no-remote', '--profile', profile, '--remote-debugging-port', String(port)], {stdio: 'ignore'});
   const over = new Promise((resolve) => browser.once('exit', resolve));
@@ -78,6 +78,20 @@ test('the page in Firefox: it zips, the chart and the tour work', {skip: !exists
     await until("/^pulls in at /.test(document.getElementById('voltage-note').textContent)");
     await until("/up to \\d/.test(document.getElementById('plot-chart').getAttribute('aria-label'))");
     assert.equal(await run("document.getElementById('alert').hidden"), true);
+    const command = "document.getElementById('command').textContent", first = await run(command);
+    await run("[...document.querySelectorAll('#presets button')].find((button) => button.textContent === 'Too heavy').click()");
+    const heavy = await run(command);
+    assert.notEqual(heavy, first);
+    await until("location.hash.includes('load.mass')");
+    const link = await run('location.href');
+    await run("document.getElementById('undo').click()");
+    assert.equal(await run(command), first);
+    await run("document.getElementById('redo').click()");
+    assert.equal(await run(command), heavy);
+    await session.ask('browsingContext.navigate', {context, url: 'about:blank', wait: 'complete'});
+    await session.ask('browsingContext.navigate', {context, url: link, wait: 'complete'});
+    await until(`${command} !== ''`);
+    assert.equal(await run(command), heavy);
     await run("document.getElementById('tour').click()");
     assert.match(await run("document.querySelector('#guide h2').textContent"), /^1 of 5: /);
     if (process.env.SCREENSHOT) {
