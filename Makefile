@@ -18,7 +18,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format docs html check-docs validity verification install uninstall deb windows clean
+.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format check-format docs html check-docs validity verification install uninstall deb windows clean
 all: $(BUILD)/zipact
 
 deps:
@@ -101,8 +101,14 @@ web:
 check-web: $(BUILD)/zipact
 	ZIPACT=$(abspath $(BUILD)/zipact) scripts/web.sh --test
 
+# All sources in C; git's list would miss a new one.
+c_sources = $(shell find bench benchmarks cli examples include octave python src tests web -name node_modules -prune -o -name build -prune -o -name '*.[ch]' -print)
+
 format:
-	clang-format -i include/zipact/*.h src/*/*.[ch] src/*/*/*.[ch] cli/*.[ch] bench/*.c tests/*.[ch] python/src/*.[ch] octave/src/*.[ch] web/*.c
+	clang-format -i $(c_sources)
+
+check-format:
+	@clang-format --dry-run -Werror $(c_sources)
 
 # What was installed last, which `make uninstall` removes.
 INSTALLED ?= $(BUILD)/installed.txt

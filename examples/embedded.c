@@ -5,8 +5,8 @@
 
 int main(void) {
   ZpActuatorDef def = zp_actuator_def_default();
-  def.load.mass = 0.008;     /* kg */
-  def.drive.voltage = 10e3;  /* V */
+  def.load.mass = 0.008;    /* kg */
+  def.drive.voltage = 10e3; /* V */
   def.mesh.nodes = 15;
 
   ZpModel *model = NULL;
