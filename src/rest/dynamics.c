@@ -543,6 +543,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
   return (ZpImplicitSystem){.n = last->at + last->assembly.n + border,
                             .border = border,
                             .bandwidth = d->assembly.bandwidth,
+                            .groups = d->below ? (ZpBandGroups){0, 0} : d->assembly.groups,
                             .parts = d->assembly.parts,
                             .self = d,
                             .begin = begin,
