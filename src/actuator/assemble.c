@@ -277,22 +277,32 @@ ZP_INLINE double stretch(size_t s, bool right) {
   return (right ? 1.0 : -1.0) / (double)s;
 }
 
+/* Rows first .. first + count - 1 of a symmetric matrix: entry (first + i, first + j) at rows[i][j]. */
+ZP_INLINE void rows_from(const ZpBand *K, size_t first, size_t count, double **rows) {
+  for (size_t i = 0; i < count; i++)
+    rows[i] = zp_band_row(K, first + i) - i;
+}
+
 ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t per, size_t i, const ZpGapDerivatives *of,
                                     ZpBand *K) {
-  size_t first = (size_t)a->first[i]; /* equation of x of the first node */
   double own = of->own[i], next = of->next[i], along[2] = {of->along0[i], of->along1[i]};
-  for (size_t p = 0; p < s; p++) {
-    double *y = zp_band_row(K, first + 2 * p + 1);
-    for (size_t q = p; q < s; q++)
-      y[2 * (q - p)] += rise(s, p) * rise(s, q) * own;
-    for (size_t q = 0; q < s; q++)
-      y[per + 2 * q - 2 * p] += rise(s, p) * rise(s, q) * next;
-  }
-  for (size_t p = 0; p < 2 * s; p++)
-    for (size_t q = 0; q < 2 * s; q++) {
-      size_t x = p / s * per + 2 * (p % s), y = q / s * per + 2 * (q % s) + 1;
-      size_t row = x < y ? x : y, column = x < y ? y : x;
-      zp_band_row(K, first + row)[column - row] += stretch(s, p >= s) * rise(s, q % s) * along[q / s];
+  double *here[4], *after[4]; /* rows of station i, of station i + 1 */
+  rows_from(K, (size_t)a->first[i], 2 * s, here);
+  rows_from(K, (size_t)a->first[i] + per, 2 * s, after);
+  for (size_t p = 0; p < s; p++)
+    for (size_t q = 0; q < s; q++) {
+      double both = rise(s, p) * rise(s, q);
+      if (q >= p) here[2 * p + 1][2 * q + 1] += both * own;
+      here[2 * p + 1][per + 2 * q + 1] += both * next;
+    }
+  for (size_t p = 0; p < s; p++)
+    for (size_t q = 0; q < s; q++) {
+      size_t x = 2 * p, y = 2 * q + 1;
+      double by_left = rise(s, q) * along[0], by_right = rise(s, q) * along[1];
+      here[x < y ? x : y][x < y ? y : x] += stretch(s, false) * by_left;
+      here[x][per + y] += stretch(s, false) * by_right;
+      here[y][per + x] += stretch(s, true) * by_left;
+      after[x < y ? x : y][x < y ? y : x] += stretch(s, true) * by_right;
     }
 }
 

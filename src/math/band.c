@@ -37,10 +37,20 @@ void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carve
 
 void zp_band_clear(ZpBand *band) {
   size_t terms = band->rank * band->n;
-  memset(band->a, 0, band->entries * sizeof(double));
+  memset(band->a + band->lead * band->stride, 0, band->n * band->stride * sizeof *band->a);
   if (terms == 0) return;
   memset(band->u, 0, terms * sizeof *band->u);
   memset(band->v, 0, terms * sizeof *band->v);
+}
+
+ZpBand zp_band_part(const ZpBand *band, size_t first, size_t n) {
+  ZpBand part = *band;
+  part.n = n;
+  if (band->lower == 0)
+    part.lead += first;
+  else
+    part.a += first * band->stride;
+  return part;
 }
 
 static size_t least(size_t a, size_t b) {
@@ -205,13 +215,19 @@ ZP_INLINE bool factor_blocks(const ZpBand *band, size_t blocks) {
   return true;
 }
 
+static void fill_row(const ZpBand *band, size_t place) {
+  double *row = band->a + place * band->stride;
+  memset(row, 0, band->stride * sizeof *row);
+  row[place % ZP_BAND_BLOCK] = 1;
+}
+
 /* Rows that only fill the first and the last block are those of a unit matrix. */
 static void fill_blocks(const ZpBand *band) {
   size_t end = band->entries / band->stride;
   for (size_t place = 0; place < band->lead; place++)
-    band->a[place * band->stride + place] = 1;
+    fill_row(band, place);
   for (size_t place = band->lead + band->n; place < end; place++)
-    band->a[place * band->stride + place % ZP_BAND_BLOCK] = 1;
+    fill_row(band, place);
 }
 
 /* The four values of block k; 0 where rows only fill it. */

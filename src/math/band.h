@@ -54,6 +54,9 @@ void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carve
 /* All entries 0. */
 void zp_band_clear(ZpBand *band);
 
+/* Of a band of rank 0, the equations first .. first + n - 1 among themselves: to be written, not to be factored. */
+ZpBand zp_band_part(const ZpBand *band, size_t first, size_t n);
+
 /* Row i of a symmetric matrix: entry (i, j) at [j - i]. */
 static inline double *zp_band_row(const ZpBand *band, size_t i) {
   size_t place = i + band->lead;
