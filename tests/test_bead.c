@@ -86,7 +86,7 @@ static double *full_of(const ZpBand *K) {
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++) {
       size_t row = i < j ? i : j, column = i < j ? j : i;
-      if (column - row <= K->upper) A[i * n + j] = *zp_band_at(K, row, column);
+      if (column < zp_band_end(K, row)) A[i * n + j] = *zp_band_at(K, row, column);
       for (size_t k = 0; k < K->rank; k++)
         A[i * n + j] += K->u[k * n + i] * K->v[k * n + j];
     }

@@ -47,10 +47,10 @@ static const Shape shapes[] = {{9, 0, 0, 2},  {9, 0, 2, 3},  {9, 1, 0, 2}, {9, 1
 
 static void *make_bordered(Shape shape, ZpBordered *m) {
   ZpCarver carver = {NULL, 0};
-  zp_bordered_carve(m, shape.n, shape.border, shape.lower, shape.upper, &carver);
+  zp_bordered_carve(m, shape.n, shape.border, shape.lower, shape.upper, (ZpBandGroups){0, 0}, &carver);
   void *memory = zp_calloc(1, carver.used);
   carver = (ZpCarver){memory, 0};
-  zp_bordered_carve(m, shape.n, shape.border, shape.lower, shape.upper, &carver);
+  zp_bordered_carve(m, shape.n, shape.border, shape.lower, shape.upper, (ZpBandGroups){0, 0}, &carver);
   zp_bordered_clear(m);
   return memory;
 }

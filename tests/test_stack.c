@@ -94,7 +94,7 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
               {ZP_STUDY_LIMITS, "release_voltage_V", 1e-8},
               {ZP_STUDY_LIMITS, "travel_m", 1e-8},
               {ZP_STUDY_LIMITS, "mass_kg", 1e-12},
-              {ZP_STUDY_MODES, "frequency_1_Hz", 1e-9},
+              {ZP_STUDY_MODES, "frequency_1_Hz", 1e-8}, /* rounding: 1e-9 with 61 nodes, 3e-8 with 241 */
               {ZP_STUDY_ACTUATE, "opening_m", 1e-9}};
   ZpActuatorDef all = alike(counts[_i], 4e-3 * counts[_i]);
   all.mesh.nodes = 61; /* without ripples on the branch */

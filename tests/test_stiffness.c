@@ -108,7 +108,7 @@ static double worst_entry(ZpStatics *s, const ZpStaticSystem *system, const ZpBa
     for (size_t i = 0; i < system->n; i++) {
       bool below = K->lower == 0 && i > j; /* a symmetric matrix has its upper triangle only */
       size_t row = below ? j : i, column = below ? i : j;
-      bool inside = row + K->upper >= column && column + K->lower >= row;
+      bool inside = column < zp_band_end(K, row) && column + K->lower >= row;
       double entry = inside ? *zp_band_at(K, row, column) : 0;
       worst = fmax(worst, fabs(entry - (down[i] - up[i]) / (2 * by)));
       largest = fmax(largest, fabs(entry));

@@ -6,6 +6,10 @@
 
 #include "base/kernel.h"
 
+static size_t least(size_t a, size_t b) {
+  return a < b ? a : b;
+}
+
 /* Station by station: coordinates of its nodes, then unknowns of the laws. */
 static size_t number(const ZpTopology *t, ZpAssembly *a) {
   int next = 0;
@@ -46,6 +50,32 @@ static int first_of(const ZpAssembly *a, size_t i) {
   return first;
 }
 
+/* Smallest (sign -1) or largest equation of stations i .. end - 1; -1: they have none. */
+static int outermost(const ZpAssembly *a, size_t i, size_t end, int sign) {
+  int most = -1;
+  for (size_t k = 2 * a->s * i; k < 2 * a->s * least(end, a->nodes); k++)
+    if (a->equation[k] >= 0 && (most < 0 || sign * a->equation[k] > sign * most)) most = a->equation[k];
+  return most;
+}
+
+/* Each station meets the next two. Of two ribbons it is a group of four equations, of one ribbon half a group, unless
+ * held or joined nodes shift them. */
+static ZpBandGroups groups_of(const ZpAssembly *a) {
+  ZpBandGroups groups = {0, a->s + 1};
+  size_t i = 0;
+  while (i < a->nodes && a->first[i] < 0)
+    i++;
+  if (!a->symmetric || a->own > 0 || i == a->nodes) return (ZpBandGroups){0, 0};
+  groups.lead = (ZP_BAND_BLOCK - (size_t)a->first[i] % ZP_BAND_BLOCK) % ZP_BAND_BLOCK;
+  for (i = 0; i < a->nodes; i++) {
+    int first = outermost(a, i, i + 1, -1), last = outermost(a, i, i + 3, 1);
+    if (first < 0) continue;
+    size_t begin = ((size_t)first + groups.lead) / ZP_BAND_BLOCK, end = ((size_t)last + groups.lead) / ZP_BAND_BLOCK;
+    if (end - begin >= groups.reach) return (ZpBandGroups){0, 0};
+  }
+  return groups;
+}
+
 bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *a) {
   *a = (ZpAssembly){.s = model->s,
                     .nodes = model->nodes,
@@ -65,6 +95,7 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
     a->first[i] = first_of(a, i);
+  a->groups = groups_of(a);
   return true;
 }
 
@@ -141,7 +172,8 @@ ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t per, siz
                                   ZpBand *K) {
   const double *ll = D[3 * (j - s) + 1], *lj = D[3 * (j - s) + 2], *jl = D[3 * j], *jj = D[3 * j + 1],
                *jr = D[3 * j + 2];
-  double *x = K->a + ((size_t)a->first[i] + 2 * (j - s * i)) * K->stride, *y = x + K->stride;
+  size_t equation = (size_t)a->first[i] + 2 * (j - s * i);
+  double *x = zp_band_row(K, equation), *y = zp_band_row(K, equation + 1);
   double own[4], next[4];
   for (size_t k = 0; k < 4; k++) {
     own[k] = (ll[k] - lj[k]) + (jj[k] - jl[k]);
@@ -245,23 +277,32 @@ ZP_INLINE double stretch(size_t s, bool right) {
   return (right ? 1.0 : -1.0) / (double)s;
 }
 
+/* Rows first .. first + count - 1 of a symmetric matrix: entry (first + i, first + j) at rows[i][j]. */
+ZP_INLINE void rows_from(const ZpBand *K, size_t first, size_t count, double **rows) {
+  for (size_t i = 0; i < count; i++)
+    rows[i] = zp_band_row(K, first + i) - i;
+}
+
 ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t per, size_t i, const ZpGapDerivatives *of,
                                     ZpBand *K) {
-  double *first = K->a + (size_t)a->first[i] * K->stride; /* of row and column x of the first node */
-  size_t down = K->stride - 1;
   double own = of->own[i], next = of->next[i], along[2] = {of->along0[i], of->along1[i]};
-  for (size_t p = 0; p < s; p++) {
-    double *y = first + (2 * p + 1) * down;
-    for (size_t q = p; q < s; q++)
-      y[2 * q + 1] += rise(s, p) * rise(s, q) * own;
-    for (size_t q = 0; q < s; q++)
-      y[per + 2 * q + 1] += rise(s, p) * rise(s, q) * next;
-  }
-  for (size_t p = 0; p < 2 * s; p++)
-    for (size_t q = 0; q < 2 * s; q++) {
-      size_t x = p / s * per + 2 * (p % s), y = q / s * per + 2 * (q % s) + 1;
-      size_t row = x < y ? x : y, column = x < y ? y : x;
-      first[row * down + column] += stretch(s, p >= s) * rise(s, q % s) * along[q / s];
+  double *here[4], *after[4]; /* rows of station i, of station i + 1 */
+  rows_from(K, (size_t)a->first[i], 2 * s, here);
+  rows_from(K, (size_t)a->first[i] + per, 2 * s, after);
+  for (size_t p = 0; p < s; p++)
+    for (size_t q = 0; q < s; q++) {
+      double both = rise(s, p) * rise(s, q);
+      if (q >= p) here[2 * p + 1][2 * q + 1] += both * own;
+      here[2 * p + 1][per + 2 * q + 1] += both * next;
+    }
+  for (size_t p = 0; p < s; p++)
+    for (size_t q = 0; q < s; q++) {
+      size_t x = 2 * p, y = 2 * q + 1;
+      double by_left = rise(s, q) * along[0], by_right = rise(s, q) * along[1];
+      here[x < y ? x : y][x < y ? y : x] += stretch(s, false) * by_left;
+      here[x][per + y] += stretch(s, false) * by_right;
+      here[y][per + x] += stretch(s, true) * by_left;
+      after[x < y ? x : y][x < y ? y : x] += stretch(s, true) * by_right;
     }
 }
 

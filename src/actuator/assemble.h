@@ -8,16 +8,17 @@
 #include "math/parts.h"
 
 typedef struct ZpAssembly {
-  size_t s, nodes;   /* ribbons; stations, N */
-  size_t count;      /* nodes */
-  size_t stride;     /* arrays over nodes: all x, then, so much further, all y */
-  size_t n;          /* equations */
-  size_t bandwidth;  /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
-  bool symmetric;    /* only the upper triangle is kept */
-  int *equation;     /* [2 count] numbered station by station; coordinates that are always the same share theirs */
-  ZpParts parts;     /* halves, and the equations that both have */
-  size_t own;        /* unknowns of the laws at each station, which come after its coordinates */
-  int *own_equation; /* [own N] */
+  size_t s, nodes;     /* ribbons; stations, N */
+  size_t count;        /* nodes */
+  size_t stride;       /* arrays over nodes: all x, then, so much further, all y */
+  size_t n;            /* equations */
+  size_t bandwidth;    /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
+  bool symmetric;      /* only the upper triangle is kept */
+  ZpBandGroups groups; /* of a symmetric one: those of a station, or of two of one ribbon, if they fit */
+  int *equation;       /* [2 count] numbered station by station; coordinates that are always the same share theirs */
+  ZpParts parts;       /* halves, and the equations that both have */
+  size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
+  int *own_equation;   /* [own N] */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
                  others following it; else -1 */
 } ZpAssembly;

@@ -6,18 +6,28 @@
 #include "base/kernel.h"
 #include "math/vector.h"
 
+/* Groups must be blocks, or else rows have room for all diagonals wherever their block begins. */
+static size_t columns_of(size_t upper, ZpBandGroups groups) {
+  if (groups.reach > 0) return groups.reach * ZP_BAND_BLOCK;
+  return (upper / ZP_BAND_BLOCK + 2) * ZP_BAND_BLOCK;
+}
+
+void zp_band_carve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpCarver *carver) {
+  bool symmetric = lower == 0;
+  size_t blocks = (groups.lead + n + ZP_BAND_BLOCK - 1) / ZP_BAND_BLOCK;
+  *band = (ZpBand){.n = n, .lower = lower, .upper = upper, .lead = symmetric ? groups.lead : 0};
+  band->stride = symmetric ? columns_of(upper, groups) : 2 * lower + upper + 1;
+  band->entries = (symmetric ? blocks * ZP_BAND_BLOCK : n) * band->stride;
+  band->a = zp_carve(carver, band->entries);
+  band->pivot = symmetric ? NULL : (size_t *)(void *)zp_carve(carver, n); /* a size_t is no larger than a double */
+}
+
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver) {
-  band->n = n;
-  band->lower = lower;
-  band->upper = upper;
-  band->stride = 2 * lower + upper + 1;
-  band->a = zp_carve(carver, n * band->stride);
-  band->pivot = lower > 0 ? (size_t *)(void *)zp_carve(carver, n) : NULL; /* a size_t is no larger than a double */
-  band->rank = 0;
+  zp_band_carve_groups(band, n, lower, upper, (ZpBandGroups){0, 0}, carver);
 }
 
 void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carver) {
-  zp_band_carve(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, carver);
+  zp_band_carve_groups(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, form.groups, carver);
   band->rank = form.rank;
   band->u = zp_carve(carver, form.rank * n);
   band->v = zp_carve(carver, form.rank * n);
@@ -27,10 +37,20 @@ void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carve
 
 void zp_band_clear(ZpBand *band) {
   size_t terms = band->rank * band->n;
-  memset(band->a, 0, band->n * band->stride * sizeof(double));
+  memset(band->a + band->lead * band->stride, 0, band->n * band->stride * sizeof *band->a);
   if (terms == 0) return;
   memset(band->u, 0, terms * sizeof *band->u);
   memset(band->v, 0, terms * sizeof *band->v);
+}
+
+ZpBand zp_band_part(const ZpBand *band, size_t first, size_t n) {
+  ZpBand part = *band;
+  part.n = n;
+  if (band->lower == 0)
+    part.lead += first;
+  else
+    part.a += first * band->stride;
+  return part;
 }
 
 static size_t least(size_t a, size_t b) {
@@ -103,139 +123,198 @@ static void solve_lu(const ZpBand *band, double *b) {
   }
 }
 
-/* -- symmetric: U' D U, row by row ----------------------------------------------------------------- */
+/* -- symmetric: block by block --------------------------------------------------------------------- */
+
+/* With the block rows (A X) of four equations each, A the diagonal block when its turn comes: the matrix is L A L',
+ * where L' has unit blocks on its diagonal and A^-1 X beside them. A itself is U' D U. Kept are U, with D on its
+ * diagonal, and A^-1 X. */
 
 static bool is_pivot(double value) {
   return value != 0 && isfinite(value);
 }
 
-/* What row k, scaled to its pivot, takes off the `below` rows that it meets; a copy of it with zeros behind makes all
- * these loops as long as a row. */
-ZP_INLINE bool eliminate(double *restrict row_k, size_t width, size_t below) {
-  double r[2 * (ZP_BAND_MOST + 1)] = {0};
-  if (!is_pivot(row_k[0])) return false;
-  double inverse = 1 / row_k[0];
-  memcpy(r, row_k, width * sizeof *r);
-  for (size_t i = 1; i <= below; i++) {
-    double factor = r[i] * inverse, *restrict row_i = row_k + i * width;
-    ZP_SIMD
-    for (size_t j = 0; j < width; j++)
-      row_i[j] -= factor * r[i + j];
-    row_k[i] = factor;
-  }
-  return true;
-}
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi" /* no call passes a vector: all functions that have one are inlined */
+#endif
 
-/* A row, and zeros behind it. */
-typedef double Padded[2 * (ZP_BAND_MOST + 1)];
+/* Four columns of a row, or four values of a vector, at any address of a double. */
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef long long FourPlaces __attribute__((vector_size(32)));
 
-/* What four rows, r before they were scaled to their pivots, take off group `group` of the rows below: those which have
- * so many columns in common with them that they take the same number of vectors of four. */
-ZP_INLINE void take_from_group(const Padded r[4], double *restrict row_k, size_t width, size_t group) {
-  size_t vectors = (width + 3) / 4;
-  if (group >= vectors) return;
-  size_t reach = 4 * (vectors - group), end = width + 7 - reach, begin = group == 0 ? 4 : end - 4;
-  if (reach > width) reach = width;
-  for (size_t i = begin; i < end; i++) {
-    double *restrict row_i = row_k + i * width, f[4];
-    for (size_t p = 0; p < 4; p++)
-      f[p] = i - p < width ? row_k[p * width + i - p] : 0;
-    ZP_SIMD
-    for (size_t j = 0; j < reach; j++)
-      row_i[j] = (((row_i[j] - f[0] * r[0][i + j]) - f[1] * r[1][i - 1 + j]) - f[2] * r[2][i - 2 + j]) -
-                 f[3] * r[3][i - 3 + j];
-  }
-}
+/* Of both, eight values, those at four places. */
+#if defined(__clang__)
+#define SHUFFLE(one, other, a, b, c, d) __builtin_shufflevector(one, other, a, b, c, d)
+#else
+#define SHUFFLE(one, other, a, b, c, d) __builtin_shuffle(one, other, (FourPlaces){a, b, c, d})
+#endif
 
-/* The same of rows k .. k + 3 at once, so that each row below is loaded and stored once for all four. */
-ZP_INLINE bool eliminate_four(double *restrict row_k, size_t width) {
-  Padded r[4];
+/* Of a row, in blocks. */
+enum { BLOCKS_MOST = ZP_BAND_MOST / ZP_BAND_BLOCK + 2 };
+
+/* A block row. */
+typedef Four Row[4][BLOCKS_MOST];
+
+/* Eliminate within a block row r: its rows scaled to their pivots => f. */
+ZP_INLINE bool eliminate_within(size_t blocks, Row r, Row f) {
   for (size_t p = 0; p < 4; p++) {
-    double *restrict row_p = row_k + p * width;
-    if (!is_pivot(row_p[0])) return false;
-    double inverse = 1 / row_p[0];
-    ZP_SIMD
-    for (size_t j = 0; j < width; j++) {
-      r[p][j] = row_p[j];
-      r[p][width + j] = 0;
-    }
-    ZP_SIMD
-    for (size_t j = 1; j < width; j++)
-      row_p[j] *= inverse;
-    for (size_t i = 1; i < 4 - p; i++) {
-      double factor = row_p[i], *restrict row_i = row_p + i * width;
-      ZP_SIMD
-      for (size_t j = 0; j < width; j++)
-        row_i[j] -= factor * r[p][i + j];
-    }
+    const double pivot = r[p][0][p];
+    if (!is_pivot(pivot)) return false;
+    const double inverse = 1 / pivot;
+    for (size_t m = 0; m < blocks; m++)
+      f[p][m] = r[p][m] * inverse;
+    for (size_t i = p + 1; i < 4; i++)
+      for (size_t m = 0; m < blocks; m++)
+        r[i][m] -= f[p][0][i] * r[p][m];
   }
-  take_from_group(r, row_k, width, 0);
-  take_from_group(r, row_k, width, 1);
-  take_from_group(r, row_k, width, 2);
-  take_from_group(r, row_k, width, 3);
-  take_from_group(r, row_k, width, 4);
-  take_from_group(r, row_k, width, 5);
   return true;
 }
 
-ZP_INLINE bool factor_rows(ZpBand *band, size_t width) {
-  size_t n = band->n, k = 0;
-  for (; width > 3 && k + width + 3 <= n; k += 4)
-    if (!eliminate_four(band->a + k * width, width)) return false;
-  for (; k < n; k++)
-    if (!eliminate(band->a + k * width, width, least(width - 1, n - 1 - k))) return false;
-  return true;
-}
-
-/* The same of rows of any width: nothing is copied, so that a row is scaled last. */
-static bool eliminate_wide(double *restrict row_k, size_t width, size_t below) {
-  if (!is_pivot(row_k[0])) return false;
-  double inverse = 1 / row_k[0];
-  for (size_t i = 1; i <= below; i++) {
-    double factor = row_k[i] * inverse, *restrict row_i = row_k + i * width;
-    ZP_SIMD
-    for (size_t j = 0; j < width - i; j++)
-      row_i[j] -= factor * row_k[i + j];
+/* U and D => the diagonal block; A^-1 X, by the scaled rows f, => the blocks beside it. */
+ZP_INLINE void keep_factors(Four *restrict a, size_t blocks, Row r, Row f) {
+  for (size_t p = 0; p < 4; p++) {
+    a[p * blocks] = f[p][0];
+    a[p * blocks][p] = r[p][0][p];
   }
-  for (size_t i = 1; i <= below; i++)
-    row_k[i] *= inverse;
+  for (size_t m = 1; m < blocks; m++) {
+    Four x3 = f[3][m], x2 = f[2][m] - f[2][0][3] * x3;
+    Four x1 = (f[1][m] - f[1][0][3] * x3) - f[1][0][2] * x2;
+    a[m] = ((f[0][m] - f[0][0][3] * x3) - f[0][0][2] * x2) - f[0][0][1] * x1;
+    a[blocks + m] = x1;
+    a[2 * blocks + m] = x2;
+    a[3 * blocks + m] = x3;
+  }
+}
+
+/* Factor a block row, and take it off those of the `below` blocks that it meets. */
+ZP_INLINE bool eliminate(Four *restrict a, size_t blocks, size_t below) {
+  Row r, f;
+  for (size_t p = 0; p < 4; p++)
+    for (size_t m = 0; m < blocks; m++)
+      r[p][m] = a[p * blocks + m];
+  if (!eliminate_within(blocks, r, f)) return false;
+  keep_factors(a, blocks, r, f);
+  for (size_t m = 1; m <= below; m++)
+    for (size_t i = 0; i < 4; i++) {
+      Four *restrict row = a + (4 * m + i) * blocks;
+      const double f0 = f[0][m][i], f1 = f[1][m][i], f2 = f[2][m][i], f3 = f[3][m][i];
+      for (size_t j = 0; j < blocks - m; j++)
+        row[j] = (((row[j] - f0 * r[0][m + j]) - f1 * r[1][m + j]) - f2 * r[2][m + j]) - f3 * r[3][m + j];
+    }
   return true;
 }
 
-static bool factor_wide(ZpBand *band) {
-  size_t n = band->n, width = band->stride;
-  for (size_t k = 0; k < n; k++)
-    if (!eliminate_wide(band->a + k * width, width, least(width - 1, n - 1 - k))) return false;
+static size_t block_rows(const ZpBand *band) {
+  return band->entries / (band->stride * ZP_BAND_BLOCK);
+}
+
+ZP_INLINE bool factor_blocks(const ZpBand *band, size_t blocks) {
+  const size_t rows = block_rows(band);
+  Four *a = (Four *)band->a;
+  for (size_t k = 0; k < rows; k++, a += 4 * blocks)
+    if (!eliminate(a, blocks, k + blocks <= rows ? blocks - 1 : rows - 1 - k)) return false;
   return true;
 }
 
-/* What `count` entries, `stride` apart, take off *b with the values `step` apart: in four sums, whatever the processor;
- * the nearest value, found last, comes last, as the next row waits for it. */
-ZP_INLINE void substitute(const double *entry, ptrdiff_t stride, size_t count, ptrdiff_t step, double *b) {
-  double sum[4] = {0};
-  for (size_t i = 3; i <= count; i++)
-    sum[i % 4] += entry[(ptrdiff_t)i * stride] * b[(ptrdiff_t)i * step];
-  double known = *b - ((sum[0] + sum[1]) + (sum[2] + sum[3]));
-  if (count >= 2) known -= entry[2 * stride] * b[2 * step];
-  if (count >= 1) known -= entry[stride] * b[step];
-  *b = known;
+static void fill_row(const ZpBand *band, size_t place) {
+  double *row = band->a + place * band->stride;
+  memset(row, 0, band->stride * sizeof *row);
+  row[place % ZP_BAND_BLOCK] = 1;
 }
 
-/* U' y = b, y / D, U x = y. */
-ZP_INLINE void solve_rows(const ZpBand *band, size_t width, double *b) {
-  const double *a = band->a;
-  size_t n = band->n, most = width - 1, ends = least(most, n);
-  ptrdiff_t column = 1 - (ptrdiff_t)width; /* from an entry to that above it */
-  for (size_t k = 0; k < ends; k++)
-    substitute(a + k * width, column, k, -1, b + k);
-  for (size_t k = ends; k < n; k++)
-    substitute(a + k * width, column, most, -1, b + k);
-  for (size_t k = 0; k < n; k++)
-    b[k] /= a[k * width];
-  for (size_t k = n; k-- > n - ends;)
-    substitute(a + k * width, 1, n - 1 - k, 1, b + k);
-  for (size_t k = n - ends; k-- > 0;)
-    substitute(a + k * width, 1, most, 1, b + k);
+/* Rows that only fill the first and the last block are those of a unit matrix. */
+static void fill_blocks(const ZpBand *band) {
+  size_t end = band->entries / band->stride;
+  for (size_t place = 0; place < band->lead; place++)
+    fill_row(band, place);
+  for (size_t place = band->lead + band->n; place < end; place++)
+    fill_row(band, place);
+}
+
+/* The four values of block k; 0 where rows only fill it. */
+ZP_INLINE Four get(const ZpBand *band, const double *b, size_t k) {
+  size_t place = k * ZP_BAND_BLOCK, end = band->lead + band->n;
+  if (place >= band->lead && place + 4 <= end) return *(const Four *)(b + (place - band->lead));
+  Four values = {0};
+  for (size_t i = 0; i < 4; i++)
+    if (place + i >= band->lead && place + i < end) values[i] = b[place + i - band->lead];
+  return values;
+}
+
+ZP_INLINE void put(const ZpBand *band, Four values, double *b, size_t k) {
+  size_t place = k * ZP_BAND_BLOCK, end = band->lead + band->n;
+  if (place >= band->lead && place + 4 <= end) {
+    *(Four *)(b + (place - band->lead)) = values;
+    return;
+  }
+  for (size_t i = 0; i < 4; i++)
+    if (place + i >= band->lead && place + i < end) b[place + i - band->lead] = values[i];
+}
+
+/* x' times a block. */
+ZP_INLINE Four through(Four x, const Four *block, size_t blocks) {
+  return (x[0] * block[0] + x[1] * block[blocks]) + (x[2] * block[2 * blocks] + x[3] * block[3 * blocks]);
+}
+
+/* The sum of each of four. */
+ZP_INLINE Four sums(const Four of[4]) {
+  Four first = SHUFFLE(of[0], of[1], 0, 4, 2, 6) + SHUFFLE(of[0], of[1], 1, 5, 3, 7);
+  Four second = SHUFFLE(of[2], of[3], 0, 4, 2, 6) + SHUFFLE(of[2], of[3], 1, 5, 3, 7);
+  return SHUFFLE(first, second, 0, 1, 4, 5) + SHUFFLE(first, second, 2, 3, 6, 7);
+}
+
+/* A^-1 b of a diagonal block. */
+ZP_INLINE Four solve_within(const Four *a, size_t blocks, Four b) {
+  const Four u0 = a[0], u1 = a[blocks], u2 = a[2 * blocks], u3 = a[3 * blocks];
+  double x0 = b[0], x1 = b[1] - u0[1] * x0, x2 = (b[2] - u0[2] * x0) - u1[2] * x1,
+         x3 = ((b[3] - u0[3] * x0) - u1[3] * x1) - u2[3] * x2;
+  x3 /= u3[3];
+  x2 = x2 / u2[2] - u2[3] * x3;
+  x1 = (x1 / u1[1] - u1[3] * x3) - u1[2] * x2;
+  x0 = ((x0 / u0[0] - u0[3] * x3) - u0[2] * x2) - u0[1] * x1;
+  return (Four){x0, x1, x2, x3};
+}
+
+/* L A z = b: what is left of the next blocks waits in `ahead`. */
+ZP_INLINE void solve_down(const ZpBand *band, size_t blocks, double *b) {
+  const size_t rows = block_rows(band);
+  const Four *a = (const Four *)band->a;
+  Four ahead[BLOCKS_MOST];
+  for (size_t m = 0; m + 1 < blocks; m++)
+    ahead[m] = m < rows ? get(band, b, m) : (Four){0};
+  for (size_t k = 0; k < rows; k++, a += 4 * blocks) {
+    const Four left = ahead[0];
+    for (size_t m = 1; m + 1 < blocks; m++)
+      ahead[m - 1] = ahead[m] - through(left, a + m, blocks);
+    const Four next = k + blocks - 1 < rows ? get(band, b, k + blocks - 1) : (Four){0};
+    ahead[blocks - 2] = next - through(left, a + blocks - 1, blocks);
+    put(band, solve_within(a, blocks, left), b, k);
+  }
+}
+
+/* L' x = z: the blocks that follow are `behind`, the nearest one first. */
+ZP_INLINE void solve_up(const ZpBand *band, size_t blocks, double *b) {
+  Four behind[BLOCKS_MOST];
+  for (size_t m = 0; m < blocks; m++)
+    behind[m] = (Four){0};
+  for (size_t k = block_rows(band); k-- > 0;) {
+    const Four *a = (const Four *)band->a + 4 * k * blocks;
+    Four products[4];
+    for (size_t p = 0; p < 4; p++) {
+      products[p] = a[p * blocks + blocks - 1] * behind[blocks - 2];
+      for (size_t m = blocks - 2; m >= 1; m--)
+        products[p] += a[p * blocks + m] * behind[m - 1];
+    }
+    const Four x = get(band, b, k) - sums(products);
+    for (size_t m = blocks - 2; m >= 1; m--)
+      behind[m] = behind[m - 1];
+    behind[0] = x;
+    put(band, x, b, k);
+  }
+}
+
+ZP_INLINE void solve_blocks(const ZpBand *band, size_t blocks, double *b) {
+  solve_down(band, blocks, b);
+  solve_up(band, blocks, b);
 }
 
 /* Each entry beside the diagonal counts twice: y, which starts at 0, gets its own row and what it is in the column of.
@@ -251,35 +330,40 @@ ZP_INLINE void multiply_row(const double *restrict row, size_t width, const doub
 }
 
 ZP_INLINE void multiply_rows(const ZpBand *band, size_t width, const double *x, double *y) {
-  size_t n = band->n, whole = n - least(width - 1, n);
+  size_t n = band->n;
   memset(y, 0, n * sizeof *y);
-  for (size_t i = 0; i < whole; i++)
-    multiply_row(band->a + i * width, width, x + i, y + i);
-  for (size_t i = whole; i < n; i++)
-    multiply_row(band->a + i * width, n - i, x + i, y + i);
+  for (size_t i = 0; i < n; i++) {
+    size_t c = (i + band->lead) % ZP_BAND_BLOCK;
+    multiply_row(zp_band_row(band, i), least(width - c, n - i), x + i, y + i);
+  }
 }
 
-/* The widths of one ribbon and of two are compiled on their own. */
-enum { ONE_RIBBON = 6, TWO_RIBBONS = 12 };
+/* The blocks of rows of one ribbon and of two are compiled on their own. */
+enum { ONE_RIBBON = 2, TWO_RIBBONS = 3 };
 
-ZP_KERNEL static bool factor_symmetric(ZpBand *band) {
-  if (band->stride == TWO_RIBBONS) return factor_rows(band, TWO_RIBBONS);
-  if (band->stride == ONE_RIBBON) return factor_rows(band, ONE_RIBBON);
-  return band->upper > ZP_BAND_MOST ? factor_wide(band) : factor_rows(band, band->stride);
+static size_t blocks_of(const ZpBand *band) {
+  return band->stride / ZP_BAND_BLOCK;
+}
+
+ZP_KERNEL static bool factor_symmetric(const ZpBand *band) {
+  fill_blocks(band);
+  if (blocks_of(band) == TWO_RIBBONS) return factor_blocks(band, TWO_RIBBONS);
+  if (blocks_of(band) == ONE_RIBBON) return factor_blocks(band, ONE_RIBBON);
+  return factor_blocks(band, blocks_of(band));
 }
 
 ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {
-  if (band->stride == TWO_RIBBONS)
-    solve_rows(band, TWO_RIBBONS, b);
-  else if (band->stride == ONE_RIBBON)
-    solve_rows(band, ONE_RIBBON, b);
+  if (blocks_of(band) == TWO_RIBBONS)
+    solve_blocks(band, TWO_RIBBONS, b);
+  else if (blocks_of(band) == ONE_RIBBON)
+    solve_blocks(band, ONE_RIBBON, b);
   else
-    solve_rows(band, band->stride, b);
+    solve_blocks(band, blocks_of(band), b);
 }
 
 ZP_KERNEL static void multiply_symmetric(const ZpBand *band, const double *x, double *y) {
-  if (band->stride == TWO_RIBBONS)
-    multiply_rows(band, TWO_RIBBONS, x, y);
+  if (blocks_of(band) == TWO_RIBBONS)
+    multiply_rows(band, (size_t)TWO_RIBBONS * ZP_BAND_BLOCK, x, y);
   else
     multiply_rows(band, band->stride, x, y);
 }

@@ -1,9 +1,10 @@
 /* Banded linear systems, square: factor in place, solve. On top of the band there may be a matrix of low rank, the sum
  * of u v': what couples many equations through one scalar each.
  *
- * Storage: row i holds the columns i - lower .. i + upper + lower (room for what pivoting fills in), entry
- * (i, j) at [i * stride + (j - i + lower)], stride = 2 lower + upper + 1. A matrix with lower == 0 is symmetric and
- * keeps its upper triangle only. */
+ * Storage with both triangles: row i holds the columns i - lower .. i + upper + lower (room for what pivoting fills
+ * in), entry (i, j) at [i * stride + (j - i + lower)], stride = 2 lower + upper + 1.
+ * A matrix with lower == 0 is symmetric and keeps its upper triangle only, in blocks of four rows. The rows of a block
+ * begin at the same column, that of the block's diagonal, so that rows meet in whole vectors. */
 #ifndef ZP_MATH_BAND_H
 #define ZP_MATH_BAND_H
 
@@ -12,11 +13,20 @@
 
 #include "base/memory.h"
 
+/* What is known of a symmetric matrix beside its bandwidth: its equations come in groups of four, of which the first
+ * one has `lead` fewer, and a group meets the `reach` - 1 groups that follow it at most. reach = 0: that is not known.
+ */
+typedef struct ZpBandGroups {
+  size_t lead, reach;
+} ZpBandGroups;
+
 typedef struct ZpBand {
   size_t n;            /* equations */
   size_t lower, upper; /* diagonals below and above the main one */
+  size_t lead;         /* of a symmetric matrix: rows before the first equation, of zeros */
   size_t stride;       /* of a row */
-  double *a;           /* [n * stride] */
+  size_t entries;      /* of all rows, those that only fill blocks included */
+  double *a;           /* [entries] */
   size_t *pivot;       /* [n] row that was exchanged with row i; not of a symmetric matrix */
   bool odd;            /* an odd number of rows was exchanged */
   size_t rank;         /* of what is on top: */
@@ -30,24 +40,43 @@ typedef struct ZpBandForm {
   size_t bandwidth; /* diagonals above the main one, and below */
   bool symmetric;   /* the band is: only its upper triangle is kept */
   size_t rank;      /* of what is on top of it */
+  ZpBandGroups groups;
 } ZpBandForm;
 
-/* Symmetric matrices with more diagonals are factored by simpler, slower code. */
-enum { ZP_BAND_MOST = 23 };
+/* Rows of a block of a symmetric matrix; diagonals above the main one that such a matrix may have. */
+enum { ZP_BAND_BLOCK = 4, ZP_BAND_MOST = 127 };
 
-/* Cut the arrays from `carver`: of a band alone, of one of a form. */
+/* Cut the arrays from `carver`: of a band alone, of one with groups, of one of a form. */
 void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver);
+void zp_band_carve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpCarver *carver);
 void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carver);
 
 /* All entries 0. */
 void zp_band_clear(ZpBand *band);
 
-/* Entry (i, j) inside the band. */
-static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
-  return band->a + i * band->stride + (j + band->lower - i);
+/* Of a band of rank 0, the equations first .. first + n - 1 among themselves: to be written, not to be factored. */
+ZpBand zp_band_part(const ZpBand *band, size_t first, size_t n);
+
+/* Row i of a symmetric matrix: entry (i, j) at [j - i]. */
+static inline double *zp_band_row(const ZpBand *band, size_t i) {
+  size_t place = i + band->lead;
+  return band->a + place * band->stride + place % ZP_BAND_BLOCK;
 }
 
-/* Factor in place: LU with row pivoting; of a symmetric matrix U' D U without pivoting, three times cheaper, for
+/* Entry (i, j) inside the band. */
+static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
+  return band->lower == 0 ? zp_band_row(band, i) + (j - i) : band->a + i * band->stride + (j + band->lower - i);
+}
+
+/* The column after the last one that row i may have. */
+static inline size_t zp_band_end(const ZpBand *band, size_t i) {
+  size_t end = i + band->upper + 1, place = i + band->lead;
+  size_t stored = place - place % ZP_BAND_BLOCK + band->stride - band->lead;
+  if (band->lower == 0 && stored < end) end = stored;
+  return end < band->n ? end : band->n;
+}
+
+/* Factor in place: LU with row pivoting; of a symmetric matrix by blocks without pivoting, several times cheaper, for
  * matrices that are definite or have few negative eigenvalues. False if a pivot is 0 or not finite. */
 bool zp_band_factor(ZpBand *band);
 

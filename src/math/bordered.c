@@ -6,12 +6,13 @@
 
 #include "math/vector.h"
 
-void zp_bordered_carve(ZpBordered *m, size_t n, size_t border, size_t lower, size_t upper, ZpCarver *carver) {
+void zp_bordered_carve(ZpBordered *m, size_t n, size_t border, size_t lower, size_t upper, ZpBandGroups groups,
+                       ZpCarver *carver) {
   size_t inner = n - border;
   *m = (ZpBordered){.n = n, .border = border};
-  zp_band_carve(&m->A, inner, lower, upper, carver);
+  zp_band_carve_groups(&m->A, inner, lower, upper, groups, carver);
   if (border == 0) return;
-  zp_band_carve(&m->LU, inner, lower, upper, carver);
+  zp_band_carve_groups(&m->LU, inner, lower, upper, groups, carver);
   zp_band_carve(&m->S, border, border - 1, border - 1, carver);
   m->B = zp_carve(carver, border * inner);
   m->C = zp_carve(carver, border * inner);
@@ -58,7 +59,7 @@ static double largest(size_t n, const double *a) {
  * changes and what rounding makes of its inverse are then alike, and each refinement takes out all but as little. */
 static bool factor_inner(ZpBordered *m) {
   static const double shift = 0x1p-26;
-  size_t inner = m->A.n, entries = inner * m->A.stride;
+  size_t inner = m->A.n, entries = m->A.entries;
   memcpy(m->LU.a, m->A.a, entries * sizeof *m->A.a);
   if (zp_band_factor(&m->LU)) return true;
   double size = largest(entries, m->A.a), some = shift * (size > 0 ? size : largest(m->border * inner, m->B));

@@ -21,8 +21,9 @@ typedef struct ZpBordered {
 } ZpBordered;
 
 /* Cut the arrays from `carver`: n equations, the last `border` < n of them the border's; lower, upper: diagonals of A.
- * lower == 0: A is symmetric and keeps its upper triangle; B, C and D are whole all the same. */
-void zp_bordered_carve(ZpBordered *matrix, size_t n, size_t border, size_t lower, size_t upper, ZpCarver *carver);
+ * lower == 0: A is symmetric, with groups, and keeps its upper triangle; B, C and D are whole all the same. */
+void zp_bordered_carve(ZpBordered *matrix, size_t n, size_t border, size_t lower, size_t upper, ZpBandGroups groups,
+                       ZpCarver *carver);
 
 /* All entries 0. */
 void zp_bordered_clear(ZpBordered *matrix);

@@ -212,9 +212,7 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
 /* Of one member, in its part of the band. */
 static void tangent_of_one(ZpDynamics *d, ZpBordered *J) {
   ZpSpan span = span_of(d);
-  ZpBand part = J->A;
-  part.n = d->assembly.n;
-  part.a += d->at * part.stride;
+  ZpBand part = zp_band_part(&J->A, d->at, d->assembly.n);
   zp_system_stiffness(d->model, &span, &d->assembly, &d->eval, &part);
   if (d->source) border(d, &span, J);
 }
@@ -543,6 +541,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
   return (ZpImplicitSystem){.n = last->at + last->assembly.n + border,
                             .border = border,
                             .bandwidth = d->assembly.bandwidth,
+                            .groups = d->below ? (ZpBandGroups){0, 0} : d->assembly.groups,
                             .parts = d->assembly.parts,
                             .self = d,
                             .begin = begin,

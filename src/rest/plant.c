@@ -56,8 +56,8 @@ static size_t carve(Work *w, void *block) {
   ZpCarver carver = {block, 0};
   size_t n = w->assembly.n, N = model->nodes, stride = 2 * model->stride;
   zp_vibration_carve(&w->vibration, n, ZP_VIBRATIONS, &carver);
-  zp_band_carve(&w->K, n, 0, w->assembly.bandwidth, &carver);
-  zp_band_carve(&w->factors, n, 0, w->assembly.bandwidth, &carver);
+  zp_band_carve_groups(&w->K, n, 0, w->assembly.bandwidth, w->assembly.groups, &carver);
+  zp_band_carve_groups(&w->factors, n, 0, w->assembly.bandwidth, w->assembly.groups, &carver);
   if (model->has_film) zp_film_ways_carve(&model->film, &w->ways, &carver);
   w->shape = zp_carve(&carver, SHAPES * n);
   w->rate = zp_carve(&carver, SHAPES * N);
@@ -139,7 +139,7 @@ static void find_shapes(Work *w) {
   look(w, span.U1);
   span.tension = w->eval.edges.T;
   zp_system_stiffness(w->model, &span, &w->assembly, &w->eval, &w->K);
-  memcpy(w->factors.a, w->K.a, n * w->K.stride * sizeof *w->K.a);
+  memcpy(w->factors.a, w->K.a, w->K.entries * sizeof *w->K.a);
   zp_band_factor(&w->factors);
   v->K = &w->factors;
   zp_assembly_masses(&w->assembly, w->model->mass, v->mass);

@@ -56,7 +56,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
     zp_statics_destroy(s);
     return false;
   }
-  s->form = (ZpBandForm){s->assembly.bandwidth, s->assembly.symmetric, zp_bead_rank(model)};
+  s->form = (ZpBandForm){s->assembly.bandwidth, s->assembly.symmetric, zp_bead_rank(model), s->assembly.groups};
   s->scale = zp_eval_weight_scale(model);
   s->load = model->def.load.mass;
   put_on(s, 1);
@@ -371,11 +371,11 @@ static void hold_top(ZpBand *K, size_t row, double move, double *r) {
 
 /* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
 static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
-  size_t row = zp_statics_platform(s), n = s->assembly.n, last = row + K->upper < n ? row + K->upper : n - 1;
+  size_t row = zp_statics_platform(s), end = zp_band_end(K, row);
   double move = r ? r[row] / holding(s) : 0;
   hold_top(K, row, move, r);
-  for (size_t i = row > K->upper ? row - K->upper : 0; i <= last; i++) {
-    if (i == row) continue;
+  for (size_t i = row > K->upper ? row - K->upper : 0; i < end; i++) {
+    if (i == row || zp_band_end(K, i) <= row) continue;
     bool kept = K->lower > 0 || i < row; /* of a symmetric matrix only the upper triangle is there */
     double *in_column = kept ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
     if (r) r[i] -= *in_column * move;

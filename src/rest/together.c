@@ -99,7 +99,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
 static void add_stiffness(const ZpTogether *all, size_t which, ZpBand *K) {
   const ZpBand *own = &all->of[which].branch.newton.K;
   for (size_t i = 0; i < own->n; i++)
-    for (size_t j = i > own->lower ? i - own->lower : 0; j < own->n && j <= i + own->upper; j++) {
+    for (size_t j = i > own->lower ? i - own->lower : 0; j < zp_band_end(own, i); j++) {
       size_t row = place_of(all, which, i), column = place_of(all, which, j);
       double value = sign_of(all, which, i) * sign_of(all, which, j) * *zp_band_at(own, i, j);
       bool turned = own->lower == 0 && row > column; /* only the upper triangle is kept */
@@ -248,7 +248,7 @@ static ZpBranchSystem system_of(ZpTogether *all) {
 /* -- creation --------------------------------------------------------------------------------------- */
 
 static void carve_all(ZpTogether *all, ZpCarver *carver) {
-  ZpBandForm form = {bandwidth_of(all), member(all, 0)->form.symmetric, 0};
+  ZpBandForm form = {.bandwidth = bandwidth_of(all), .symmetric = member(all, 0)->form.symmetric};
   for (size_t which = 0; which < all->count; which++) {
     all->step[which] = zp_carve(carver, own_count(all, which));
     form.rank += member(all, which)->form.rank;

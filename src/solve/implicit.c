@@ -22,7 +22,7 @@ void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *
   s->q = zp_carve(carver, system->n);
   s->r = zp_carve(carver, system->n);
   s->x = zp_carve(carver, system->n);
-  zp_bordered_carve(&s->A, system->n, system->border, system->lower, system->bandwidth, carver);
+  zp_bordered_carve(&s->A, system->n, system->border, system->lower, system->bandwidth, system->groups, carver);
 }
 
 static ZpUnknown kind_of(const ZpImplicitSystem *system, size_t i) {
@@ -498,7 +498,7 @@ bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate
 /* -- the exact tangent ----------------------------------------------------------------------------- */
 
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver) {
-  zp_bordered_carve(J, system->n, system->border, system->bandwidth, system->bandwidth, carver);
+  zp_bordered_carve(J, system->n, system->border, system->bandwidth, system->bandwidth, system->groups, carver);
 }
 
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J) {

@@ -28,6 +28,7 @@ typedef struct ZpImplicitSystem {
   size_t border;         /* the last of these, fewer than n, couple with all others; the rest is banded */
   size_t bandwidth;      /* diagonals of the matrix above the main one */
   size_t lower;          /* and below; 0: it is symmetric, and only the upper triangle is kept */
+  ZpBandGroups groups;   /* of a symmetric one */
   const ZpUnknown *kind; /* [n]; NULL: all of second order */
   const double *scale;   /* [n] positive: what counts as much as 1 m of a position; NULL: all 1 */
   ZpParts parts;         /* like ones that it consists of, the first one's unknowns first; all 0: it is one */
