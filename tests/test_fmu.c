@@ -737,6 +737,26 @@ START_TEST(parameters_that_do_not_fit) {
 }
 END_TEST
 
+/* An FMU has a single actuator, or equal ones side by side, and says so both where it is written and where a parameter
+ * makes a stack of it. */
+START_TEST(stacks) {
+  static const char *const members[] = {"stack.series=3", "stack.series=2 --set 'stack.distance=20 mm'",
+                                        "stack.parallel=2 --set 'member_2.ribbon.thickness=60 um'"};
+  for (size_t k = 0; k < LENGTH_OF(members); k++)
+    run_command(ZP_COMMAND " fmu --set %s -o no.fmu 2>said.txt; test $? = 2 && test ! -e no.fmu && grep -q "
+                           "'an FMU contains a single actuator' said.txt",
+                members[k]);
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = new_instance(&fmu);
+  fmu_set(&instance, "stack.series", 2);
+  ck_assert_int_eq(fmu_enter(&instance, 0), OK);
+  ck_assert_int_ne(fmu_exit(&instance), OK);
+  ck_assert_msg(strstr(last_message, "an FMU contains a single actuator") != NULL, "%s", last_message);
+  fmu_free(&instance);
+  unmake(&fmu);
+}
+END_TEST
+
 /* What the command refuses, and that nothing is written then. */
 START_TEST(wrong_commands) {
   static const struct {
@@ -785,6 +805,7 @@ int main(void) {
   add(suite, early_return_at_closing, "early_return_at_closing", false);
   add(suite, early_return_at_limits, "early_return_at_limits", false);
   add(suite, short_circuit_terminates, "short_circuit_terminates", true);
+  add(suite, stacks, "stacks", true);
   add(suite, resets, "resets", true);
   add(suite, instances, "instances", true);
   add(suite, threads, "threads", true);

@@ -250,7 +250,7 @@ START_TEST(what_unlike_ones_lack_is_said) {
     const char *says;
   } refused[] = {
       {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not know them"},
-      {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "study isometric does not know them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "hold each member alone"},
       {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not know them"},
       {{"stack.parallel", 9}, ZP_STUDY_STATIONARY, "stack.parallel = 9: with keys of member_K at most 8"},
       {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
@@ -337,6 +337,7 @@ START_TEST(what_a_stack_lacks_is_said) {
       {{"stack.series", 2}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, ZP_STUDY_ACTUATE, "actuator.symmetry half"},
       {{"stack.series", 2}, {"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"},
       {{"stack.series", 2}, {"load.share", 0.4}, ZP_STUDY_ACTUATE, "load.share 0.5"},
+      {{"stack.series", 2}, {"load.stop_opening", 1e-2}, ZP_STUDY_LIMITS, "between the platforms of a single actuator"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "separations add up"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_CYCLE, "let study actuate run"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_PROFILE, "use stack.series 1"},

@@ -62,6 +62,15 @@ static const char *instead_of(ZpStudy study) {
   return instead[study] ? instead[study] : "use stack.series 1";
 }
 
+/* The same for members that share a load. */
+static const char *instead_of_shared(ZpStudy study) {
+  static const char *const instead[ZpStudy_COUNT] = {
+#define ZP_ALONE_SHARED(enumerator, words) [enumerator] = words,
+#include <zipact/studies.def>
+  };
+  return instead[study] ? instead[study] : "stationary, equilibrium, limits, modes and actuate do";
+}
+
 /* Does it unload ribbons through states of rest? */
 static bool is_elastic(ZpStudy study) {
   static const bool elastic[ZpStudy_COUNT] = {
@@ -80,14 +89,13 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
   if (!run_of(study, def) && zp_def_opposed(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.distance = %g m: study %s does not know antagonists; stationary, equilibrium, limits, modes "
-                   "and actuate do",
-                   def->stack.distance, table[study].word);
+                   "stack.distance = %g m: study %s does not know antagonists; %s", def->stack.distance,
+                   table[study].word, instead_of_shared(study));
   if (!run_of(study, def) && zp_def_abreast(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.parallel = %d of unlike members: study %s does not know them; stationary, equilibrium, "
-                   "limits, modes and actuate do, and all studies know equal members, without keys of member_K",
-                   def->stack.parallel, table[study].word);
+                   "stack.parallel = %d of unlike members: study %s does not know them; %s, and all studies know equal "
+                   "members, without keys of member_K",
+                   def->stack.parallel, table[study].word, instead_of_shared(study));
   if (!run_of(study, def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; %s", def->stack.series,
                    table[study].word, instead_of(study));
