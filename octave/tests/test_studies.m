@@ -11,8 +11,9 @@ function [summary, names, rows] = command(arguments)
   folder = fullfile(scratch(), 'out');
   [~, text] = system(sprintf('"%s" %s -o "%s" --json --quiet', getenv('ZIPACT_COMMAND'), arguments, folder));
   summary = jsondecode(text);
-  for number = regexp(text, '"(\w+)": (-?[\d.][\d.e+-]*)', 'tokens')
-    if isfield(summary, number{1}{1}), summary.(number{1}{1}) = str2double(number{1}{2}); end
+  for number = regexp(text, '"([\w.]+)": (-?[\d.][\d.e+-]*)', 'tokens')
+    name = strrep(number{1}{1}, '.', '_'); % as jsondecode names a key
+    if isfield(summary, name), summary.(name) = str2double(number{1}{2}); end
   end
   lines = strsplit(strtrim(fileread(fullfile(folder, 'table.csv'))), "\n");
   names = strsplit(lines{1}, ',');

@@ -155,7 +155,7 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
       {def->load.stiffness > 0, "load.stiffness", "0", "a spring acts between the platforms of a single actuator"},
       {!isnan(def->load.stop_opening), "load.stop_opening", "none", "a stop acts between the platforms of a single actuator"},
       {!isnan(def->insulator.resistivity), "insulator.resistivity", "none", "leakage is modelled in the insulators of a single actuator"},
-      {!isnan(def->medium.resistivity), "medium.resistivity", "none", "leakage is modelled in the insulators of a single actuator"},
+      {!isnan(def->medium.resistivity), "medium.resistivity", "none", "leakage is modelled in the medium of a single actuator"},
       {!isnan(def->sense.frequency), "sense.frequency", "none", "the meter measures a single actuator"},
       {*def->sensitivity.by != 0, "sensitivity.by", "empty", "derivatives are those of a single actuator"},
   };
