@@ -589,8 +589,8 @@ END_TEST
 
 /* -- many ------------------------------------------------------------------------------------------ */
 
-/* What malloc has given and not got back, bytes: exact, unlike the memory of the process, which hides a block lost in each
- * of 5000 rounds. */
+/* What malloc has given and not got back, bytes: exact, unlike the memory of the process, which hides a block lost in
+ * each of 5000 rounds. */
 static size_t allocated(void) {
   struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;

@@ -141,29 +141,38 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
     bool given;
     const char *key, *instead, *why;
   } unknown[] = {
-      {def->actuator.symmetry != ZP_SYMMETRY_HALF, "actuator.symmetry", "half", "links join platforms of symmetric halves only"},
+      {def->actuator.symmetry != ZP_SYMMETRY_HALF, "actuator.symmetry", "half",
+       "links join platforms of symmetric halves only"},
       {def->ribbon.model != ZP_RIBBON_ROD, "ribbon.model", "rod", "links join rods only"},
-      {def->solver.integrator != ZP_INTEGRATOR_IMPLICIT, "solver.integrator", "implicit", "the forces of the links are unknowns of implicit steps"},
-      {def->contact.model != ZP_CONTACT_UNILATERAL, "contact.model", "unilateral", "sequential contact is that of a single actuator"},
+      {def->solver.integrator != ZP_INTEGRATOR_IMPLICIT, "solver.integrator", "implicit",
+       "the forces of the links are unknowns of implicit steps"},
+      {def->contact.model != ZP_CONTACT_UNILATERAL, "contact.model", "unilateral",
+       "sequential contact is that of a single actuator"},
       {def->electro.model != ZP_ELECTRO_PLATES, "electro.model", "plates", "the field is solved for a single actuator"},
       {def->source.model != ZP_SOURCE_IDEAL, "source.model", "ideal", "a supply is modelled with a single actuator"},
       {def->control.kind != ZP_CONTROL_NONE, "control.kind", "none", "a controller measures a single actuator"},
       {def->load.share != 0.5, "load.share", "0.5", "what hangs below a member has its weight on both halves alike"},
-      {def->load.change_mass != 0, "load.change_mass", "0", "an impact is modelled on the platform of a single actuator"},
-      {def->ribbon.plasticity && zp_def_opposed(def), "ribbon.plasticity", "false with stack.distance", "members find their common place by unloading, which ribbons that yield do not retrace"},
-      {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unlike members", "members find their common place by unloading, which ribbons that yield do not retrace"},
+      {def->load.change_mass != 0, "load.change_mass", "0",
+       "an impact is modelled on the platform of a single actuator"},
+      {def->ribbon.plasticity && zp_def_opposed(def), "ribbon.plasticity", "false with stack.distance",
+       "members find their common place by unloading, which ribbons that yield do not retrace"},
+      {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unlike members",
+       "members find their common place by unloading, which ribbons that yield do not retrace"},
       {def->load.stiffness > 0, "load.stiffness", "0", "a spring acts between the platforms of a single actuator"},
-      {!isnan(def->load.stop_opening), "load.stop_opening", "none", "a stop acts between the platforms of a single actuator"},
-      {!isnan(def->insulator.resistivity), "insulator.resistivity", "none", "leakage is modelled in the insulators of a single actuator"},
-      {!isnan(def->medium.resistivity), "medium.resistivity", "none", "leakage is modelled in the medium of a single actuator"},
+      {!isnan(def->load.stop_opening), "load.stop_opening", "none",
+       "a stop acts between the platforms of a single actuator"},
+      {!isnan(def->insulator.resistivity), "insulator.resistivity", "none",
+       "leakage is modelled in the insulators of a single actuator"},
+      {!isnan(def->medium.resistivity), "medium.resistivity", "none",
+       "leakage is modelled in the medium of a single actuator"},
       {!isnan(def->sense.frequency), "sense.frequency", "none", "the meter measures a single actuator"},
       {*def->sensitivity.by != 0, "sensitivity.by", "empty", "derivatives are those of a single actuator"},
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
     if (unknown[k].given)
-      return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s; %s", stack_of(def),
-                     zp_def_members(def), zp_def_abreast(def) ? " of unlike members" : "", unknown[k].key,
-                     unknown[k].instead, unknown[k].why);
+      return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s; %s", stack_of(def), zp_def_members(def),
+                     zp_def_abreast(def) ? " of unlike members" : "", unknown[k].key, unknown[k].instead,
+                     unknown[k].why);
   for (int member = 1; member <= zp_def_members(def); member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;

@@ -133,7 +133,7 @@ static bool is_pivot(double value) {
   return value != 0 && isfinite(value);
 }
 
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__)
 #pragma GCC diagnostic ignored "-Wpsabi" /* no call passes a vector: all functions that have one are inlined */
 #endif
 

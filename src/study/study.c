@@ -88,9 +88,8 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
   if (!run_of(study, def) && zp_def_opposed(def))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.distance = %g m: study %s does not know antagonists; %s", def->stack.distance,
-                   table[study].word, instead_of_shared(study));
+    return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: study %s does not know antagonists; %s",
+                   def->stack.distance, table[study].word, instead_of_shared(study));
   if (!run_of(study, def) && zp_def_abreast(def))
     return zp_fail(err, ZP_BAD_INPUT,
                    "stack.parallel = %d of unlike members: study %s does not know them; %s, and all studies know equal "
