@@ -277,18 +277,21 @@ ZP_INLINE double stretch(size_t s, bool right) {
   return (right ? 1.0 : -1.0) / (double)s;
 }
 
-/* Rows first .. first + count - 1 of a symmetric matrix: entry (first + i, first + j) at rows[i][j]. */
-ZP_INLINE void rows_from(const ZpBand *K, size_t first, size_t count, double **rows) {
-  for (size_t i = 0; i < count; i++)
-    rows[i] = zp_band_row(K, first + i) - i;
+/* Of a symmetric matrix, the rows of x and of y of `s` nodes from `first` on: entry (first + i, first + j) at
+ * rows[i][j]. */
+ZP_INLINE void rows_from(const ZpBand *K, size_t first, size_t s, double **rows) {
+  for (size_t p = 0; p < s; p++) {
+    rows[2 * p] = zp_band_row(K, first + 2 * p) - 2 * p;
+    rows[2 * p + 1] = zp_band_row(K, first + 2 * p + 1) - (2 * p + 1);
+  }
 }
 
 ZP_INLINE void gaps_of_free_station(const ZpAssembly *a, size_t s, size_t per, size_t i, const ZpGapDerivatives *of,
                                     ZpBand *K) {
   double own = of->own[i], next = of->next[i], along[2] = {of->along0[i], of->along1[i]};
   double *here[4], *after[4]; /* rows of station i, of station i + 1 */
-  rows_from(K, (size_t)a->first[i], 2 * s, here);
-  rows_from(K, (size_t)a->first[i] + per, 2 * s, after);
+  rows_from(K, (size_t)a->first[i], s, here);
+  rows_from(K, (size_t)a->first[i] + per, s, after);
   for (size_t p = 0; p < s; p++)
     for (size_t q = 0; q < s; q++) {
       double both = rise(s, p) * rise(s, q);

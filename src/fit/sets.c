@@ -362,7 +362,7 @@ static ZpStatus read_sigma_column(ZpFit *fit, const ZpFitSet *set, const ZpData 
 }
 
 /* Standard deviations of a set: from a column of the file, otherwise from calibrate.sigma, otherwise NAN. */
-static ZpStatus read_sigma(Reading *r, const ZpFitSet *set, const Measured *measured) {
+static ZpStatus read_sigma(const Reading *r, const ZpFitSet *set, const Measured *measured) {
   const ZpData *data = measured->data;
   double *sigma = r->fit->sigma + set->first;
   const int column = find_sigma(data, set->kind);
@@ -459,7 +459,7 @@ static bool is_force(const char *name) {
   return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor);
 }
 
-static ZpStatus read_set(Reading *r, ZpFitSet *set, const Measured *measured, int y) {
+static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measured, int y) {
   const ZpData *data = measured->data;
   int x = measured->x;
   if (is_length(data->cell[x]) && is_force(data->cell[y])) {
