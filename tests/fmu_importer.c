@@ -47,7 +47,7 @@ static void unpack_file(zip_t *zip, zip_uint64_t index, const char *folder) {
   free(bytes);
 }
 
-static void unpack(const char *path, const char *folder) {
+void fmu_unpack(const char *path, const char *folder) {
   int reason;
   zip_t *zip = zip_open(path, ZIP_RDONLY, &reason);
   ck_assert_msg(zip != NULL, "%s: no archive", path);
@@ -168,11 +168,10 @@ static void read_description(Fmu *fmu, char identifier[64]) {
   xmlFreeDoc(document);
 }
 
-Fmu fmu_open(const char *path, const char *folder) {
+Fmu fmu_open(const char *folder) {
   Fmu fmu = {0};
   char library[1024], identifier[64];
   snprintf(fmu.folder, sizeof fmu.folder, "%s", folder);
-  unpack(path, folder);
   read_description(&fmu, identifier);
   snprintf(library, sizeof library, "%s/binaries/%s/%s.so", folder, fmu.version == 2 ? "linux64" : "x86_64-linux",
            identifier);

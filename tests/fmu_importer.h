@@ -31,8 +31,10 @@ typedef struct Fmu {
   void *library;
 } Fmu;
 
-/* Of the FMU file `path`, unpacked into `folder`; fails the test where anything is not as the standard has it. */
-Fmu fmu_open(const char *path, const char *folder);
+void fmu_unpack(const char *path, const char *folder);
+
+/* Of the FMU that was unpacked into `folder`; fails the test where anything is not as the standard has it. */
+Fmu fmu_open(const char *folder);
 void fmu_close(Fmu *fmu);
 
 /* The variable called `name`; fails the test if there is none. */

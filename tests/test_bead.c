@@ -363,7 +363,7 @@ START_TEST(test_energy_of_50_cycles) {
   static const struct {
     double model, suction, viscosity;
   } row[] = {{ZP_LIQUID_SUBMERGED, 0, 5e-6}, {ZP_LIQUID_BEAD, 0, 5e-6}, {ZP_LIQUID_BEAD, 0.5, 1e-6}};
-  enum { CYCLES = 50, LOOKS = 10 };
+  enum { CYCLES = FULL_OR(50, 3), LOOKS = 10 };
   static const double frequency = 4;
   ZpActuatorDef def = DEF({"liquid.model", row[_i].model}, {"bead.suction", row[_i].suction},
                           {"medium.kinematic_viscosity", row[_i].viscosity}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
@@ -376,7 +376,7 @@ START_TEST(test_energy_of_50_cycles) {
     double share = fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work");
     if (k >= LOOKS) worst = fmax(worst, share); /* in the first cycle little work has been done */
   }
-  printf("50 cycles: energy off by %.1e of the work at most\n", worst);
+  printf("%d cycles: energy off by %.1e of the work at most\n", CYCLES, worst);
   ck_below(worst, 1e-6);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
@@ -536,8 +536,8 @@ int main(void) {
   tcase_add_loop_test(c, test_isometric_force_of_stiff_ribbons, 0, LENGTH_OF(wedges));
   tcase_add_loop_test(c, test_isometric_force, 0, LENGTH_OF(wedges));
   tcase_add_test(c, test_full_bead_without_a_platform);
-  tcase_add_loop_test(c, test_volume_is_kept, 0, 4);
-  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, 6);
+  tcase_add_loop_test(c, test_volume_is_kept, 0, FULL_OR(4, 2));
+  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, FULL_OR(6, 2));
   tcase_add_loop_test(c, test_energy_of_50_cycles, 0, 3);
   tcase_add_test(c, test_much_liquid_is_a_bath);
   tcase_add_test(c, test_suction_takes_what_menisci_lose);

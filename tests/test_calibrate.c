@@ -951,7 +951,7 @@ int main(void) {
   tcase_add_test(fits, derivatives_cost_one_evaluation);
   tcase_add_test(fits, zip_times_have_derivatives);
   tcase_add_test(fits, voltage_data);
-  tcase_add_test(fits, zip_times_show_the_pull_in);
+  add_long_test(fits, zip_times_show_the_pull_in);
   tcase_add_test(fits, columns_without_units_are_told);
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, bounds_have_units);

@@ -484,8 +484,8 @@ int main(void) {
   tcase_add_test(force, insulators_beyond_their_breakdown_are_pressed_not_passed);
   tcase_add_test(force, small_force_is_not_rounded_away);
   tcase_add_test(force, coarse_mesh_is_refined);
-  tcase_add_test(force, coarse_mesh_is_refined_twice);
-  tcase_add_test(force, resolved_mesh_is_refined);
+  add_long_test(force, coarse_mesh_is_refined_twice);
+  add_long_test(force, resolved_mesh_is_refined);
   tcase_add_test(force, test_refused);
   suite_add_tcase(suite, force);
   return run_suite(suite);

@@ -295,7 +295,7 @@ int main(void) {
   Suite *suite = suite_create("leak");
   TCase *tcase = tcase_create("leak");
   tcase_add_loop_test(tcase, test_step_of_the_voltage, 0, 3);
-  tcase_add_test(tcase, test_leakage_alone);
+  add_long_test(tcase, test_leakage_alone);
   tcase_add_loop_test(tcase, test_derivatives, 0, 2);
   tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 0, 5);
   tcase_add_test(tcase, test_charge_that_stays);

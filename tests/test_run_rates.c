@@ -265,8 +265,8 @@ int main(void) {
   Suite *suite = suite_create("run rates");
   TCase *tests = tcase_create("run rates");
   tcase_add_test(tests, zip_in_a_bath);
-  tcase_add_loop_test(tests, zip_without_liquid, 0, 2);
-  tcase_add_test(tests, zip_without_liquid_with_its_own_steps);
+  tcase_add_loop_test(tests, zip_without_liquid, 0, FULL_OR(2, 1));
+  add_long_test(tests, zip_without_liquid_with_its_own_steps);
   tcase_add_test(tests, derivative_of_every_landing_is_found);
   tcase_add_test(tests, zip_at_the_end_of_a_step);
   tcase_add_test(tests, start_of_a_swing);
