@@ -38,7 +38,7 @@ static double error_of(const ZpResult *result, const char *scalar) {
     ZpStudy study;
     const char *scalar, *error;
   } estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order) {enumerator, scalar, error},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order, meshes) {enumerator, scalar, error},
 #include <zipact/studies.def>
   };
   for (size_t i = 0; i < sizeof estimated / sizeof estimated[0]; i++)

@@ -1,5 +1,5 @@
-/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0, 1, 2 the mesh that was
- * asked for and two coarser ones. */
+/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0 the mesh that was asked
+ * for; 1, 2, 3, 4 coarser ones. */
 #include "study/estimate.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "base/fail.h"
 
-enum { MESHES = 3, FEWEST_ELEMENTS = 3 };
+enum { MESHES = 5, FEWEST_ELEMENTS = 3 };
 
 /* How errors fall with more elements: as two powers, eq. (21.2); as a ripple, eq. (21.3); as either, eq. (21.4). */
 typedef enum Law { POWERS, RIPPLE, EITHER } Law;
@@ -17,17 +17,18 @@ typedef struct Estimated {
   const char *value, *error, *unit;
   double safety; /* F */
   Law law;
-  int order; /* p of eq. (21.3) */
+  double order; /* p of eq. (21.3) */
+  int meshes;   /* coarser ones */
 } Estimated;
 
 static const Estimated estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order)                                               \
-  {enumerator, scalar, error, unit, safety, law, order},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order, meshes)                                       \
+  {enumerator, scalar, error, unit, safety, law, order, meshes},
 #include <zipact/studies.def>
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
 
-/* What the three meshes give for each row above; NAN where they give none. */
+/* What the meshes give for each row above; NAN where they give none. */
 typedef struct Findings {
   double elements[MESHES], f[COUNT][MESHES];
 } Findings;
@@ -45,10 +46,11 @@ static bool has_coarser(const ZpActuatorDef *def, bool moves) {
 }
 
 /* Three fifths and two fifths of the elements: together as dear as the study itself, near enough to it that the order
- * matters little, and so far from each other that the front is elsewhere among their nodes. */
+ * matters little, and so far from each other that the front is elsewhere among their nodes. Ripples that four meshes
+ * must show need four and three and a half fifths, too. */
 static int elements_of(int mesh, int elements) {
-  static const int fifths[MESHES] = {5, 3, 2};
-  return (2 * fifths[mesh] * elements + 5) / 10;
+  static const int tenths[MESHES] = {10, 6, 4, 8, 7};
+  return (2 * tenths[mesh] * elements + 10) / 20;
 }
 
 /* In motion, steps are longer by as much as the elements. Only numbers of the summary are asked for. */
@@ -86,19 +88,27 @@ static double square(double x) {
   return x * x;
 }
 
-/* Eq. (21.1): f_0 less the converged number, if errors go with the power -order of the number of elements. NAN where
- * the mesh has no such number. */
-static double richardson(const Findings *findings, int k, int mesh, int order) {
+/* Eq. (21.1): f_0 less the converged number, if errors go with the power -order, a multiple of a half, of the number of
+ * elements. NAN where the mesh has no such number. */
+static double richardson(const Findings *findings, int k, int mesh, double order) {
   const double *f = findings->f[k], *n = findings->elements;
-  double growth = 1;
-  for (int i = 0; i < order; i++)
-    growth *= n[0] / n[mesh];
+  double ratio = n[0] / n[mesh], growth = 1;
+  for (; order >= 1; order -= 1)
+    growth *= ratio;
+  if (order > 0) growth *= sqrt(ratio);
   return (f[mesh] - f[0]) / (growth - 1);
 }
 
-/* The larger of what both meshes give; either may have none. */
-static double larger(const Findings *findings, int k, int order) {
-  return fmax(fabs(richardson(findings, k, 1, order)), fabs(richardson(findings, k, 2, order)));
+/* The largest of what the coarser meshes 1 to `meshes` give; any may have none. */
+static double largest(const Findings *findings, int k, int meshes, double order) {
+  double most = NAN;
+  for (int mesh = 1; mesh <= meshes; mesh++)
+    most = fmax(most, fabs(richardson(findings, k, mesh, order)));
+  return most;
+}
+
+static double larger(const Findings *findings, int k, double order) {
+  return largest(findings, k, 2, order);
 }
 
 /* Eq. (21.2): what is left of both orders, two and four, or of the lower one alone. */
@@ -110,34 +120,38 @@ static double of_powers(const Findings *findings, int k) {
   return fmax(larger(findings, k, 2), fabs(both));
 }
 
-static bool on_one_side(const Findings *findings, int k) {
-  return richardson(findings, k, 1, 2) * richardson(findings, k, 2, 2) > 0;
+static bool on_one_side(const Findings *findings, int k, int meshes) {
+  for (int mesh = 2; mesh <= meshes; mesh++)
+    if (!(richardson(findings, k, 1, 2) * richardson(findings, k, mesh, 2) > 0)) return false;
+  return true;
 }
 
-/* Is the order that the three meshes show this one or a higher one? */
-static bool shows_order(const Findings *findings, int k, int order) {
-  return fabs(richardson(findings, k, 2, order)) >= fabs(richardson(findings, k, 1, order));
+/* Is the order that the meshes `near` and 2, the coarsest, show this one or a higher one? */
+static bool shows_order(const Findings *findings, int k, int near, double order) {
+  return fabs(richardson(findings, k, 2, order)) >= fabs(richardson(findings, k, near, order));
 }
 
 /* Eq. (21.3). Where meshes on one side show a lower order than the ripple's, it is small beside what has order two. */
-static double of_ripple(const Findings *findings, int k, int order) {
-  bool small = on_one_side(findings, k) && !shows_order(findings, k, order);
-  return larger(findings, k, small ? 2 : order);
+static double of_ripple(const Findings *findings, int k) {
+  const Estimated *e = &estimated[k];
+  int nearest = e->meshes > 2 ? 3 : 1;
+  bool small = on_one_side(findings, k, e->meshes) && !shows_order(findings, k, nearest, e->order);
+  return largest(findings, k, e->meshes, small ? 2 : e->order);
 }
 
 /* Eq. (21.4). Meshes that follow one another show an order, of which the nearer one takes no more than is left on finer
  * meshes. An order above five is one by chance: two meshes agree. */
-static double of_either(const Findings *findings, int k, int order) {
+static double of_either(const Findings *findings, int k, double order) {
   static const double unordered = 1.25;
-  bool follow = on_one_side(findings, k) && shows_order(findings, k, 2) && !shows_order(findings, k, 5);
+  bool follow = on_one_side(findings, k, 2) && shows_order(findings, k, 1, 2) && !shows_order(findings, k, 1, 5);
   if (!follow) return unordered * larger(findings, k, order);
-  return fabs(richardson(findings, k, 1, shows_order(findings, k, 4) ? 3 : 2));
+  return fabs(richardson(findings, k, 1, shows_order(findings, k, 1, 4) ? 3 : 2));
 }
 
 static double error_of(const Findings *findings, int k) {
   const Estimated *e = &estimated[k];
   if (e->law == POWERS) return e->safety * of_powers(findings, k);
-  if (e->law == RIPPLE) return e->safety * of_ripple(findings, k, e->order);
+  if (e->law == RIPPLE) return e->safety * of_ripple(findings, k);
   return e->safety * of_either(findings, k, e->order);
 }
 
@@ -167,11 +181,13 @@ static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
   return false;
 }
 
-/* Is there a number to estimate? What an actuator does not do, coarser ones need not show. */
-static bool any_found(const Findings *findings) {
+/* How many coarser meshes the numbers that were found need. What an actuator does not do, coarser ones need not show.
+ */
+static int meshes_of(const Findings *findings) {
+  int most = 0;
   for (int k = 0; k < COUNT; k++)
-    if (!isnan(findings->f[k][0])) return true;
-  return false;
+    if (!isnan(findings->f[k][0]) && estimated[k].meshes > most) most = estimated[k].meshes;
+  return most;
 }
 
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err) {
@@ -181,9 +197,10 @@ ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpRe
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
   ZpStatus status = ZP_OK;
-  bool enough = elements_of(MESHES - 1, task->def->mesh.nodes - 1) >= FEWEST_ELEMENTS;
-  bool wanted = enough && zp_outcome_good(result->outcome) && any_found(&findings) && is_resolved(task->def, result);
-  for (int mesh = 1; mesh < MESHES && status == ZP_OK && wanted; mesh++) {
+  int meshes = meshes_of(&findings);
+  bool enough = elements_of(2, task->def->mesh.nodes - 1) >= FEWEST_ELEMENTS;
+  bool wanted = enough && zp_outcome_good(result->outcome) && meshes > 0 && is_resolved(task->def, result);
+  for (int mesh = 1; mesh <= meshes && status == ZP_OK && wanted; mesh++) {
     const ZpActuatorDef def = coarser(*task->def, elements_of(mesh, task->def->mesh.nodes - 1), moves);
     status = solve(task, run, study, mesh, &def, &findings, err);
   }
