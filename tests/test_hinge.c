@@ -178,9 +178,10 @@ END_TEST
 /* It zips dry from the hinge outwards, lifts its load, and opens when the voltage is switched off: the energy balances,
  * and the work on the load is its weight times its rise. */
 START_TEST(zips_and_keeps_the_books) {
-  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.1e-3},
-                          {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2},
-                          {"mesh.nodes", FULL_OR(31, 15)}, {"electro.edges", _i}, {"solver.end_time", FULL_OR(0.4, 0.3)});
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.1e-3},
+          {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2}, {"mesh.nodes", FULL_OR(31, 15)},
+          {"electro.edges", _i}, {"solver.end_time", FULL_OR(0.4, 0.3)});
   if (_i) def.drive.waveform = ZP_WAVEFORM_SQUARE, def.drive.frequency = 4;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_below(zp_result_get(result, "energy_error"), 1e-6);

@@ -78,10 +78,11 @@ END_TEST
 START_TEST(limits_change_as_differences_say) {
   ZpActuatorDef def = zp_actuator_def_default();
   def.liquid.model = ZP_LIQUID_NONE;
-  check_differences(ZP_STUDY_LIMITS, &def,
-                    FULL_OR("ribbon.thickness, ribbon.length, load.mass, insulator.permittivity, medium.breakdown_field",
-                            "load.mass, medium.breakdown_field"),
-                    5e-4, 1e-6);
+  check_differences(
+      ZP_STUDY_LIMITS, &def,
+      FULL_OR("ribbon.thickness, ribbon.length, load.mass, insulator.permittivity, medium.breakdown_field",
+              "load.mass, medium.breakdown_field"),
+      5e-4, 1e-6);
 }
 END_TEST
 
