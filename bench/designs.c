@@ -423,10 +423,16 @@ static void count_number(Estimated *e, const ZpActuatorDef *def, const ZpResult 
   print_design(def);
 }
 
+static bool has_estimate(const ZpResult *result) {
+  for (int k = 0; k < NUMBERS; k++)
+    if (estimated[k].study == result->study && !isnan(zp_result_get(result, estimated[k].error))) return true;
+  return false;
+}
+
 static void count_design(ZpStudy which, ZpActuatorDef def) {
   def.output.errors = true;
   ZpResult *coarse = result_of(which, &def), *fine[REFERENCES] = {NULL, NULL};
-  bool all = coarse;
+  bool all = coarse && has_estimate(coarse);
   for (int k = 0; k < REFERENCES && all; k++) {
     ZpActuatorDef reference = refined(which, &def, k);
     fine[k] = result_of(which, &reference);
