@@ -93,9 +93,10 @@ static double square(double x) {
 static double richardson(const Findings *findings, int k, int mesh, double order) {
   const double *f = findings->f[k], *n = findings->elements;
   double ratio = n[0] / n[mesh], growth = 1;
-  for (; order >= 1; order -= 1)
+  int whole = (int)order;
+  for (int i = 0; i < whole; i++)
     growth *= ratio;
-  if (order > 0) growth *= sqrt(ratio);
+  if (order > whole) growth *= sqrt(ratio);
   return (f[mesh] - f[0]) / (growth - 1);
 }
 
