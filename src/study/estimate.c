@@ -47,10 +47,10 @@ static bool has_coarser(const ZpActuatorDef *def, bool moves) {
 
 /* Three fifths and two fifths of the elements: together as dear as the study itself, near enough to it that the order
  * matters little, and so far from each other that the front is elsewhere among their nodes. Ripples that four meshes
- * must show need four and three and a half fifths, too. */
+ * must show need four fifths and seven tenths, too. */
 static int elements_of(int mesh, int elements) {
   static const int tenths[MESHES] = {10, 6, 4, 8, 7};
-  return (2 * tenths[mesh] * elements + 10) / 20;
+  return (tenths[mesh] * elements + 5) / 10;
 }
 
 /* In motion, steps are longer by as much as the elements. Only numbers of the summary are asked for. */

@@ -1,5 +1,5 @@
-/* By how much the numbers of a result may be wrong for their mesh and their time steps: the study once more on two
- * coarser meshes. docs/theory.md, section 21. */
+/* By how much the numbers of a result may be wrong for their mesh and their time steps: the study once more on coarser
+ * meshes. docs/theory.md, section 21. */
 #ifndef ZP_STUDY_ESTIMATE_H
 #define ZP_STUDY_ESTIMATE_H
 
