@@ -204,8 +204,9 @@ function remember() {
 const cost = {mean: 0, worst: 0}; // ms of work a frame
 let before = performance.now(), described = -Infinity, wasZipped = false;
 
+/** A ribbon that arrives with a swing may bounce off again: it is open only when it has left the closed state for good. */
 function announceZip() {
-  const zipped = live.frame.get('contraction') > 0.99;
+  const contraction = live.frame.get('contraction'), zipped = contraction > (wasZipped ? 0.9 : 0.99);
   if (zipped && !wasZipped) say(`Closed after ${fixed(1e3 * live.frame.get('since'), 1)} milliseconds`);
   if (!zipped && wasZipped) say('Opens again');
   wasZipped = zipped;
