@@ -385,8 +385,8 @@ static ZpResult *result_of(ZpStudy which, const ZpActuatorDef *def) {
 enum { CONVERGED, CHECK, SECOND_CHECK, REFERENCES };
 
 static ZpActuatorDef refined(ZpStudy which, const ZpActuatorDef *def, int reference) {
-  static const int at_rest[REFERENCES] = {481, 361, 421}, in_motion[REFERENCES] = {121, 91, 106};
-  static const double tolerance[REFERENCES] = {3e-5, 6e-5, 4e-5};
+  static const int at_rest[REFERENCES] = {481, 361, 421}, in_motion[REFERENCES] = {241, 181, 211};
+  static const double tolerance[REFERENCES] = {1e-6, 2e-6, 1.4e-6};
   bool moves = which == ZP_STUDY_ACTUATE;
   ZpActuatorDef fine = *def;
   fine.output.errors = false;

@@ -315,12 +315,17 @@ static double opening(const ZpModel *model, const ZpState *state) {
   return zp_opening(&model->topology, zp_state_motion(model, state).y);
 }
 
+/* At this opening an actuator is closed, m: at 1 % of the hanging one, or where faces touch if that is more. */
+static double closed_opening(const ZpState *state) {
+  return fmax(ZP_CLOSED_PART * state->opening0, ZP_CLOSED_GAP);
+}
+
 static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > ZP_CLOSED_PART * state->opening0;
+  return opening(model, state) > closed_opening(state);
 }
 
 static bool started_open(const ZpSim *sim) {
-  return sim->step_start.opening > ZP_CLOSED_PART * sim->state->opening0;
+  return sim->step_start.opening > closed_opening(sim->state);
 }
 
 /* From open to closed. What starts closed, as straight ribbons do, has to open first. */
@@ -365,11 +370,10 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
   return (ZpStepStart){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
 }
 
-/* When the opening is 1 %: on the parabola of the midpoint rule, which has the start's opening and rate and the end's
+/* When the actuator closes: on the parabola of the midpoint rule, which has the start's opening and rate and the end's
  * opening. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - ZP_CLOSED_PART * state->opening0,
-         taken = state->t - start.t;
+  double now = opening(model, state), left = start.opening - closed_opening(state), taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
@@ -378,12 +382,9 @@ double zp_sim_crossing(const ZpSim *sim) {
   return crossing(sim->model, sim->state, sim->step_start);
 }
 
-/* Has that been within the step that has just been taken? A platform that touches at more than 1 % is closed at its
- * end.
- */
+/* Has that been within the step that has just been taken? */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double limit = ZP_CLOSED_PART * state->opening0;
-  return start.opening > limit && opening(model, state) <= limit;
+  return start.opening > closed_opening(state) && !is_open(model, state);
 }
 
 /* Has the last step closed the actuator? */
