@@ -7,7 +7,7 @@
  *   designs errors [COUNT [SEED [STUDY]]]   the estimated errors of limits, stationary, modes and isometric beside the
  *                                        true ones, which a mesh of 481 nodes shows, and one of
  *                                        361 how well
- *   designs times [COUNT [SEED]]         that of the zip time beside the one that 121 nodes and a tolerance of 3e-5
+ *   designs times [COUNT [SEED]]         that of the zip time beside the one that 241 nodes and a tolerance of 1e-6
  *                                        show; designs of more than 61 nodes are left out
  *   designs liquid [COUNT [SEED [FIRST]]]   zips in a bath or with beads of oil, of 0.5 to 5000 mm2/s, at 2 to 15 kV:
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
