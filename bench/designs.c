@@ -9,6 +9,8 @@
  *                                        361 how well
  *   designs times [COUNT [SEED]]         that of the zip time beside the one that 241 nodes and a tolerance of 1e-6
  *                                        show; designs of more than 61 nodes are left out
+ *   designs tolerance [COUNT [SEED]]     how many zip times of at most 61 nodes have errors of at most 3 and 10
+ *                                        tolerances
  *   designs liquid [COUNT [SEED [FIRST]]]   zips in a bath or with beads of oil, of 0.5 to 5000 mm2/s, at 2 to 15 kV:
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
  *                                        the studies
@@ -497,6 +499,56 @@ static int check_errors_of(const char *word, const ZpStudy *studies, int count, 
   return 1;
 }
 
+/* -- zip times against their tolerance ----------------------------------------------------------------- */
+
+/* NAN: there is none. */
+static double zip_time(const ZpActuatorDef *def, double tolerance) {
+  ZpActuatorDef at = *def;
+  at.solver.tolerance = tolerance;
+  ZpResult *result = result_of(ZP_STUDY_ACTUATE, &at);
+  double time = result ? zp_result_get(result, "zip_time_s") : NAN;
+  zp_result_destroy(result);
+  return time;
+}
+
+/* Designs by the error of their zip time: at most so many tolerances, */
+typedef struct Kept {
+  int designs, within[2];
+} Kept;
+
+static const double tolerances_off[2] = {3, 10};
+
+static void count_kept(double error, double tolerance, Kept *kept) {
+  kept->designs++;
+  for (int k = 0; k < 2; k++)
+    kept->within[k] += error <= tolerances_off[k] * tolerance;
+}
+
+/* On the mesh of each design, against a tolerance of 1e-7. A zip time that moves by more than 1e-4 from 1e-6 to 1e-7
+ * has no limit that could be seen: such actuators swing or bounce before they close. */
+static void check_tolerances(int designs, uint64_t seed, int most_nodes) {
+  enum { TOLERANCES = 3 };
+  static const double tolerance[TOLERANCES] = {1e-3, 1e-4, 1e-5}, settled = 1e-4;
+  Kept kept[TOLERANCES] = {{0}};
+  int unsettled = 0;
+  for (int i = 0; i < designs; i++) {
+    uint64_t state = seed + (uint64_t)i;
+    ZpActuatorDef def = design_for(ZP_STUDY_ACTUATE, &state);
+    double coarse = def.mesh.nodes <= most_nodes ? zip_time(&def, 1e-3) : NAN;
+    if (isnan(coarse)) continue;
+    double exact = zip_time(&def, 1e-7), near = zip_time(&def, 1e-6);
+    bool known = fabs(near / exact - 1) <= settled;
+    unsettled += !known;
+    for (int k = 0; k < TOLERANCES && known; k++)
+      count_kept(fabs((k == 0 ? coarse : zip_time(&def, tolerance[k])) / exact - 1), tolerance[k], &kept[k]);
+  }
+  printf("%9s %8s %20s %20s   of %d designs; %d do not converge\n", "tolerance", "designs", "within 3 tolerances",
+         "within 10", designs, unsettled);
+  for (int k = 0; k < TOLERANCES; k++)
+    printf("%9g %8d %18.1f %% %18.1f %%\n", tolerance[k], kept[k].designs, 100.0 * kept[k].within[0] / kept[k].designs,
+           100.0 * kept[k].within[1] / kept[k].designs);
+}
+
 /* -- limits against a slow ramp ------------------------------------------------------------------------ */
 
 /* A simulation whose voltage is a ramp; times in units of the first mode's period. */
@@ -664,6 +716,7 @@ int main(int argc, char **argv) {
   if (strcmp(word, "errors") == 0 && argc > 4) return check_errors_of(argv[4], still, 4, designs, seed) > 0;
   if (strcmp(word, "errors") == 0) return check_errors(still, 4, designs, seed, MOST_NODES) > 0;
   if (strcmp(word, "times") == 0) return check_errors(moving, 1, designs, seed, 61) > 0;
+  if (strcmp(word, "tolerance") == 0) return check_tolerances(designs, seed, 61), 0;
   if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
   if (strcmp(word, "liquid") == 0) return check_liquid(designs, seed, argc > 4 ? atoi(argv[4]) : 0) > 0;
   if (strcmp(word, "ramp") == 0) return check_ramp(designs, seed) > 0;
@@ -672,6 +725,6 @@ int main(int argc, char **argv) {
     bad += check_study(every[k], designs, seed);
     known++;
   }
-  if (known == 0) fprintf(stderr, "%s: no study; also all, agree, errors, times, ramp, liquid\n", word);
+  if (known == 0) fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, ramp, liquid\n", word);
   return known == 0 ? 2 : bad > 0;
 }
