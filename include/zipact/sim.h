@@ -196,7 +196,7 @@ ZP_API double zp_sim_zip_time(const ZpSim *sim);
 ZP_API double zp_sim_starved_time(const ZpSim *sim);
 
 /* All that evolves, as a snapshot: bytes that may be stored anywhere and given to anyone, the same for equal states on
- * every machine. They hold the version, the keys that make the model and a checksum; docs/interface.md has the format.
+ * every machine. They hold the version, the keys that make the model and a checksum; docs/formats.md has the format.
  * `bytes` takes zp_sim_state_size bytes, as many for each state of one model. */
 ZP_API size_t zp_sim_state_size(const ZpSim *sim);
 ZP_API void zp_sim_save(const ZpSim *sim, void *bytes);
