@@ -25,7 +25,7 @@ ZP_API void zp_rest_destroy(ZpRest *rest);
 ZP_API bool zp_rest_hang(ZpRest *rest, double voltage);
 
 /* The present state: height of the clip over the lower platform, signed (of one ribbon: how far its right end is below
- * the left), m; distance of the platforms' faces, m, NAN of one ribbon. */
+ * the left), m; distance between the platforms' faces, m, NAN of one ribbon. */
 ZP_API double zp_rest_stroke(const ZpRest *rest);
 ZP_API double zp_rest_opening(const ZpRest *rest);
 

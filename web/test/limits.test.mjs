@@ -141,7 +141,7 @@ test('scenarios drawn over every key: an engine answers each within its limits',
     const shape = answer.failure ? {} : new Frame(answer.frame).shape;
     for (const [name, part] of Object.entries(shape)) assert.ok(!part.some(Number.isNaN), `no number in ${name}: ${text}`);
     timed({study: 'actuate', values, scalars: [], columns: ['time_s']});
-    timed({study: 'equilibrium', values, scalars: [], columns: ['voltage_V']}, /study equilibrium (unloads ribbons|knows a single actuator)/);
+    timed({study: 'equilibrium', values, scalars: [], columns: ['voltage_V']}, /study equilibrium (unloads ribbons|does not support members in series)/);
   }
 });
 
