@@ -4,6 +4,7 @@ import {shade, theme} from './theme.js';
 const steel = 7850; // kg/m3, of the weight that is drawn
 const margin = {top: 8e-3, side: 2.5e-3, string: 5e-3, bottom: 4e-3}; // m around the actuator
 const magnification = 25; // of the lens
+const narrow = 500, legendHeight = 40; // px: the legend of the field is below the actuators of a narrow picture
 const thinnest = 1.6; // px of a metal strip that would be thinner, not in the lens
 
 /** A half of a member on the screen (geometry.js), `place` m to the right. */
@@ -72,6 +73,12 @@ function zipFront({x, y, gap, first}, insulator) {
   return {x: between(x[0]), y: (between(y[0]) + between(y[1])) / 2};
 }
 
+/** Middle and radius of the lens, px. */
+function lensPlace(width, height) {
+  const radius = Math.min(84, height * 0.19, width * 0.15);
+  return {at: {x: radius + 16, y: height - radius - 34}, radius};
+}
+
 export class Picture {
   #canvas;
   #context;
@@ -102,7 +109,7 @@ export class Picture {
     this.#load(scene, to);
     this.#opening(scene, to);
     this.#scaleBar(to, width, height);
-    this.#lens(scene, to, width, height);
+    if (to.lens) this.#lens(scene, to, width, height);
     this.#where(scene, width);
     this.#gravity(scene.geometry, width, height);
   }
@@ -139,7 +146,8 @@ export class Picture {
     context.fillText('gravity', x - size - 8, y);
   }
 
-  /** The view: all actuators, the load and some margin, with the same scale in both directions. */
+  /** The view: all actuators, the load and some margin, with the same scale in both directions; beside the lens if they
+   * are deep. Where there is no room for both, there is no lens. */
   #fit(scene, width, height, still) {
     const {geometry, mass} = scene, below = Math.max(-geometry.bottom, 1.1 * (geometry.opposed ? 0 : scene.hanging || 0));
     const under = geometry.opposed ? margin.top : margin.string + Math.cbrt(mass / steel) + margin.bottom;
@@ -147,9 +155,13 @@ export class Picture {
     const soft = this.#view && !still ? 0.12 : 1;
     this.#view ??= wanted;
     for (const key of ['width', 'depth']) this.#view[key] += soft * (wanted[key] - this.#view[key]);
-    const scale = Math.min(width / this.#view.width, height / (this.#view.depth + margin.top));
-    const top = margin.top * scale + Math.max(0, 0.35 * (height - (this.#view.depth + margin.top) * scale));
-    return {scale, x: (x) => width / 2 + scale * x, y: (y) => top - scale * y};
+    const free = width < narrow ? height - legendHeight : height, {width: wide, depth} = this.#view;
+    const scale = Math.min(width / wide, free / (depth + margin.top));
+    const top = margin.top * scale + Math.max(0, 0.35 * (free - (depth + margin.top) * scale));
+    const {at, radius} = lensPlace(width, height), covered = at.x + radius + 8 - (width - wide * scale) / 2;
+    const deep = top - scale * geometry.bottom > at.y - radius, spare = (width - wide * scale) / 2;
+    const middle = width / 2 + (deep ? Math.min(Math.max(covered, 0), spare) : 0);
+    return {scale, x: (x) => middle + scale * x, y: (y) => top - scale * y, lens: !deep || covered <= spare};
   }
 
   /** What holds the uppermost platform of each column, or the lowest one of antagonists, from below; a hinge. */
@@ -334,9 +346,8 @@ export class Picture {
 
   /** The zip front of a left half, magnified: metal, insulator, liquid, insulator, metal, all to scale. */
   #lens(scene, to, width, height) {
-    const context = this.#context, radius = Math.min(84, height * 0.19, width * 0.15);
+    const context = this.#context, {at, radius} = lensPlace(width, height);
     const member = scene.geometry.focus, {insulator, metal, places} = member;
-    const at = {x: radius + 16, y: height - radius - 34};
     const scale = to.scale * magnification, focus = zipFront(member.halves[0], insulator);
     const inside = {scale, x: (x) => at.x + scale * (x - focus.x), y: (y) => at.y - scale * (y - focus.y)};
     const from = {x: to.x(focus.x + places[0]), y: to.y(focus.y)};

@@ -39,7 +39,6 @@ const wetWords = {bead: 'a bead of oil at each clip, air beyond', submerged: 'in
 const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
-  hanging = NaN; // m, opening without voltage
   release = NaN; // V, where it opens again
   #time; // what the plots show
   #rest;
@@ -97,7 +96,6 @@ export class View {
   showRun({result}, words) {
     const columns = result?.columns;
     this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
-    this.hanging = columns?.opening_m[0] ?? NaN;
     const scalars = result?.scalars ?? {};
     this.tiles.show('zip', digits(1e3 * (scalars.zip_time_s ?? NaN)));
     this.tiles.show('stress', digits((scalars.max_stress_Pa ?? NaN) / 1e6));
@@ -179,7 +177,7 @@ export class View {
       bath: word === 'submerged',
       largest: strongest,
       electrode: geometry.hinge || frame.get('platform.electrode') !== 0,
-      hanging: this.hanging,
+      hanging: frame.get('opening') / (1 - frame.get('contraction')), // by the definition of the contraction
     };
   }
 
