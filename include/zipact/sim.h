@@ -179,13 +179,16 @@ ZP_API void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start);
 /* Present shape; its pointers are valid until the simulation continues. */
 ZP_API ZpShape zp_sim_shape(ZpSim *sim);
 
-/* The liquid between the faces at each station, counted as in the shape. */
+/* The liquid between the faces. Stations are numbered as in the shape: member after member. */
 typedef struct ZpLiquid {
-  const double *thickness; /* [nodes] of its film, m; 0 where there is none */
-  const double *pressure; /* [nodes] above that around the actuator, Pa: mean across the width and over the last step */
+  const double *thickness;  /* [members * nodes] thickness of the film, m; 0 where there is none */
+  const double *pressure;   /* [members * nodes] pressure above the surroundings, Pa: mean across the width and over the
+                               last step */
+  const double *wet_length; /* [members * halves] length of each modelled half that is wet, from its clip, m; INFINITY
+                               if no bead ends there */
 } ZpLiquid;
 
-/* It now; both pointers are valid until the simulation continues, and NULL without liquid.model. */
+/* The present liquid. The pointers are valid until the simulation continues; they are NULL without liquid.model. */
 ZP_API ZpLiquid zp_sim_liquid(ZpSim *sim);
 
 /* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN
@@ -216,10 +219,11 @@ ZP_API const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *co
 /* The unit of what control.signal holds: "m", "F" or "1". */
 ZP_API const char *zp_control_unit(const ZpActuatorDef *def);
 
-/* Continue from where `from` is, a simulation of another model with as many ribbons and nodes: its time, voltage,
- * contact, velocities and shape, stretched to this model's length. Energy and losses count from here on; contraction
- * refers to this model's own hanging equilibrium. drive.waveform does not count any more. ZP_BAD_INPUT if the models
- * differ in number. */
+/* Continue from the state of `from`, a simulation of another model with as many members, ribbons and nodes: its time,
+ * voltage, contact, velocities and shape, stretched to this model's length. Energy and losses count from here on;
+ * contraction refers to this model's own hanging equilibrium. drive.waveform has no effect any more. ZP_BAD_INPUT, and
+ * nothing is changed, if the models differ in these numbers or in what holds their ends and platforms, or if members
+ * that share a load differ in their lengths. */
 ZP_API ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
 
 #ifdef __cplusplus

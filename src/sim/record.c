@@ -461,18 +461,29 @@ ZpShape zp_sim_shape(ZpSim *sim) {
   return join_shapes(sim);
 }
 
-ZpLiquid zp_sim_liquid(ZpSim *sim) {
+/* Of one member => where the liquid of all is, from its first station on. */
+static void fill_liquid(ZpSim *sim, double *thickness, double *pressure, double *wet_length) {
   const ZpModel *model = sim->model;
-  const ZpShapeRoom *room = &sim->shape_room;
   const double *head = zp_state_own(model, sim->state), *share = model->film.share;
-  if (!model->has_film) return (ZpLiquid){NULL, NULL};
   ZpShape shape = shape_of(sim);
   for (size_t i = 0; i < model->nodes; i++, head += model->own) {
-    bool wet = zp_shape_is_wet(model, room, i);
-    room->film[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;
-    room->pressure[i] = wet ? share[0] * head[0] + share[1] * head[1] : 0;
+    bool wet = zp_shape_is_wet(model, &sim->shape_room, i);
+    thickness[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;
+    pressure[i] = wet ? share[0] * head[0] + share[1] * head[1] : 0;
   }
-  return (ZpLiquid){room->film, room->pressure};
+  for (size_t half = 0; half < model->topology.halves; half++)
+    wet_length[half] = sim->shape_room.reach[half];
+}
+
+ZpLiquid zp_sim_liquid(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  const ZpLiquidRoom *room = &sim->liquid;
+  size_t member = 0;
+  if (!model->has_film) return (ZpLiquid){NULL, NULL, NULL};
+  for (ZpSim *m = sim; m; m = m->below, member++)
+    fill_liquid(m, room->thickness + member * model->nodes, room->pressure + member * model->nodes,
+                room->wet_length + member * model->topology.halves);
+  return (ZpLiquid){room->thickness, room->pressure, room->wet_length};
 }
 
 void zp_sim_watch(ZpSim *sim) {

@@ -42,6 +42,22 @@ static bool make_shape_room(ZpSim *sim) {
   return sim->shape_memory != NULL;
 }
 
+static void carve_liquid(const ZpModel *model, ZpLiquidRoom *room, ZpCarver *carver) {
+  size_t members = zp_members(model);
+  room->thickness = zp_carve(carver, members * model->nodes);
+  room->pressure = zp_carve(carver, members * model->nodes);
+  room->wet_length = zp_carve(carver, members * ZP_BEADS);
+}
+
+static bool make_liquid_room(ZpSim *sim) {
+  ZpCarver carver = {NULL, 0};
+  carve_liquid(sim->model, &sim->liquid, &carver);
+  sim->liquid.memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){sim->liquid.memory, 0};
+  if (sim->liquid.memory) carve_liquid(sim->model, &sim->liquid, &carver);
+  return sim->liquid.memory != NULL;
+}
+
 /* One member alone; its steps are those of the uppermost. */
 static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
@@ -53,8 +69,9 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   sim->row = zp_calloc(signals, sizeof(double));
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  return zp_system_create(model, true, &sim->eval) && (!uppermost || sim->stepping->create(sim)) && sim->state &&
-         sim->kept && sim->before && sim->relax_work && sim->row && make_shape_room(sim);
+  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
+             sim->row && make_shape_room(sim);
+  return own && (!uppermost || (sim->stepping->create(sim) && make_liquid_room(sim)));
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -236,6 +253,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->shape_memory);
+  zp_free(sim->liquid.memory);
   zp_free(sim);
 }
 

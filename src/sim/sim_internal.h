@@ -66,6 +66,13 @@ bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 /* An actuator is closed below this part of its hanging opening. */
 #define ZP_CLOSED_PART 0.01
 
+/* Room for the liquid of all members, of the uppermost simulation. */
+typedef struct ZpLiquidRoom {
+  double *thickness, *pressure; /* [members nodes] */
+  double *wet_length;           /* [members ZP_BEADS] */
+  void *memory;                 /* where they are */
+} ZpLiquidRoom;
+
 /* The platform where a step begins. */
 typedef struct ZpStepStart {
   double t, opening, rate; /* s, m, m/s */
@@ -111,6 +118,7 @@ struct ZpSim {
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
   ZpState **states;           /* of the uppermost: of it and of all below */
   struct ZpRunRates *rates;   /* what follows the derivatives of the run; NULL: nothing does */
+  ZpLiquidRoom liquid;        /* of the liquid handed out */
   ZpManyShapes all;           /* of the uppermost of a series: room for the shape of all, */
   void *all_memory;           /* and where it is */
 };
