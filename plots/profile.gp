@@ -1,4 +1,4 @@
-# Electric force along a ribbon by the plates law and by the solved field, and their ratio.
+# Electric force along a ribbon by the plates law and by the solved field, and their difference.
 title = 'Electric force along a ribbon'
 letters = 14
 load 'style.gp'
@@ -23,7 +23,7 @@ load 'lower_panel.gp'
 unset key
 set autoscale y
 set offsets 0, 0, graph 0.08, graph 0.05
-set ylabel 'field / plates' offset 0.5
-if (span('ratio') > 0) set ytics step(span('ratio'), 5)
-plot '../table.csv' using (column('x_m')*length):(column('ratio')*1) with lines lw 2.5 lc rgb '#0072b2' title ''
+set ylabel 'difference / %' offset 0.5
+if (span('ratio') > 0) set ytics step(100*span('ratio'), 5)
+plot '../table.csv' using (column('x_m')*length):(100*(column('ratio') - 1)) with lines lw 2.5 lc rgb '#0072b2' title ''
 unset multiplot
