@@ -18,7 +18,7 @@ enum {
 
 /* Behind the signals, of a series: the opening of each member. */
 #define OPENING_OF(member)                                                                                             \
-  { "member_" #member "_opening_m", "m", "distance of the platforms' faces of member " #member " of a series" }
+  { "member_" #member "_opening_m", "m", "distance between the platforms' faces of member " #member " of a series" }
 #define OPENINGS                                                                                                       \
   OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
 
@@ -414,7 +414,8 @@ static void read_at(ZpSim *sim, double voltage, double *row) {
 ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err) {
   static const double part = 1e-5, least = 1e-2; /* of the voltage, and V: far from the rounding of differences */
   double above[SIGNAL_COUNT], below[SIGNAL_COUNT];
-  if ((size_t)input >= ZP_INPUT_COUNT) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is none", (int)input);
+  if ((size_t)input >= ZP_INPUT_COUNT)
+    return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
   memset(slope, 0, SIGNAL_COUNT * sizeof *slope);
   if (input == ZP_INPUT_SETPOINT) slope[SIGNAL_setpoint] = 1; /* the controller measures at its next sample */
   if (input != ZP_INPUT_VOLTAGE) return ZP_OK;                /* a load acts on what moves only */

@@ -8,7 +8,7 @@ const tiles = {
   stroke: {label: 'Stroke', unit: 'mm', title: 'height of the clip over the lower platform'},
   opening: {label: 'Opening', unit: 'mm', title: 'distance of the platforms’ faces'},
   contraction: {label: 'Contraction', unit: '%', title: '1 − opening / opening when hanging without voltage'},
-  zipped: {label: 'Zipped', unit: 'mm', title: 'closed length from the clip, one half'},
+  zipped: {label: 'Zipped', unit: 'mm', title: 'closed length of one half, from the clip'},
   force: {label: 'Attraction', unit: 'N', title: 'electric attraction of the ribbons, vertical'},
   field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; with electro.breakdown_cap at most its breakdown field'},
   inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
