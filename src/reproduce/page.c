@@ -69,7 +69,7 @@ static void put_difference(FILE *file, double difference) {
   double ratio = 1 + difference;
   if (ratio > 10)
     snprintf(text, sizeof text, "× %.0f", ratio);
-  else if (ratio < 0.1 && ratio > 1e-9)
+  else if (ratio < 0.1 && ratio > 1e-3)
     snprintf(text, sizeof text, "÷ %.0f", 1 / ratio);
   else
     snprintf(text, sizeof text, "%+.2f %%", 100 * difference);
