@@ -163,13 +163,13 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
                    "this page supports actuator.kind electro_ribbon and hinge; use the command for the other kinds");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "this page runs studies actuate and equilibrium only; use the command for the others");
+                   "this page runs the studies actuate and equilibrium only; use the command for the others");
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
-    return zp_fail(err, ZP_BAD_INPUT, "this page has buttons for the voltage; use the command for drive.waveform");
+    return zp_fail(err, ZP_BAD_INPUT, "buttons set the voltage on this page; use the command for drive.waveform");
   if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
-    return zp_fail(err, ZP_BAD_INPUT, "this page has no tables; use the command for setpoint.waveform = table");
+    return zp_fail(err, ZP_BAD_INPUT, "this page reads no tables; use the command for setpoint.waveform = table");
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
-    return zp_fail(err, ZP_BAD_INPUT, "this page has no files; use the command for initial.state = checkpoint");
+    return zp_fail(err, ZP_BAD_INPUT, "this page reads no files; use the command for initial.state = checkpoint");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page supports solver.integrator implicit only; use the command for explicit");

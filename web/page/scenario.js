@@ -66,7 +66,7 @@ export function withSupply(core, values, word) {
 
 /** The limits of the supply in one line, and its other keys that are given. */
 export function supplyWords(core) {
-  if (!isFed(core)) return 'ideal: the electrodes have the voltage of the buttons at once, at any current';
+  if (!isFed(core)) return 'ideal: the electrodes have the voltage of the buttons at once, with unlimited current';
   const shown = (key) => pretty(core.print(key, core.value(key)));
   const sink = core.value('source.sink_limit') === 0 ? 'none (it cannot sink current)' : shown('source.sink_limit').replace('auto', 'as current');
   const three = [`slew rate ${shown('source.slew_rate').replace('none', 'unlimited')}`,
@@ -85,21 +85,21 @@ export const presets = [
   {of: 'Actuators', name: 'Thin and far', help: '20 µm steel: the largest stroke', values: {'ribbon.thickness': '20 um', 'load.mass': '1 g', 'drive.voltage': '8 kV'}},
   {of: 'Actuators', name: 'Thick and strong', help: '200 µm steel lifts 60 g by 2.5 mm, in a bath', values: {'ribbon.thickness': '200 um', 'load.mass': '60 g', 'liquid.model': 'submerged'}},
   {of: 'Actuators', name: 'Too heavy', help: '30 g: it does not close', values: {'load.mass': '30 g'}},
-  {of: 'Liquids', name: 'In air', help: 'no liquid: a sixth of the breakdown field', values: {'liquid.model': 'none', 'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
+  {of: 'Liquids', name: 'In air', help: 'no liquid: air breaks down at a sixth of the field of the oil', values: {'liquid.model': 'none', 'medium.permittivity': '1', 'medium.breakdown_field': '3 MV/m'}},
   {of: 'Liquids', name: 'In a bath', help: 'submerged ribbons: a film of oil between them, and oil that they move outside', values: {'liquid.model': 'submerged'}},
   {of: 'Liquids', name: 'With beads', help: 'a bead of oil at each zip front, air beyond', values: {'liquid.model': 'bead', 'bead.volume': '100 uL'}},
-  {of: 'Materials', name: 'Kapton on spring steel', help: 'a thin polyimide film takes a high field: more force at less voltage', values: {'drive.voltage': '6 kV', 'ribbon.material': 'steel_1.4310', 'insulator.thickness': '50 um', 'insulator.material': 'kapton', 'bead.volume': '100 uL'}},
+  {of: 'Materials', name: 'Kapton on spring steel', help: 'a thin polyimide film withstands a high field: more force at a lower voltage', values: {'drive.voltage': '6 kV', 'ribbon.material': 'steel_1.4310', 'insulator.thickness': '50 um', 'insulator.material': 'kapton', 'bead.volume': '100 uL'}},
   {of: 'Materials', name: 'Mylar in ester', help: 'polyester film in a natural ester: a higher permittivity, a more viscous liquid', values: {'drive.voltage': '8 kV', 'insulator.thickness': '100 um', 'insulator.material': 'mylar', 'medium.material': 'fr3'}},
   {of: 'Materials', name: 'Tape on brass', help: 'brass is half as stiff as steel and yields earlier', values: {'load.mass': '5 g', 'ribbon.material': 'brass', 'insulator.material': 'pvc_tape'}},
   {of: 'Supplies', name: 'Pocket, 6 kV', help: '0.1 V/µs: reaches 6 kV after 60 ms; lifts 4 g', values: {'drive.voltage': '6 kV', 'load.mass': '4 g', 'source.supply': 'pocket_6kv'}},
   {of: 'Supplies', name: 'Open hardware, 5 kV', help: '15 V/µs; lifts 4 g', values: {'drive.voltage': '5 kV', 'load.mass': '4 g', 'bead.volume': '100 uL', 'source.supply': 'open_5kv'}},
   {of: 'Supplies', name: 'Laboratory, 10 kV', help: '700 V/µs and 10 mA: nearly ideal', values: {'source.supply': 'laboratory_10kv'}},
   {of: 'Supplies', name: 'Converter, 10 kV', help: '0.3 mA, and a bleeder of 500 MΩ through which it discharges', values: {'source.supply': 'converter_10kv'}},
-  {of: 'Arrangements', name: 'Three in series', help: 'the lowest, which carries the others, begins to zip; the strokes add up', values: {'stack.series': '3', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Three in series', help: 'the lowest carries least and zips first; the strokes add up', values: {'stack.series': '3', 'mesh.nodes': '31'}},
   {of: 'Arrangements', name: 'Three side by side', help: 'they share 24 g; the strip of the middle one is thicker and carries most', values: {'stack.parallel': '3', 'member_2.ribbon.thickness': '80 um', 'load.mass': '24 g', 'mesh.nodes': '31'}},
   {of: 'Arrangements', name: 'Antagonists', help: 'the upper one lifts the load against the lower one, which has 2 kV', values: {'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g', 'liquid.model': 'submerged', 'mesh.nodes': '31'}},
   {of: 'Arrangements', name: 'Off the centre', help: 'a load 2 mm right of the centre of a platform that may turn', values: {'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false', 'load.offset': '2 mm', 'liquid.model': 'none', 'mesh.nodes': '31'}},
-  {of: 'Arrangements', name: 'Leaning', help: 'gravity pulls 60 degrees to the right; a spring opens the actuator', values: {'actuator.symmetry': 'none', 'mount.tilt': '60 degree', 'load.mass': '4 g', 'load.stiffness': '5 N/m', 'load.rest_opening': '20 mm', 'drive.voltage': '8 kV', 'liquid.model': 'none', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Leaning', help: 'gravity points 60 degrees to the right of downwards; a spring opens the actuator', values: {'actuator.symmetry': 'none', 'mount.tilt': '60 degree', 'load.mass': '4 g', 'load.stiffness': '5 N/m', 'load.rest_opening': '20 mm', 'drive.voltage': '8 kV', 'liquid.model': 'none', 'mesh.nodes': '31'}},
   {of: 'Arrangements', name: 'Fold', help: 'electro-origami: a strip zips onto a plate about a hinge with a spring', values: {'actuator.kind': 'hinge', 'ribbon.length': '40 mm', 'ribbon.thickness': '1 mm', 'lower.ribbon.thickness': '100 um', 'hinge.stiffness': '0.4 mN m/rad', 'hinge.rest_angle': '20 degree', 'load.mass': '0 g', 'drive.voltage': '8 kV'}},
   {of: 'Arrangements', name: 'Pre-opened', help: 'ribbons bowed apart near the clips are open without a load', values: {'segment_1.length': '20 mm', 'segment_1.curvature': '5 1/m', 'load.mass': '2 g', 'liquid.model': 'none'}},
 ];
@@ -147,7 +147,7 @@ export function toCommand(core) {
 
 /** The message about a computation that was stopped after `seconds`, in which it simulated `moved` seconds. */
 export function tooLong(core, {seconds, moved}) {
-  const after = `Stopped after ${seconds} s of computing${moved ? `, which gave only ${brief(moved)} of motion` : ''}`;
+  const after = `Stopped after ${seconds} s of computing${moved ? `, which simulated only ${brief(moved)}` : ''}`;
   const unusual = changed(core).filter(([key]) => !/^(study|preset)$/.test(key)).map(([key, text]) => `${key}=${text}`);
   if (!unusual.length) return `${after}.`;
   const shown = unusual.slice(0, 6).join(', ') + (unusual.length > 6 ? ' and more' : '');

@@ -7,21 +7,21 @@ const tiles = {
   voltage: {label: 'Voltage', unit: 'kV', title: 'voltage between the electrodes'},
   stroke: {label: 'Stroke', unit: 'mm', title: 'height of the clip over the lower platform'},
   opening: {label: 'Opening', unit: 'mm', title: 'distance of the platforms’ faces'},
-  contraction: {label: 'Contraction', unit: '%', title: '1 − opening / opening when hanging without voltage'},
+  contraction: {label: 'Contraction', unit: '%', title: '1 − opening / (opening when hanging without voltage)'},
   zipped: {label: 'Zipped', unit: 'mm', title: 'closed length of one half, from the clip'},
   force: {label: 'Attraction', unit: 'N', title: 'electric attraction of the ribbons, vertical'},
-  field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; with electro.breakdown_cap at most its breakdown field'},
+  field: {label: 'Largest field', unit: 'MV/m', title: 'largest field in the liquid; with electro.breakdown_cap at most its breakdown field'},
   inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
-  capacitance: {label: 'Capacitance', unit: 'pF', title: 'of the electrodes'},
+  capacitance: {label: 'Capacitance', unit: 'pF', title: 'capacitance of the electrodes'},
   bent: {label: 'Stress', unit: 'MPa', title: 'largest stress of the metal, from bending and tension'},
   time: {label: 'Time', unit: 'ms', title: 'simulated time since the last button was pressed'},
   zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
   stress: {label: 'Largest stress', unit: 'MPa', title: 'largest stress of the metal from hanging to closed, at the voltage of Step', study: true},
-  yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal stays bent', study: true},
+  yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal bends permanently', study: true},
   breaks: {label: 'Breakdown margin', unit: '', title: 'insulator.breakdown_field over the field in the insulators at the voltage of Step: below 1 they break down', study: true},
-  allowed: {label: 'Allowed voltage', unit: 'kV', title: 'at which the breakdown margin is 1', study: true},
-  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which it zips as the voltage rises slowly', study: true},
-  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which it opens again as the voltage falls slowly', study: true},
+  allowed: {label: 'Allowed voltage', unit: 'kV', title: 'voltage at which the breakdown margin is 1', study: true},
+  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which the actuator pulls in as the voltage rises slowly', study: true},
+  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which the actuator opens again as the voltage falls slowly', study: true},
 };
 
 const $ = (id) => document.getElementById(id);
@@ -123,7 +123,7 @@ export class View {
   /** The legend of the field's colours. */
   showLegend() {
     const strongest = this.core.value('medium.breakdown_field') / 1e6;
-    $('legend-middle').textContent = `${strongest / 4}`; // half way, for shades go by the square root
+    $('legend-middle').textContent = `${strongest / 4}`; // half way, because shades follow the square root
     $('legend-end').textContent = `${strongest} MV/m`;
   }
 

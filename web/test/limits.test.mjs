@@ -71,7 +71,7 @@ test('a hostile link leaves the page responsive, with a message (it blocked the 
 test('steps too short to move it: stopped, with what was asked and what to change', {timeout: 180e3}, async () => {
   const cost = await longestTask(() => open('#solver.time_step=0.000001us', async (page) => {
     await alertShown(page);
-    assert.match(await alert(page), /^Stopped after 2 s of computing, which gave only .* [pn]s of motion\. Keys that differ from the defaults: solver\.time_step=1e-06 us\. Change one of these, or choose a preset\.$/);
+    assert.match(await alert(page), /^Stopped after 2 s of computing, which simulated only .* [pn]s\. Keys that differ from the defaults: solver\.time_step=1e-06 us\. Change one of these, or choose a preset\.$/);
   }));
   assert.ok(cost < longest, `longest task: ${cost} ms`);
 });
@@ -290,7 +290,7 @@ for (const [name, prepare] of Object.entries(noWorkers)) {
 test('without workers a hostile link ends with a message, too', {timeout: 180e3}, async () => {
   await open('#solver.time_step=0.000001us', async (page) => {
     await alertShown(page);
-    assert.match(await alert(page), /^Stopped after 2 s of computing, which gave only/);
+    assert.match(await alert(page), /^Stopped after 2 s of computing, which simulated only/);
   }, noWorkers['cannot be made']);
 });
 

@@ -60,7 +60,7 @@ test('every supply can be chosen, from any other: the drive is no higher than it
     lines.set(word, scenario.supplyWords(core));
     core.resolve(new Map([...scenario.atRest(values), ['drive.voltage', '12 kV']]));
   }
-  assert.equal(lines.get('none'), 'ideal: the electrodes have the voltage of the buttons at once, at any current');
+  assert.equal(lines.get('none'), 'ideal: the electrodes have the voltage of the buttons at once, with unlimited current');
   assert.match(lines.get('converter_10kv'), /^slew rate unlimited, current 0\.3.mA, sink none \(it cannot sink current\), bleeder 500.MΩ, voltage limit 10.kV$/);
   assert.match(lines.get('pocket_6kv'), /^slew rate 0.1.V\/µs, current unlimited, sink as current, bandwidth 35.Hz/);
 });
