@@ -33,7 +33,7 @@ static size_t load_of(const ZpChain *chain, size_t k) {
   return chain->at[k] + zp_statics_platform(&chain->of[k].statics);
 }
 
-/* Eq. (29.3): each moves as it does from its upper platform on, and with that. */
+/* Eq. (29.3): each member moves relative to its upper platform, and with that platform. */
 static void weigh(const void *self, const double *u, double *mu) {
   const ZpChain *chain = self;
   double momentum[ZP_MOST_MEMBERS] = {0}, way = 0, below = 0;
@@ -51,7 +51,7 @@ static void weigh(const void *self, const double *u, double *mu) {
   }
 }
 
-/* No member's stiffness depends on where the others are. */
+/* The stiffness of a member does not depend on the positions of the others. */
 static void solve(const void *self, double *f) {
   const ZpChain *chain = self;
   for (size_t k = 0; k < chain->count; k++)
@@ -116,9 +116,9 @@ bool zp_chain_raise(ZpChain *chain, double voltage) {
   return true;
 }
 
-/* Has Newton's method found the state next to the one that it began at, on the same branch? */
+/* Has Newton's method found the state next to the one from which it started, on the same branch? */
 static bool has_stayed(ZpRest *rest, double voltage, double opening) {
-  static const double part = 0.02; /* of the length: what a small change moves */
+  static const double part = 0.02; /* of the length; a small change moves less */
   ZpStatics *s = &rest->statics;
   if (!zp_newton_good(zp_rest_settle(rest, voltage).end)) return false;
   return fabs(zp_statics_opening(s) - opening) < part * s->model->L && zp_statics_stable(s, &rest->branch.newton);

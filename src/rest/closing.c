@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Stations of which the mean gap says it: both ends of a platform, or twice the one station. */
+/* Stations whose mean gap tells whether the actuator is closed: both ends of a platform, or one station twice. */
 typedef struct LastToClose {
   size_t station[2];
 } LastToClose;
@@ -45,7 +45,7 @@ static void set_square(void *self, double square) {
   ((ZpStatics *)self)->U = square > 0 ? sqrt(square) : 0;
 }
 
-/* dr/dU over 2 U; at 0 what that is at a volt, where no cap acts. */
+/* dr/dU over 2 U; at U = 0 its value at 1 V, where no cap acts. */
 static void by_square(void *self, double *r_m) {
   ZpStatics *s = self;
   double U = fmax(fabs(s->U), 1);

@@ -11,7 +11,7 @@ static void carve_equations(ZpDynamics *d, ZpCarver *carver) {
   d->kind = (ZpUnknown *)(void *)zp_carve(carver, d->system.n); /* room for doubles is more than enough */
 }
 
-/* They belong to the uppermost member; this one below it has its part of them. */
+/* The arrays belong to the uppermost member; a member below it uses its part of them. */
 static void share_equations(const ZpDynamics *d, ZpDynamics *m) {
   m->mass = d->mass + m->at;
   m->q = d->q + m->at;
@@ -49,14 +49,14 @@ static double end_time(const ZpDynamics *d) {
   return d->h == d->latest - t ? d->latest : t + d->h;
 }
 
-/* The voltage at the step's end: what the user holds, or the waveform's. */
+/* The voltage at the step's end: the one that the user holds, or that of the waveform. */
 static double end_voltage(const ZpDynamics *d) {
   const ZpState *state = d->state;
   if (state->by_hand) return zp_ramp_value(&state->voltage_input, end_time(d));
   return zp_waveform_voltage_before(&d->model->waveform, end_time(d));
 }
 
-/* Of the load input, N: it changes evenly, so its mean over the step does its work, eq. (17.5). */
+/* Mean of the load input over the step, N. The input changes linearly, so this mean does its work, eq. (17.5). */
 static double mean_load(const ZpDynamics *d) {
   const ZpState *state = d->state;
   return 0.5 * (zp_state_load(d->model, state, state->t) + zp_state_load(d->model, state, end_time(d)));
@@ -80,14 +80,14 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
 
-/* Where a source holds the voltage at the step's end, its equation is that of a small capacitor. */
+/* If a source holds the voltage at the step's end, the equation of the voltage is that of a small capacitor. */
 static const double holding = 1e-12; /* F */
 
 static bool is_held(const ZpDynamics *d, double *U1) {
   return d->source->holds && d->source->holds(d->source->self, d->state->t, d->h, U1);
 }
 
-/* What has flowed through the source over the step, C, less what the electrodes have taken; of one part. */
+/* Charge through the source over the step less the charge that the electrodes have taken, of one part, C. */
 static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
   double held;
   if (is_held(d, &held)) return holding * (held - d->U1);
@@ -96,7 +96,7 @@ static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
   return flowed - (end.charge + end.passed - d->charge0);
 }
 
-/* => energies of bending and field: an imbalance is small or large beside them. */
+/* => energies of bending and field, with which an imbalance is compared. */
 static double begin_one(ZpDynamics *d, const double *q0) {
   const ZpModel *model = d->model;
   const ZpEval *e = &d->eval;
@@ -120,7 +120,7 @@ static double begin(void *self, const double *q0, const double *v0) {
   return energy;
 }
 
-/* The laws' own unknowns, of all equations. */
+/* The laws' own unknowns, from all equations. */
 static void gather_own(ZpDynamics *d, const double *q) {
   for (size_t c = 0; c < zp_own_unknowns(d->model); c++)
     d->own[c] = q[d->assembly.own_equation[c]];
@@ -141,9 +141,9 @@ static void force_of_one(ZpDynamics *d, const double *q1, double h, double *f) {
   if (d->source) f[d->assembly.n] = missing_charge(d, &span);
 }
 
-/* Platforms that a link joins: equations of the height of the lower one above it, and of the one below: the upper one,
- * or the lower one, of an antagonist, which is upside down, and of members side by side. The former height plus `sign`
- * times the latter is `height`. */
+/* Two platforms that a link joins. `above` is the equation of the height of the lower platform of the member above.
+ * `below` is that of a platform of the member below: the upper one in a series, the lower one of an antagonist, which
+ * is upside down, and of members side by side. The height of `above` plus `sign` times that of `below` is `height`. */
 typedef struct Joined {
   size_t above, below;
   double sign, height;
@@ -155,7 +155,7 @@ static size_t node_joined(const ZpModel *below) {
   return zp_shares_load(below) ? zp_lower(t, t->platform.first) : zp_upper(t, t->platform.first);
 }
 
-/* By the link that member m hangs on. */
+/* The platforms joined by the link on which member m hangs. */
 static Joined joined_by(const ZpDynamics *m) {
   const ZpTopology *above = &m->above->model->topology;
   int lower = m->above->assembly.equation[2 * zp_lower(above, above->platform.first) + 1];
@@ -164,13 +164,13 @@ static Joined joined_by(const ZpDynamics *m) {
                   -m->model->distance};
 }
 
-/* Where the forces of links begin among the unknowns. */
+/* Number of the first unknown that is the force of a link. */
 static size_t first_link(const ZpDynamics *d) {
   return d->system.n - d->links;
 }
 
-/* Eq. (29.2): each pulls the platform below it up and that above it down, and both are where the other is; of
- * antagonists, eq. (31.3), it opens both. */
+/* Eq. (29.2): each link pulls the platform below it up and the one above it down, and both have the same height.
+ * Between antagonists, eq. (31.3), it opens both. */
 static void add_links(const ZpDynamics *d, const double *q1, double *f) {
   size_t link = first_link(d);
   for (const ZpDynamics *m = d->below; m; m = m->below, link++) {
@@ -209,7 +209,7 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   *zp_bordered_at(J, u, u) = by->capacitance - slope;
 }
 
-/* Of one member, in its part of the band. */
+/* The tangent of one member, in its part of the band. */
 static void tangent_of_one(ZpDynamics *d, ZpBordered *J) {
   ZpSpan span = span_of(d);
   ZpBand part = zp_band_part(&J->A, d->at, d->assembly.n);
@@ -244,7 +244,7 @@ static bool is_platform(const ZpDynamics *d, size_t i) {
   return i >= platform->first && i <= platform->last;
 }
 
-/* Mass of the platform above that the link of a member joins to its own, kg; of none 0. */
+/* Mass of the platform above that a link joins to a platform of this member, kg; 0 if there is none. */
 static double mass_joined_above(const ZpDynamics *d) {
   if (!d->above) return 0;
   const ZpTopology *t = &d->above->model->topology;
@@ -256,7 +256,7 @@ static double mass_joined_below(const ZpDynamics *d) {
   return d->below ? d->below->model->mass[node_joined(d->below->model)] : 0;
 }
 
-/* Of the lower platforms of all others that share the load of a member, kg. */
+/* Mass of the lower platforms of all other members that share the load of this member, kg. */
 static double mass_of_others(const ZpDynamics *d) {
   const ZpDynamics *m = d;
   double sum = 0;
@@ -267,7 +267,7 @@ static double mass_of_others(const ZpDynamics *d) {
   return sum;
 }
 
-/* What moves with the upper platform of a member, and with its lower one, kg. */
+/* Mass that moves with the upper platform of a member, and with its lower one, kg. */
 static double mass_with_upper(const ZpDynamics *d) {
   return zp_shares_load(d->model) ? 0 : mass_joined_above(d);
 }
@@ -276,8 +276,8 @@ static double mass_with_lower(const ZpDynamics *d) {
   return d->added + (zp_shares_load(d->model) ? mass_of_others(d) : mass_joined_below(d));
 }
 
-/* The y of station i: equations and masses of its nodes, an infinite one where it is held or there is none. Both ends
- * of a platform that does not turn are alike: one tells of both. */
+/* The heights of station i: equations and masses of its nodes. A node that is held or missing has an infinite mass.
+ * Both ends of a platform that does not turn have equal pairs. */
 typedef struct Pair {
   int upper, lower;
   double upper_share; /* of the pair's mass */
@@ -299,8 +299,8 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   return pair;
 }
 
-/* A first guess: faces that overlap stay as they are, and those that would pass through each other overlap a little,
- * their common centre of mass where it would be. */
+/* A first guess. Faces that overlap keep their overlap, and faces that would pass through each other overlap a little.
+ * The centre of mass of each pair stays where it was predicted. */
 static void keep_apart(const ZpDynamics *d, double *q1) {
   const ZpModel *model = d->model;
   const double *y = d->start + model->stride, little = 0.5 * model->faces.depth;
@@ -324,7 +324,8 @@ static void attempt(void *self, double *q1) {
   }
 }
 
-/* What the last correction has changed of the push of faces, and of cavities, beyond what the tangent foresaw. */
+/* Work of the part of the last correction's change of contact forces and cavities that the tangent did not predict,
+ * J. */
 static double unforeseen_of_one(ZpDynamics *d, const double *q1) {
   const ZpModel *model = d->model;
   const ZpFacesEval *faces = &d->eval.faces;
@@ -362,7 +363,8 @@ static double kinetic_energy(const ZpDynamics *d) {
   return sum / 2;
 }
 
-/* The damper takes relative velocity from station i, of a platform that does not turn from its first one. */
+/* The damper reduces the relative velocity at station i. A platform that does not turn is damped once, at its first
+ * end. */
 static void damp(ZpDynamics *d, size_t i) {
   const ZpJoint *platform = &d->model->topology.platform;
   bool again = i > platform->first && i <= platform->last && !zp_platform_turns(&d->model->topology);
@@ -375,14 +377,14 @@ static void damp(ZpDynamics *d, size_t i) {
   if (pair.upper >= 0) d->v[pair.upper] -= lost * (1 - pair.upper_share);
 }
 
-/* Do faces overlap at the step's end, without a film that has taken their speed? In a bath there is one everywhere. */
+/* Do faces overlap at the step's end without a film that has slowed them down? In a bath there is a film everywhere. */
 static bool meets(const ZpDynamics *d, size_t i) {
   const ZpModel *model = d->model;
   bool filled = model->has_film && (!model->has_bead || zp_film_fills(&model->film, &d->eval.film, i));
   return d->eval.faces.stiffness[i] > 0 && !filled;
 }
 
-/* What the push of the faces of one member took on its way, J. */
+/* Work that the contact forces of one member have taken over the step, J. */
 static double pushed(const ZpDynamics *d) {
   const double *gap = d->eval.plates.gap, *before = d->eval.plates_start.gap;
   double loss = 0;
@@ -391,7 +393,8 @@ static double pushed(const ZpDynamics *d) {
   return loss;
 }
 
-/* All faces of one member that meet; its platforms move as those that links join to them do, before and after. */
+/* Damp all faces of one member that are in contact. Before and after, its platforms get the velocities of those to
+ * which links join them. */
 static void damp_one(ZpDynamics *top, ZpDynamics *m) {
   if (m->above) top->v[joined_by(m).below] = -joined_by(m).sign * top->v[joined_by(m).above];
   for (size_t i = 1; i < m->model->nodes; i++)
@@ -412,10 +415,9 @@ static bool any_meet(const ZpDynamics *d) {
   return false;
 }
 
-/* Is there a vibration of masses on the layers of faces that meet that the step does not follow? Theory, section 18,
- * Contact. */
+/* Is there a vibration of masses on contact layers that the step does not resolve? Theory, section 18, Filter. */
 static bool misses_layers(const ZpDynamics *d) {
-  static const double followed = 4; /* angle by which such a vibration turns in the step, at most */
+  static const double followed = 4; /* angle by which such a vibration turns in a step, at most */
   double most = followed * followed / (d->h * d->h);
   for (const ZpDynamics *m = d; m; m = m->below)
     for (size_t i = 1; i < m->model->nodes; i++)
@@ -423,8 +425,9 @@ static bool misses_layers(const ZpDynamics *d) {
   return false;
 }
 
-/* What the faces' push took on its way, and its damper (9.6). Without a film, what is too fast for a step that does not
- * follow it is taken out of velocities after an impact; beside one the damper (9.3) acts there => the loss, J. */
+/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, if the step
+ * does not resolve the vibrations of the layers, motion too fast for the step is removed from velocities after an
+ * impact. With a film the damper (9.3) acts instead. */
 static double impact(ZpDynamics *d) {
   double loss = 0;
   const bool film = d->model->has_film;
@@ -440,9 +443,9 @@ static double impact(ZpDynamics *d) {
   return loss - kinetic_energy(d);
 }
 
-/* A meniscus that passes a station gives it a film at once. Where a film resists far more than the ribbons' mass, what
- * is left of their velocity beyond the mean of the step would turn round in every step: of that the part which is too
- * fast for the step is taken out => the loss, J. */
+/* A meniscus that passes a station gives it a film at once. Where the film's resistance far exceeds the inertia of the
+ * ribbons, the difference of velocities from the mean of the step would reverse in every step. The part of it that is
+ * too fast for the step is removed => the loss, J. */
 static double calm(ZpDynamics *d) {
   double before = kinetic_energy(d);
   zp_implicit_calm(&d->stepper, d->h, d->history.w, d->v);
@@ -479,7 +482,7 @@ static void weigh_liquid(ZpDynamics *d) {
   }
 }
 
-/* The damper of faces acts within the step, but a film takes the speed of faces itself: those that it leaves to meet
+/* The damper of faces acts within the step. But a film slows faces itself: with a film, faces that meet without liquid
  * are damped after the step. */
 static void set_dampers(ZpDynamics *d) {
   const ZpModel *model = d->model;
@@ -489,7 +492,7 @@ static void set_dampers(ZpDynamics *d) {
   }
 }
 
-/* Masses by equations, with `added` on each end that the load hangs on, kg. */
+/* Masses of the equations, with `added` on each end that carries the load, kg. */
 static void weigh(ZpDynamics *d, double added) {
   const ZpTopology *t = &d->model->topology;
   zp_assembly_masses(&d->assembly, d->model->mass, d->mass);
@@ -519,7 +522,7 @@ static void add_link_forces(ZpDynamics *d) {
   }
 }
 
-/* This model and all below it, without what they have in common. */
+/* The dynamics of this model and of all below it, without the parts that they share. */
 static bool create_members(const ZpModel *model, ZpDynamics *d) {
   d->model = model;
   if (!zp_system_create(model, false, &d->eval)) return false;
@@ -580,8 +583,9 @@ static void fill_equations(ZpDynamics *d) {
   d->system.scale = d->scale;
 }
 
-/* Error of a step as a share of what counts as far, eq. (18.12): steps' errors add up, and shorter steps are more.
- * Of a finer tolerance the balance of energy would be below what the rounding of positions makes: no step converges. */
+/* Error of a step as a share of the reference length, eq. (18.12): errors of steps add up, and shorter steps are more.
+ * With a tolerance below `finest`, the balance of energy would have to be below the rounding of positions, and no step
+ * would converge. */
 static double error_of_step(const ZpActuatorDef *def) {
   static const double finest = 1e-7;
   double tolerance = fmax(def->solver.tolerance, finest);
@@ -637,15 +641,15 @@ static void book_work(ZpDynamics *d, ZpState *state) {
   state->base_U = state->U = U1;
 }
 
-/* What counts as far, m: a part of the length, or of the hanging opening where that is small, since to close is then a
- * small motion; not below the depth of contact. */
+/* Reference length of errors, m: a part of the flexible length, or of the hanging opening if that is small, because
+ * closing is then a small motion. It is at least the depth of contact. */
 static double far(const ZpModel *model, const ZpState *state) {
   static const double of_length = 0.08, of_opening = 0.2;
   double length = of_length * model->L;
   return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
 }
 
-/* The state where the step begins => q, v and what else evolves. */
+/* The state at the start of the step => q, v and what else evolves. */
 static void load(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
   d->mean_v = zp_state_mean_v(model, state);
@@ -679,7 +683,7 @@ static ZpElectric electric_at_end(ZpDynamics *d) {
   return zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, d->U1);
 }
 
-/* The source's work on what has been conducted over the step. */
+/* Work of the source on the charge that insulators conduct over the step. */
 static void book_conduction(ZpDynamics *d, ZpState *state) {
   double passed = electric_at_end(d).passed;
   state->leaked += passed;
@@ -720,7 +724,7 @@ static void store(ZpDynamics *d, ZpState *state) {
   state->next_step = d->history.next;
 }
 
-/* Momentum is kept by each coordinate of the load's nodes: the strips do not feel the impact. */
+/* Each coordinate of the load's nodes keeps its momentum: the impact does not affect the strips. */
 void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
   const ZpTopology *t = &model->topology;
@@ -741,7 +745,7 @@ void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
   state->last_step = state->next_step = 0;
 }
 
-/* What a step has moved, given and lost, of one member. */
+/* Motion, work and losses of one member over a step. */
 static void book(ZpDynamics *d, ZpState *state) {
   book_losses(d, state);
   if (d->source) d->charge1 = electric_at_end(d).charge;
@@ -749,14 +753,14 @@ static void book(ZpDynamics *d, ZpState *state) {
   if (d->model->field) book_work(d, state);
 }
 
-/* Impacts and menisci change the velocities of all members; what they lose is booked with the uppermost. */
+/* Impacts and menisci change the velocities of all members; their losses are booked with the uppermost one. */
 static void book_impacts(ZpDynamics *d, ZpState *state) {
   if (!d->model->field) return;
   state->contact_loss += impact(d);
   if (d->model->has_bead) state->across_loss += calm(d);
 }
 
-/* Where a step has ended, and the work of the load input. */
+/* Store the state at the step's end, and book the work of the load input. */
 static void arrive(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
   const double *y = zp_state_q(model, state) + model->stride;
@@ -780,7 +784,7 @@ void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
     d->q[link] = d->v[link] = d->history.w[link] = d->history.a[link] = 0;
 }
 
-/* What the links of those side by side push each platform up with, eq. (29.5). */
+/* Force with which the links of members side by side push each platform up, eq. (29.5). */
 static void book_links(const ZpDynamics *d, ZpState *const state[]) {
   const double *link = d->q + first_link(d);
   for (size_t k = 0; k <= d->links; k++)

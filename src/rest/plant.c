@@ -1,6 +1,6 @@
-/* Coordinates are the lowest vibrations without liquid, at a bead that does not move, and the shape in which a voltage
- * bends the actuator slowly. Each brings the flows that it takes where viscosity rules, and the difference to those
- * where inertia rules is a flow of its own (Galerkin's method, which keeps energies and losses positive).
+/* The coordinates are the lowest vibrations without liquid, with the bead held, and the shape in which a slow voltage
+ * bends the actuator. Each has a flow, the one where viscosity dominates. The difference to the flow where inertia
+ * dominates is an unknown of its own (Galerkin's method, which keeps energies and losses positive).
  *
  * State: coordinates eta [m]; rates of them and of the flows of their own, w [m + z]; volume at the edges of each bead
  * that ends [beads]; behind a lag, the supply's inner voltage; behind a resistance, the voltage of the electrodes. */
@@ -19,10 +19,10 @@ enum { SLOW = 16, SHAPES = ZP_VIBRATIONS + 1 + SLOW, OWN_FLOWS = ZP_FILM_MODES *
 typedef struct End {
   int half;
   double section;              /* w h at its end, m^2 */
-  double volume_by[SHAPES];    /* of what lies between the faces as far as it reaches, by eta, m^2 */
+  double volume_by[SHAPES];    /* derivative of the volume between the faces up to the reach by eta, m^2 */
   double force_by[SHAPES];     /* on eta, by its reach, N/m */
-  double charge_by, by_signal; /* of the electrodes and of the signal, by its reach, C/m and 1/m */
-  double out[RATES];           /* of what flows past the edges, by w, m^2 */
+  double charge_by, by_signal; /* derivatives of charge and signal by its reach, C/m and 1/m */
+  double out[RATES];           /* derivative of the flow past the edges by w, m^2 */
 } End;
 
 typedef struct Work {
@@ -90,7 +90,7 @@ static void close_work(Work *w) {
 
 /* -- the ribbons ----------------------------------------------------------------------------------- */
 
-/* The present point at voltage U. Liquid reaches as far as `bead` says. */
+/* The present point at voltage U, with liquid up to `bead`. */
 static ZpSpan span_of(const Work *w, double U) {
   ZpSpan span = zp_span_at(w->rest->statics.q);
   span.U0 = span.U1 = U;
@@ -98,7 +98,7 @@ static ZpSpan span_of(const Work *w, double U) {
   return span;
 }
 
-/* Forces and what follows from them there => eval. */
+/* Forces and derived quantities there => eval. */
 static void look(Work *w, double U) {
   ZpSpan span = span_of(w, U);
   zp_system_force(w->model, &span, &w->eval, w->force);
@@ -112,13 +112,13 @@ static void find_by_voltage(Work *w, double U, double *force) {
   zp_system_by_voltage(w->model, &span, &w->eval, &by);
 }
 
-/* What nodes [2 stride] do along shape j. */
+/* Component of the forces on nodes [2 stride] along shape j. */
 static double along_shape(Work *w, const double *nodes, size_t j) {
   zp_assembly_sum(&w->assembly, nodes, w->x);
   return zp_dot(w->assembly.n, w->x, w->shape + j * w->assembly.n);
 }
 
-/* One shape more: x, as far as it is none of those before. */
+/* Add the part of x that is orthogonal to all shapes before, scaled to mass 1. */
 static void add_shape(Work *w, const double *x) {
   const ZpVibration *v = &w->vibration;
   double *shape = w->shape + w->m * v->n, before = zp_vibration_inner(v, x, x);
@@ -131,7 +131,7 @@ static void add_shape(Work *w, const double *x) {
   w->m++;
 }
 
-/* All of them, whose mass is 1; and the stiffness, as the state has it. */
+/* All shapes, each of mass 1, and the exact stiffness at this state. */
 static void find_shapes(Work *w) {
   ZpVibration *v = &w->vibration;
   size_t n = w->assembly.n;
@@ -190,8 +190,8 @@ static double *find_rate(Work *w, size_t j) {
   return rate;
 }
 
-/* A viscous film lets the actuator move slowly in shapes that are none of its vibrations: what the drag of the last
- * shape bends it to, again and again (Krylov's space). */
+/* A viscous film lets the actuator creep in shapes that are not vibrations. Each of them is the static response to the
+ * film's drag in the previous one (Krylov's space). */
 static void find_slow_shapes(Work *w) {
   const ZpTopology *t = &w->model->topology;
   const size_t N = w->model->nodes, stride = w->model->stride;
@@ -213,8 +213,8 @@ static double *flow_of(const Work *w, size_t r) {
   return w->flow + r * ZP_FILM_FLOWS * w->model->nodes;
 }
 
-/* A flow that no gap follows: what inertia alone lets pass less what viscosity does, as far as it is none of those
- * before. */
+/* A flow without a change of any gap: the flow where inertia dominates less that where viscosity does, orthogonal to
+ * those before. */
 static void add_own_flow(Work *w, size_t j, int k) {
   static const double least = 1e-6;
   size_t all = ZP_FILM_FLOWS * w->model->nodes;
@@ -259,7 +259,7 @@ static double volume(Work *w, int half, size_t j, double amount) {
   return zp_bead_volume(&w->model->film, w->moved, half, w->bead[half].reach);
 }
 
-/* Largest change of a gap by shape j. */
+/* Largest change of a gap in shape j. */
 static double largest_rate(const Work *w, size_t j) {
   double largest = 0;
   for (size_t i = 0; i < w->model->nodes; i++)
@@ -419,7 +419,7 @@ static void fill_motion(const Work *w, const Layout *at, ZpPlant *plant) {
   }
 }
 
-/* The signal by eta and by what lies at the edges: with that the bead ends nearer to the clip. */
+/* Derivatives of the signal by eta and by the liquid at the edges, which lets the bead end nearer to the clip. */
 static void fill_signal(const Work *w, const Layout *at, ZpPlant *plant) {
   memcpy(plant->c, w->by_signal, w->m * sizeof *plant->c);
   for (size_t e = 0; e < w->ends; e++) {
@@ -452,7 +452,7 @@ static void fill_electrodes(Work *w, const ZpSupply *supply, const Layout *at, Z
     plant->b[row] = 1 / supply->resistance / capacitance;
 }
 
-/* What the voltage does, through the supply. */
+/* Effect of the voltage, through the supply. */
 static void fill_voltage(Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
   const size_t n = at->n;
   bool lags = at->inner < at->electrodes, resists = at->electrodes < n;

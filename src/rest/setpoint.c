@@ -46,7 +46,7 @@ bool zp_setpoint_find(ZpRest *rest, ZpSetpointSignal *signal, double value) {
     if (!has_passed(&way)) continue;
     zp_branch_approach(branch, has_passed, &way);
     if (fabs(left(&way)) <= near * fabs(way.start - value)) return zp_newton_good(zp_rest_settle(rest, s->U).end);
-    branch->step *= finer; /* a limit point came before, or the way is short */
+    branch->step *= finer; /* a limit point came before, or the distance is short */
   }
   return false;
 }

@@ -9,7 +9,7 @@
 
 /* -- what can be asked ----------------------------------------------------------------------------- */
 
-/* Keys that say how is computed, not what. */
+/* Keys that determine how to compute, not what. */
 static bool is_numerical(const char *name) {
   static const char *const groups[] = {"solver.", "calibrate.", "electro.refresh_"};
   for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
@@ -37,9 +37,9 @@ void zp_pose_load(const ZpActuatorDef *def, ZpStatics *s) {
   s->load = def->load.mass;
 }
 
-/* -- actuators near ------------------------------------------------------------------------------- */
+/* -- neighbouring actuators ----------------------------------------------------------------------- */
 
-/* Far above what rounding leaves of forces, far below what any law changes over. */
+/* Far above the rounding of forces, far below the change over which any law varies. */
 static const double part = 5e-5;
 
 static void forget(ZpSlope *p) {
@@ -85,7 +85,7 @@ void zp_slope_close(ZpSlope *p) {
 
 /* -- states of them ------------------------------------------------------------------------------- */
 
-/* Actuator k in the present state, its coordinates stretched as its length is. */
+/* Actuator k in the present state, with its coordinates scaled as its length. */
 static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
@@ -99,7 +99,7 @@ static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   return near;
 }
 
-/* Actuator k where the last solution leads to. */
+/* Actuator k at the coordinates that the last solution gives. */
 static ZpStatics *place_along(ZpSlope *p, int k, ZpPose pose) {
   ZpStatics *near = place(p, k, pose);
   size_t stride = p->at->model->stride;
@@ -114,7 +114,8 @@ static void residual(ZpStatics *s, double *r) {
   zp_statics_system(s).residual(s, r, NULL);
 }
 
-/* Where nothing moves but by the stretching: forces by the key => by_key, coordinates => rate, tensions, reaction. */
+/* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
+ * reaction. */
 static void differentiate(ZpSlope *p, ZpPose pose) {
   ZpStatics *at = p->at;
   size_t stride = at->model->stride, n = at->assembly.n, edges = at->model->count - at->model->s;
@@ -138,7 +139,8 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
 
 /* -- solutions ------------------------------------------------------------------------------------ */
 
-/* The exact stiffness at the present point => K; what a held platform's move does to the others, into r. */
+/* The exact stiffness at the present point => K; the effect of the held platform's motion on the other equations, in
+ * r. */
 static void stiffness(ZpSlope *p, double *r) {
   ZpStatics *at = p->at;
   residual(at, p->work->r);
@@ -146,7 +148,7 @@ static void stiffness(ZpSlope *p, double *r) {
   zp_statics_system(at).stiffness(at, &p->work->K, r);
 }
 
-/* dq/dp beyond the stretching is in by_key. */
+/* dq/dp less the scaling is in by_key. */
 static void add_motion(ZpSlope *p) {
   const ZpModel *model = p->at->model;
   const ZpEdges *e = &p->at->eval.edges;
@@ -160,7 +162,7 @@ static void add_motion(ZpSlope *p) {
   }
 }
 
-/* What holds the platform changes as its equation does without being held. */
+/* The force that holds the platform changes as the platform's equation would change if it were free. */
 static void add_reaction(ZpSlope *p) {
   ZpStatics *at = p->at;
   double opening = at->opening;
@@ -209,7 +211,7 @@ static void differentiate_by_parameter(ZpSlope *p, const ZpBranchSystem *branch)
   branch->set(p->at, m);
 }
 
-/* dF/dp and dF/dm, both over the stiffness. */
+/* dF/dp and dF/dm, both multiplied by the inverse stiffness. */
 static bool solve_both(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch) {
   differentiate(p, pose);
   differentiate_by_parameter(p, branch);
@@ -226,8 +228,8 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
   return branch->at_rest.length(p->at, p->by_parameter) * fabs(branch->get(p->at)) > least;
 }
 
-/* Near a limit point K^-1 is the null vector times the left one times much: a quotient of two solutions is one of
- * products with the left null vector. */
+/* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two
+ * solutions is a quotient of two products with the left null vector. */
 double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->assembly.n;
   if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;

@@ -83,16 +83,16 @@ static double parameter(ZpSlow *f) {
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
 
-/* An actuator that was closed has opened once it is clear of the limit: motion with resistance does not come back. (Of
- * one that closes this cannot be said, faces overlap for a moment on the way.) */
+/* An actuator that was closed has opened once it is clear of the limit, because motion with resistance does not come
+ * back. (This does not hold for one that closes: its faces overlap for a moment on the way.) */
 static bool has_opened(void *user) {
   static const double clear = 3;
   const ZpSlow *f = user;
   return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
 }
 
-/* Fall from the limit point that the march ended at to what is beyond it. A fall that comes to no end is tried again
- * from further on. */
+/* Fall from the limit point at which the march ended to the state beyond it. A fall that does not converge is tried
+ * again from further on. */
 static bool fall(ZpSlow *f, double sign) {
   static const double beyond[] = {1e-4, 3e-4, 1e-3}; /* of the voltage or the load: a higher crest is still met */
   ZpStatics *s = f->statics;
@@ -108,8 +108,9 @@ static bool fall(ZpSlow *f, double sign) {
   return found;
 }
 
-/* Does the branch that the state fell to, from the limit point at m and `gap`, end so close below it that both are a
- * ripple of the mesh? Down there it may come back to where it was before the limit point without noticing. */
+/* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
+ * to a ripple of the mesh? Going down, the march may come back unnoticed to the side on which it was before the limit
+ * point. */
 static bool is_ripple(ZpSlow *f, double m, double gap, double sign) {
   ZpStatics *s = f->statics;
   double fallen = zp_closing_gap(s, NULL) - gap;
@@ -123,7 +124,7 @@ static bool is_ripple(ZpSlow *f, double m, double gap, double sign) {
   return ripple;
 }
 
-/* At the present point the parameter goes further than m. */
+/* The parameter at the present point is further than m. */
 static ZpAround climb_on(ZpSlow *f, double m, double sign) {
   ZpFold *fold = &f->march.fold;
   if (zp_statics_stable(f->statics, f->newton)) return ZP_STABLE_HIGHER;
@@ -138,20 +139,21 @@ typedef struct Side {
   double deepest;            /* how far below the limit it has been, relative to the value */
 } Side;
 
-/* Is the parameter further than the limit's, by what counts? */
+/* Is the parameter further than the limit's by more than the accuracy? */
 static bool is_higher(const Side *side, double m) {
   static const double higher = 1e-6; /* of the parameter */
   return side->sign * (m - side->m) > higher * side->m;
 }
 
-/* How far a parameter is below the limit's, relative to the value: of the voltage's square a half. */
+/* How far a parameter is below the limit's, relative to the value; for a square of the voltage, relative to the
+ * voltage. */
 static double depth_of(const ZpSlow *f, const Side *side, double m) {
   double ratio = fmax(m / side->m, 0);
   return side->sign * (1 - (along_load(f) ? ratio : sqrt(ratio)));
 }
 
-/* Where the branch rises again, beyond what it has fallen to, it is as near to the limit as it comes: that is the
- * limit's room. */
+/* If the branch rises again after its lowest point, its distance from the limit is least there: this is the limit's
+ * room. */
 static void go_below(const ZpSlow *f, Side *side, ZpLimit *limit, double m) {
   double below = depth_of(f, side, m);
   if (below < side->deepest) limit->room = fmin(limit->room, below);
@@ -168,7 +170,7 @@ static double pass(ZpSlow *f, const Side *side, int k) {
   return end == ZP_PASS_ON ? m : (double)NAN;
 }
 
-/* To the equilibrium after k steps, which seems to be higher, point by point. */
+/* Go point by point to the equilibrium after k steps, which seems to be higher. */
 static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, int k) {
   bool found = true;
   zp_slow_go_to(f, limit->state);
@@ -191,7 +193,7 @@ static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double step) {
   return ZP_NOTHING_HIGHER;
 }
 
-/* A step of the gap with which one looks along the branch. */
+/* The step of the gap for a search along the branch. */
 static double look_step(const ZpSlow *f) {
   static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
   return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
@@ -216,8 +218,8 @@ double zp_slow_room_left(ZpSlow *f, const ZpLimit *near, double gap) {
   return near->room - fmax(value, moved * ZP_FOLD_RIPPLE);
 }
 
-/* From a limit point to the highest crest of the ripple that it may be part of. => where a stable state is higher, that
- * is where a march goes on */
+/* Go from a limit point to the highest crest of the ripple to which it may belong. => where; if a stable state is
+ * higher, a march continues from it */
 static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
   enum { MOST = 20 };
   ZpAround around = ZP_CREST_HIGHER;
@@ -229,8 +231,8 @@ static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
   return around;
 }
 
-/* The march has lost the branch while it was stable: fall to what is a little further. False where that would change
- * what is closed: no limit point was found there. */
+/* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
+ * open the actuator, because no limit point was found there. */
 static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
   return fall(f, sign) && zp_slow_is_closed(f) == was_closed;
 }
@@ -238,9 +240,9 @@ static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
- * point on the way that is no ripple is `first` (NULL: not asked for). */
+ * point on the way that is not a ripple is `first` (NULL: not requested). */
 static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
-  enum { MOST = 1000 }; /* limit points: of ripples there are many where a front passes node by node */
+  enum { MOST = 1000 }; /* limit points; there are many ripples where a front passes node by node */
   double sign = target > parameter(f) ? 1 : -1;
   bool was_closed = zp_slow_is_closed(f);
   for (int k = 0; k < MOST; k++) {
@@ -304,7 +306,7 @@ ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closin
   return end;
 }
 
-/* Is what has been found a closed state that lasts? */
+/* Is the state found closed, possible and stable? */
 static bool has_closed(ZpSlow *f, ZpNewtonInfo info) {
   return zp_newton_good(info.end) && zp_slow_is_closed(f) && !zp_statics_fault(f->statics) &&
          zp_statics_stable(f->statics, f->newton);

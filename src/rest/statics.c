@@ -31,7 +31,7 @@ static void fill_model(const ZpModel *model, ZpStatics *s) {
   s->k0 = model->rod.k0;
 }
 
-/* Put on this share of weight and natural curvature. */
+/* Apply this share of weight and natural curvature. */
 static void put_on(ZpStatics *s, double share) {
   s->share = share;
   for (size_t j = 0; j < s->model->stride; j++)
@@ -79,8 +79,9 @@ double zp_statics_tolerance(const ZpStatics *s) {
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
-/* From straight while what is put on grows to `whole`, by the share `step` at first, for what is too far to reach at
- * once. A load 1e5 times that at which a ribbon bends by its length takes a first share that small. */
+/* Start from the straight shape and let the load that `put` sets grow to `whole`, first by the share `step`, if the
+ * equilibrium is too far away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a
+ * first share. */
 static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step,
                                  ZpNewtonWork *work) {
   static const double shortest = 1e-8;
@@ -112,8 +113,8 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   return info;
 }
 
-/* Has any gap, with what stands for the insulators, changed since the last good state by so large a share that this is
- * another branch? */
+/* Has any gap, insulators included, changed since the last good state by so large a share that this is another
+ * branch? */
 static bool has_jumped(const ZpStatics *s) {
   static const double jump = 0.25;
   const ZpModel *model = s->model;
@@ -133,8 +134,8 @@ static void go_back(ZpStatics *s, ZpNewtonWork *work) {
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
 }
 
-/* From a stable equilibrium along its branch, with `put(whole, share)` of what grows, by shares of at most `longest`,
- * to all of it. False if the branch ends before: the last equilibrium is that of the end. */
+/* Follow the branch from a stable equilibrium while `put(whole, share)` increases a load, in shares of at most
+ * `longest`, to 1. False if the branch ends before; the present point is then its last equilibrium. */
 static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double whole, double longest,
                  ZpNewtonWork *work) {
   static const double shortest = 1e-6;
@@ -158,7 +159,7 @@ static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double 
   return reached == 1;
 }
 
-/* Shares of its square, as the force is. */
+/* Shares of the square of the voltage, to which the force is proportional. */
 static void put_voltage(ZpStatics *s, double whole, double share) {
   s->U = whole * sqrt(share);
 }
@@ -167,22 +168,22 @@ static void put_suction(ZpStatics *s, double whole, double share) {
   ((ZpModel *)s->model)->bead.suction = whole * share;
 }
 
-/* The equilibrium found without suction at the menisci, now with it; where that branch ends it draws the faces
- * together. */
+/* Continue from the equilibrium without suction at the menisci to the one with it. Where that branch ends, suction
+ * draws the faces together. */
 static ZpNewtonInfo let_menisci_draw(ZpStatics *s, double suction, ZpNewtonInfo info, ZpNewtonWork *work) {
   bool grown = zp_newton_good(info.end) && suction > 0 && grow(s, put_suction, suction, 1, work);
   put_suction(s, suction, 1);
   return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_fall(s, 0, work);
 }
 
-/* Has Newton's method found an equilibrium, and none of folded ribbons? Its last stiffness tells, or that of the
- * equilibrium itself. */
+/* Has Newton's method found an equilibrium without folded ribbons? Its last stiffness tells, or that of the equilibrium
+ * itself. */
 static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   if (!zp_newton_good(info.end)) return false;
   return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
 }
 
-/* The equilibrium found without contact, now with it, where there are faces. */
+/* Continue from the equilibrium without contact to the one with contact, if there are faces. */
 static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
@@ -214,8 +215,8 @@ static void open_to(ZpStatics *s, double opening) {
   s->opening = opening;
 }
 
-/* The same while weight is put on, too: ribbons that sag by more than the opening have no straight shape to start from.
- */
+/* The same while weight is applied too: ribbons that sag by more than the opening have no straight shape to start
+ * from. */
 static void open_and_put_on(ZpStatics *s, double opening) {
   s->opening = opening;
   put_on(s, opening / s->held_at);
@@ -292,7 +293,7 @@ double zp_statics_capacitance(const ZpStatics *s) {
   return s->model->parts * totals(s).capacitance;
 }
 
-/* Of closed faces, whole actuator, F. */
+/* Capacitance of closed faces, whole actuator, F. */
 static double closed_capacitance(const ZpStatics *s) {
   const ZpActuatorDef *def = &s->model->def;
   double per_length =
@@ -300,8 +301,9 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
-/* The overlap that a state may have, m. By (9.1) attraction as strong as at the breakdown of the insulators makes it
- * the contact depth, stronger attraction more, and at a front the bent ribbons press on closed faces like a lever. */
+/* The largest overlap that a state may have, m. By (9.1) the attraction at the breakdown of the insulators causes the
+ * contact depth, and a stronger attraction causes more. At a front the bent ribbons press on closed faces like a
+ * lever. */
 static double deepest_overlap(const ZpStatics *s) {
   static const double micrometre = 1e-6, of_insulators = 0.02, lever = 3;
   const ZpFacesParams *faces = &s->model->faces;
@@ -311,7 +313,7 @@ static double deepest_overlap(const ZpStatics *s) {
 }
 
 const char *zp_statics_fault(const ZpStatics *s) {
-  static const double beyond_plates = 1.1; /* what fields round the ends add to plates is below that */
+  static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
   double least = INFINITY, most = deepest_overlap(s);
   for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
@@ -334,8 +336,8 @@ ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *roo
 
 /* -- the held platform ---------------------------------------------------------------------------- */
 
-/* Its equation, instead of balance: the platform is where it is held. So a step aims there while the ribbons are
- * laid as they turn, and nothing that misses is spread along them. */
+/* The equation of a held platform replaces its balance of forces: the platform is where it is held. A step moves it
+ * there while the edges rotate, so there is no closing error to spread along the ribbons. */
 static bool is_held(const ZpStatics *s) {
   return !isnan(s->opening);
 }
@@ -344,9 +346,10 @@ size_t zp_statics_platform(const ZpStatics *s) {
   return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
 }
 
-/* The equation is a force for the tolerance's sake: a stiffness, of each half, times the way that is left. */
+/* The equation has the form of a force, so that the tolerance of forces applies: a stiffness, of each half, times the
+ * remaining distance. */
 static double holding(const ZpStatics *s) {
-  static const double soft = 1e-3; /* of the stiffest: what rounding leaves of y then counts nothing */
+  static const double soft = 1e-3; /* of the stiffest, so that the rounding of y does not count */
   const ZpModel *model = s->model;
   return soft * (double)model->topology.halves * model->axial_stiffness;
 }
@@ -357,7 +360,7 @@ static void hold_platform(ZpStatics *s, double *r) {
   r[row] = holding(s) * (zp_drop(&s->model->topology, s->q + s->model->stride) - s->opening);
 }
 
-/* The same of the terms on top of the band. */
+/* The same for the terms on top of the band. */
 static void hold_top(ZpBand *K, size_t row, double move, double *r) {
   size_t n = K->n;
   for (size_t k = 0; k < K->rank; k++) {
@@ -369,14 +372,14 @@ static void hold_top(ZpBand *K, size_t row, double move, double *r) {
   }
 }
 
-/* Its row and column become those of no other, once what its move does to the forces on the others is in r. */
+/* Its row and column are cleared, once the effect of its motion on the forces of the others is in r. */
 static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
   size_t row = zp_statics_platform(s), end = zp_band_end(K, row);
   double move = r ? r[row] / holding(s) : 0;
   hold_top(K, row, move, r);
   for (size_t i = row > K->upper ? row - K->upper : 0; i < end; i++) {
     if (i == row || zp_band_end(K, i) <= row) continue;
-    bool kept = K->lower > 0 || i < row; /* of a symmetric matrix only the upper triangle is there */
+    bool kept = K->lower > 0 || i < row; /* only the upper triangle of a symmetric matrix is stored */
     double *in_column = kept ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
     if (r) r[i] -= *in_column * move;
     *in_column = 0;
@@ -400,13 +403,13 @@ static ZpSpan span_of(const ZpStatics *s) {
   return span;
 }
 
-/* Forces on what both halves have, r, times a factor. */
+/* Multiply the forces r on coordinates that both halves share by a factor. */
 static void scale_common(const ZpParts *parts, double factor, double *r) {
   for (size_t k = 0; k < parts->count; k++)
     r[parts->common[k]] *= factor;
 }
 
-/* The largest force left on one half, N; NAN where one is. */
+/* The largest residual force on one half, N; NAN if any is NAN. */
 static double largest_of(const ZpAssembly *a, double *r) {
   double largest = 0, halves = (double)(1 + a->parts.more);
   scale_common(&a->parts, 1 / halves, r);
@@ -423,7 +426,7 @@ bool zp_statics_asked_to_stop(ZpStatics *s) {
 }
 
 static ZpEnd residual(void *self, double *r, double *size) {
-  enum { BETWEEN = 64 }; /* residuals between two questions: about a millisecond */
+  enum { BETWEEN = 64 }; /* residuals between two calls of `stop`: about a millisecond */
   ZpStatics *s = self;
   if (s->stopped || (++s->unasked >= BETWEEN && zp_statics_asked_to_stop(s))) return ZP_END_STOP;
   ZpSpan here = span_of(s);
@@ -450,7 +453,7 @@ static void exact_residual(ZpStatics *s, double *r) {
   memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
 }
 
-/* How the force on the platform falls with a step, were it free. */
+/* Decrease of the force on the platform in a step, as if it were free. */
 static double fall_along(ZpStatics *s, const double *step, ZpBand *K) {
   double opening = s->opening;
   s->opening = NAN;
@@ -516,7 +519,7 @@ static void turn(ZpStatics *s, const double *step) {
   edges_under_step(edge_count(s), s->model->s, dx, dy, &s->eval.edges, s->rotation, s->stretch);
 }
 
-/* The largest rotation of an edge under a step, rad; NAN where one is. */
+/* The largest rotation of an edge in a step, rad; NAN if any is NAN. */
 static double largest_rotation(ZpStatics *s, const double *step) {
   double most = 0;
   turn(s, step);
@@ -526,11 +529,11 @@ static double largest_rotation(ZpStatics *s, const double *step) {
 }
 
 static double length(void *self, const double *step) {
-  static const double longest = 0.5; /* rad: what linearised rotations stand */
+  static const double longest = 0.5; /* rad, up to which linearised rotations are valid */
   return largest_rotation(self, step) / longest;
 }
 
-/* The largest share by which a step changes a gap with its insulators. */
+/* The largest relative change of a gap, insulators included, in a step. */
 static double gap_share(const ZpStatics *s, const double *step) {
   const ZpModel *model = s->model;
   const ZpPlatesParams *p = &model->plates;
@@ -544,8 +547,8 @@ static double gap_share(const ZpStatics *s, const double *step) {
   return most;
 }
 
-/* The largest rotation of an edge, rad, and under a voltage the largest share by which a gap with its insulators
- * changes. */
+/* The largest rotation of an edge, rad, and, under a voltage, the largest relative change of a gap, insulators
+ * included. */
 static double change(void *self, const double *step) {
   ZpStatics *s = self;
   const ZpModel *model = s->model;
@@ -554,8 +557,8 @@ static double change(void *self, const double *step) {
   return most / (1e-3 * model->def.solver.tolerance);
 }
 
-/* Axial stiffness of edge j: S[j], or `all` where S is NULL. => vectors of the edges, in place of what their nodes have
- * moved by, and tensions */
+/* The axial stiffness of edge j is S[j], or `all` if S is NULL. => edge vectors in place of the displacements of their
+ * nodes, and tensions */
 ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *restrict S, double all,
                                    const ZpEdges *e, const double *restrict rotation, const double *restrict stretch,
                                    double *restrict tension, double *restrict to_x, double *restrict to_y) {
@@ -572,10 +575,10 @@ ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *
   }
 }
 
-/* Turn and stretch each edge instead of moving its ends along straight lines: a rotation then does not
- * stretch, which in a ribbon that hardly stretches is all the difference. The tensions that the step
- * foresees go into the next stiffness: those of the edges as they come to lie are off by what they were
- * turned, times a stiffness a million times that of bending. => edge vectors in s->moved. */
+/* Rotate and stretch each edge instead of moving its ends along straight lines. So a rotation does not stretch the
+ * ribbon, whose axial stiffness is a million times its bending stiffness. The next stiffness uses the tensions that the
+ * step predicts. Those of the rebuilt edges have an error of the square of the rotation times that million. => edge
+ * vectors in s->moved. */
 static void turn_edges(ZpStatics *s, const double *step, double fraction) {
   const ZpModel *model = s->model;
   turn(s, step);
@@ -583,8 +586,8 @@ static void turn_edges(ZpStatics *s, const double *step, double fraction) {
                s->rotation, s->stretch, s->tension, s->moved, s->moved + model->stride);
 }
 
-/* Put the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the right
- * from their left nodes. */
+/* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the
+ * right from their left nodes. */
 static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
   for (size_t j = from; j < to; j += s)
     q[j + s] = q[j] + d[j];
@@ -600,7 +603,7 @@ static void lay_fold(ZpStatics *s) {
       lay(s->moved + c * model->stride, model->s, ribbon, model->count - model->s + ribbon, s->q + c * model->stride);
 }
 
-/* Lay one ribbon from its clamp; what misses a clamped right end is spread along it. */
+/* Place one ribbon from its clamp; the closing error at a clamped right end is spread along it. */
 static void lay_one(ZpStatics *s) {
   size_t stride = s->model->stride, end = s->model->count - 1;
   for (size_t c = 0; c < 2; c++) {
@@ -613,7 +616,7 @@ static void lay_one(ZpStatics *s) {
   }
 }
 
-/* Stations of a half: its upper ribbon is laid from the platform to the clip, the lower one from there back. */
+/* Stations of a half. Its upper ribbon is placed from the platform to the clip, the lower one from there back. */
 typedef struct Loop {
   size_t platform, clip;
   bool is_held; /* the clip */
@@ -628,7 +631,7 @@ static size_t station_of(Loop loop, size_t k) {
   return loop.clip < loop.platform ? loop.platform - k : loop.platform + k;
 }
 
-/* What misses a clip that is held is spread along the upper ribbon. */
+/* The closing error at a clip that is held is spread along the upper ribbon. */
 static void spread_to_clip(const ZpTopology *t, Loop loop, double missed, double *q) {
   size_t elements = zp_half_elements(t);
   for (size_t k = 0; k <= elements; k++)
@@ -644,7 +647,8 @@ static void lay_loop(const ZpTopology *t, Loop loop, const double *d, double *q)
   lay(d, t->ribbons, zp_lower(t, loop.clip), zp_lower(t, loop.platform), q);
 }
 
-/* What misses the lower platform is spread along the loop, or along the lower ribbon alone if the clip is held. */
+/* The closing error at the lower platform is spread along the loop, or along the lower ribbon alone if the clip is
+ * held. */
 static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
   size_t elements = zp_half_elements(t), path = loop.is_held ? elements : 2 * elements;
   for (size_t k = 0; k <= elements; k++) {
@@ -654,7 +658,7 @@ static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
   }
 }
 
-/* A platform that turns lies where its edge says, half of what misses spread along each loop. */
+/* A platform that turns is placed by its edge; half of the closing error is spread along each loop. */
 static void lay_platform(ZpStatics *s, const Loop loops[2]) {
   const ZpTopology *t = &s->model->topology;
   size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
@@ -679,7 +683,7 @@ static void lay_level_platform(ZpStatics *s, const Loop loops[2]) {
     spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
 }
 
-/* Lay two ribbons from the upper platform. */
+/* Place two ribbons, from the upper platform on. */
 static void lay_two(ZpStatics *s) {
   const ZpTopology *t = &s->model->topology;
   const Loop loops[2] = {loop_to(t, t->platform.first, 0), loop_to(t, t->platform.last, t->stations - 1)};
@@ -739,8 +743,8 @@ ZpStaticSystem zp_statics_system(ZpStatics *s) {
 
 /* -- falling -------------------------------------------------------------------------------------- */
 
-/* What motion with resistance may do in a step: neither pass over a state that is near, nor faces through each other.
- */
+/* Limits of a step of motion with resistance: it must not pass over a nearby state, nor move faces through each
+ * other. */
 static double fall_length(void *self, const double *step) {
   static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
   const ZpStatics *s = self;

@@ -32,7 +32,7 @@ static size_t place_of_two(const ZpTogether *all, size_t which, size_t i) {
   return i < load ? back - 1 : back;
 }
 
-/* Of more, which have the same equations, those of the same number stand side by side. */
+/* More than two members have the same equations; those of the same number are adjacent. */
 static size_t place_of(const ZpTogether *all, size_t which, size_t i) {
   size_t load = own_load(all, which);
   if (all->count == 2) return place_of_two(all, which, i);
@@ -150,7 +150,8 @@ static double change(void *self, const double *step) {
   return largest_of(all, step, all->alone[0].change);
 }
 
-/* Each puts the load somewhere else by what is of second order: it comes to the mean of these places. */
+/* Each member places the load slightly differently, by a term of second order; the load moves to the mean of these
+ * places. */
 static void move(void *self, const double *step, double fraction) {
   ZpTogether *all = self;
   double height[ZP_MOST_MEMBERS] = {0}, missed[ZP_MOST_MEMBERS] = {0}, mean = 0;
@@ -311,7 +312,7 @@ static ZpNewtonInfo newton(ZpTogether *all) {
   return zp_newton(&all->system.at_rest, tolerance_of(all), MOST, &all->branch.newton);
 }
 
-/* By Newton's method, and if that finds none that is stable, as slow motion against a resistance goes. */
+/* By Newton's method; if that finds no stable equilibrium, by slow motion against a resistance. */
 static ZpNewtonInfo find(ZpTogether *all) {
   enum { MOST = 20000 };
   static const double longest = 0.04; /* 20 mrad */
@@ -320,8 +321,8 @@ static ZpNewtonInfo find(ZpTogether *all) {
   return zp_descend_until(&all->system.at_rest, longest, tolerance_of(all), MOST, NULL, NULL, &all->branch.newton);
 }
 
-/* => the opening at which a way to the equilibrium begins, m: half way between the mounts, or where those that hang
- * side by side would be on the average, each alone. */
+/* => the opening from which the search for the equilibrium starts, m: half of the distance of the mounts, or for
+ * members side by side the mean of the openings that each has alone. */
 static ZpNewtonInfo first_opening(ZpTogether *all, double *opening) {
   ZpNewtonInfo info = {.end = ZP_NEWTON_CONVERGED};
   *opening = 0.5 * all->distance;
@@ -347,14 +348,14 @@ ZpNewtonInfo zp_together_hang(ZpTogether *all) {
   return find(all);
 }
 
-/* Has the load gone so far that this is another branch? */
+/* Has the load moved so far that this is another branch? */
 static bool has_jumped(const ZpTogether *all, double opening) {
   static const double part = 0.02; /* of what the openings of antagonists sum up to, else of the length */
   double whole = all->distance > 0 ? all->distance : first_model(all)->L;
   return fabs(zp_statics_opening(member(all, 0)) - opening) > part * whole;
 }
 
-/* From a stable state along its branch, as the voltage that `put` sets grows from 0 to `whole`. False if the branch
+/* Follow the branch from a stable state while the voltage that `put` sets grows from 0 to `whole`. False if the branch
  * ends before. */
 static bool grow(ZpTogether *all, void (*put)(void *all, double voltage), double whole) {
   static const double longest = 0.05, shortest = 1e-6; /* shares of the square of the voltage */
@@ -406,7 +407,7 @@ void zp_together_start(ZpTogether *all) {
     all->closed[which] = zp_closing_limit(member(all, which), zp_statics_opening(member(all, which)));
 }
 
-/* Whose closing counts => how far it is from that. */
+/* The member whose closing counts => how far it is from closed. */
 static size_t closing_one(const ZpTogether *all, double *left) {
   size_t found = 0;
   for (size_t which = 0; which < all->count; which++) {
@@ -440,7 +441,7 @@ static bool solve_limit(ZpFold *fold) {
   return zp_fold_solve(fold);
 }
 
-/* Is this what was near, or another one? */
+/* Is this the limit that was near, or another one? */
 static bool keep_near(ZpTogether *all, bool found, double least, double most) {
   if (found && get(all) >= least && get(all) <= most) return true;
   restore(all, all->branch.saved_before);
@@ -456,7 +457,7 @@ bool zp_together_limit(ZpTogether *all) {
 }
 
 bool zp_together_closing(ZpTogether *all, double least, double most) {
-  enum { MOST = 4 }; /* tries: where faces meet, Newton's method takes more steps than one has */
+  enum { MOST = 4 }; /* tries: where faces meet, Newton's method may need more steps than one try has */
   bool found = false;
   all->fold.tolerance = tolerance_of(all);
   save(all, all->branch.saved_before);

@@ -49,7 +49,7 @@ void zp_vibration_take_out(const ZpVibration *v, const double *rows, size_t coun
     }
 }
 
-/* Make the rows of `rows` orthogonal and of length 1 in the mass's measure. */
+/* Make the rows of `rows` orthogonal and of length 1 with respect to the masses. */
 static void orthonormalize(const ZpVibration *v, double *rows) {
   for (size_t j = 0; j < v->m; j++) {
     double *row = rows + j * v->n;
