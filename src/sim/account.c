@@ -1,15 +1,16 @@
-/* The account of energy: what the source has given, and what the field did not keep of it. docs/theory.md, section 17.
+/* The account of energy: what the source has delivered, and the part of it that the field did not keep. docs/theory.md,
+ * section 17.
  *
- * It was closed last at the voltage base_U and the charge base_charge; since then positions have moved at that voltage.
- * A jump to another voltage stays open until something moves, so that a voltage that is replaced before that, having
- * lasted no time, counts for nothing, and looking at the account changes nothing. Only where what is held must be found
- * again for that voltage it is closed at once. */
+ * It was last closed at the voltage base_U and the charge base_charge; since then positions have moved at that voltage.
+ * A jump to another voltage stays open until the next motion. So a voltage that is replaced before then, which lasted
+ * no time, does not count, and reading the account changes nothing. The account is closed at once only if what is held
+ * over several steps must be computed again for the new voltage. */
 #include <math.h>
 
 #include "sim/sim_internal.h"
 
-/* What ideal sources at U0, while things moved, and then at U1 at once have given, from `before` the jump to `after`
- * it. */
+/* Work of ideal sources at U0 during the motion and of their jump to U1, between the states `before` and `after` the
+ * jump. */
 static ZpAccount charged(const ZpState *state, ZpElectric before, ZpElectric after) {
   double U0 = state->base_U, U1 = state->U, given = U1 * (after.charge - before.charge);
   double kept = zp_field_energy(after, U1) - zp_field_energy(before, U0);
@@ -47,7 +48,7 @@ void zp_sim_start_account(ZpSim *sim) {
   state->base_U = state->U;
 }
 
-/* A field that cannot be solved stays due, and ends the run before the next step. */
+/* A field that cannot be solved remains due, and ends the run before the next step. */
 void zp_sim_close_account(ZpSim *sim) {
   ZpState *state = sim->state;
   ZpElectric before = zp_system_electric_now(sim->model, state, state->base_U, &sim->eval);

@@ -1,18 +1,18 @@
-/* A mass that is caught or dropped while the actuator moves, at load.change_time. What is caught comes with a velocity
- * and shares its momentum with the platform at once: what that takes is catch_loss. What it brings or takes away with
- * it, kinetic energy, counts as if it had never been there. docs/theory.md, eqs. (27.6) and (27.7). */
+/* A mass that is caught or dropped during the motion, at load.change_time. A caught mass arrives with a velocity and
+ * shares its momentum with the platform at once; the energy lost is catch_loss. The kinetic energy that the mass adds
+ * or removes changes the initial value of the energy balance. docs/theory.md, eqs. (27.6) and (27.7). */
 #include <math.h>
 
 #include "sim/sim_internal.h"
 
-/* Where a change of the load is still to come: when, s; else INFINITY. */
+/* The instant of a change of the load that is still to come, s; else INFINITY. */
 double zp_sim_load_due(const ZpSim *sim) {
   const ZpActuatorDef *def = &sim->model->def;
   return sim->state->load_changed || isnan(def->load.change_time) ? INFINITY : def->load.change_time;
 }
 
-/* Kinetic energy of the mass that comes or goes, of one part, J: what is caught has fallen from load.drop_height, what
- * is dropped moves as the platform does. */
+/* Kinetic energy that the change of the load adds or removes, of one part, J: a caught mass has fallen from
+ * load.drop_height, a dropped one moves with the platform. */
 static double energy_of_mass(const ZpModel *model, const ZpState *state) {
   const ZpActuatorDef *def = &model->def;
   size_t j = zp_load_node(&model->topology);

@@ -1,4 +1,4 @@
-/* Snapshots with an owner, from which runs resume, and which runs may. */
+/* Snapshots as objects from which runs resume, and which runs may resume from them. */
 #include <zipact/checkpoint.h>
 
 #include <string.h>

@@ -62,7 +62,7 @@ static double own_sample_time(const ZpOwnControl *own) {
   return own->controller.voltage ? own->since + own->taken * own->controller.period : INFINITY;
 }
 
-/* A simulation that is set to the voltage that it has anyway keeps its steps. */
+/* A simulation that is set to its present voltage keeps its steps. */
 static bool ask(ZpSim *sim) {
   ZpOwnControl *own = &sim->control;
   const ZpController *controller = &own->controller;

@@ -9,11 +9,11 @@
 #include "math/elementary.h"
 #include "sim/sim_internal.h"
 
-static const double least_capacitance = 1e-15; /* F: a wire's. Charge that the breakdown cap holds takes no voltage */
+static const double least_capacitance = 1e-15; /* F, of a wire: a capped charge has no capacitance */
 static const double at_limit = 1e-7;           /* of the scale: a limit is reached, */
 static const double past_limit = 1e-6;         /* or passed */
 static const double shortest = 1e-12;          /* s: a limit is passed at once; */
-static const double shortest_held = 1e-9;      /* under a held voltage, where shorter steps are rounding of positions */
+static const double shortest_held = 1e-9;      /* under a held voltage: shorter steps are rounding of positions */
 
 bool zp_sim_is_fed(const ZpSim *sim) {
   return sim->model->supply.acts;
@@ -36,7 +36,7 @@ static ZpSupplyState followed(const ZpSim *sim, const ZpState *from, double to) 
   return zp_supply_follow(&sim->model->supply, &command, from->t, to, from->supply);
 }
 
-/* Inner voltage where a step of h ends. */
+/* Inner voltage at the end of a step of h. */
 static double inner_after(const ZpSim *sim, double h) {
   double t = sim->state->t, latest = sim->dynamics.latest;
   return followed(sim, sim->state, h == latest - t ? latest : t + h).voltage;
@@ -101,7 +101,8 @@ static double slope(const void *self, double t, double h, double U0, double U1) 
   return -h * (through + 0.5 * supply->conductance) - cable_of(sim);
 }
 
-/* Without a resistance the electrodes have the inner voltage, but for what the end of a limit has left of it. */
+/* Without a resistance the electrodes have the inner voltage, except for the difference that the end of a limit has
+ * left. */
 static bool holds(const void *self, double t, double h, double *U1) {
   const ZpSim *sim = self;
   const ZpState *state = sim->state;
@@ -126,21 +127,21 @@ static double drop_at(const ZpSupply *supply, double limit) {
   return supply->resistance > 0 ? supply->resistance * limit : 0;
 }
 
-/* What currents without a resistance are compared with, A. */
+/* Scale of currents of a supply without a resistance, A. */
 static double usual_current(const ZpSupply *supply) {
   static const double usual = 1e-3;
   if (isfinite(supply->most)) return supply->most;
   return isfinite(supply->sinks) && supply->sinks > 0 ? supply->sinks : usual;
 }
 
-/* By how much a mean current is within the limits, => the nearer one. */
+/* Distance of a mean current from the nearer limit => that limit. */
 static double within(const ZpSupply *supply, double current, ZpFeedMode *nearer) {
   double out = supply->most - current, in = supply->sinks + current;
   *nearer = out < in ? ZP_FEED_GIVES_MOST : ZP_FEED_SINKS_MOST;
   return fmin(out, in);
 }
 
-/* How far from the end of its mode the supply is, in its scale; below 0: beyond. `left`: V - U; `current`: the mean of
+/* Distance of the supply from the end of its mode, in its scale; negative beyond. `left`: V - U; `current`: the mean of
  * the step, of a supply without a resistance. */
 static double margin(ZpSim *sim, double left, double current) {
   const ZpSupply *supply = &sim->model->supply;
@@ -163,12 +164,12 @@ static void change_mode(ZpSim *sim) {
 
 /* -- books ----------------------------------------------------------------------------------------- */
 
-/* Work given to the electrodes until now, with what of it is not in state->work yet; of one part. */
+/* Work on the electrodes until now, including the part that is not yet in state->work; of one part. */
 static double given(const ZpState *state, double charge) {
   return state->work + state->U * (charge - state->base_charge);
 }
 
-/* What a jump of the voltage takes at once. What the electrodes do not keep is their charging loss. */
+/* Energy that a jump of the voltage takes at once. The part that the electrodes do not keep is their charging loss. */
 static void jump(ZpSim *sim, double V) {
   ZpState *state = sim->state;
   double parts = sim->model->parts, C = cable_of(sim), U0 = state->U;
@@ -182,7 +183,7 @@ static void jump(ZpSim *sim, double V) {
   sim->feed.peak = sim->feed.square = INFINITY;
 }
 
-/* Charge that the supply has given over the step that has just been taken, C. */
+/* Charge that the supply has delivered over the last step, C. */
 static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
   double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
@@ -195,7 +196,8 @@ void zp_feed_note_current(ZpSim *sim, double current, double h) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(current));
 }
 
-/* Behind a resistance the current is largest where a step begins or ends, A; 0 at a limit, where it does not change. */
+/* Behind a resistance the current is largest at the start or the end of a step, A; 0 at a limit, where it is
+ * constant. */
 static double current_at_ends(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
   if (state->supply_mode != ZP_FEED_FREE || sim->model->supply.resistance == 0) return 0;
@@ -242,7 +244,7 @@ void zp_feed_arrive(ZpSim *sim) {
   jump(sim, state->supply.voltage);
 }
 
-/* Of electrodes and cable, as they would charge towards the inner voltage. */
+/* Capacitance of electrodes and cable while they charge towards the inner voltage. */
 static double capacitance_now(ZpSim *sim) {
   static const double share = 1e-3;
   const ZpState *state = sim->state;
@@ -271,13 +273,14 @@ static double try_step(ZpSim *sim, double latest) {
   return margin(sim, state->supply.voltage - state->U, charge_given(sim) / (state->t - sim->before->t));
 }
 
-/* Where in a step of h the margin is 0, as a share of it: on a straight line, where the start's is known. */
+/* Where in a step of h the margin is 0, as a share of the step: on a straight line, if the margin at its start is
+ * known. */
 static double crossing(double at_start, double at_end) {
   static const double least = 0.02, most = 0.98, blind = 0.25;
   return at_start > 0 ? fmin(fmax(at_start / (at_start - at_end), least), most) : blind;
 }
 
-/* A mode ends where it began. What a limit lets through in so short a time is a jump. */
+/* The mode ends at the start of the step. At the end of a limit without a resistance the voltage jumps. */
 static void leave_at_once(ZpSim *sim) {
   bool limited = sim->state->supply_mode != ZP_FEED_FREE;
   change_mode(sim);

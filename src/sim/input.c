@@ -14,13 +14,13 @@ static const Input inputs[ZP_INPUT_COUNT] = {
 
 static const double most_load = 1e4;     /* N: the weight of the largest load.mass */
 static const double most_setpoint = 1e3; /* in its unit: as setpoint.value */
-static const double most_rate = 1e12;    /* per second: far beyond what a step of time can tell from a jump */
+static const double most_rate = 1e12;    /* per second: too fast for any time step to distinguish from a jump */
 
 const char *zp_input_name(ZpInput input) {
   return (size_t)input < ZP_INPUT_COUNT ? inputs[input].name : "unknown";
 }
 
-/* The ramp from now on, which ends where the input's range does. */
+/* The ramp from now on, which ends at the end of the input's range. */
 static ZpRamp ramp_within(double value, double rate, double t, double least, double most) {
   double left = rate == 0 ? INFINITY : ((rate > 0 ? most : least) - value) / rate;
   return (ZpRamp){value, rate, t, t + left};

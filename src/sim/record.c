@@ -1,4 +1,4 @@
-/* State => one row of signals.def, one shape; and the rhythm in which they are offered to the records. */
+/* State => one row of signals.def, one shape; and the times at which they are offered to the records. */
 #include <math.h>
 #include <string.h>
 
@@ -16,13 +16,13 @@ enum {
 };
 #undef ZP_SIGNAL
 
-/* Behind the signals, of a series: the opening of each member. */
+/* Columns after the signals, of a series: the opening of each member. */
 #define OPENING_OF(member)                                                                                             \
   { "member_" #member "_opening_m", "m", "distance between the platforms' faces of member " #member " of a series" }
 #define OPENINGS                                                                                                       \
   OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
 
-/* Those side by side have one opening, and each its force. */
+/* Members side by side have one opening; each has its own force. */
 enum { NUMBERS_ABREAST = 2 };
 #define ABREAST_OF(member)                                                                                             \
   {"member_" #member "_force_N", "N", "force with which member " #member " of those side by side pulls the load up"},  \
@@ -98,8 +98,8 @@ double zp_energy_without_field(const ZpEnergies *e) {
   return e->kinetic + e->axial + e->bending + e->gravity + e->spring + e->liquid;
 }
 
-/* Stations from the clip on that are closed: faces that touch, or whose film is thinner than the liquid that stands for
- * their insulators. */
+/* Number of closed stations from the clip on: their faces touch, or their film is thinner than the liquid equivalent to
+ * the insulators. */
 static size_t front(const ZpModel *model, const ZpState *state) {
   const double *y = zp_state_motion(model, state).y;
   size_t i = 0;
@@ -144,7 +144,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_contraction] = state->opening0 > 0 ? 1 - row[SIGNAL_opening] / state->opening0 : NAN;
 }
 
-/* What the state itself says, of one member of a series alone as all below. */
+/* Signals that follow from the state alone, of one member of a series alone as of all below. */
 static void fill_state(const ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
   double parts = sim->model->parts;
@@ -176,7 +176,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_permanent_curvature] = zp_rod_plastic_set(&sim->model->rod, zp_state_strain(sim->model, sim->state));
 }
 
-/* => rise of kinetic and stored energy without the field since the account was opened, of one part, J. */
+/* => increase of kinetic and stored energy without the field since the account was opened, of one part, J. */
 static double fill_mechanics(ZpSim *sim, double *row) {
   double parts = sim->model->parts;
   ZpEnergies e = zp_system_energies(sim->model, sim->state, &sim->eval);
@@ -197,7 +197,7 @@ static void fill_leak(ZpSim *sim, double *row) {
   row[SIGNAL_interface_voltage] = now.mean;
 }
 
-/* => what the source has given less what the field has kept and jumps have lost, of one part, J. */
+/* => energy that the source has delivered less what the field has kept and jumps have lost, of one part, J. */
 static double fill_electric(ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
   ZpElectric e = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
@@ -237,7 +237,7 @@ static ZpShape shape_of(ZpSim *sim) {
   return shape;
 }
 
-/* Of one member, whose shape is taken. */
+/* Margins of one member => its shape, too. */
 static ZpMargins margins_of(ZpSim *sim) {
   sim->shape = shape_of(sim);
   ZpMargins margins = zp_margins_of(sim->model, &sim->shape);
@@ -251,7 +251,7 @@ static void fill_margins(ZpSim *sim, double *row) {
   row[SIGNAL_max_stress] = sim->now.stress;
 }
 
-/* Which of these a signal takes, what they cost being far more than that of the state. */
+/* The computations that a signal needs; they cost far more than reading the state. */
 enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, MARGINS = 4, ENERGY = MECHANICS | ELECTRIC, ALL = ENERGY | MARGINS };
 static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
                                                   [SIGNAL_charge] = ELECTRIC,
@@ -274,7 +274,7 @@ static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
                                                   [SIGNAL_liquid_energy] = MECHANICS,
                                                   [SIGNAL_max_stress] = MARGINS};
 
-/* Signals that take no more than `what` => sim->row, of one member alone. */
+/* Signals that need no more than `what` => sim->row, of one member alone. */
 static void fill_own_row(ZpSim *sim, unsigned what) {
   const ZpState *state = sim->state;
   double *row = sim->row, stored = 0, kept = 0;
@@ -308,19 +308,19 @@ static const unsigned char of_series[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
                                                       [SIGNAL_permanent_curvature] = LARGEST,
                                                       [SIGNAL_max_stress] = LARGEST};
 
-/* Antagonists have one load: its place, and how the upper one is, are told of the upper one. */
+/* Antagonists have one load: its position, and the shape, are those of the upper member. */
 static bool is_of_upper(size_t signal) {
   return signal == SIGNAL_stroke || signal == SIGNAL_opening || signal == SIGNAL_end_velocity ||
          signal == SIGNAL_zipped_length;
 }
 
-/* Those side by side are closed as far as all of them are. */
+/* The closed length of members side by side is that of the member that has closed least. */
 static int rule_of(const ZpModel *model, size_t signal) {
   if (!zp_shares_load(model) || !is_of_upper(signal)) return of_series[signal];
   return model->abreast && signal == SIGNAL_zipped_length ? LEAST : FIRST;
 }
 
-/* The row of a member joins that of those above it. */
+/* Combine the row of a member with that of those above it. */
 static void join_row(const ZpModel *model, double *row, const double *other) {
   for (size_t k = 0; k < SIGNAL_COUNT; k++) {
     double values[] = {[SUM] = row[k] + other[k],
@@ -332,7 +332,7 @@ static void join_row(const ZpModel *model, double *row, const double *other) {
   }
 }
 
-/* What one of those side by side pulls the load up with, eq. (29.5), N: the mean over the last step. */
+/* Force with which one of the members side by side pulls the load up, eq. (29.5), N: the mean over the last step. */
 static double force_of(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
@@ -342,7 +342,7 @@ static double force_of(const ZpSim *sim) {
   return zp_load_pull(model) + input + model->parts * (inertia - state->link_force);
 }
 
-/* Numbers of one member alone beside those of all => how many. */
+/* Signals of one member alone, in addition to those of all => their number. */
 static size_t put_member(const ZpSim *sim, double *place) {
   place[0] = sim->model->abreast ? force_of(sim) : sim->row[SIGNAL_opening];
   if (sim->model->abreast) place[1] = sim->row[SIGNAL_zipped_length];
@@ -366,7 +366,7 @@ static void fill_row(ZpSim *sim, unsigned what) {
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;
 }
 
-/* The mean current and power of the next row count from the present one. */
+/* The mean current and power of the next row are means from the present row on. */
 static void count_from_here(ZpSim *sim) {
   const ZpState *state = sim->state;
   bool fed = zp_sim_is_fed(sim);
@@ -375,8 +375,8 @@ static void count_from_here(ZpSim *sim) {
   sim->row_energy = sim->own_energy;
 }
 
-/* A row that stays: the next one's mean current counts from here. Of rows at one time the charge of the first counts,
- * so that the current of a jump is part of the next. */
+/* A row that is kept: the mean current of the next row starts here. Of several rows at one time the charge of the first
+ * counts, so that the current of a jump is part of the next row. */
 static void make_row(ZpSim *sim) {
   const ZpState *state = sim->state;
   fill_row(sim, ALL);
@@ -402,7 +402,7 @@ void zp_sim_start_row(ZpSim *sim) {
     count_from_here(m);
 }
 
-/* All signals if the voltage had another value => row; the state is as it was. */
+/* All signals if the voltage had another value => row; the state does not change. */
 static void read_at(ZpSim *sim, double voltage, double *row) {
   zp_sim_keep_states(sim);
   zp_sim_hold_voltage(sim, (ZpRamp){voltage, 0, sim->state->t, INFINITY});
@@ -461,7 +461,7 @@ ZpShape zp_sim_shape(ZpSim *sim) {
   return join_shapes(sim);
 }
 
-/* Of one member => where the liquid of all is, from its first station on. */
+/* Film thickness, pressure and wet length of one member => the arrays of all, from its first station on. */
 static void fill_liquid(ZpSim *sim, double *thickness, double *pressure, double *wet_length) {
   const ZpModel *model = sim->model;
   const double *head = zp_state_own(model, sim->state), *share = model->film.share;

@@ -8,13 +8,13 @@
 #include "rest/slope.h"
 #include "sim/snapshot.h"
 
-/* Steps of a key: small enough that hardly ever the first touch of two faces, where (9.6) has a corner, is between the
- * points of a difference; above rounding. */
+/* Steps of a key. They are so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
+ * the points of a difference, but they are above rounding. */
 static const double part = 1e-7;
 
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
-/* How the hanging equilibrium goes with a key => rate, of coordinates and opening0. */
+/* Derivative of the hanging equilibrium by a key => rate, of coordinates and opening0. */
 static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *err) {
   const ZpModel *model = rest->statics.model;
   ZpSlope slope;
@@ -101,7 +101,7 @@ void zp_run_rates_close(ZpRunRates *rates) {
 
 /* -- a step begins ----------------------------------------------------------------------------------- */
 
-/* Between two corners steps end at the same share of the way, so corners that a key moves are ends of steps, too. */
+/* Between two corners steps end at the same share of the interval, so steps also end at corners that a key moves. */
 static double time_of(const ZpRunRates *rates, const ZpKeyRates *of, int k, double t) {
   double share = (t - rates->from) / (rates->to - rates->from);
   return t == rates->to ? of->to[k] : of->from[k] + share * (of->to[k] - of->from[k]);
@@ -145,7 +145,7 @@ static void lose(const ZpRunRates *rates, ZpKeyRates *of, const char *cause) {
   of->cause = cause;
 }
 
-/* Does the liquid of a bead fill a station that it did not fill in the step before, or the other way round? */
+/* Has the bead filled a station in this step that it did not fill in the step before, or the reverse? */
 static bool meniscus_passes(ZpRunRates *rates) {
   const ZpDynamics *d = &rates->sim->dynamics;
   bool passes = false;
@@ -157,20 +157,20 @@ static bool meniscus_passes(ZpRunRates *rates) {
   return passes;
 }
 
-/* What has happened in the run's step that has no derivative: what a meniscus leaves to a station that it passes, and
- * how long a supply is at its limit, depend on where within a step that is. NULL: nothing. */
+/* An event in the run's step that has no derivative. What a meniscus leaves at a station that it passes, and how long a
+ * supply is at its limit, depend on when within the step it happens. NULL: none. */
 static const char *cause_of_loss(ZpRunRates *rates) {
   if (rates->sim->state->supply_mode != rates->before->supply_mode)
     return "a limit of the supply's current begins or ends";
   return meniscus_passes(rates) ? "the meniscus of a bead passes a station" : NULL;
 }
 
-/* Are velocities smoothed by the matrix of the step, for faces or for menisci? */
+/* Does the step's matrix filter velocities, because of faces or menisci? */
 static bool takes_matrix(const ZpRunRates *rates) {
   return rates->sim->model->has_bead || rates->sim->dynamics.filters;
 }
 
-/* The dynamics of all points of a key, from where they are to where the run's step ends. */
+/* The dynamics of all points of a key, from their present states to the end of the run's step. */
 static bool move(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   ZpNearSteps steps = {.q1 = sim->dynamics.q, .lead = &sim->dynamics.history, .work = rates->work};
@@ -194,8 +194,9 @@ static void arrive(ZpSim *near) {
   zp_sim_arrive(near);
 }
 
-/* The zip time of an actuator near, where the run's step has ended: of the same step, wherever its own path passes the
- * limit. A platform that touches, or a front that arrives, is found at the end of a step only: that is no instant. */
+/* The zip time of a neighbouring actuator at the end of the run's step. It follows from the same step, wherever the
+ * neighbour's own path passes the limit. A platform that touches, or a front that arrives, is detected only at the end
+ * of a step, which is not the exact instant. */
 static double zip_time_near(const ZpRunRates *rates, const ZpSim *near) {
   const ZpState *state = rates->sim->state;
   if (!isnan(rates->before->zip_time)) return near->state->zip_time;

@@ -35,7 +35,7 @@ static double residual(void *self) {
 }
 
 static bool stop(void *self, int64_t steps, double left) {
-  enum { BETWEEN = 4096 }; /* steps between looks at the caller: about a millisecond */
+  enum { BETWEEN = 4096 }; /* steps between two calls of the caller's check: about a millisecond */
   Settling *settling = self;
   if (steps % BETWEEN) return false;
   if (steps == 0) settling->first_residual = left;
@@ -57,8 +57,8 @@ static ZpOutcome outcome_of(ZpRelaxEnd end) {
   return ZP_NOT_SETTLED;
 }
 
-/* The imbalance that rounding of positions in stiff axial springs leaves, measured at N = 130; over the same weight as
- * zp_eval_imbalance. */
+/* The imbalance that rounding of positions in stiff axial springs causes, measured at N = 130; relative to the same
+ * weight as zp_eval_imbalance. */
 static double rounding_floor(const ZpModel *model) {
   return 3 * DBL_EPSILON * model->L * model->spring.K_D / zp_eval_weight_scale(model);
 }
@@ -86,7 +86,7 @@ static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, dou
   return opened;
 }
 
-/* Of a series: the member alone, under all that hangs on it. */
+/* In a series: the member alone, under the weight of all that hangs on it. */
 static bool solve_member(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
   ZpActuatorDef def = zp_member_at_rest(sim->model);
   ZpDriveTable table = sim->model->waveform.table;
@@ -116,7 +116,7 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   sim->settle_residual = info.residual;
 }
 
-/* What has yielded on the way there stays bent. */
+/* Strain that has become plastic on the way is permanent. */
 static void start_at(ZpSim *sim, const double *q) {
   const ZpModel *model = sim->model;
   ZpSpan there = zp_span_at(q);
@@ -132,7 +132,7 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
   if (goes_on || zp_shares_load(model)) return true;                /* with all others */
-  /* of one straight ribbon neither a start nor a reference is needed */
+  /* a single straight ribbon needs neither a start nor a reference */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
   if (!solve(sim, hooks, q, &found)) return false;
@@ -148,7 +148,7 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   return true;
 }
 
-/* One of those that share a load, where they have come to rest. */
+/* One of the members that share a load, at their common equilibrium. */
 static void start_member(ZpSim *sim, ZpTogether *all, size_t which) {
   const ZpStatics *rest = &all->of[which].statics;
   const ZpModel *model = sim->model;

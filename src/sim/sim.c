@@ -58,7 +58,7 @@ static bool make_liquid_room(ZpSim *sim) {
   return sim->liquid.memory != NULL;
 }
 
-/* One member alone; its steps are those of the uppermost. */
+/* One member alone; its steps are those of the uppermost member. */
 static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
   size_t signals = zp_sim_row_size();
@@ -91,7 +91,7 @@ void zp_sim_lay_beads(ZpSim *sim) {
     state->bead[half].reach = reach[half], state->bead[half].rate = 0;
 }
 
-/* Nothing in an actuator is as fast as sound in its steel; beyond, numbers have left all bounds. */
+/* Nothing in an actuator is as fast as sound in its steel; numbers beyond this have diverged. */
 static bool has_diverged(const ZpModel *model, const ZpState *state) {
   static const double speed_of_sound = 1e4; /* m/s, rounded up */
   const double *q = state->data, *v = q + 2 * model->stride;
@@ -112,14 +112,14 @@ void zp_sim_passed(const ZpSim *sim, ZpState *state[]) {
     *state++ = off ? m->kept : m->state;
 }
 
-/* A longer run passes through the present state, too, unless the end of this one has cut a step. */
+/* A longer run passes through the present state, too, unless the end of this run has cut its last step short. */
 static void keep(ZpSim *sim) {
   if (sim->cut || diverged(sim)) return;
   for (ZpSim *m = sim; m; m = m->below)
     memcpy(m->kept, m->state, zp_state_size(m->model));
 }
 
-/* A model may be built of a Def that can only be at rest. */
+/* A model may also be built from a Def that supports equilibria only. */
 static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   const ZpActuatorDef *def = &model->def;
   bool drive = def->drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0;
@@ -178,8 +178,8 @@ static bool make_room(ZpSim *sim, size_t members) {
   return sim->all_memory != NULL;
 }
 
-/* The members below, each at rest on the one above; those that share a load come to rest together. False if there is no
- * memory. */
+/* The members below, each in equilibrium on the one above; those that share a load have a common equilibrium. False if
+ * there is no memory. */
 static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   size_t members = zp_members(sim->model), k = 0;
   sim->states = zp_calloc(members, sizeof(ZpState *));
@@ -278,14 +278,15 @@ double zp_sim_next_corner(ZpSim *sim) {
   return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
 }
 
-/* Longest step for an input by hand whose size matters from `least` on, s; never so short that time stands still. */
+/* Longest step, s, for an input that a program sets and whose size matters from `least` on; never so short that time
+ * stands still. */
 static double hand_resolution(const ZpRamp *ramp, double least, double t) {
   static const double shortest = 1e-9; /* s */
   double largest = fmax(least, fabs(zp_ramp_value(ramp, t)));
   return fmax(zp_ramp_resolution(largest, zp_ramp_rate(ramp, t)), shortest);
 }
 
-/* Longest step for all that changes from outside, s. */
+/* Longest step for all that changes from outside the actuator, s. */
 static double resolution(ZpSim *sim) {
   static const double least_voltage = 1e3; /* V */
   const ZpModel *model = sim->model;
@@ -299,13 +300,13 @@ static double resolution(ZpSim *sim) {
   return fmin(voltage, hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(model), t));
 }
 
-/* What the materials see before a jump counts, as after it. */
+/* Jump to a voltage. Fields and stresses before a jump count, like those after it. */
 static void jump_to(ZpSim *sim, double voltage) {
   if (voltage != sim->state->U) zp_sim_see_one(sim);
   zp_sim_jump(sim, voltage);
 }
 
-/* The voltage at the time that a step has reached. By explicit steps it was that of the step's start all the way. */
+/* The voltage at the time that a step has reached. An explicit step has used the voltage of its start throughout. */
 static void follow_voltage(ZpSim *sim) {
   if (sim->dynamics.source) return;
   const ZpWaveform *waveform = &sim->model->waveform;
@@ -318,8 +319,8 @@ static void follow_voltage(ZpSim *sim) {
   jump_to(sim, zp_waveform_voltage(waveform, state->t));
 }
 
-/* Before anything moves: a jump of the voltage is over, and what is held is up to date. Without that there is no step:
- * a field that cannot be solved ends the run. */
+/* Before a motion: complete a jump of the voltage, and update what is held over several steps. If this fails there is
+ * no step: a field that cannot be solved ends the run. */
 static bool prepare_step(ZpSim *sim) {
   ZpState *state = sim->state;
   if (state->U != state->base_U) zp_sim_close_account(sim);
@@ -333,7 +334,8 @@ static double opening(const ZpModel *model, const ZpState *state) {
   return zp_opening(&model->topology, zp_state_motion(model, state).y);
 }
 
-/* At this opening an actuator is closed, m: at 1 % of the hanging one, or where faces touch if that is more. */
+/* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or where faces touch if that is
+ * more. */
 static double closed_opening(const ZpState *state) {
   return fmax(ZP_CLOSED_PART * state->opening0, ZP_CLOSED_GAP);
 }
@@ -346,7 +348,7 @@ static bool started_open(const ZpSim *sim) {
   return sim->step_start.opening > closed_opening(sim->state);
 }
 
-/* From open to closed. What starts closed, as straight ribbons do, has to open first. */
+/* Has it gone from open to closed? An actuator that starts closed, as straight ribbons do, has to open first. */
 static bool reached_zip(const ZpModel *model, const ZpState *state) {
   size_t margin = (size_t)model->def.contact.complete_margin;
   if (!state->was_open) return false;
@@ -354,15 +356,15 @@ static bool reached_zip(const ZpModel *model, const ZpState *state) {
   return state->opening0 > 0 && (state->zip.platform || !is_open(model, state));
 }
 
-/* Closed for good: with a margin or in a liquid, out of which it creeps for seconds, as soon as it is zipped, else when
- * the platform has arrived or turns back. */
+/* Is it closed for good? With a margin, or in a liquid, in which it then creeps for seconds, this is so as soon as it
+ * has zipped; otherwise when the platform has arrived or turns back. */
 static bool has_closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin || model->has_film) return true;
   return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
 }
 
-/* Of a series all have; of antagonists one does. */
+/* A series has closed when all its members have; antagonists have when one has. */
 static bool closed(const ZpSim *sim) {
   if (zp_is_opposed(sim->model))
     return has_closed(sim->model, sim->state) || has_closed(sim->below->model, sim->below->state);
@@ -388,8 +390,8 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
   return (ZpStepStart){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
 }
 
-/* When the actuator closes: on the parabola of the midpoint rule, which has the start's opening and rate and the end's
- * opening. */
+/* When the actuator closes: on the parabola of the midpoint rule, which has the opening and its rate at the start and
+ * the opening at the end. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
   double now = opening(model, state), left = start.opening - closed_opening(state), taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
@@ -400,7 +402,7 @@ double zp_sim_crossing(const ZpSim *sim) {
   return crossing(sim->model, sim->state, sim->step_start);
 }
 
-/* Has that been within the step that has just been taken? */
+/* Was that instant within the last step? */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
   return start.opening > closed_opening(state) && !is_open(model, state);
 }
@@ -415,8 +417,8 @@ static void note_closing(ZpSim *sim) {
   state->zip_time = within ? zp_sim_crossing(sim) : state->t;
 }
 
-/* Has a zip front outrun its bead? Its meniscus then is where the film is thinner than what stands for the insulators.
- * Ribbons that have been closed from the start have no front. */
+/* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the
+ * insulators. Ribbons that have been closed from the start have no front. */
 static void note_starving(ZpSim *sim, const ZpDynamics *dynamics) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
@@ -434,7 +436,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, 
   return limit != ZP_LIMIT_EVENT && sim->state->t >= end_time ? ZP_LIMIT_END : limit;
 }
 
-/* Of a series: before anything moves, all members. */
+/* Prepare all members of a series before a motion. */
 bool zp_sim_prepare(ZpSim *sim) {
   for (ZpSim *m = sim; m; m = m->below) {
     if (zp_is_pair(&m->model->topology)) m->step_start = start_of(m->model, m->state);
@@ -482,7 +484,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
 
 /* -- a run ---------------------------------------------------------------------------------------- */
 
-/* Fine enough for a fast zip and for a wave; the records thin themselves where a run is long. */
+/* Fine enough for a fast zip and for a wave; the records of a long run are thinned. */
 static double sampling_interval(const ZpModel *model) {
   static const double finest = 1e-4; /* s */
   double least = fmin(finest, zp_waveform_period(&model->waveform) / 40);
@@ -496,7 +498,7 @@ static void note_bounds(const ZpSim *sim, ZpRunInfo *info) {
   info->smallest_bound[2] = fmin(info->smallest_bound[2], bounds.shear);
 }
 
-/* Before a step that the end of the run may cut: from there on a longer run would take others. */
+/* Called before a step that the end of the run may cut short: a longer run would take other steps from there. */
 static void keep_before_cut(ZpSim *sim, double end_time) {
   static const double rounding = 1e-5;
   double longest = sim->stepping->longest(sim);
@@ -603,7 +605,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   }
 }
 
-/* What was asked for cannot be: nothing is done, and `info` says so. */
+/* The request is impossible: nothing is done, and `info` says why. */
 static ZpOutcome refuse(const ZpSim *sim, const char *name, double value, const char *need, ZpRunInfo *info) {
   if (!info) return ZP_BAD_ARGUMENT;
   *info = (ZpRunInfo){.outcome = ZP_BAD_ARGUMENT,
@@ -644,7 +646,7 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
 }
 
 ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info) {
-  static const double rounding = 1e-9; /* above that of the time reached: no sliver of a step is left at the end */
+  static const double rounding = 1e-9; /* above the rounding of time: the end leaves no tiny step */
   double longest = fmin(sim->model->stable_step, sim->model->def.solver.time_step); /* NAN, auto, does not count */
   double end = sim->state->t + dt;
   if (!(end > sim->state->t) || isinf(dt)) return refuse(sim, "dt", dt, "must be a finite time step above 0", info);
@@ -704,7 +706,7 @@ void zp_sim_save(const ZpSim *sim, void *bytes) {
   zp_snapshot_write(sim->model, sim->states, bytes);
 }
 
-/* How far the platforms that a link joins are apart, m. */
+/* Distance of the platforms that a link joins, m. */
 static double apart(const ZpSim *m) {
   const ZpModel *above = m->model, *below = m->below->model;
   const ZpTopology *t = &below->topology;
@@ -736,7 +738,7 @@ void zp_sim_take_states_back(ZpSim *sim) {
   while ((m = m->below));
 }
 
-/* => the states; where they do not fit they are as they were. */
+/* => the states; if they do not fit, they do not change. */
 static ZpStatus read_states(ZpSim *sim, const void *bytes, size_t size, ZpError *reason) {
   zp_sim_keep_states(sim);
   ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->states, reason);

@@ -20,7 +20,7 @@
  *
  * Of several actuators there is one after the other for each, from the uppermost on.
  *
- * A number that comes, goes or means something else raises the version. */
+ * A number that is added, removed or redefined raises the version. */
 #include "sim/snapshot.h"
 
 #include <math.h>
@@ -164,7 +164,7 @@ static void set_number(ZpState *state, size_t k, double value) {
     *(double *)(void *)place = value;
 }
 
-/* -- states near ----------------------------------------------------------------------------------- */
+/* -- states nearby --------------------------------------------------------------------------------- */
 
 /* Doubles behind the numbers. */
 static size_t data_of(const ZpModel *model) {
@@ -227,7 +227,7 @@ static uint32_t checksum(const unsigned char *byte, size_t size) {
 
 /* -- writing --------------------------------------------------------------------------------------- */
 
-/* Where bytes go; without a place they are only counted. */
+/* The target of bytes; without one they are only counted. */
 typedef struct Writer {
   unsigned char *byte;
   size_t used;
@@ -244,7 +244,7 @@ static void write_integer(Writer *writer, uint64_t value) {
   write_bytes(writer, byte, sizeof byte);
 }
 
-/* All that is not a number has the same bits. */
+/* Every NaN is written with the same bits. */
 static void write_real(Writer *writer, double value) {
   uint64_t bits;
   memcpy(&bits, &value, sizeof bits);
@@ -480,7 +480,7 @@ static ZpStatus check_keys(const Parts *parts, const ZpActuatorDef *def, ZpError
   return all ? ZP_OK : fail_version(&parts->program, "keys", err);
 }
 
-/* Numbers that would lead beyond arrays, or that no run has. */
+/* Numbers that would index beyond arrays, or that no run can have. */
 static bool is_sound(const Parts *parts, const ZpActuatorDef *def) {
   const unsigned char *item = parts->number.item;
   bool sound = real_at(item, TIME) >= 0 && isfinite(real_at(item, TIME)) && isfinite(real_at(item, VOLTAGE));
@@ -509,7 +509,7 @@ static ZpStatus take_fitting(const ZpActuatorDef *def, const void *bytes, size_t
 
 /* -- several ---------------------------------------------------------------------------------------- */
 
-/* Another snapshot follows on the first: as many bytes are its own; else all. */
+/* If another snapshot follows the first: the number of bytes of the first; else all. */
 static size_t first_of(const unsigned char *byte, size_t size) {
   if (size < HEADER || memcmp(byte, magic, MAGIC) != 0) return size;
   uint64_t whole = get(byte + SUMMED, 8);

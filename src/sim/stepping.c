@@ -1,4 +1,4 @@
-/* How a run moves on: by implicit steps, or by the paper's explicit ones. */
+/* How a run advances: by implicit steps, or by the paper's explicit ones. */
 #include "sim/sim_internal.h"
 
 static bool create_implicit(ZpSim *sim) {
@@ -7,7 +7,8 @@ static bool create_implicit(ZpSim *sim) {
   return zp_dynamics_create(sim->model, fed ? &sim->feed.source : NULL, &sim->dynamics);
 }
 
-/* Of the shortest, where rounding, a pulse or a steep rise has put the next corner, only time takes notice. */
+/* Take an implicit step. If rounding, a pulse or a steep rise has put the next corner closer than `shortest`, only time
+ * advances. */
 static bool step_implicit(ZpSim *sim, double latest, ZpStepLimit *limit) {
   static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
   ZpState *state = sim->state;

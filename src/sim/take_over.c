@@ -1,4 +1,4 @@
-/* One simulation continues where another was: a model whose values change while it runs. */
+/* Continue one simulation from the state of another: a model whose values change while it runs. */
 #include <math.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ static ZpStatus check_one(const ZpModel *model, const ZpModel *other, ZpError *e
   return ZP_OK;
 }
 
-/* Members that share a load fit to each other only at the lengths at which they were. */
+/* Members that share a load fit together only at the lengths that they had. */
 static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   const ZpModel *model = sim->model, *other = from->model;
   if (zp_members(model) != zp_members(other) || zp_is_opposed(model) != zp_is_opposed(other) ||
@@ -41,7 +41,7 @@ static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   return ZP_OK;
 }
 
-/* The state of one member, stretched to its length. */
+/* The state of one member, scaled to its length. */
 static void take_state(ZpSim *sim, const ZpSim *from) {
   const ZpModel *model = sim->model, *other = from->model;
   ZpState *state = sim->state;
