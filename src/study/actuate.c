@@ -1,5 +1,4 @@
-/* Study `actuate`: the voltage goes on at t = 0, or as its waveform says; how the actuator moves, and when it has
- * zipped. */
+/* Study `actuate`: the motion after the voltage is switched on at t = 0, or under its waveform, and the zip time. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +13,7 @@
 #include "study/sense.h"
 #include "study/studies.h"
 
-/* A signal at the end of the run; none where the run ended in numbers that mean nothing. */
+/* A signal at the end of the run; NAN if the run ended with invalid numbers. */
 static double at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
   bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
   return sound ? zp_sim_get(sim, signal) : NAN;
@@ -28,7 +27,7 @@ static double largest(ZpSim *sim, const ZpResult *result, const char *signal, co
   return most;
 }
 
-/* Largest imbalance over the most that the source had given: the measure of how well energy balances. */
+/* Largest imbalance over the largest work of the source: how well energy balances. */
 static double energy_error(ZpSim *sim, const ZpResult *result) {
   if (isnan(at_end(sim, result, "energy_imbalance"))) return NAN;
   double work = largest(sim, result, "electric_work", "electric_work_J");
@@ -54,8 +53,7 @@ static void summarize_actuator(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
-/* Work on what was caught, from there to the end, and on what was dropped, until then, J; to be added to that on
- * load.mass. */
+/* Work on a caught mass from then to the end, or on a dropped mass until then, J; to be added to that on load.mass. */
 static double work_on_change(ZpSim *sim, const ZpModel *model) {
   const ZpState *state = sim->state;
   ZpMotion motion = zp_state_motion(model, state);
@@ -64,7 +62,8 @@ static double work_on_change(ZpSim *sim, const ZpModel *model) {
   return -model->parts * zp_state_hung(model, state) * (model->fall[0] * along + model->fall[1] * up);
 }
 
-/* Of a load that does not only rise: of a fold, whose spring is no load, and of a platform that turns. */
+/* Work on a load that does not only rise: that of a fold, whose spring is not part of the load, and that of a platform
+ * that turns, J. */
 static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   const ZpActuatorDef *def = &model->def;
   ZpMotion motion = zp_state_motion(model, sim->state);
@@ -75,7 +74,7 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
   return model->parts * zp_load_share(model) * work + work_on_change(sim, model) - at_end(sim, result, "load_work");
 }
 
-/* Work against pull and springs of the load and, with a minus, of the load input, from start to end, J. */
+/* Work against pull and springs of the load, less that of the load input, from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
   double pull = 0,
@@ -85,7 +84,7 @@ static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *res
   return pull * risen + compressed + work_on_change(sim, zp_lowest(model)) - at_end(sim, result, "load_work");
 }
 
-/* What the source gave, and what came of it. */
+/* The energy that the source delivered, and what became of it. */
 static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
   ZpCurrents currents = zp_sim_currents(sim, info->simulated_time);
   double energy = at_end(sim, result, "source_energy");
@@ -189,7 +188,7 @@ static void summarize_liquid(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "outer_drag_loss_J", "J", at_end(sim, result, "outer_drag_loss"));
 }
 
-/* What has leaked, and the charge that is left. */
+/* The energy lost by leakage, and the remaining charge. */
 static void summarize_leak(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "leak_loss_J", "J", at_end(sim, result, "leak_loss"));
   zp_result_add(result, "leak_current_A", "A", at_end(sim, result, "leak_current"));
@@ -254,7 +253,7 @@ static bool ends_when_zipped(const ZpModel *model) {
   return constant && def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
 }
 
-/* A run that continues after it has zipped does not end for that. */
+/* A run that resumes after it has zipped does not end because of that. */
 static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
                          ZpResult *result, ZpError *err) {
   zp_sim_record(sim, result->series, result->shapes);
@@ -283,7 +282,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 
-/* With a meter: its readings, of a run from the start. */
+/* With a meter: its readings, if the run began at t = 0. */
 static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
   ZpTable *trace = zp_sense_trace();
   if (!trace) return zp_fail_memory(err);

@@ -8,11 +8,11 @@
 
 #include "electro/plates.h"
 
-/* Permittivities that the authors' programs hold, of liquid and tape: in the finite-element model, in the plates law,
- * and of the tape in the expression for the finite-element force. */
+/* Permittivities in the authors' programs, of liquid and tape: in the finite-element model, in the plates law, and of
+ * the tape in the expression for the finite-element force. */
 static const double fe_liquid = 2.7, fe_tape = 4.6, law_liquid = 2.75, law_tape = 4.62, expression_tape = 4.65;
 
-/* Share of the voltage that their law takes. */
+/* Share of the voltage in their law. */
 static const double share = 0.5;
 
 /* E_t^2 at xi of element column c, mean of both ribbons. */

@@ -1,4 +1,5 @@
-/* Study `calibrate` as far as it needs no file: what it asks of a Def. The fit itself is src/fit/calibrate.c. */
+/* The part of study `calibrate` that needs no file: what it requires of a Def. The fit itself is
+ * src/fit/calibrate.c. */
 #include "base/fail.h"
 #include "study/studies.h"
 

@@ -1,4 +1,5 @@
-/* Study `cycle`: a periodic drive until the motion is periodic, and what one cycle then is. docs/theory.md, section 24.
+/* Study `cycle`: a periodic drive until the motion is periodic, and the results of one cycle. docs/theory.md, section
+ * 24.
  *
  * The motion from one start of a cycle to the next is a map of the state; a periodic motion is a fixed point of it. */
 #include <math.h>
@@ -15,8 +16,8 @@
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
-enum { PHASES = 100, HISTORY = 5 }; /* rows of a cycle; starts of cycles that are remembered */
-enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the edges, and charge that stays */
+enum { PHASES = 100, HISTORY = 5 }; /* rows of a cycle; number of starts that are stored */
+enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the edges, and remaining charge */
 
 /* What is compared between two starts of cycles. */
 typedef struct Mark {
@@ -40,7 +41,7 @@ typedef struct Cycles {
   double *start, *end, *next; /* [4 stride] positions and velocities of a cycle's start and end, and of the next start,
                                  in units of far and fast */
   int done;                   /* cycles so far */
-  int repeats;                /* cycles in which the motion repeats itself; 0: in none that was seen */
+  int repeats;                /* cycles in which the motion repeats itself; 0: it has not repeated itself */
   int alike;                  /* how often in a row that was so */
   ZpRunInfo info;             /* of the last piece */
   int64_t steps;
@@ -86,7 +87,7 @@ static void take_mark(Cycles *c) {
   c->mark[0] = oldest;
 }
 
-/* How far apart the newest start is from the one `back` cycles before. */
+/* Distance of the newest start from the one `back` cycles before. */
 static double distance(const Cycles *c, int back) {
   const double *a = c->mark[0].q, *b = c->mark[back].q;
   double most = 0;
@@ -98,14 +99,14 @@ static double distance(const Cycles *c, int back) {
   return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
 }
 
-/* What is still to go, eq. (24.1): the sum of all further moves, if each is as many times smaller as the last one. */
+/* Sum of all further changes, eq. (24.1), if each is smaller than the previous one by the same factor. */
 static double still_to_go(const Cycles *c) {
   static const double slowest = 1 - 1e-4;
   double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0;
   return c->moved[0] / (1 - fmin(share, slowest));
 }
 
-/* In how many cycles the motion repeats itself; 0: not yet in so few. */
+/* Number of cycles in which the motion repeats itself; 0: it does not yet. */
 static int repeats_in(Cycles *c) {
   double tolerance = c->model->def.cycle.tolerance;
   c->moved[1] = c->moved[0];
@@ -144,8 +145,8 @@ static void write_state(Cycles *c, const double *x) {
   zp_sim_start_row(c->sim);
 }
 
-/* An actuator that stays open moves smoothly from start to start, with little damping of its swing: what thousands of
- * cycles would lead to is foreseen from a few. */
+/* An actuator that stays open moves smoothly from start to start, with little damping of its swing. So a few cycles
+ * predict what thousands would lead to. */
 static bool stays_open(const Cycles *c) {
   double least = INFINITY;
   for (size_t k = 0; k < c->rows->rows; k++)
@@ -153,10 +154,10 @@ static bool stays_open(const Cycles *c) {
   return least > 0.1 * c->sim->state->opening0;
 }
 
-/* Is the motion periodic, as the distance from the cycle's start to the foreseen fixed point says? Else the next cycle
- * starts there. */
+/* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
+ * next cycle starts at that point. */
 static int shoot(Cycles *c) {
-  static const double farthest = 0.5; /* hanging openings: what is foreseen beyond is none of this map */
+  static const double farthest = 0.5; /* hanging openings; no prediction is made beyond */
   size_t n = 4 * c->model->stride;
   double ahead = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
@@ -167,8 +168,8 @@ static int shoot(Cycles *c) {
   return 0;
 }
 
-/* In how many cycles the motion repeats itself, waiting or shooting: that starts from positions and velocities alone,
- * which is all only without liquid, charge that stays and ribbons that yield. */
+/* Number of cycles in which the motion repeats itself, by waiting or by shooting. Shooting starts from positions and
+ * velocities alone. They are the whole state only without liquid, remaining charge and yielding ribbons. */
 static int look(Cycles *c) {
   read_state(c, c->end);
   const ZpModel *model = c->model;
@@ -179,8 +180,8 @@ static int look(Cycles *c) {
   return repeats;
 }
 
-/* Where starts of cycles come no nearer to each other in a quarter of the cycles than half of what they did in the one
- * before, the cycles that are left lead nowhere. */
+/* If, in a quarter of the cycles, the least distance of starts is more than half of that in the quarter before, the
+ * remaining cycles lead nowhere. */
 static bool leads_nowhere(Cycles *c) {
   enum { FEWEST = 6 };
   int quarter = (c->model->def.cycle.most_cycles + 3) / 4;
@@ -210,7 +211,7 @@ static bool settle(Cycles *c) {
   return true;
 }
 
-/* -- what a cycle is -------------------------------------------------------------------------------- */
+/* -- the results of a cycle ------------------------------------------------------------------------ */
 
 static double at(const Cycles *c, int row, const char *column) {
   return zp_table_get(c->rows, (size_t)row, column);
@@ -263,8 +264,8 @@ static double angle_of(double cosine, double sine) {
   return copysign(2 * low, sine);
 }
 
-/* By how much closing lags behind the squared command, rad, -pi / 2 to 3 pi / 2: of the harmonic that is larger in
- * that. */
+/* Lag of closing behind the squared command, rad, -pi / 2 to 3 pi / 2: of the harmonic that is larger in the
+ * command. */
 static double phase_of(const Cycles *c) {
   Harmonic first = harmonic(c, "command_V", true, 1), second = harmonic(c, "command_V", true, 2);
   int n = size_of(second) > size_of(first) ? 2 : 1;
@@ -277,7 +278,7 @@ static double phase_of(const Cycles *c) {
   return phase < -0.5 * zp_pi ? phase + 2 * zp_pi : phase; /* a lag above its resonance is near pi */
 }
 
-/* Energy that the source gives in a cycle, and takes back, J. */
+/* Energy that the source delivers in a cycle, and that it takes back, J. */
 static void energies_of(const Cycles *c, double *given, double *taken) {
   *given = *taken = 0;
   for (int k = 0; k < PHASES; k++) {
@@ -287,7 +288,7 @@ static void energies_of(const Cycles *c, double *given, double *taken) {
   }
 }
 
-/* Work against pull and springs of the load on the way up, J: on the way down it comes back. */
+/* Work against pull and springs of the load on the way up, J; on the way down it is returned. */
 static double work_of(const Cycles *c) {
   double work = 0;
   for (int k = 0; k < PHASES; k++) {
@@ -413,7 +414,7 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
 
 /* -- the largest frequency at which it closes ------------------------------------------------------- */
 
-/* How a cycle at a frequency ends: does the actuator close fully? `outcome` is that of the run. */
+/* How does a cycle at a frequency end: does the actuator close fully? `outcome` is that of the run. */
 typedef struct Tried {
   ZpOutcome outcome;
   bool closes;
@@ -442,7 +443,7 @@ static bool is_near(Between between) {
   return between.high < near * between.low;
 }
 
-/* From the frequency of the Def upwards by octaves, or downwards where it does not close there; then by halving =>
+/* Search upwards by octaves from the frequency of the Def, or downwards if it does not close there; then bisect =>
  * closing_frequency_Hz. */
 static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpError *err) {
   enum { MOST = 24 };

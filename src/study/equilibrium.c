@@ -1,5 +1,5 @@
-/* Study `equilibrium`: all states of rest between no voltage and drive.voltage: the branch that hangs, the one
- * that is closed, what connects them, and the voltages at which one jumps to the other.
+/* Study `equilibrium`: all equilibria between no voltage and drive.voltage: the hanging branch, the closed branch, the
+ * branches that connect them, and the voltages at which the state jumps from one to the other.
  *
  * Both branches are followed for the table. The voltages are those of study limits: of a slowly rising and a slowly
  * falling voltage, rest/slow.h. Theory, section 10. */
@@ -28,7 +28,7 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000 };
 
-/* Hanging: the faces that close last are within this part of where they hang without voltage. */
+/* A state hangs if the distance of the faces that close last is within this share of the one without voltage. */
 static const double hanging_part = 0.01;
 
 typedef struct Follower {
@@ -41,12 +41,12 @@ typedef struct Follower {
   int points;
   double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
   void *start;    /* of the branch under way */
-  void *hung;     /* the state that hangs without voltage */
+  void *hung;     /* the hanging state without voltage */
   double hanging; /* distance of the faces that close last, without voltage, m */
   ZpMargins margins;
-  bool ran_back; /* the branch that hangs turned back into itself */
-  int turns;     /* limit points on the branch under way */
-  double left;   /* voltage at which a branch was left beyond a limit point, V; NAN: none was */
+  bool ran_back; /* the hanging branch turned back into itself */
+  int turns;     /* limit points on the present branch */
+  double left;   /* voltage at which a branch was not followed further beyond a limit point, V; NAN: none */
   ZpOutcome outcome;
 } Follower;
 
@@ -108,7 +108,7 @@ static bool arrive(Follower *f) {
 
 /* -- branches ------------------------------------------------------------------------------------- */
 
-/* Without voltage there is the hanging state only: has the branch come back to it? */
+/* Without voltage there is only the hanging state: has the branch returned to it? */
 static bool is_hanging(Follower *f) {
   return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < hanging_part;
 }
@@ -140,7 +140,7 @@ static bool follow(Follower *f, bool growing, int mark) {
   return false;
 }
 
-/* Beyond its first limit point a branch may be left: the voltages do not depend on what is there. */
+/* Beyond its first limit point a branch need not be followed: the voltages do not depend on what is there. */
 static void follow_whole(Follower *f, bool growing, int mark) {
   f->turns = 0;
   if (follow(f, growing, mark)) return;
@@ -169,8 +169,8 @@ static void none(Follower *f, const char *reason) {
   zp_limit_none(&f->release, reason);
 }
 
-/* The limit voltages, from the hanging state. True: a closed state at drive.voltage has been found, and the release was
- * looked for from there. */
+/* The limit voltages, from the hanging state. True: there is a closed state at drive.voltage, and the release was
+ * searched from it. */
 static bool find_voltages(Follower *f) {
   double top = f->model->def.drive.voltage;
   none(f, "without a voltage there is none");
@@ -188,7 +188,7 @@ static bool find_voltages(Follower *f) {
   return !f->rest.statics.stopped;
 }
 
-/* Both branches; where hanging and closed are connected, the first holds all. */
+/* Both branches; if the hanging and the closed state are connected, the first one contains all. */
 static void find(Follower *f) {
   none(f, "it does not hang");
   if (!hang(f)) {

@@ -1,5 +1,5 @@
-/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0 the mesh that was asked
- * for; 1, 2, 3, 4 coarser ones. */
+/* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0 the requested mesh; 1,
+ * 2, 3, 4 coarser ones. */
 #include "study/estimate.h"
 
 #include <math.h>
@@ -39,28 +39,28 @@ static bool is_estimated(ZpStudy study) {
   return false;
 }
 
-/* The paper's chain has coefficients for one mesh each, and a run that resumes has the mesh of its checkpoint. */
+/* The paper's chain has coefficients for single meshes, and a resumed run has the mesh of its checkpoint. */
 static bool has_coarser(const ZpActuatorDef *def, bool moves) {
   if (def->ribbon.model != ZP_RIBBON_ROD) return false;
   return !moves || (def->solver.integrator == ZP_INTEGRATOR_IMPLICIT && def->initial.state != ZP_INITIAL_CHECKPOINT);
 }
 
-/* Three fifths and two fifths of the elements: together as dear as the study itself, near enough to it that the order
- * matters little, and so far from each other that the front is elsewhere among their nodes. Ripples that four meshes
- * must show need four fifths and seven tenths, too. */
+/* Three fifths and two fifths of the elements. Together they cost as much as the study itself. They are so near to it
+ * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
+ * that four meshes must show also need four fifths and seven tenths. */
 static int elements_of(int mesh, int elements) {
   static const int tenths[MESHES] = {10, 6, 4, 8, 7};
   return (tenths[mesh] * elements + 5) / 10;
 }
 
-/* In motion, steps are longer by as much as the elements. Only numbers of the summary are asked for. */
+/* In motion, steps lengthen by the same factor as elements. Only numbers of the summary are requested. */
 static ZpActuatorDef coarser(ZpActuatorDef def, int elements, bool moves) {
   double longer = (def.mesh.nodes - 1) / (double)elements;
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
-  if (moves) def.solver.tolerance *= longer * longer; /* it goes with the square of the steps, eq. (18.12) */
+  if (moves) def.solver.tolerance *= longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
   if (moves) def.solver.time_step *= longer;          /* NAN, auto, stays */
   return def;
 }
@@ -88,8 +88,8 @@ static double square(double x) {
   return x * x;
 }
 
-/* Eq. (21.1): f_0 less the converged number, if errors go with the power -order, a multiple of a half, of the number of
- * elements. NAN where the mesh has no such number. */
+/* Eq. (21.1): f_0 less the converged number, if errors are proportional to the power -order, a multiple of a half, of
+ * the number of elements. NAN if the mesh has no such number. */
 static double richardson(const Findings *findings, int k, int mesh, double order) {
   const double *f = findings->f[k], *n = findings->elements;
   double ratio = n[0] / n[mesh], growth = 1;
@@ -100,7 +100,7 @@ static double richardson(const Findings *findings, int k, int mesh, double order
   return (f[mesh] - f[0]) / (growth - 1);
 }
 
-/* The largest of what the coarser meshes 1 to `meshes` give; any may have none. */
+/* The largest value from the coarser meshes 1 to `meshes`; any of them may have none. */
 static double largest(const Findings *findings, int k, int meshes, double order) {
   double most = NAN;
   for (int mesh = 1; mesh <= meshes; mesh++)
@@ -112,7 +112,7 @@ static double larger(const Findings *findings, int k, double order) {
   return largest(findings, k, 2, order);
 }
 
-/* Eq. (21.2): what is left of both orders, two and four, or of the lower one alone. */
+/* Eq. (21.2): the errors of both orders, two and four, or of the lower one alone. */
 static double of_powers(const Findings *findings, int k) {
   double near = richardson(findings, k, 1, 2), far = richardson(findings, k, 2, 2);
   double to_near = square(findings->elements[0] / findings->elements[1]);
@@ -132,7 +132,8 @@ static bool shows_order(const Findings *findings, int k, int near, double order)
   return fabs(richardson(findings, k, 2, order)) >= fabs(richardson(findings, k, near, order));
 }
 
-/* Eq. (21.3). Where meshes on one side show a lower order than the ripple's, it is small beside what has order two. */
+/* Eq. (21.3). If meshes on one side show a lower order than the ripple's, the ripple is small compared with the error
+ * of order two. */
 static double of_ripple(const Findings *findings, int k) {
   const Estimated *e = &estimated[k];
   int nearest = e->meshes > 2 ? 3 : 1;
@@ -140,8 +141,8 @@ static double of_ripple(const Findings *findings, int k) {
   return largest(findings, k, e->meshes, small ? 2 : e->order);
 }
 
-/* Eq. (21.4). Meshes that follow one another show an order, of which the nearer one takes no more than is left on finer
- * meshes. An order above five is one by chance: two meshes agree. */
+/* Eq. (21.4). Meshes that follow an order give it. The estimate uses the nearer mesh with a lower order, the one that
+ * remains on finer meshes. An order above five is a coincidence: two meshes happen to agree. */
 static double of_either(const Findings *findings, int k, double order) {
   static const double unordered = 1.25;
   bool follow = on_one_side(findings, k, 2) && shows_order(findings, k, 1, 2) && !shows_order(findings, k, 1, 5);
@@ -170,7 +171,7 @@ static void forget_all(Findings *findings) {
   }
 }
 
-/* Where elements are longer than what bends, no mesh of longer ones shows by how much this one is wrong. */
+/* If elements are longer than the bend, no mesh with longer ones shows the error of this mesh. */
 static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
   if (result->resolution >= 1) return true;
   double enough = 1 + ceil((def->mesh.nodes - 1) / result->resolution);
@@ -182,8 +183,7 @@ static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
   return false;
 }
 
-/* How many coarser meshes the numbers that were found need. What an actuator does not do, coarser ones need not show.
- */
+/* The number of coarser meshes that the numbers found need. A number that the study does not find needs none. */
 static int meshes_of(const Findings *findings) {
   int most = 0;
   for (int k = 0; k < COUNT; k++)

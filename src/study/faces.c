@@ -1,7 +1,8 @@
 #include "study/faces.h"
 
-/* Where station k of an odd number lies between clip and platform, 0 .. 1. Those of even k are twice as close at the
- * clip as in the middle, for there is the force of a wide wedge; the others lie midway, as Simpson's rule wants it. */
+/* Place of station k of an odd number between clip and platform, 0 .. 1. Stations of even k are twice as close at the
+ * clip as in the middle, because the force of a wide wedge is there. The others are midway, as Simpson's rule
+ * requires. */
 static double place(const ZpStations *s, size_t k) {
   if (k % 2) return 0.5 * (place(s, k - 1) + place(s, k + 1));
   double even = (double)k / (double)(s->count - 1);
@@ -24,8 +25,8 @@ typedef struct Line {
   const double *at; /* [2 nodes] every other one */
 } Line;
 
-/* Where the ribbon is at node i. Beside a level end the parabola of eq. (8.10) says where the node there would be if it
- * were not held: a fifth of the step to its neighbour further back. */
+/* The place of the ribbon at node i. Beside a level end the parabola of eq. (8.10) gives the place that a node would
+ * have if it were not held: a fifth of the step to its neighbour further back. */
 static double on_ribbon(const Line *line, size_t i) {
   static const double back = 0.2;
   const double *at = line->at + 2 * i;
@@ -37,7 +38,7 @@ static double on_ribbon(const Line *line, size_t i) {
   return here + (left - 2 * here + right) / 12;
 }
 
-/* Slope by node number at node i; at ends that are not flat, of the parabola through three. */
+/* Slope by node number at node i; at ends that are not flat, that of the parabola through three nodes. */
 static double slope(const Line *line, size_t i) {
   size_t last = line->nodes - 1;
   if (i > 0 && i < last) return 0.5 * (on_ribbon(line, i + 1) - on_ribbon(line, i - 1));

@@ -24,7 +24,7 @@ static void add_none(ZpResult *result, double held) {
   zp_result_add(result, "held_voltage_V", "V", NAN);
 }
 
-/* The one of a loop that decays least, in words. */
+/* The eigenvalue of a loop that decays least, in words. */
 static const char *in_words(const ZpGrowth *worst, char *text, size_t size) {
   const char *does = worst->rate > 0 ? "grow" : "decay";
   if (worst->frequency > 0)
@@ -54,7 +54,7 @@ static void report(const ZpRest *rest, const ZpGrowth *open, const ZpGrowth *clo
                  in_words(closed, looped, sizeof looped), held ? "held" : "not held");
 }
 
-/* On the side where the actuator should close further the boost acts as proportional gain. */
+/* If the actuator should close further, the boost acts as proportional gain. */
 static double gain(const ZpControl *c, double setpoint, bool closing) {
   return c->proportional + (closing && c->boost > 0 ? c->boost / (c->band * fabs(setpoint)) : 0);
 }
@@ -68,7 +68,7 @@ static void note_unknown(const ZpControl *c, ZpResult *result) {
       c->period);
 }
 
-/* Of a loop with a boost what decays less of both sides. */
+/* For a loop with a boost, the eigenvalue of the side that decays less. */
 static bool look(const ZpRest *rest, const ZpSetpointSignal *signal, double setpoint, ZpResult *result) {
   const ZpControl *c = &rest->statics.model->control;
   ZpPlant plant;

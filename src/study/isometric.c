@@ -1,11 +1,11 @@
 /* Study `isometric`: the platform is held at isometric.separation and the voltage raised from 0 to drive.voltage; the
- * ribbons zip until at rest. What force does it take to hold the platform?
+ * ribbons zip to an equilibrium. Which force holds the platform?
  *
- * The state at a voltage is the first one there on the branch of equilibria that starts from the unpowered shape.
- * While that branch rises, this is the state that a slowly rising voltage leads to. Where it turns back (a limit
- * point), the state jumps; the branch is followed through the turn until it is stable and above the voltage of the
- * turn again: there the jump lands. Where the branch never comes there, the state is released at the turn and lands
- * where slow motion against a resistance ends. Theory, section 13. */
+ * The state at a voltage is the first one there on the branch of equilibria that starts from the unpowered shape. While
+ * that branch rises, this is the state to which a slowly rising voltage leads. Where it turns back (a limit point), the
+ * state jumps. The branch is followed through the turn until it is stable and above the voltage of the turn again:
+ * there the jump lands. If the branch never gets there, the state is released at the turn and lands where slow motion
+ * against a resistance ends. Theory, section 13. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
 
-/* Other states at drive.voltage are looked for where the branch comes back from up to this times it. */
+/* The branch is searched for other states at drive.voltage up to this multiple of it. */
 static const double look_beyond = 1.25;
 
 typedef struct Holder {
@@ -42,16 +42,16 @@ typedef struct Holder {
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
   void *unpowered_state;
-  double unpowered;        /* holds the platform without voltage, N, whole actuator */
+  double unpowered;        /* force that holds the platform without voltage, N, whole actuator */
   double unpowered_moment; /* of a fold: its moment about the hinge, N m */
-  double highest;          /* voltage that the branch has come to, V */
+  double highest;          /* voltage that the branch has reached, V */
   double force;            /* at the last state that was passed, N */
   double leap;             /* the largest change of force in a jump, N */
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
   ZpMargins margins;
-  const char *fault; /* why the state found cannot be; NULL: nothing speaks against it */
+  const char *fault; /* why the state found is impossible; NULL: no reason is known */
   ZpOutcome outcome;
 } Holder;
 
@@ -62,24 +62,24 @@ static void carve(void *user, ZpCarver *carver) {
     *point[k] = zp_carve(carver, zp_rest_save_size(&h->rest));
 }
 
-/* What holds the platform, whole actuator, N. */
+/* The force that holds the platform, whole actuator, N. */
 static double holding(Holder *h) {
   return h->model->parts * zp_statics_holding(&h->rest.statics, &h->rest.branch.newton);
 }
 
-/* The force under voltage, whole actuator, N; as exact as states to be compared need it. */
+/* The force under voltage, whole actuator, N; exact enough for comparisons of states. */
 static double force(const Holder *h) {
   return h->model->parts * h->rest.statics.reaction - h->unpowered;
 }
 
-/* How far to the right of the hinge the held end of a fold is, m. */
+/* Distance of the held end of a fold to the right of the hinge, m. */
 static double lever(ZpStatics *s, void *user) {
   const ZpTopology *t = &s->model->topology;
   (void)user;
   return s->q[zp_load_node(t)] - s->q[zp_lower(t, 0)];
 }
 
-/* Moment about the hinge of what holds that end, N m. */
+/* Moment of the force on that end about the hinge, N m. */
 static double moment(Holder *h) {
   return holding(h) * lever(&h->rest.statics, NULL);
 }
@@ -113,7 +113,7 @@ static bool asked_to_stop(void *holder) {
   return zp_task_stops(h->task, "raising the voltage", fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage);
 }
 
-/* Can the present state be? Its force is at most the attraction of closed faces. */
+/* Is the present state possible? Its force is at most the attraction of closed faces. */
 static bool is_possible(Holder *h) {
   const ZpPlatesParams *plates = &h->rest.statics.model->plates;
   double most = zp_plates_law(plates, h->rest.statics.U, 0).W * zp_faces_length(h->model);
@@ -122,7 +122,7 @@ static bool is_possible(Holder *h) {
   return !h->fault;
 }
 
-/* The present point is one that a rising voltage leads to: has it jumped there? */
+/* A rising voltage leads to the present point: has it jumped there? */
 static void pass(Holder *h, bool jumped) {
   double now = force(h);
   if (jumped) {
@@ -133,7 +133,7 @@ static void pass(Holder *h, bool jumped) {
   h->highest = h->rest.statics.U;
 }
 
-/* After a step of the branch: where has it come to? */
+/* Where is the branch after a step? */
 static void look_at(Holder *h, double direction, bool *turned) {
   if (direction > 0 && h->rest.branch.direction_m < 0) {
     if (!*turned) memcpy(h->edge, h->before, h->rest.system.save_size);
@@ -148,7 +148,8 @@ static void look_at(Holder *h, double direction, bool *turned) {
 /* How following the branch ends. */
 typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
 
-/* Follow the branch until it has come to drive.voltage within its last step. What is left at its end is in `edge`. */
+/* Follow the branch until it has reached drive.voltage within its last step. If it turns back or is lost, `edge` is the
+ * state from which it is released. */
 static End follow(Holder *h) {
   double top = h->model->def.drive.voltage;
   ZpStatics *s = &h->rest.statics;
@@ -166,7 +167,7 @@ static End follow(Holder *h) {
     if (fmax(h->highest, s->U) > top) {
       h->rest.system.save(s, h->near);
       if (s->U < top)
-        memcpy(h->near, h->before, h->rest.system.save_size); /* come there and turned back within this step */
+        memcpy(h->near, h->before, h->rest.system.save_size); /* reached and turned back within this step */
       return ARRIVED;
     }
     record(h, s->U == h->highest, false);
@@ -175,8 +176,8 @@ static End follow(Holder *h) {
   return turned ? TURNED_FOR_GOOD : LOST;
 }
 
-/* Release at the last turn, or where the branch was lost, just above the voltage there. A fall that comes to no end, or
- * to a state that cannot be, is tried again from further above. */
+/* Release at the last turn, or where the branch was lost, just above the voltage there. A fall that does not converge,
+ * or that ends in an impossible state, is tried again from further above. */
 static bool fall(Holder *h, bool turned) {
   static const double above[] = {1e-3, 3e-3, 1e-2}, least = 1e-5; /* of that voltage, of drive.voltage */
   ZpStatics *s = &h->rest.statics;
@@ -210,7 +211,7 @@ static bool settle(Holder *h, ZpNewtonInfo *info) {
   return zp_newton_good(info->end) && is_stable(h) && is_possible(h);
 }
 
-/* Where that fails, limit points are near: the branch's last step again in shorter and shorter ones. */
+/* If that fails, limit points are near: repeat the branch's last step in shorter and shorter ones. */
 static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
   enum { LEVELS = 4, FINER = 8 };
   ZpStatics *s = &h->rest.statics;
@@ -226,7 +227,7 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
   return false;
 }
 
-/* Where that fails, too, a limit point is just below: what is left there, at rest again at drive.voltage. */
+/* If that fails too, a limit point is just below: the state falls from there to an equilibrium at drive.voltage. */
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
   h->rest.system.restore(&h->rest.statics, h->before);
   *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage, &h->rest.branch.newton);
@@ -341,7 +342,7 @@ static double capacitance(ZpStatics *s, void *user) {
   return zp_statics_capacitance(s);
 }
 
-/* Of the moment of a fold at the present point, along the last solution. */
+/* Derivative of the moment of a fold at the present point, along the last solution. */
 static double moment_slope(Holder *h, ZpSlope *slope, ZpPose pose) {
   ZpStatics *s = &h->rest.statics;
   if (!zp_is_hinge(&h->model->topology)) return NAN;
@@ -402,7 +403,7 @@ static void run(Holder *h) {
 }
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
-  static const double most = 0.98; /* of the length of both halves: beyond, ribbons are pulled more than bent */
+  static const double most = 0.98; /* of the length of both halves: beyond it, ribbons are stretched more than bent */
   bool hinge = def->actuator.kind == ZP_KIND_HINGE;
   if (!zp_def_has_two(def))
     return zp_fail(err, ZP_BAD_INPUT,
@@ -426,7 +427,7 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
-/* What hangs there does not count: the load is taken off before anything is scaled by it. */
+/* The load does not count: it is removed before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = *task->def;
   bare.load.mass = bare.load.force = bare.load.stiffness = 0;

@@ -1,5 +1,5 @@
-/* Study `limits`: pull-in, closing, release and the largest load, each solved as the limit point or event that it is,
- * without following the curve, by rest/slow.h. Theory, section 10. */
+/* Study `limits`: pull-in, closing, release and the largest load. Each is solved as the limit point or event that it
+ * is, without following the curve, by rest/slow.h. Theory, section 10. */
 #include "study/limits.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ typedef struct Finder {
   ZpSlow slow;
   ZpLimits *limits;
   const ZpLimits *near; /* of a neighbour; NULL: none */
-  void *top;            /* the state at drive.voltage under the own load, where it hangs there */
+  void *top;            /* the hanging state at drive.voltage under its own load, if it hangs there */
   bool arrived;         /* that state is known */
   ZpMargins margins;
   ZpLimitList list; /* of what is differentiated */
@@ -59,7 +59,7 @@ static bool asked_to_stop(void *finder) {
 
 /* -- from a neighbour ------------------------------------------------------------------------------- */
 
-/* A state of the neighbour, of the size of this actuator, under its own load. */
+/* A state of the neighbour, scaled to this actuator, under its own load. */
 static void take(Finder *f, const double *state) {
   ZpStatics *s = &f->rest.statics;
   double own = s->load, ratio = f->model->L / f->near->L;
@@ -69,8 +69,8 @@ static void take(Finder *f, const double *state) {
   zp_statics_stable(s, &f->rest.branch.newton);
 }
 
-/* Solve for a limit from where the neighbour has it. True if that is the limit: what is across its null vector is
- * stable, it is closed if the neighbour's is, and it is not far away. */
+/* Solve for a limit, starting from the neighbour's. True if this is the limit: it is stable except along its null
+ * vector, it is closed if the neighbour's is, and it is not far away. */
 static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   static const double farthest = 0.3;
   if (!f->near) return false;
@@ -137,8 +137,8 @@ static ZpSlowEnd raise_voltage(Finder *f) {
   return end;
 }
 
-/* The closed state at drive.voltage, from the neighbour's, from that which the voltage has led to, or from the straight
- * shape. False if there is none. */
+/* The closed state at drive.voltage, from the neighbour's, from the state to which the voltage has led, or from the
+ * straight shape. False if there is none. */
 static bool find_closed(Finder *f) {
   ZpLimits *limits = f->limits;
   if (f->near && f->near->closes) take(f, f->near->closed);
@@ -279,7 +279,7 @@ static ZpLimits *create(const Finder *f) {
 
 /* -- the study ------------------------------------------------------------------------------------- */
 
-/* Go to a state => what the materials see there, which counts. */
+/* Go to a state => the fields and stresses there, which count. */
 static ZpMargins look(Finder *f, const double *state) {
   zp_slow_go_to(&f->slow, state);
   ZpShape shape = zp_statics_shape(&f->rest.statics, 0, &f->rest.shape_room);
@@ -288,7 +288,7 @@ static ZpMargins look(Finder *f, const double *state) {
   return margins;
 }
 
-/* The states between which a voltage that rises slowly to drive.voltage leads, and the field that it brings. */
+/* The states between which a voltage that rises slowly to drive.voltage leads, and their fields. */
 static void look_at_ends(Finder *f) {
   if (f->limits->hangs) look(f, f->limits->start);
   if (f->limits->closes) look(f, f->limits->closed);
@@ -359,7 +359,7 @@ static double slope_of_opening(Finder *f, ZpSlope *slope, const double *state, Z
   return zp_slope_of(slope, pose, zp_output_opening, NULL);
 }
 
-/* Those of travel_m and mass_kg, of which the latter follows from the definition alone. `user` is a Finder. */
+/* Derivatives of travel_m and mass_kg; the latter follow from the definition alone. `user` is a Finder. */
 static void derive_all(void *user, ZpSlope *slope, ZpResult *result) {
   Finder *f = user;
   double mass = 0, travel = NAN;
@@ -403,7 +403,7 @@ static void run(Finder *f, ZpResult *r) {
   if (hangs) zp_note_start(r, f->model, f->limits->hanging);
 }
 
-/* A neighbour of another mesh or kind is none. */
+/* A case with another mesh or kind does not count as a neighbour. */
 static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
   const ZpLimits *near = task->input.neighbour ? task->input.neighbour->limits : NULL;
   return near && near->ribbons == model->s && near->nodes == model->nodes ? near : NULL;

@@ -26,7 +26,7 @@ enum { COLUMNS = sizeof columns / sizeof columns[0] };
 static const char *const names[ZP_MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
                                             "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
 
-/* -- of whatever vibrates --------------------------------------------------------------------------- */
+/* -- any vibrating system -------------------------------------------------------------------------- */
 
 const char *zp_modes_name(size_t j) {
   return names[j];
@@ -96,7 +96,8 @@ static void carve(void *user, ZpCarver *carver) {
   p->q = zp_carve(carver, 2 * p->rest.statics.model->stride);
 }
 
-/* Of a vector the error is the root of that of its frequency: what follows from it to first order takes more rounds. */
+/* The error of a vector is the square root of that of its frequency: results that depend on it to first order need more
+ * rounds. */
 static void refine(Problem *p) {
   enum { ROUNDS = 30 };
   for (int round = 0; round < ROUNDS; round++)
@@ -131,11 +132,11 @@ static void pose(const ZpActuatorDef *def, ZpStatics *s) {
 typedef struct Mode {
   ZpBand *K;
   double *work;    /* [n] */
-  const double *u; /* [n] of length 1 in the mass's measure */
+  const double *u; /* [n] of length 1 with respect to the masses */
   double omega2;
 } Mode;
 
-/* u' (K - omega^2 m) u of an actuator near: its derivative is that of omega^2. */
+/* u' (K - omega^2 m) u of a neighbouring actuator: its derivative is that of omega^2. */
 static double stiffness_of_mode(ZpStatics *s, void *user) {
   const Mode *mode = user;
   double sum = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);

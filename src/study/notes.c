@@ -50,7 +50,7 @@ void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *see
 
 /* -- the mesh -------------------------------------------------------------------------------------- */
 
-/* Length over which closed faces part by the range of their attraction, m, eq. (9.4). INFINITY where none zip. */
+/* Length over which closed faces separate by the range of their attraction, m, eq. (9.4). INFINITY if none zip. */
 static double front_length(const ZpModel *model, double voltage) {
   const ZpActuatorDef *def = &model->def;
   bool pair = zp_is_pair(&model->topology), zips = pair || (model->flat && def->electro.gap_offset == 0);

@@ -1,8 +1,8 @@
 /* Study `profile`: the electric force along the ribbons of one shape, by the plates law and by the field in the plane
  * of the ribbons. Theory, section 15.
  *
- * Both are taken at the same columns of the field's grid and integrated by the same rule (Simpson's): then their ratio
- * holds the two laws only, not two quadratures. */
+ * Both are taken at the same columns of the field's grid and integrated by the same rule (Simpson's), so their ratio
+ * compares the two laws and not two quadratures. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -35,17 +35,17 @@ static const ZpColumn columns[COLUMNS] = {
     {"capped", "1", "1: breakdown limits the force, 0: it does not"},
 };
 
-/* Stations along the flexible part: forces then lie within 1e-5 of those on twice as many for openings up to 17 mm,
- * within 2e-4 at 60 mm. */
+/* Stations along the flexible part. Forces then differ from those on twice as many by 1e-5 for openings up to 17 mm,
+ * and by 2e-4 at 60 mm. */
 enum { STATIONS = 121 };
 
 /* Gaps below this are none, m. */
 static const double rounding = 1e-15;
 
-/* The two ways to find the force from the field should not differ by more than this. */
+/* A larger difference between the two ways to compute the force from the field is reported. */
 static const double agreement = 5e-3;
 
-/* By how much the field may differ from the right plates law before that is said. */
+/* A larger difference of the field from the correct plates law is reported. */
 static const double valid = 0.02;
 
 typedef double Row[COLUMNS];
@@ -169,7 +169,7 @@ static double largest(const Profiler *p, int column) {
   return most;
 }
 
-/* The cap's kink wants finer steps than the field does: this many for two intervals. */
+/* The kink of the cap needs finer steps than the field: this many for two intervals. */
 enum { FINER = 64 };
 
 /* Gap at `part` (0 .. 1) of the parabola through three rows. */
@@ -186,8 +186,8 @@ static double capped_mean(const Profiler *p, const ZpPlatesParams *law, const Ro
   return sum / (3 * FINER);
 }
 
-/* Integral of FORCE over rows from .. to. Where some is capped: of the capped law in fine steps, and of what the model
- * differs by from the law, which is smooth. */
+/* Integral of FORCE over rows from .. to. Where a part is capped: the integral of the capped law in fine steps, plus
+ * that of the difference of the model from the law, which is smooth. */
 static double limited_force(const Profiler *p, size_t from, size_t to) {
   const ZpPlatesParams *law = &p->set;
   double sum = 0;
@@ -290,7 +290,7 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
   return ZP_OK;
 }
 
-/* What the materials see in the solved field. */
+/* The fields in the materials, from the solved field. */
 static void look(Profiler *p) {
   for (size_t k = 0; k < p->rows; k++)
     zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], p->row[k][LIQUID], NAN, NAN, NAN});
@@ -392,7 +392,7 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   return p->model->def.profile.paper_factor ? keep_the_papers_books(p, err) : ZP_OK;
 }
 
-/* A shape that the mechanics found and the grid cannot follow is no wrong input. */
+/* A shape that the mechanics found but that the grid cannot follow is not wrong input. */
 static ZpStatus end_badly(const Profiler *p, ZpOutcome outcome, const char *why) {
   p->result->outcome = outcome;
   snprintf(p->result->message, sizeof p->result->message, "%s at isometric.separation = %g m", why,
@@ -440,8 +440,8 @@ ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
                  "infinite at the clip");
 }
 
-/* As in study isometric, what hangs there does not count. The model is that of plates: the shape has no voltage, and
- * the field is solved here. */
+/* As in study isometric, the load does not count. The model is that of plates: the shape has no voltage, and the field
+ * is solved here. */
 ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = *task->def;
   bare.load.mass = bare.load.force = 0;

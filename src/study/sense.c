@@ -37,7 +37,7 @@ ZpTable *zp_sense_trace(void) {
 
 /* -- the trace ------------------------------------------------------------------------------------- */
 
-/* Of a table whose first column is the time: the value of column `column` at time t, straight between rows. */
+/* The value of column `column` at time t in a table whose first column is the time; linear between rows. */
 static double value_at(const ZpTable *table, double t, size_t column) {
   size_t low = 0, high = table->rows - 1, n = table->columns;
   while (high - low > 1) {
@@ -89,7 +89,7 @@ static bool read_all(Sensing *s) {
 
 /* -- the inverse ----------------------------------------------------------------------------------- */
 
-/* A piece of the path of rest that comes as near to a capacitance as any. */
+/* A part of the path of equilibria that comes as near to a capacitance as any. */
 typedef struct Near {
   double miss;   /* F */
   double stroke; /* m */
@@ -101,7 +101,8 @@ static Near nearest_on(double C, double C0, double C1, double stroke0, double st
   return (Near){fabs(C - C0 - share * (C1 - C0)), stroke0 + share * (stroke1 - stroke0)};
 }
 
-/* The stroke at rest with this capacitance; of several that of the branch that one is on, the nearest to `last`. */
+/* The stroke of the equilibrium with this capacitance; if there are several, that of the actuator's branch, the nearest
+ * to `last`. */
 static double stroke_of(const ZpTable *path, double C, double last) {
   static const double alike = 1e-17; /* F */
   Near best = {INFINITY, NAN};
@@ -123,7 +124,7 @@ static void invert(Sensing *s) {
   }
 }
 
-/* -- what came of it ------------------------------------------------------------------------------- */
+/* -- results -------------------------------------------------------------------------------------- */
 
 /* Root mean square of the error of the stroke in windows whose middle is in a time, m; NAN: there are none. */
 static double rms_error(const Sensing *s, double from, double to) {
@@ -187,7 +188,7 @@ static void fill_columns(const Sensing *s, ZpTable *series) {
   }
 }
 
-/* The states of rest up to the largest voltage of the run. */
+/* The equilibria up to the largest voltage of the run. */
 static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **path, ZpError *err) {
   ZpActuatorDef def = *task->def, fresh = zp_actuator_def_default();
   def.drive = fresh.drive;

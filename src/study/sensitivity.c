@@ -90,7 +90,7 @@ static void pose_voltage(const ZpActuatorDef *def, ZpStatics *s) {
   s->U = def->drive.voltage;
 }
 
-/* How the gap at which it counts as closed changes, from the state that hangs. */
+/* Derivative of the gap at which it counts as closed, from the hanging state. */
 static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope) {
   zp_slow_go_to(list->slow, list->hanging);
   double hanging = zp_closing_gap(list->slow->statics, NULL), rate, sum = 0;
@@ -113,7 +113,7 @@ static double derive_limit(const ZpLimitList *list, const ZpNamedLimit *item, do
   return item->is_load ? rate : rate / (2 * item->limit->value);
 }
 
-/* Has it been found that an output has a derivative missing? */
+/* Is it known that an output lacks a derivative? */
 static bool has_none(const ZpResult *result, const char *output) {
   for (size_t i = 0; i < result->sensitivities; i++)
     if (strcmp(result->sensitivity[i].output, output) == 0 && isnan(result->sensitivity[i].value)) return true;

@@ -1,5 +1,6 @@
-/* Studies at rest of actuators in series: under a dead load the force on each member is known, eq. (29.1), so that each
- * is at rest as it would be alone; what is asked of the series follows from its members. */
+/* Studies of equilibria of actuators in series. Under a dead load the force on each member is known, eq. (29.1). So
+ * each member is in equilibrium as it would be alone, and the results of the series follow from those of its
+ * members. */
 #include "study/series.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ typedef enum Rule {
   LARGEST,  /* likewise */
   HIGHEST,  /* of those that there are */
   LEAST,    /* likewise */
-  LOAD,     /* the least of what they lift beyond what they carry; NAN if any is */
+  LOAD,     /* the least of what members lift in addition to what they carry; NAN if any is */
   LEFT_OUT, /* there is none */
 } Rule;
 
@@ -97,7 +98,7 @@ static void add_notes(const ZpMembers *members, ZpResult *result) {
       if (!has_note(result, members->of[k]->note[i])) zp_result_note(result, "%s", members->of[k]->note[i]);
 }
 
-/* The outcome is that of the first member which has not a good one. */
+/* The outcome is that of the first member without a good one. */
 static void add_outcome(const ZpMembers *members, ZpResult *result) {
   result->outcome = members->of[0]->outcome;
   result->resolution = members->of[0]->resolution;

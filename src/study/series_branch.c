@@ -1,5 +1,5 @@
-/* Equilibria of actuators in series: all members at rest as the voltage rises slowly to drive.voltage and
- * falls again. Their voltages are those of each alone, eq. (29.1); the table has what all of them do together. */
+/* Equilibria of actuators in series: all members at rest as the voltage rises slowly to drive.voltage and falls again.
+ * Their limit voltages are those of each alone, eq. (29.1); the table shows all of them together. */
 #include <math.h>
 #include <stdio.h>
 

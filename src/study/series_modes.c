@@ -1,4 +1,5 @@
-/* Study `modes` of actuators in series: members at rest one by one, which move as one system, eq. (29.3). */
+/* Study `modes` of actuators in series: each member is in equilibrium as if alone, and all move as one system, eq.
+ * (29.3). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

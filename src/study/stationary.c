@@ -95,8 +95,8 @@ ZpStatus zp_check_stationary(const ZpActuatorDef *def, ZpError *err) {
   return zp_check_sensitivity(def, err);
 }
 
-/* Without voltage a bead acts by the suction of its menisci only. Without that it is left out, since equations with a
- * bead take five times the work; not from a derivative, which may be that by the suction. */
+/* Without voltage a bead acts only by the suction of its menisci. Without suction it is omitted, because equations with
+ * a bead take five times the work. It is kept for derivatives, one of which may be by the suction. */
 static ZpActuatorDef as_it_acts(const ZpActuatorDef *def) {
   ZpActuatorDef acting = *def;
   bool pulls = def->bead.suction > 0 || *def->sensitivity.by != 0;

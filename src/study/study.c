@@ -1,4 +1,4 @@
-/* Which study is run: the table of studies.def. It stands above the studies; none of them includes what is here. */
+/* Which study is run: the table of studies.def. This file is a layer above the studies; none of them includes it. */
 #include "base/fail.h"
 #include "def/check.h"
 #include "sim/hooks.h"
@@ -39,7 +39,7 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
-/* What fills the result of a study of this definition; NULL: it does not know such members. */
+/* The function that fills the result of a study of this definition; NULL: the study does not support such members. */
 static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
   static const ZpStudyRun in_series[ZpStudy_COUNT] = {
 #define ZP_IN_SERIES(enumerator, run) [enumerator] = run,
@@ -53,7 +53,7 @@ static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
   return def->stack.series > 1 ? in_series[study] : table[study].run;
 }
 
-/* What answers in place of a study that knows a single actuator only. */
+/* What a message advises in place of a study that supports a single actuator only. */
 static const char *instead_of(ZpStudy study) {
   static const char *const instead[ZpStudy_COUNT] = {
 #define ZP_ALONE(enumerator, words) [enumerator] = words,
@@ -71,7 +71,7 @@ static const char *instead_of_shared(ZpStudy study) {
   return instead[study] ? instead[study] : "stationary, equilibrium, limits, modes and actuate do";
 }
 
-/* Does it unload ribbons through states of rest? */
+/* Does it unload ribbons through equilibria? */
 static bool is_elastic(ZpStudy study) {
   static const bool elastic[ZpStudy_COUNT] = {
 #define ZP_ELASTIC(enumerator) [enumerator] = true,
@@ -129,8 +129,8 @@ static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResul
   return status;
 }
 
-/* Solve on the mesh that is asked for; where the branch is lost on one with half as long elements, and once more =>
- * the result, and the mesh that it is of in `def`. */
+/* Solve on the requested mesh; if the branch is lost, on one with half as long elements, and once more => the result,
+ * and the mesh that it belongs to in `def`. */
 static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpActuatorDef *def, ZpResult **result,
                                ZpError *err) {
   enum { MOST = 2 };

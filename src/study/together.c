@@ -1,6 +1,6 @@
-/* Studies `stationary`, `equilibrium` and `limits` of members that share one load: where it is at rest, how stiffly
- * they hold it, and where it jumps. Numbers without a name of their own are of the first one: of antagonists the upper
- * one, which the voltage is of; those side by side have one opening and one voltage. */
+/* Studies `stationary`, `equilibrium` and `limits` of members that share one load: its equilibria, its stiffness, and
+ * its jumps. Numbers without a name of their own are those of the first member. Of antagonists this is the upper one,
+ * to which the voltage belongs; members side by side have one opening and one voltage. */
 #include "study/together.h"
 
 #include <math.h>
@@ -61,8 +61,8 @@ enum {
 };
 _Static_assert((int)MOST_COLUMNS > (int)OPPOSED, "a row has room for the columns of either");
 
-/* States that are kept: where the limits are, limit points of which it is not yet known whether they are one, and where
- * the last step began. */
+/* States that are stored: those at the limits, those at limit points that are not yet known to be limits, and that at
+ * the start of the last step. */
 typedef enum Kept { PULL_IN, CLOSING, RELEASE, PASSED, CREST, HIGHEST, BEFORE, KEPT } Kept;
 enum { LIMITS = RELEASE + 1 };
 
@@ -75,10 +75,10 @@ typedef struct Follower {
   bool limits_only; /* rows are of limits, not of the branch */
   bool was_stable;  /* at the last point */
   bool crossed;     /* the branch ends where another one crosses it */
-  double crest;     /* of the voltage, a limit point from which it has not yet gone far down, V; NAN: there is none */
+  double crest;     /* voltage of a limit point from which the branch has not yet fallen far, V; NAN: there is none */
   double highest;   /* of the voltage on the way, V, */
   double before;    /* and until the last step */
-  double trough;    /* of the voltage, where one that is closed opens as it falls slowly, V; NAN: there is none */
+  double trough;    /* voltage at which a closed member opens as it falls slowly, V; NAN: there is none */
   double summit;    /* highest voltage of a point since then, V */
   double pull_in;   /* V; NAN: there is none */
   double release;   /* V; NAN: none is closed at drive.voltage */
@@ -143,7 +143,7 @@ static double capacitance_of(Follower *f) {
   return sum;
 }
 
-/* Of the upper antagonist; of those side by side as far as all are closed. */
+/* Closed length of the upper antagonist; of members side by side, the part that is closed in all of them. */
 static double common_length(Follower *f) {
   double least = zipped_length(upper(f));
   for (size_t which = 1; which < f->all.count && f->model->abreast; which++)
@@ -243,7 +243,7 @@ static bool open_follower(Follower *f, size_t rows, size_t frames) {
   return true;
 }
 
-/* What a study does once there is a place for its results, and how large that is. */
+/* The function that fills the result of a study, and the size of the result. */
 typedef struct Plan {
   void (*find)(Follower *f);
   size_t rows, frames;
@@ -304,8 +304,8 @@ static double pass_limit(Follower *f) {
   return zp_branch_limit(&f->all.branch, visit_limit, f);
 }
 
-/* A limit point is a crest of the voltage. The load pulls in at the first one from which the branch goes down by more
- * than the ripple of a mesh => pull_in. */
+/* A limit point is a crest of the voltage. The load pulls in at the first one from which the branch falls by more than
+ * the ripple of a mesh => pull_in. */
 static void look_for_crest(Follower *f, bool rose) {
   double voltage = upper(f)->U, crest = rose && f->all.branch.direction_m < 0 ? pass_limit(f) : NAN;
   if (crest > f->highest) keep(f, PASSED, HIGHEST);
@@ -321,14 +321,14 @@ static void look_for_crest(Follower *f, bool rose) {
   keep(f, CREST, PULL_IN);
 }
 
-/* Is a trough of the voltage, from which the branch came down, another one than the last, and no ripple of a mesh above
- * it? Way back from here the voltage first rises to the summit between both. */
+/* Is a trough of the voltage, from which the branch has risen, a different one from the last, and not a ripple of the
+ * mesh above it? On the way back from here the voltage first rises to the summit between both. */
 static bool is_next_trough(const Follower *f, double trough) {
   return isnan(f->trough) || trough < f->trough || trough < (1 - ZP_FOLD_RIPPLE) * f->summit;
 }
 
-/* A limit point may be a trough of the voltage, too. Where one of both is closed at drive.voltage, a slowly falling
- * voltage comes to the last one, of a group that only ripples of a mesh part to the lowest. */
+/* A limit point may also be a trough of the voltage. If one member is closed at drive.voltage, a slowly falling voltage
+ * reaches the last trough; of a group that only ripples of the mesh separate, the lowest one. */
 static void look_for_trough(Follower *f, bool rose) {
   double voltage = upper(f)->U, trough = !rose && f->all.branch.direction_m > 0 ? pass_limit(f) : NAN;
   bool next = !isnan(trough) && is_next_trough(f, trough);
@@ -338,7 +338,7 @@ static void look_for_trough(Follower *f, bool rose) {
   keep(f, PASSED, RELEASE);
 }
 
-/* Solve for where one has closed, from the end of the last step, or else from its beginning. */
+/* Solve for the state in which one member has closed, from the end of the last step, or else from its beginning. */
 static bool solve_closing(Follower *f, double last, double here) {
   double least = fmin(last, here), most = fmax(last, here);
   if (zp_together_closing(&f->all, least, most)) return true;
@@ -346,7 +346,7 @@ static bool solve_closing(Follower *f, double last, double here) {
   return zp_together_closing(&f->all, least, most);
 }
 
-/* Within the last step, which began with so much left, one has closed => CLOSING; the voltage there, V. */
+/* Within the last step, which began with so much left, one member has closed => CLOSING; the voltage there, V. */
 static double voltage_of_closing(Follower *f, double last, double was_left) {
   double here = upper(f)->U, share = was_left / (was_left - zp_together_left(&f->all));
   zp_together_save(&f->all, f->here);
@@ -357,7 +357,8 @@ static double voltage_of_closing(Follower *f, double last, double was_left) {
   return voltage;
 }
 
-/* As the voltage rises slowly one has closed once it is as high as it was anywhere on the way to there => closing. */
+/* As the voltage rises slowly, one member has closed once the voltage is as high as anywhere on the branch up to there
+ * => closing. */
 static void look_for_closing(Follower *f, double last, double was_left) {
   if (!isnan(f->closing) || zp_together_left(&f->all) > 0 || !(was_left > 0)) return;
   f->closing = voltage_of_closing(f, last, was_left);
@@ -382,7 +383,7 @@ static void arrive(Follower *f) {
     f->result->outcome = ZP_BRANCH_LOST;
 }
 
-/* The branch does not go on: another one crosses it where the state loses its stability, or it was lost. */
+/* The branch ends: another one crosses it where the state loses its stability, or it was lost. */
 static void end_at_crossing(Follower *f) {
   f->crossed = f->all.branch.reversed && f->was_stable;
   if (f->crossed) zp_together_save(&f->all, f->kept[PULL_IN]);
@@ -392,7 +393,7 @@ static void end_at_crossing(Follower *f) {
     f->result->outcome = ZP_BRANCH_LOST;
 }
 
-/* One step along the branch. => has it come to its end? */
+/* One step along the branch. => has it ended? */
 static bool advance(Follower *f) {
   double last = upper(f)->U, left = zp_together_left(&f->all);
   bool rose = f->all.branch.direction_m > 0;
@@ -521,7 +522,8 @@ static void record_limit(Follower *f, Kept limit) {
   zp_shapes_offer(f->result->shapes, &shape);
 }
 
-/* By which the load moves from rest without voltage to drive.voltage, where one is closed, m; NAN where none is. */
+/* Distance by which the load moves from equilibrium without voltage to drive.voltage, where one member is closed, m;
+ * NAN if none is. */
 static double travel_of(Follower *f) {
   bool closed = f->result->outcome == ZP_FOLLOWED && is_at_top(f) && zp_together_left(&f->all) <= 0;
   return closed ? fabs(f->start - zp_statics_opening(upper(f))) : NAN;
