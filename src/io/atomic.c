@@ -1,7 +1,7 @@
-/* Writing a file under a temporary name in the folder where it belongs, so that a reader never meets half
- * of it and a failure leaves the one that was there before. rename() replaces it in one step, and only
- * inside one file system: hence the same folder. The data are brought to the disk before the name is,
- * since some file systems tell of a full disk only then. */
+/* Writing a file under a temporary name in its own folder. So a reader never sees half of it, and after a failure the
+ * old file is still there. rename() replaces the file in one step, but only within one file system: hence the same
+ * folder. The data are brought to the disk before the rename, because some file systems report a full disk only
+ * then. */
 #include "io/atomic.h"
 
 #include <dirent.h>
@@ -34,8 +34,8 @@ static void forget(ZpAtomic *atomic) {
 /* Between the name of a file and the process id in its temporary name: no one else names files so. */
 #define MARK ".zipact-"
 
-/* The process id keeps two programs that write to one folder apart. The name begins with a point so that
- * patterns such as *.csv do not meet it. */
+/* The process id separates two programs that write to one folder. The name begins with a point so that patterns such as
+ * *.csv do not match it. */
 static bool make_names(ZpAtomic *atomic, const char *directory, const char *name) {
   *atomic = (ZpAtomic){.path = zp_path_join(directory, name)};
   if (asprintf(&atomic->temporary, "%s/.%s" MARK "%ld.tmp", directory, name, (long)getpid()) < 0)
@@ -73,7 +73,7 @@ ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err) {
   return status;
 }
 
-/* A new file; one of the same temporary name can only be what a killed process of our number left. */
+/* A new file. An existing file of the same temporary name can only be from a killed process with our process id. */
 static int create(const char *path) {
   const int flags = O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
   int fd = open(path, flags, 0666);
@@ -97,8 +97,8 @@ ZpStatus zp_atomic_reserve(ZpAtomic *atomic, const char *directory, const char *
   return ZP_OK;
 }
 
-/* What the stream hands its bytes to. A FILE forgets the errno of a write that failed some time before it
- * is closed; this does not. */
+/* The target of a stream's bytes. A FILE forgets the errno of a write that failed some time before it is closed; this
+ * does not. */
 typedef struct ZpSink {
   int fd;
   int error; /* errno of the first failure, or 0 */
@@ -145,8 +145,8 @@ ZpStatus zp_atomic_open(ZpAtomic *atomic, const char *directory, const char *nam
   return status;
 }
 
-/* Close stream and file => 0, or the errno of what failed first: a write of long ago, the last one, the
- * disk or the close. */
+/* Close stream and file => 0, or the errno of the first failure: an early write, the last one, the disk or the
+ * close. */
 static int finish_stream(ZpAtomic *atomic) {
   ZpSink *sink = atomic->sink;
   bool bad = ferror(atomic->file) != 0;

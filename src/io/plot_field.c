@@ -1,4 +1,4 @@
-/* Pictures of the field: field.svg, and field_tip.svg where the ribbons part. */
+/* Pictures of the field: field.svg, and field_tip.svg where the ribbons separate. */
 #include <math.h>
 
 #include "io/plot.h"
@@ -136,7 +136,7 @@ static double part(const ZpFieldMap *map, size_t a0, size_t a1, size_t b0, size_
   return from + to > 0 ? from / (from + to) : 0.5;
 }
 
-/* Field in cell (i, j), or in (own_i, own_j) where that is of another material or outside. */
+/* Field in cell (i, j), or in (own_i, own_j) if that cell is of another material or outside. */
 static double field_in(const ZpFieldMap *map, long i, long j, size_t own_i, size_t own_j) {
   bool inside = i >= 0 && j >= 0 && i + 1 < (long)map->nx && j + 1 < (long)map->ny;
   if (inside && permittivity(map, (size_t)i, (size_t)j) == permittivity(map, own_i, own_j)) {

@@ -27,7 +27,7 @@ static size_t half_nodes(const ZpPlot *plot) {
   return zp_plot_is_half(plot) ? film(plot)->nodes : film(plot)->nodes / 2;
 }
 
-/* How far from its clip liquid wets a half, m. */
+/* The length of a half, from its clip, that liquid wets, m. */
 static double reach_at(const ZpPlot *plot, double time) {
   return has_bead(plot) ? zp_plot_at_time(plot->table, "wet_length_m", time) : (double)INFINITY;
 }
@@ -38,7 +38,7 @@ typedef struct Side {
   bool from_right;
 } Side;
 
-/* x and both y at `place` elements from the clip of the left half or of the right one. */
+/* x and both y at `place` elements from the clip of the left or the right half. */
 static void put_place(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Side *side, double place) {
   size_t last = half_nodes(plot) - 1, k = place < (double)last ? (size_t)place : last;
   size_t near = side->from_right ? film(plot)->nodes - 1 - k : k;
@@ -63,7 +63,7 @@ static void put_liquid(const ZpPlot *plot, FILE *file, const ZpShape *shape, con
   put_place(plot, file, shape, side, end);
 }
 
-/* Of a bead only where it is known how far it reaches. */
+/* For a bead, only if its reach is known. */
 static bool has_film(const ZpPlot *plot) {
   if (!has_liquid(plot) || film(plot)->members > 1 || film(plot)->frames < 2) return false;
   return !has_bead(plot) || zp_plot_has(plot->table, "wet_length_m");
@@ -111,7 +111,7 @@ static size_t load_node(const ZpPlot *plot) {
   return shapes->ribbons * (whole ? shapes->nodes / 2 : shapes->nodes) - 1;
 }
 
-/* The stage of the film: x counts from the middle of what is drawn, m. */
+/* The frame of the animation: x counts from the middle of what is drawn, m. */
 typedef struct Stage {
   ZpPlotBox box; /* of the shapes */
   double middle; /* x of the platform's middle (other kinds: of the middle of the box) */
@@ -177,7 +177,7 @@ static void put_member(const ZpPlot *plot, FILE *file, const ZpShape *shape, con
   fputc('\n', file);
 }
 
-/* Of one frame where a bead is: a block of the left half, one of the right. */
+/* For a frame with a bead: a block of the left half, one of the right. */
 static void put_beads(const ZpPlot *plot, FILE *file, const ZpShape *shape, const Stage *stage) {
   const bool half = zp_plot_is_half(plot);
   put_liquid(plot, file, shape, &(Side){stage->middle, 1, false}, parts_of(plot));
@@ -186,7 +186,7 @@ static void put_beads(const ZpPlot *plot, FILE *file, const ZpShape *shape, cons
   fputs("\n\n", file);
 }
 
-/* One index per frame: points of the left half, then those of its mirror image. Of a bead one more. */
+/* One index per frame: points of the left half, then those of its mirror image. With a bead one more. */
 static void data_animation(const ZpPlot *plot, FILE *file) {
   const ZpShapes *shapes = film(plot);
   const Stage stage = stage_of(plot);
@@ -203,7 +203,7 @@ static void data_animation(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* What the caption of a frame says, and where its load hangs. */
+/* The caption of a frame, and the place of its load. */
 typedef struct Caption {
   double now, potential, contraction, stroke, end_x, end_y;
 } Caption;
@@ -231,7 +231,7 @@ static void define_captions(const ZpPlot *plot, FILE *file, const Stage *stage) 
   }
 }
 
-/* What is drawn of the actuator: its ends, its platform and what hangs on it; and how the film goes. */
+/* The parts of the actuator that are drawn: its ends, its platform and its load; and the speed of the animation. */
 static void define_animation(const ZpPlot *plot, FILE *file) {
   const Stage stage = stage_of(plot);
   char load[64];

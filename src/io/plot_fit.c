@@ -5,8 +5,8 @@
 
 #include "io/plot.h"
 
-/* A panel: the column of what was set, and the first of those of what was measured; after that one are what was
- * computed, the residual, and, where there are several kinds, sigma. */
+/* A panel: the column of the quantity that was set, and the first of those of the measured quantity. After that one are
+ * the computed value, the residual, and, if there are several kinds, sigma. */
 typedef struct Panel {
   size_t x, measured;
 } Panel;
@@ -92,7 +92,7 @@ static void define_x(const ZpColumn *column, size_t k, FILE *file) {
   zp_plot_define(file, zp_plot_entry("x_factor", k).text, 1);
 }
 
-/* What was measured: "force in data.file" => "force"; in which columns x and that are, from 1. */
+/* The measured quantity: "force in data.file" => "force"; the columns of x and of it, from 1. */
 static void define_panel(const ZpTable *table, Panel panel, size_t k, FILE *file) {
   const ZpColumn *measured = &table->column[panel.measured];
   const char *end = strstr(measured->help, " in data.file");

@@ -59,7 +59,7 @@ static Many look(const ZpPlot *plot) {
   return many;
 }
 
-/* Of three keys at least, or of two that are drawn or optimised; with an output, which says the colour. */
+/* Three keys at least, or two that are drawn or optimised, and an output, which determines the colour. */
 static bool has_parallel(const ZpPlot *plot) {
   if (plot->report->count < 3) return false;
   const bool chosen = plot->report->optimum || zp_scenario_design(plot->report->scenario);
@@ -147,7 +147,7 @@ static bool has_pareto(const ZpPlot *plot) {
   return optimum && optimum->objectives > 1 && optimum->count > 1;
 }
 
-/* Of the first two objectives their columns; which rows are on the front, in its order. */
+/* The columns of the first two objectives; the rows on the front, in its order. */
 static void define_pareto(const ZpPlot *plot, FILE *file) {
   static const char *const array[] = {"objective", "objective_name", "objective_si"};
   const ZpOptimum *optimum = plot->report->optimum;

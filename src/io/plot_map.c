@@ -1,4 +1,4 @@
-/* map.svg: what a study answers over two list keys, as colours with contours; maps.svg: over three, a map for each
+/* map.svg: the result of a study over two list keys, as colours with contours; maps.svg: over three, a map for each
  * value of the third. */
 #include <math.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 /* Values of each key: fewer are better drawn as curves. */
 static const size_t fewest = 3;
 
-/* Maps in one picture: of more values of the third key they are chosen evenly. */
+/* Maps in one picture: if the third key has more values, some are chosen evenly. */
 enum { PANELS_MOST = 9 };
 
 /* The runs as a grid: x is the key that varies fastest. */
@@ -22,7 +22,7 @@ static double value_of(const ZpPlot *plot, const Grid *grid, size_t run) {
   return zp_table_get(plot->table, run, grid->scalar);
 }
 
-/* Are the keys numbers that grow or fall along their lists? A surface needs no less. */
+/* Are the keys numbers that increase or decrease along their lists? A surface needs this. */
 static bool is_monotonic(const ZpPlot *plot, int key, size_t count, size_t stride) {
   double first = zp_sweep_value(plot, 0, key), sign = zp_sweep_value(plot, stride, key) - first;
   for (size_t i = 0; i + 1 < count; i++) {

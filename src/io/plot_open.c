@@ -1,4 +1,4 @@
-/* What there is to draw: a report as pictures look at it. */
+/* The contents of a report, in the form that pictures need. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ enum { DRAWN_MOST = 10000 };
 
 /* -- subtitle -------------------------------------------------------------------------------------- */
 
-/* Add "name value" to the subtitle unless the key is swept: then the legend tells. */
+/* Add "name value" to the subtitle unless the key is swept: then the legend has it. */
 static void add_key(ZpPlot *plot, const char *name, const char *before) {
   size_t keys, used = strlen(plot->subtitle);
   const int key = zp_key_find(name), *list = zp_scenario_lists(plot->report->scenario, &keys);
@@ -74,7 +74,7 @@ static const ZpAnswer *answer_of(ZpStudy study) {
   return NULL;
 }
 
-/* List keys, then what the summary says, as in table.csv => how many columns. */
+/* List keys, then the numbers of the summary, as in table.csv => number of columns. */
 static size_t name_columns(ZpPlot *plot, const ZpScalarNames *names, ZpColumn *column) {
   size_t keys, count = 0;
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);

@@ -1,4 +1,4 @@
-/* Pictures of the states of rest along the voltage, from ../table.csv: stroke.svg or (isometric) force.svg, charge.svg,
+/* Pictures of the equilibria along the voltage, from ../table.csv: stroke.svg or (isometric) force.svg, charge.svg,
  * zipped_length.svg. */
 #include <math.h>
 
@@ -11,7 +11,8 @@ static double get(const ZpPlot *plot, size_t row, const char *column) {
   return zp_table_get(plot->table, row, column);
 }
 
-/* What tells how far it is closed: the opening, or the stroke of a kind that has none; of a held one, its force. */
+/* The column that shows how far it has closed: the opening, or the stroke of a kind without one; of a held one, its
+ * force. */
 static const char *travel(const ZpPlot *plot) {
   if (plot->shows == ZP_SHOWS_held_branch) return "force_N";
   return zp_plot_has(plot->table, "opening_m") ? "opening_m" : "stroke_m";
@@ -37,7 +38,7 @@ typedef struct Jump {
   double voltage, from, to; /* V; m of the travel, NAN if unknown */
 } Jump;
 
-/* Does stability change behind a row: `rising`, does it end there as the curve is followed from hanging? */
+/* Does stability change after a row? `rising`: does it end there when the curve is followed from the hanging state? */
 static bool is_limit(const ZpPlot *plot, size_t row, bool rising) {
   if (!goes_on(plot, row) || kind(plot, row) == kind(plot, row + 1)) return false;
   return !rising || kind(plot, row) % 2 == 0;
@@ -81,7 +82,7 @@ static Jump jump_at(const ZpPlot *plot, const char *scalar, bool rising) {
   return jump;
 }
 
-/* The jump at the first limit point: one that does not close the actuator ends at a state close by. */
+/* The jump at the first limit point; one that does not close the actuator ends at a nearby state. */
 static Jump pull_in(const ZpPlot *plot) {
   static const double same = 1e-6;
   Jump jump = jump_at(plot, "pull_in_voltage_V", true);
@@ -89,7 +90,7 @@ static Jump pull_in(const ZpPlot *plot) {
   return jump;
 }
 
-/* The jump that closes it, where that is another one. */
+/* The jump that closes it, if that is another one. */
 static Jump closing(const ZpPlot *plot) {
   Jump jump = {NAN, NAN, NAN};
   return isnan(pull_in(plot).to) ? jump_at(plot, "closing_voltage_V", true) : jump;

@@ -1,5 +1,5 @@
-/* Pictures of a campaign whose cases were drawn from distributions: distribution.svg, how large a share of the samples
- * lies below a value; indices.svg, which share of the variance follows from which key. */
+/* Pictures of a campaign whose cases were drawn from distributions. distribution.svg: the share of the samples below a
+ * value; indices.svg: the share of the variance that follows from each key. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,8 +59,8 @@ static void define_name(const ZpPlot *plot, const Curve *curve, const char *entr
   zp_plot_define_text(file, entry, name);
 }
 
-/* Curve k: the column scalar[k] of the rows from start[k] on, of which there are `rows`. Of `blocks` rows after each
- * other the first `independent` are. */
+/* Curve k: the column scalar[k] of the rows from start[k] on, `rows` of them. Of `blocks` successive rows the first
+ * `independent` are independent. */
 static void define_distribution(const ZpPlot *plot, FILE *file) {
   static const char *const array[] = {"curve", "scalar", "start", "found"};
   const Drawn d = look(plot);

@@ -1,5 +1,5 @@
-/* Picture of the derivatives of a run, tornado.svg: by how many percent outputs change where a key changes by one. The
- * key that counts most is on top. */
+/* Picture of the derivatives of a run, tornado.svg: the change of outputs in percent for a change of a key by one
+ * percent. The key with the largest effect is on top. */
 #include <math.h>
 #include <string.h>
 
@@ -54,8 +54,8 @@ static void add_key(const ZpPlot *plot, Tornado *t, int key) {
   t->key[place] = key;
 }
 
-/* Is there something to draw of it? A run that has closed ends while openings and strokes pass 0: their percentages
- * there are of no use, and hide those of the zip time. */
+/* Is there something to draw for it? A run that has closed ends while openings and strokes pass 0. Their percentages
+ * are useless there, and hide those of the zip time. */
 static bool counts(const ZpPlot *plot, const ZpSensitivity *s) {
   bool passing = plot->single->outcome == ZP_ZIPPED && strcmp(s->output, "zip_time_s") != 0;
   return !passing && isfinite(percent(plot, s));

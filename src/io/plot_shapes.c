@@ -1,18 +1,18 @@
-/* Pictures of the shapes of one run: profiles.svg over time, shapes.svg along the voltage, shape.svg at rest, and
- * modes.svg, how it vibrates. */
+/* Pictures of the shapes of one run: profiles.svg over time, shapes.svg along the voltage, shape.svg in equilibrium,
+ * and modes.svg for its vibrations. */
 #include <math.h>
 
 #include "io/plot.h"
 
-/* Curves of shapes.svg and panels of modes.svg, as many as can be told apart. */
+/* Curves of shapes.svg and panels of modes.svg, as many as a reader can distinguish. */
 enum { STATES = 9, MODES = 6 };
 
 static const ZpShapes *film(const ZpPlot *plot) {
   return plot->single->shapes;
 }
 
-/* Blocks of x, y, time and ribbon, one per frame. A row of NaN ends a ribbon, not an empty one: for that gnuplot 5.4
- * uses a colour that it never set, and its picture is not the same each time. */
+/* Blocks of x, y, time and ribbon, one per frame. A row of NaN ends a ribbon, not an empty row: with an empty one,
+ * gnuplot 5.4 uses a colour that was never set, and the picture varies. */
 static void put_frames(const ZpPlot *plot, FILE *file, const size_t *frame, size_t count) {
   const ZpShapes *shapes = film(plot);
   const size_t nodes = shapes->nodes / shapes->members; /* of a member of a series */

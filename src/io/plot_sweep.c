@@ -1,15 +1,15 @@
-/* Pictures of a sweep: contraction.svg, all runs over time, bode.svg against the frequency of a drive, and what a study
- * asks for against the list key that varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg,
- * factors.svg; forces.svg and torques.svg, a curve for each value of the others. All but the first read ../table.csv.
- */
+/* Pictures of a sweep: contraction.svg, all runs over time; bode.svg, against the frequency of a drive; and the results
+ * of a study against the list key that varies fastest: zip_time.svg, strokes.svg, voltages.svg, frequencies.svg,
+ * factors.svg; forces.svg and torques.svg, a curve for each value of the others. All but the first read
+ * ../table.csv. */
 #include <math.h>
 #include <string.h>
 
 #include "io/plot.h"
 #include "io/sampled.h"
 
-/* Curves that the legend names, and rows that all curves together may have: a picture of more is slow to
- * look at and shows no more. */
+/* Curves that the legend names, and rows that all curves together may have: a picture of more is slow to view and shows
+ * no more. */
 enum { LEGEND = 10, ROWS = 200000 };
 
 /* -- axes and curves ------------------------------------------------------------------------------- */
@@ -44,7 +44,7 @@ void zp_sweep_run_name(const ZpPlot *plot, size_t run, size_t without, char *tex
   }
 }
 
-/* Has any list key but that which varies fastest another value than in the run before? */
+/* Does any list key, except the one that varies fastest, have another value than in the run before? */
 static bool begins_curve(const ZpPlot *plot, size_t run) {
   for (size_t back = 1; run > 0 && zp_sweep_key(plot, back) >= 0; back++) {
     const int key = zp_sweep_key(plot, back);
@@ -63,7 +63,7 @@ static bool has_number(const ZpPlot *plot, size_t run, const char *scalar) {
   return scalar && isfinite(zp_table_get(plot->table, run, scalar));
 }
 
-/* Has the run a point in a picture, by the answer of its study or in one of the pictures without? */
+/* Does the run have a point in a picture, by the result of its study or in one of the pictures without? */
 static bool has_point(const ZpPlot *plot, size_t run) {
   static const char *const other[] = {"force_N", "torque_N_m", "stroke_amplitude_m"};
   bool has = false;
@@ -83,8 +83,8 @@ static bool begins_drawn(const ZpPlot *plot, size_t first) {
   return has_point(plot, run);
 }
 
-/* Runs that begin a curve with points, at most LEGEND evenly chosen. => how many; where there is none the first run,
- * since gnuplot has no array without entries. */
+/* Runs that begin a curve with points, at most LEGEND evenly chosen => their number. If there are none, the first run,
+ * because a gnuplot array needs an entry. */
 static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
   size_t curves = 0, kept = 0, at = 0;
   for (size_t run = 0; run < plot->report->count; run++)
@@ -97,7 +97,8 @@ static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
   return kept > 0 ? kept : 1;
 }
 
-/* Of more than two keys: how many curves follow each other in which the first key has one value, all if that varies. */
+/* With more than two keys: the number of successive curves in which the first key has one value; all, if that key
+ * varies. */
 static size_t curves_alike(const ZpPlot *plot, const size_t *chosen, size_t curves) {
   size_t keys, alike = 1;
   const int *key = zp_scenario_axes(plot->report->scenario, &keys);

@@ -1,9 +1,9 @@
-/* plots/: each picture with the gnuplot script that drew it and the data it was drawn from, so that
- * `gnuplot NAME.gp` there makes the same picture again.
+/* plots/: each picture with the gnuplot script that drew it and its data, so that `gnuplot NAME.gp` there makes the
+ * same picture again.
  *
- * A picture is worth less than the numbers: these are on the disk before gnuplot runs. Without gnuplot, or where it
- * fails or hangs, the scripts stay and a notice says so. Pictures of an earlier report are removed first, so none
- * shows what is not in the table. As many are drawn at once as there are processors. */
+ * The numbers matter more than a picture: they are on the disk before gnuplot runs. If gnuplot is missing, fails or
+ * hangs, the scripts remain and a notice says so. Pictures of an earlier report are removed first, so none shows what
+ * is not in the table. As many are drawn at once as there are processors. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,7 +111,7 @@ static void name_of(const ZpPicture *picture, char *name) {
   snprintf(name, NAME_SIZE, "%s.%s", picture->name, picture->extension);
 }
 
-/* From then on no more are tried where gnuplot can draw none. */
+/* After this, no more are tried if gnuplot can draw none. */
 static void give_up(ZpDrawing *drawing, Work *work, ZpGnuplot end, const char *reason) {
   char name[NAME_SIZE];
   const bool told = drawing->over && end == ZP_GNUPLOT_INTERRUPTED; /* of those that were drawn beside it */
@@ -141,7 +141,7 @@ static bool begin(ZpDrawing *drawing, const ZpPicture *picture, Work *work) {
   return state == ZP_GNUPLOT_RUNS;
 }
 
-/* Say which line of which template gnuplot complains of. */
+/* Report which line of which template gnuplot refuses. */
 static void explain(const ZpDrawing *drawing, const Work *work, char *reason, size_t size) {
   char name[NAME_SIZE];
   snprintf(name, sizeof name, "%s.gp", work->picture->name);

@@ -76,7 +76,7 @@ size_t zp_result_numbers(const ZpResult *result) {
   return numbers;
 }
 
-/* Measured for HDF5, which takes most: it keeps up to 32 MB of freed memory; for a run the offsets of its columns; and
+/* Measured for HDF5, which needs most: it keeps up to 32 MB of freed memory; for a run the offsets of its columns; and
  * all numbers as the file in memory, twice while that grows. */
 size_t zp_report_room(size_t runs, size_t numbers) {
   const size_t base = 1 << 23, kept = 1 << 25, kept_of_run = 340000, places_of_run = 60000;

@@ -1,5 +1,5 @@
-/* Templates of pictures as parts of scripts. A comment "#line 12 stroke.gp" in a script says of which template the
- * lines after it are. */
+/* Templates of pictures as parts of scripts. A comment "#line 12 stroke.gp" in a script names the template of the lines
+ * after it. */
 #include "io/template.h"
 
 #include <errno.h>
@@ -12,7 +12,7 @@
 #include "base/fail.h"
 #include "io/atomic.h"
 
-/* Templates that load each other, one in the other: more are a circle, and gnuplot says so. */
+/* Largest depth of templates that load each other: more are a circle, and gnuplot reports it. */
 enum { NESTED_MOST = 8 };
 
 /* Longest name of a template, and longest line of a script that may be a mark. */

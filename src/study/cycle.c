@@ -157,7 +157,7 @@ static bool stays_open(const Cycles *c) {
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
  * next cycle starts at that point. */
 static int shoot(Cycles *c) {
-  static const double farthest = 0.5; /* hanging openings; no prediction is made beyond */
+  static const double farthest = 0.5; /* hanging openings; a farther point is not used */
   size_t n = 4 * c->model->stride;
   double ahead = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
