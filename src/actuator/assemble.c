@@ -1,5 +1,5 @@
-/* Where all coordinates near a station are free, their equations follow each other and entries have fixed places: there
- * rows are written directly. Near held and joined nodes each entry asks for its equations. */
+/* Where all coordinates near a station are free, their equations are consecutive and entries have fixed places: rows
+ * are written directly there. Near held and joined nodes each entry looks up its equations. */
 #include "actuator/assemble.h"
 
 #include <string.h>
@@ -24,8 +24,8 @@ static size_t number(const ZpTopology *t, ZpAssembly *a) {
   return (size_t)next;
 }
 
-/* Two halves have the platform's coordinates in common, as far as they are not held. With a platform that turns they
- * are not alike, and the whole is one part. */
+/* Two halves share the platform's coordinates that are not held. With a platform that turns they are not alike, and the
+ * whole is one part. */
 static ZpParts parts_of(const ZpTopology *t, const int *equation) {
   if (zp_platform_turns(t)) return (ZpParts){0};
   ZpParts parts = {.more = t->halves - 1};
@@ -35,12 +35,12 @@ static ZpParts parts_of(const ZpTopology *t, const int *equation) {
   return parts;
 }
 
-/* How many equations a station has whose coordinates are free. */
+/* Number of equations of a station whose coordinates are free. */
 static size_t per_station(const ZpAssembly *a) {
   return 2 * a->s + a->own;
 }
 
-/* The equation of the first coordinate of station i, where those of stations i .. i + 2 all follow it; else -1. */
+/* The equation of the first coordinate of station i, if those of stations i .. i + 2 all follow it; else -1. */
 static int first_of(const ZpAssembly *a, size_t i) {
   if (i + 2 >= a->nodes) return -1;
   int first = a->equation[2 * a->s * i];
@@ -58,8 +58,8 @@ static int outermost(const ZpAssembly *a, size_t i, size_t end, int sign) {
   return most;
 }
 
-/* Each station meets the next two. Of two ribbons it is a group of four equations, of one ribbon half a group, unless
- * held or joined nodes shift them. */
+/* Each station couples to the next two. With two ribbons it is a group of four equations, with one ribbon half a group,
+ * unless held or joined nodes shift them. */
 static ZpBandGroups groups_of(const ZpAssembly *a) {
   ZpBandGroups groups = {0, a->s + 1};
   size_t i = 0;
@@ -108,7 +108,7 @@ void zp_assembly_destroy(ZpAssembly *a) {
 
 /* -- values ----------------------------------------------------------------------------------------- */
 
-/* Where coordinate k stands in arrays over nodes. */
+/* Index of coordinate k in arrays over nodes. */
 static size_t place(const ZpAssembly *a, size_t k) {
   return k / 2 + (k % 2) * a->stride;
 }
@@ -267,17 +267,17 @@ double zp_edges_along(const ZpAssembly *a, const double (*D)[4], const double *u
 
 /* -- gaps ------------------------------------------------------------------------------------------- */
 
-/* How the gap of a station goes with the y of its node r: up on the upper ribbon, down on the lower or only one. */
+/* Derivative of the gap of a station by the y of its node r: up on the upper ribbon, down on the lower or only one. */
 ZP_INLINE double rise(size_t s, size_t r) {
   return s == 2 && r == 0 ? 1 : -1;
 }
 
-/* How the x-length of an element goes with the x of a node: of its left station, or of its right one. */
+/* Derivative of the x-length of an element by the x of a node: of its left station, or of its right one. */
 ZP_INLINE double stretch(size_t s, bool right) {
   return (right ? 1.0 : -1.0) / (double)s;
 }
 
-/* Of a symmetric matrix, the rows of x and of y of `s` nodes from `first` on: entry (first + i, first + j) at
+/* In a symmetric matrix, the rows of x and of y of `s` nodes from `first` on: entry (first + i, first + j) is at
  * rows[i][j]. */
 ZP_INLINE void rows_from(const ZpBand *K, size_t first, size_t s, double **rows) {
   for (size_t p = 0; p < s; p++) {

@@ -17,7 +17,7 @@ static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
   return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane != ZP_PLANE_STRESS);
 }
 
-/* Fibres of the metal, of a ribbon of one thickness. */
+/* Fibres of the metal, for a ribbon of one thickness. */
 static ZpPlastic plastic_of(const ZpActuatorDef *def) {
   bool plane_strain = def->ribbon.plane != ZP_PLANE_STRESS;
   ZpLayer metal = {def->ribbon.thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density};
@@ -26,7 +26,7 @@ static ZpPlastic plastic_of(const ZpActuatorDef *def) {
                     def->ribbon.hardening_modulus);
 }
 
-/* Eqs. (2.5) and (2.6), of a ribbon without segments. */
+/* Eqs. (2.5) and (2.6), for a ribbon without segments. */
 static ZpCurl curl_of(const ZpActuatorDef *def) {
   ZpActuatorDef narrow = *def;
   narrow.ribbon.plane = ZP_PLANE_STRESS;
@@ -37,8 +37,8 @@ static ZpCurl curl_of(const ZpActuatorDef *def) {
   return (ZpCurl){missing, width2 * width2 * wide.EA / (4 * wide.EI)};
 }
 
-/* What lies along a ribbon from its left end on; of the lower one, a mirror image, natural curvatures turn: `up` = -1.
- */
+/* The sections along a ribbon from its left end on. The lower ribbon is a mirror image: `up` = -1 reverses its natural
+ * curvatures. */
 static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
   ZpPlace place[ZP_PLACES] = {
       {section_of(def, def->segment_1.thickness), up * def->segment_1.curvature, def->segment_1.length},
@@ -62,7 +62,7 @@ typedef struct Piece {
   double from, to;
 } Piece;
 
-/* A place along the ribbon in edge lengths; a node that rounding misses is that node. */
+/* A place along the ribbon in edge lengths; within rounding of a node it is that node. */
 static double in_edges(const ZpModel *model, double along) {
   static const double missed = 1e-9;
   double edges = along / model->l, node = round(edges);
@@ -88,8 +88,8 @@ static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece 
   return count;
 }
 
-/* What an edge gives to its two nodes: integrals along it, weighted by how near each node is (1 there, 0 at the
- * other). So steps of the section anywhere in the edge count where they are. */
+/* The shares of an edge for its two nodes: integrals along it, weighted by 1 at the node and 0 at the other one. So a
+ * step of the section counts at its place within the edge. */
 typedef struct Share {
   double compliance; /* of bending, 1 / (N m) */
   double turn;       /* natural, rad */
@@ -110,7 +110,7 @@ static Share share_of(const ZpModel *model, size_t ribbon, size_t station, bool 
   return share;
 }
 
-/* The sum of what the edges beside node j give to it. A rigid edge gives nothing; those of the right half are mirror
+/* The sum of the shares of the edges beside node j. A rigid edge has none; those of the right half are mirror
  * images. */
 static Share node_share(const ZpModel *model, size_t j) {
   const ZpTopology *t = &model->topology;
@@ -121,7 +121,8 @@ static Share node_share(const ZpModel *model, size_t j) {
   return (Share){left.compliance + right.compliance, left.turn + right.turn, left.mass + right.mass};
 }
 
-/* What the edge beside a held slope gives to the joint there, and what to that and the next one together, eq. (8.9). */
+/* Share of the edge beside a held slope for the joint there, and for that joint and the next one together, eq.
+ * (8.9). */
 typedef struct LevelShare {
   double compliance, turn;   /* of the joint at the held slope: 1 / (N m), rad */
   double across, both_turns; /* between both: 1 / (N m); what the next one has of natural turn beside its own, rad */
@@ -171,7 +172,7 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
                               .right_slope = zp_topology_holds_slope(&model->topology, model->nodes - 1, 0)};
 }
 
-/* Where the faces are level. Particles of mass_spring have no slope: between them faces go straight. */
+/* Where the faces are level. Particles of mass_spring have no slope: faces are straight between them. */
 static ZpLevelEnds level_faces(const ZpModel *model) {
   return model->is_rod ? zp_topology_level_faces(&model->topology) : (ZpLevelEnds){0};
 }
@@ -181,8 +182,8 @@ static double platform_length(const ZpModel *model) {
   return zp_has_platform(&model->topology) ? model->def.platform.length / 2 : 0;
 }
 
-/* What a layer withstands, as a displacement over eps0; of bare metal anything: the other insulator is the weaker one.
- */
+/* The strength of a layer, as a displacement over eps0; infinite for bare metal, so the other insulator is the weaker
+ * one. */
 static double strength_of(const ZpActuatorDef *def) {
   return def->insulator.thickness == 0 ? INFINITY : def->insulator.permittivity * def->insulator.breakdown_field;
 }
@@ -195,8 +196,8 @@ static ZpSeriesParams series_of(const ZpActuatorDef *upper, const ZpActuatorDef 
                           upper->medium.permittivity};
 }
 
-/* Insulators give way by some hundredths of their thickness. An iteration may overlap them by more than all of it:
- * there attraction must not outgrow the push of the faces. Bare faces that touch: a nanometre is no liquid. */
+/* Insulators yield by some hundredths of their thickness. An iteration may overlap them by more than all of it; even
+ * then the attraction must not exceed the contact force. Bare faces that touch count as a nanometre apart. */
 static double least_h(double d) {
   return fmax(0.5 * d, 1e-9);
 }
@@ -222,7 +223,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .flat_height = def->electro.gap_offset};
 }
 
-/* Eq. (25.3). Of what is no conductor the resistivity is NAN. */
+/* Eq. (25.3). The resistivity of a material that does not conduct is NAN. */
 static ZpLeakParams leak_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double insulators = def->insulator.resistivity, liquid = def->medium.resistivity, both = zp_insulation(def);
@@ -231,7 +232,7 @@ static ZpLeakParams leak_of(const ZpModel *model) {
                         .discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity)};
 }
 
-/* Grid columns enough that 60 elements lie along a ribbon even where it has few nodes. */
+/* As many grid columns that there are 60 elements along a ribbon even if it has few nodes. */
 static size_t columns_per_edge(size_t nodes) {
   enum { ALONG = 60 };
   return 2 * ((ALONG + nodes - 2) / (nodes - 1));
@@ -254,7 +255,7 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
                          .mesh = zp_field_mesh()};
 }
 
-/* Mass of the ribbon at a node: the paper's particles have 1/N each, eq. (6); the rod's nodes have their share of the
+/* Mass of the ribbon at a node. The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the
  * edges beside them, which keeps the centre of mass. */
 static double ribbon_mass(const ZpModel *model, size_t j) {
   return model->is_rod ? node_share(model, j).mass
@@ -298,13 +299,13 @@ static double joined(double inverse1, double inverse2) {
   return inverse1 > 0 && inverse2 > 0 ? 1 / (1 / inverse1 + 1 / inverse2) : 0;
 }
 
-/* Of stretching and bending of one edge, as its nodes feel them at most, N/m: 16 in the middle of a ribbon, 19.4 where
- * a clip is free to move. */
+/* Upper bound of the stiffness of stretching and bending of one edge for its nodes, N/m: the factor is 16 in the middle
+ * of a ribbon, 19.4 where a clip is free to move. */
 static double edge_stiffness(const ZpModel *model, double EA, double EI) {
   return 4 * EA / model->l + 20 * EI / (model->l * model->l * model->l);
 }
 
-/* A frequency of 1.4 in unit steps, below what relaxation allows. */
+/* This gives a frequency of 1.4 in unit steps, below the limit of relaxation. */
 static double pseudo_mass_of(const ZpModel *model) {
   if (!model->is_rod) return 0.5 * (4 * model->spring.K_D + 16 * model->spring.K_S);
   ZpSection one = zp_ribbon_section(model, 0), other = zp_ribbon_section(model, model->s - 1);
@@ -393,14 +394,14 @@ static void fill_ends(ZpModel *model, Arrays *a) {
       if (k < levels[ribbon].count) fill_end(model, ribbon, levels[ribbon].of[k], a);
 }
 
-/* Does the joint of node j end its ribbon, which nothing holds there? */
+/* Is the joint of node j at the end of its ribbon, and free? */
 static bool is_free_end(const ZpModel *model, size_t j) {
   size_t station = j / model->s;
   bool end = station == 0 || station + 1 == model->nodes;
   return end && !zp_topology_holds_slope(&model->topology, station, j % model->s);
 }
 
-/* A platform that turns does not bend: its one edge stretches as the ribbon on it does, eq. (19.3). */
+/* A platform that turns does not bend. Its one edge stretches as the ribbon on it does, eq. (19.3). */
 static void fill_platform(const ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t j = zp_lower(t, t->platform.first);
@@ -409,7 +410,8 @@ static void fill_platform(const ZpModel *model, Arrays *a) {
   a->rod_S[j] = zp_ribbon_section(model, 1).EA / model->def.platform.length;
 }
 
-/* Eqs. (8.6): a joint bends and is bent as its share of the edges beside it; a free end does not bend. */
+/* Eqs. (8.6): compliance and natural turn of a joint are those of its share of the edges beside it; a free end does not
+ * bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t last = model->nodes - 1;
@@ -446,7 +448,7 @@ static void fill_plastic(ZpModel *model) {
   model->kept += zp_rod_plastic_count(&model->rod);
 }
 
-/* The pieces within half an edge of node j count: the most that a moment and a force do to any of them. */
+/* All pieces within half an edge of node j count: the largest stress per moment and per force of any of them. */
 static void fill_stress_of(const ZpModel *model, size_t j, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t ribbon = j % t->ribbons, station = zp_topology_station_image(t, j / t->ribbons);
@@ -494,7 +496,7 @@ static double frequency_bound(const ZpModel *model) {
   return sqrt(stiffest);
 }
 
-/* How a layer gives way under a pressure, m/Pa. */
+/* Compliance of a layer under a pressure, m/Pa. */
 static double compliance_of(const ZpActuatorDef *def) {
   static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 10e-6; /* m */
@@ -502,14 +504,14 @@ static double compliance_of(const ZpActuatorDef *def) {
   return fmax(def->insulator.thickness, thinnest) / E;
 }
 
-/* Of all layers pressed together, per length of ribbon, N/m^2. */
+/* Stiffness of all layers in series, per length of ribbon, N/m^2. */
 static double layer_stiffness(const ZpModel *model, const ZpActuatorDef *lower) {
   const ZpActuatorDef *def = &model->def;
   return def->ribbon.width / (compliance_of(def) + (model->s > 1 ? compliance_of(lower) : 0));
 }
 
-/* Largest attraction of closed faces short of a breakdown, N/m: of the liquid where the law is capped, else of the
- * insulators. */
+/* Largest attraction of closed faces short of a breakdown, N/m: that of the liquid if the law is capped, else that of
+ * the insulators. */
 static double largest_attraction(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const ZpPlatesParams *p = &model->plates;
@@ -533,7 +535,7 @@ static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) 
   const ZpActuatorDef *def = &model->def;
   double stiffest = layer_stiffness(model, lower) * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
-  double weight = heavier * def->gravity; /* the load hangs: it presses no faces */
+  double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
   return (ZpFacesParams){.nodes = model->nodes,
                          .l = model->l,
@@ -546,7 +548,7 @@ static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) 
                          .flat_length = platform_length(model)};
 }
 
-/* Air beyond a bead; eq. (8) of the paper holds it back whatever the liquid's does. */
+/* Air beyond a bead. Eq. (8) of the paper caps its attraction even if that of the liquid is not capped. */
 static ZpPlatesParams air_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   ZpPlatesParams air = model->plates;
@@ -589,7 +591,7 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};
 }
 
-/* damping.internal, or what auto stands for: docs/theory.md, section 18. */
+/* damping.internal, or the value that auto means: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
   bool damped = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->ribbon.model == ZP_RIBBON_ROD &&
@@ -598,8 +600,8 @@ static double internal_damping_of(const ZpActuatorDef *def) {
   return damped ? of_taped_steel : 0;
 }
 
-/* Of faces that overlap by five depths, as fast ones do, rad/s: two free nodes, or the lower platform below the held
- * one. */
+/* Frequency of faces that overlap by five depths, as in fast impacts, rad/s: two free nodes, or the lower platform
+ * below the held one. */
 static double contact_frequency(const ZpModel *model) {
   enum { DEPTH = 5 };
   const ZpActuatorDef *def = &model->def;
@@ -610,7 +612,7 @@ static double contact_frequency(const ZpModel *model) {
   return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + zp_end_share(model) * def->load.mass)));
 }
 
-/* Of the platform on spring and stop, rad/s. */
+/* Frequency of the platform on spring and stop, rad/s. */
 static double spring_frequency(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + zp_end_share(model) * def->load.mass;
@@ -618,7 +620,7 @@ static double spring_frequency(const ZpModel *model) {
   return sqrt(zp_end_share(model) * (def->load.stiffness + stop) / mass);
 }
 
-/* Direction of gravity, eq. (27.4); a part that is 0 but for the rounding of the angle is none. */
+/* Direction of gravity, eq. (27.4). A component that is only the rounding of the angle is set to 0. */
 static void find_fall(ZpModel *model) {
   double turns = model->def.mount.tilt / (2 * zp_pi), fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
   for (int k = 0; k < 2; k++)
@@ -669,8 +671,8 @@ static void derive(ZpModel *model) {
   if (model->leaks) model->kept += ZP_PLATES_PLACES * model->nodes;
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
-  /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay inside it; pairs that join and part
-   * from step to step pump energy into what is near the limit */
+  /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay below it. Pairs that join and part
+   * from step to step add energy to motion near the limit */
   bool joins_at_will = two && def->contact.model == ZP_CONTACT_UNILATERAL;
   double fastest = frequency_bound(model), contact = joins_at_will ? contact_frequency(model) : 0;
   double spring = spring_frequency(model);
@@ -704,7 +706,7 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
 }
 
 #ifndef ZP_WITHOUT_FIELD
-/* What the lateral edges add, up to more than ribbons that hang straight down part. */
+/* Contribution of the lateral edges, up to a gap larger than that of ribbons that hang straight down. */
 static ZpStatus make_edges(ZpModel *model, ZpError *err) {
   static const double halves = 2.5; /* of the flexible length */
   const ZpActuatorDef *def = &model->def;
@@ -723,7 +725,7 @@ ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) 
   return zp_model_create_driven(def, NULL, out, err);
 }
 
-/* One actuator; one that `hangs` does so on the platform of another. */
+/* One actuator. If it `hangs`, it does so on the platform of another. */
 static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, bool hangs, ZpModel **out,
                            ZpError *err) {
   size_t rows = table ? table->rows : 0;
@@ -755,7 +757,7 @@ static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, 
   return ZP_OK;
 }
 
-/* Of all that hangs on the platform above this model, kg. */
+/* Mass of all that hangs on the platform above this model, kg. */
 static double mass_from_here(const ZpModel *model) {
   double sum = 0;
   for (size_t j = 0; j < model->count; j++)
@@ -763,7 +765,7 @@ static double mass_from_here(const ZpModel *model) {
   return model->parts * sum + model->carried;
 }
 
-/* Alone at rest, the uppermost has all that hangs on it as load.mass. */
+/* Alone in equilibrium, the uppermost member has all that hangs on it as load.mass. */
 static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
   double most = zp_key(zp_key_find("load.mass"))->max, hangs = uppermost->def.load.mass + uppermost->carried;
   if (hangs <= most) return ZP_OK;

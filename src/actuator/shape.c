@@ -19,7 +19,7 @@ bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
   return (double)from_clip * model->l <= room->reach[second];
 }
 
-/* What of charge between insulators and liquid is at station i, as a voltage: that of the nearest place. */
+/* The charge between insulators and liquid at station i, as a voltage: that of the nearest place. */
 static double interface_at(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
   bool last = i + 1 == model->nodes;
   if (!room->interface) return 0;

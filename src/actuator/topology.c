@@ -3,7 +3,7 @@
 #include "def/check.h"
 #include "math/elementary.h"
 
-/* What a joint does to the nodes of its stations. */
+/* The constraints of a joint on the nodes of its stations. */
 typedef struct Hold {
   bool unites;   /* upper and lower node are one */
   bool x[2];     /* held: of the upper or only ribbon, of the lower one */
@@ -107,7 +107,7 @@ static void add_level(size_t element, bool right, ZpLevelEnds *ends) {
   ends->of[ends->count++] = (ZpLevelEnd){element, right};
 }
 
-/* Beside joints that keep ribbons first .. last horizontal. */
+/* Elements beside joints that keep ribbons first .. last horizontal. */
 static ZpLevelEnds level_beside(const ZpTopology *t, size_t first, size_t last) {
   ZpLevelEnds ends = {0};
   for (size_t k = 0; k < t->joints; k++) {

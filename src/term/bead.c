@@ -10,8 +10,8 @@ static bool acts(const ZpModel *model) {
   return model->has_bead;
 }
 
-/* Where a bead ends, and how its part of the element, or of the flat faces, goes with the area to the station before it
- * and the gaps of both stations. */
+/* The end of a bead: the wet part of the element, or of the flat faces, and its derivatives by the area up to the
+ * station before it and by the gaps of both stations. */
 typedef struct End {
   bool ends; /* false: all is wet */
   int half;
@@ -61,12 +61,12 @@ static double head_of(const ZpModel *model, double U, const End *end) {
   return end->ends ? end->room.share * free_head(model, U, end) : 0;
 }
 
-/* => the share of the head that follows what draws the liquid on: none of one that cavitates. */
+/* => the share of the head that follows the forces on the liquid: 0 for a meniscus that cavitates. */
 static double share_that_follows(const ZpModel *model, double U, const End *end) {
   return end->ends && free_head(model, U, end) > -zp_film_tension ? end->room.share : 0;
 }
 
-/* => how it goes with the part, and with the gaps of both stations. */
+/* => derivatives of that head by the part, and by the gaps of both stations. */
 typedef struct HeadSlope {
   double by_part, by_near, by_far;
 } HeadSlope;
@@ -87,7 +87,7 @@ static HeadSlope head_slope(const ZpModel *model, const ZpEval *e, double U, con
 
 /* -- forces ---------------------------------------------------------------------------------------- */
 
-/* What the thickness at station k of a half counts in the wet area, m. */
+/* Weight of the thickness at station k of a half in the wet area, m. */
 static double wet_share(const ZpModel *model, const End *end, size_t k) {
   double l = model->film.l, part = end->at.part, sum = 0;
   if (k > 0 && (k - 1 < end->at.k || !end->ends)) sum += 0.5 * l;
@@ -103,7 +103,7 @@ static size_t last_of(const ZpModel *model, const End *end) {
   return far < zp_bead_elements(&model->film) ? far : zp_bead_elements(&model->film);
 }
 
-/* F += head x how the wet area goes with each gap. */
+/* F += head x the derivative of the wet area by each gap. */
 static void add_head(const ZpModel *model, const ZpEval *e, const End *end, double head, double *F) {
   double *Fy = F + model->stride;
   for (size_t k = 0; k <= last_of(model, end); k++) {
@@ -137,7 +137,7 @@ size_t zp_bead_rank(const ZpModel *model) {
   return model->has_bead ? scalars_of(model) * (size_t)zp_beads(&model->film) : 0;
 }
 
-/* A scalar z as a term of rank one: what it does to the forces, -dF/dz => u, and how it goes with coordinates => v. */
+/* A scalar z as a term of rank one: -dF/dz => u, and its derivatives by the coordinates => v. */
 typedef struct Scalar {
   const ZpModel *model;
   const ZpAssembly *assembly;
@@ -160,18 +160,18 @@ static void add_by(const ZpAssembly *a, size_t coordinate, double value, double 
   if (equation >= 0) vector[equation] += value;
 }
 
-/* The scalar pushes coordinate c by so much. */
+/* The scalar acts on coordinate c with so much force. */
 static void pushes(Scalar z, size_t c, double force) {
   add_by(z.assembly, c, -force, z.u);
 }
 
-/* It goes with the gap of station i. */
+/* Its derivative by the gap of station i. */
 static void follows_gap(Scalar z, size_t i, double by_gap) {
   add_by(z.assembly, 2 * zp_upper(&z.model->topology, i) + 1, by_gap, z.v);
   add_by(z.assembly, 2 * zp_lower(&z.model->topology, i) + 1, -by_gap, z.v);
 }
 
-/* It goes with dx/ds where the bead ends, through the x of the nodes there. */
+/* Its derivative by dx/ds at the bead's end, through the x of the nodes there. */
 static void follows_level(Scalar z, const End *end, double by_level) {
   const ZpTopology *t = &z.model->topology;
   double value = 0.5 * by_level / z.model->film.l * (end->at.near < end->at.far ? 1 : -1);
@@ -181,7 +181,8 @@ static void follows_level(Scalar z, const End *end, double by_level) {
   }
 }
 
-/* `by_part` times how the part goes with the gaps: with all of them up to there through the area that they hold. */
+/* `by_part` times the derivative of the part by the gaps: of all of them up to there, through the area that they
+ * hold. */
 static void follows_part(Scalar z, const ZpEval *e, const End *end, double by_part) {
   const ZpFilmParams *film = &z.model->film;
   double by_thickness = by_part * end->by_area * film->l;
@@ -204,7 +205,7 @@ static void head_follows(Scalar z, const ZpEval *e, double U, const End *end) {
   if (!is_below(end)) follows_gap(z, end->at.far, slope.by_far);
 }
 
-/* The attraction goes with the part, since one law follows the other there. */
+/* The attraction depends on the part, because one law ends there and the other begins. */
 static void part_attracts(Scalar z, const ZpEval *e, double U, const End *end) {
   const ZpModel *model = z.model;
   const ZpTopology *t = &model->topology;
@@ -233,7 +234,7 @@ static void pushes_apart(Scalar z, size_t i, double force) {
   pushes(z, 2 * zp_lower(&z.model->topology, i) + 1, -force);
 }
 
-/* The suction on station k goes with its own gap, with the head, and where the bead ends with the part. */
+/* The suction on station k depends on its own gap, on the head, and, at the bead's end, on the part. */
 static void suction_at(Scalar part, Scalar head_scalar, const ZpEval *e, const End *end, double head, size_t k,
                        ZpBand *K) {
   const ZpModel *model = part.model;

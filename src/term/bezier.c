@@ -1,4 +1,4 @@
-/* The paper's attraction on a Bezier curve through the free stations, section 4.4; of an instant only. */
+/* The paper's attraction on a Bezier curve through the free stations, section 4.4; at an instant only. */
 #include <math.h>
 
 #include "term/term.h"
@@ -7,7 +7,7 @@ static bool acts(const ZpModel *model) {
   return model->field && model->def.electro.surface == ZP_SURFACE_BEZIER;
 }
 
-/* Direction of the closed part where it ends: that of the last closed link, horizontal at the clip. */
+/* Direction of the end of the closed part: that of the last closed link, horizontal at the clip. */
 static void closed_direction(const ZpModel *model, size_t front, const ZpEdges *edges, double direction[2]) {
   direction[0] = 1;
   direction[1] = 0;

@@ -37,7 +37,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
        &e->drag_rate);
 }
 
-/* At its present speed: its change with direction is left out. */
+/* Derivative at its present speed; the change with direction is omitted. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   size_t stride = model->stride;
   for (size_t k = 0; span->h > 0 && k < 2 * model->count; k++) {

@@ -1,4 +1,4 @@
-/* Faces that overlap push each other apart, as they lie at the end of the span. Eq. (9.1). */
+/* Faces that overlap repel each other. Eqs. (9.1) and (18.11). */
 #include "term/term.h"
 
 static bool acts(const ZpModel *model) {

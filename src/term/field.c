@@ -1,4 +1,4 @@
-/* What a solved field has beyond the plates law, held since it was solved last. Eqs. (14.7) and (14.8). */
+/* The difference of a solved field from the plates law, held since the last solution. Eqs. (14.7) and (14.8). */
 #include "term/term.h"
 
 static bool acts(const ZpModel *model) {
@@ -20,7 +20,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
     F[k] += U2 * span->beyond.F[k];
 }
 
-/* Since it was solved last its co-energy has changed by the held force's work. */
+/* Since the last solution its co-energy has changed by the work of the held force. */
 static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
                      ZpElectric *sum) {
   (void)e;

@@ -10,8 +10,8 @@ static size_t half_of(const ZpModel *model, size_t i) {
   return i > model->topology.platform.first;
 }
 
-/* The share of the long edges at a station where liquid can pass: where the film pressed at the end of the last step,
- * all; where it sucked, as far as there is some. */
+/* The share of the long edges at a station through which liquid can pass: all, if the film pressed at the end of the
+ * last step; if it sucked, in proportion to the liquid there. */
 static double open_share(const ZpModel *model, const ZpSpan *span, size_t i) {
   const double *heads = span->own + ZP_FILM_MODES * i;
   const ZpBead *bead = &span->bead[half_of(model, i)];
@@ -20,7 +20,7 @@ static double open_share(const ZpModel *model, const ZpSpan *span, size_t i) {
   return bead->supply;
 }
 
-/* Gaps go on as they did over the last step. */
+/* Prediction: gaps change as over the last step. */
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   for (size_t i = 0; i < model->nodes; i++)
     e->open[i] = open_share(model, span, i);
@@ -35,7 +35,7 @@ static ZpFilmEnds ends_of(const ZpModel *model, const ZpEval *e) {
   return (ZpFilmEnds){cover, e->open, {e->meniscus[0], e->meniscus[1]}};
 }
 
-/* In the middle of the step, foreseen; a mean over both voltages. */
+/* At the predicted middle of the step; a mean over both voltages. */
 static double meniscus_head(const ZpModel *model, const ZpSpan *span, const ZpEval *e, int half) {
   const ZpFilmParams *film = &model->film;
   ZpBeadPlace at = zp_bead_place(film, half, e->reach[half]);
@@ -85,8 +85,8 @@ static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly 
   }
 }
 
-/* How the force goes with the head is how the volume goes with the gap, sign turned. What convection adds, which would
- * be of one sign there and of the other here, is left out. */
+/* The derivative of the force by the head is that of the volume by the gap with the opposite sign. The terms of
+ * convection, which would have one sign there and the other here, are omitted. */
 static void by_gaps(const ZpModel *model, const ZpAssembly *assembly, const ZpFilmEval *e, size_t i, ZpBand *K) {
   for (int k = 0; k < ZP_FILM_MODES; k++)
     for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++) {
@@ -105,7 +105,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-/* Of the surfaces that the liquid wets, J, as far as suction counts. */
+/* Energy of the surfaces that the liquid wets, J, in proportion to the suction. */
 static double surface_energy(const ZpModel *model, const double reach[ZP_BEADS]) {
   if (!model->has_bead) return 0;
   double length = zp_beads(&model->film) > 1 ? reach[0] + reach[1] : reach[0];
@@ -118,7 +118,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
   sum->liquid += zp_film_energy(&model->film, ends.cover, e->plates.gap, now->memory) + surface_energy(model, e->reach);
 }
 
-/* What presses out and draws in at the long edges over the step, m^3. */
+/* Volumes pressed out and drawn in at the long edges over the step, m^3. */
 static void past_edges(const ZpModel *model, const ZpSpan *span, const ZpEval *e, double out[ZP_BEADS],
                        double in[ZP_BEADS]) {
   for (size_t i = 0; i < model->nodes; i++) {
@@ -136,8 +136,8 @@ static void find_end(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
         zp_bead_after(&model->bead, &model->film, e->plates.gap, half, span->bead[half], out[half], in[half], span->h);
 }
 
-/* What lies between the faces at one end of the step, with the liquid as far as `reach`: the field's potential and the
- * film's energy, J. */
+/* Energy of the gap at one end of the step, with liquid up to `reach`: the field's potential and the film's energy,
+ * J. */
 static double stored(const ZpModel *model, const ZpPlatesEval *gaps, double U, const double *memory,
                      const double reach[ZP_BEADS], ZpEval *e) {
   zp_eval_cover(model, reach, e);
@@ -145,8 +145,8 @@ static double stored(const ZpModel *model, const ZpPlatesEval *gaps, double U, c
          zp_film_energy(&model->film, &e->cover, gaps->gap, memory) + surface_energy(model, reach);
 }
 
-/* The liquid moves to its place in the middle while nothing else does, and from there to that of the end: what that
- * releases, less what the film has got of it, eq. (22.18). */
+/* The liquid moves to its place in the middle with all else fixed, and from there to that of the end. The energy
+ * released, less the part that the film has received, eq. (22.18). */
 static double lost_at_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e, const ZpFilmLoss *film) {
   const ZpPlatesEval *start = &e->plates_start, *end = &e->plates;
   const double before[ZP_BEADS] = {span->bead[0].reach, span->bead[1].reach},
@@ -171,7 +171,7 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *
   sum->meniscus += lost_at_menisci(model, span, e, &lost);
 }
 
-/* What resists to a change of the gap: not more than where all flows across. */
+/* Resistance to a change of the gap, at most as if all liquid flowed across. */
 static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
   for (size_t i = 0; i < model->nodes; i++) {
     size_t upper = zp_upper(&model->topology, i) + model->stride, lower = zp_lower(&model->topology, i) + model->stride;

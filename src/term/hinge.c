@@ -18,16 +18,16 @@ static double angle_of(const ZpModel *model, const double *q) {
   return -zp_angle(y[next] - y[j], x[next] - x[j]);
 }
 
-/* Its mean moment over the span, N m, which closes a fold that is open. As the natural curvature of ribbons its angle
- * of rest comes with the weight on the way to an equilibrium. */
+/* Its mean moment over the span, N m, which closes an open fold. Like the natural curvature of ribbons, its rest angle
+ * is applied in step with the weight on the way to an equilibrium. */
 static double moment_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e) {
   const ZpHingeParams *hinge = &model->hinge;
   double middle = angle_of(model, span->start) - 0.5 * e->rod_step.turn[edge_of(model)];
   return hinge->stiffness * (middle - span->share * hinge->rest);
 }
 
-/* The rod has found by how much the element turns over the span, and the mean slope of that by its vector: their moment
- * does exactly the work by which the energy falls. */
+/* The rod has computed the turn of the element over the span, and the mean derivative of the angle by the element's
+ * vector. The work of their moment is exactly the decrease of the energy. */
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   size_t j = edge_of(model), next = j + model->s;
   double moment = moment_of(model, span, e), Fx = moment * e->rod_step.gx[j], Fy = moment * e->rod_step.gy[j];

@@ -1,5 +1,6 @@
-/* Attraction between insulators and through a liquid that conduct: the plates law with the charge that has gathered on
- * their faces, in place of `plates`. Eqs. (25.1) to (25.8). At rest, where a span has no memory, none has gathered. */
+/* Attraction between insulators and through a liquid that conduct: the plates law with the charge that has collected on
+ * their faces, in place of `plates`. Eqs. (25.1) to (25.8). In equilibrium, where a span has no memory, there is
+ * none. */
 #include "term/term.h"
 
 static bool acts(const ZpModel *model) {

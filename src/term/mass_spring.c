@@ -1,5 +1,5 @@
-/* The paper's springs, eqs. (3.1) to (3.8). Over a span the axial ones are a rod's, whose force does the work by which
- * their energy changes; shear springs have no energy, so theirs is the mean of both ends. */
+/* The paper's springs, eqs. (3.1) to (3.8). Over a span the axial springs act as those of a rod, whose work is the
+ * change of their energy. Shear springs have no energy, so their force is the mean of both ends. */
 #include "term/term.h"
 
 static bool acts(const ZpModel *model) {
@@ -31,7 +31,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
 }
 
-/* Half of that at the span's end, of which a symmetric matrix keeps the upper triangle. */
+/* Half of the derivative at the span's end; a symmetric matrix keeps its upper triangle. */
 static void add_shear_stiffness(const ZpModel *model, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   zp_massspring_stiffness(&model->shear, &e->spring, e->spring.T, e->D);
   for (size_t k = 0; k < 3 * (model->count - model->s); k++)

@@ -1,5 +1,6 @@
-/* The liquid outside the gap of submerged ribbons. What each outer face moves is in the masses of the nodes (along y
- * only); here is what the pair moves beyond that, and the form drag. Eqs. (22.12) to (22.14). */
+/* The liquid outside the gap of submerged ribbons. The mass that each outer face moves is in the masses of the nodes
+ * (along y only). This term has the mass that the pair moves in addition, and the form drag. Eqs. (22.12) to
+ * (22.14). */
 #include <math.h>
 
 #include "term/term.h"
@@ -30,7 +31,7 @@ static double drag(const ZpModel *model, double length, double v) {
   return -model->outer.drag * model->film.w * length * fabs(v) * v;
 }
 
-/* The pair has the momentum M(g) Y'; its kinetic energy pushes the gap, too: together their work is its change. */
+/* The pair has the momentum M(g) Y'; its kinetic energy also acts on the gap. Together their work is its change. */
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (zp_span_is_still(span)) return;
   const double *g0 = e->plates_start.gap, *g1 = e->plates.gap;

@@ -43,7 +43,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
       zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
 }
 
-/* The edges are those where the span has ended, a last correction beyond the last force. */
+/* The edges are those at the end of the span, one correction after the last force. */
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
   zp_term_edges_loss(model, span, e, sum);
   e->rod_step.strain_start = strain_of(model, span);

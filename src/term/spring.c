@@ -1,5 +1,5 @@
-/* Springs between the platforms that act on one side of an opening: that of the load pushes them apart while they are
- * nearer than load.rest_opening, eq. (27.3); a stop pulls them together while they are further apart than
+/* Springs between the platforms that act on one side of an opening. That of the load pushes them apart while they are
+ * nearer than load.rest_opening, eq. (27.3). A stop pulls them together while they are further apart than
  * load.stop_opening, eq. (27.5). */
 #include <math.h>
 
@@ -27,12 +27,12 @@ static bool acts(const ZpModel *model) {
   return zp_is_pair(&model->topology) && any;
 }
 
-/* How far it is deformed at these coordinates, m. */
+/* Its deformation at these coordinates, m. */
 static double deformed(const ZpModel *model, const Spring *spring, const double *q) {
   return fmax(spring->side * (spring->rest - zp_opening(&model->topology, q + model->stride)), 0);
 }
 
-/* Over a span: how far it is deformed at start and end, and by how much the platforms part, m. */
+/* Over a span: the deformation at start and end, and the increase of the opening, m. */
 typedef struct Way {
   double s0, s1, opened;
 } Way;
@@ -48,7 +48,7 @@ static Way way_of(const ZpModel *model, const Spring *spring, const ZpSpan *span
   return (Way){deformed(model, spring, span->start), deformed(model, spring, span->end), to - from};
 }
 
-/* The mean push over the way, N: it does the work by which the energy falls. */
+/* The mean force over the span, N: its work is the decrease of the energy. */
 static double push_of(const Spring *spring, Way way) {
   if (is_even(way)) return 0.5 * spring->side * spring->k * (way.s0 + way.s1);
   return 0.5 * spring->k * (way.s0 * way.s0 - way.s1 * way.s1) / way.opened;

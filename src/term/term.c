@@ -4,7 +4,8 @@
 
 #include "base/kernel.h"
 
-/* Over a step the wet length in its middle counts, foreseen: it goes on as in the last step, by an element at most. */
+/* Over a step the wet length is that predicted for its middle: it changes as in the last step, by an element at
+ * most. */
 static double reach_in_middle(const ZpModel *model, const ZpBead *bead, double h) {
   double moved = fmin(fmax(0.5 * h * bead->rate, -model->l), model->l);
   return fmin(fmax(bead->reach + moved, 0), zp_bead_longest(&model->film));
