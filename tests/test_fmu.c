@@ -606,11 +606,12 @@ END_TEST
 
 /* -- many ------------------------------------------------------------------------------------------ */
 
-/* What malloc has given and not got back, bytes: finer than the memory of the process, which hides a block lost in
- * each of 5000 rounds. Free blocks that malloc keeps for the thread, a few of each size, count as given, so equal states
- * differ by up to `kept_for_thread`. 0 where the C library does not tell: before glibc 2.33, and in others. */
+/* Free blocks that malloc keeps for the thread, a few of each size, count as given: equal states differ by up to this
+ * number of bytes. */
 static const size_t kept_for_thread = 16384;
 
+/* What malloc has given and not got back, bytes: finer than the memory of the process, which hides a block lost in
+ * each of 5000 rounds. 0 where the C library does not tell: before glibc 2.33, and in others. */
 static size_t allocated(void) {
 #if defined __GLIBC__ && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
   struct mallinfo2 info = mallinfo2();
