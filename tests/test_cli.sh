@@ -338,7 +338,7 @@ interrupt 1 actuate --set mesh.nodes=2001 --json -o interrupted-early
 ok "130: Ctrl-C while it settles" status_is 130
 ok "130: --json, too" json stdout 'd["outcome"] == "interrupted"'
 ok "130: files, too" complete interrupted-early
-interrupt 1 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
+interrupt 4 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
 ok "130: Ctrl-C in a sweep" status_is 130
 ok "130: the rows until then" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time"] and d["outcome"] == "interrupted"'
 ok "130: and their files" complete interrupted-sweep
