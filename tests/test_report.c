@@ -743,6 +743,46 @@ static void write_rest(const char *name, const char *study, const char *const *m
   write_scenario(name, scenario);
 }
 
+/* The labels of contours of a map lie inside its axes => how many there are. */
+static int check_labels(const char *name, double left, double right, double top, double bottom) {
+  size_t size;
+  char *whole = read_whole(in_base(name), &size), number[32];
+  int labels = 0;
+  for (const char *at = whole; (at = strstr(at, "<g transform=\"translate(")) != NULL; at++) {
+    double x, y, letter;
+    if (sscanf(at,
+               "<g transform=\"translate(%lf,%lf)\" stroke=\"none\" fill=\"black\" font-family=\"Helvetica\" "
+               "font-size=\"11.00\"  text-anchor=\"middle\"> <text><tspan font-family=\"Helvetica\" >%31[^<]",
+               &x, &y, number) != 3)
+      continue;
+    letter = 3.5 * (double)strlen(number);
+    ck_assert_msg(x - letter > left && x + letter < right && y - 10 > top && y + 1 < bottom, "%s at %g, %g", number, x,
+                  y);
+    labels++;
+  }
+  free(whole);
+  return labels;
+}
+
+/* The label 30 of docs/images/design-chart.svg was on the right edge. A contour that cuts off a small corner has none.
+ */
+START_TEST(contour_label_on_the_edge_of_a_map_is_cut) {
+  write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
+  ck_assert_int_ge(check_labels("l/plots/map.svg", 84, 462, 58.8, 336), 3);
+}
+END_TEST
+
+/* "straight between them" did not say what lies between what, and a hole of a map was not explained. */
+START_TEST(small_print_of_a_map) {
+  write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
+  ck_assert(file_says("l/plots/map.svg", ">9 of 9 runs lift a load; linear between the runs<"));
+  write_rest("e", "equilibrium",
+             (const char *const[]){"load.mass=[5 g, 10 g, 20 g, 100 g]",
+                                   "ribbon.thickness=[80 um, 90 um, 100 um, 110 um]", NULL});
+  ck_assert(file_says("e/plots/map.svg", " of 16 runs pull in; white: no value; linear between the runs<"));
+}
+END_TEST
+
 /* Of three keys the first has a style of line and the second a shade. Where curves are left out, not every value of the
  * first key has as many, and each curve has a shade of its own. Names have at most four digits. */
 START_TEST(shades_of_three_keys) {
@@ -1280,6 +1320,8 @@ static Suite *suite_of_report(void) {
                                sweeps_of_rest,
                                design_chart,
                                shades_of_three_keys,
+                               contour_label_on_the_edge_of_a_map_is_cut,
+                               small_print_of_a_map,
                                legend_names_what_is_drawn,
                                distribution_with_indices,
                                axes_of_a_fit,
