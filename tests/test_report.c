@@ -772,6 +772,14 @@ START_TEST(contour_label_on_the_edge_of_a_map_is_cut) {
 }
 END_TEST
 
+/* The chart of largest loads said "load 8 g", on which these do not depend. */
+START_TEST(largest_loads_are_those_of_no_load) {
+  write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
+  ck_assert(file_says("l/plots/loads.gp", "\nsubtitle = 'N = 15'\n"));
+  ck_assert(file_says("l/plots/map.gp", "\nsubtitle = 'N = 15'\n"));
+}
+END_TEST
+
 /* "straight between them" did not say what lies between what, and a hole of a map was not explained. */
 START_TEST(small_print_of_a_map) {
   write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
@@ -1321,6 +1329,7 @@ static Suite *suite_of_report(void) {
                                design_chart,
                                shades_of_three_keys,
                                contour_label_on_the_edge_of_a_map_is_cut,
+                               largest_loads_are_those_of_no_load,
                                small_print_of_a_map,
                                legend_names_what_is_drawn,
                                distribution_with_indices,
