@@ -259,6 +259,24 @@ START_TEST(columns_without_units_are_told) {
 }
 END_TEST
 
+/* A column that was misspelt, or that calibrate.y did not name, was left out in silence. The names are those of the
+ * file, also where data.columns renames others. */
+START_TEST(columns_that_are_not_used_are_told) {
+  write_file("idle.csv", "Datum;Gewicht [g];stroke (mm);\"Bem, kurz\";Sigma (mm);pull_in_voltage_kV;\n"
+                         "1.2.;4;6,1;a;0,1;3;\n2.2.;8;11,2;;0,1;6;\n");
+  write_file("all.csv", "load_g,drive.voltage_kV,stroke_mm,sigma_stroke_mm\n2,1,3,0.1\n");
+  ZpActuatorDef def = calibration("idle.csv; all.csv", "ribbon.young_modulus");
+  snprintf(def.data.columns, sizeof def.data.columns, "Gewicht (g) = load_g");
+  snprintf(def.calibrate.x, sizeof def.calibrate.x, "load_g");
+  snprintf(def.calibrate.y, sizeof def.calibrate.y, "stroke_mm");
+  ZpResult *result = fit(&def);
+  ck_assert_uint_eq(result->notes, 1);
+  ck_assert_str_eq(result->note[0],
+                   "columns that are not used: idle.csv: \"Datum\", \"Bem, kurz\", \"pull_in_voltage_kV\"");
+  zp_result_destroy(result);
+}
+END_TEST
+
 START_TEST(bounds_are_kept) {
   ZpActuatorDef def = calibration("bounds.csv", "ribbon.young_modulus"), truth = def;
   truth.ribbon.young_modulus = 100e9;
@@ -953,6 +971,7 @@ int main(void) {
   tcase_add_test(fits, voltage_data);
   add_long_test(fits, zip_times_show_the_pull_in);
   tcase_add_test(fits, columns_without_units_are_told);
+  tcase_add_test(fits, columns_that_are_not_used_are_told);
   tcase_add_test(fits, bounds_are_kept);
   tcase_add_test(fits, bounds_have_units);
   tcase_add_test(fits, files_of_all_kinds);

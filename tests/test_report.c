@@ -874,6 +874,21 @@ static void check_numbers(const char *name) {
   }
 }
 
+/* Of one kind of measurement the standard deviations were neither in the picture nor in the table. */
+START_TEST(error_bars_of_a_fit) {
+  char file[1100];
+  put_file("bench.csv", "load_g,stroke_mm,sigma_mm\n4,6,0.5\n8,10,0.5\n20,20,2\n");
+  snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
+  write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
+  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m,sigma_m\n"));
+  ck_assert(file_says("f/plots/fit.svg", ">measured ± σ<"));
+  put_file("bench.csv", "load_g,stroke_mm\n4,6\n8,10\n20,20\n");
+  write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
+  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m\n"));
+  ck_assert(file_says("f/plots/fit.svg", ">measured<"));
+}
+END_TEST
+
 /* The SVG holds the picture of the field itself; field.vts has the bytes that its head promises. */
 START_TEST(field_of_a_profile) {
   static const char begin[] = "<AppendedData encoding=\"raw\">\n_", end[] = "\n  </AppendedData>\n</VTKFile>\n";
@@ -1334,6 +1349,7 @@ static Suite *suite_of_report(void) {
                                legend_names_what_is_drawn,
                                distribution_with_indices,
                                axes_of_a_fit,
+                               error_bars_of_a_fit,
                                rest_is_the_same_each_time,
                                field_of_a_profile,
                                field_of_equal_permittivities,

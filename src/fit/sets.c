@@ -23,10 +23,11 @@ typedef struct Names {
   bool used[NAMES_MOST];
 } Names;
 
-/* A file, with its columns that were set and measured. */
+/* A file, with its columns that were set and measured, and all that are used. */
 typedef struct Measured {
   const ZpData *data;
   int x, y[NAMES_MOST], columns;
+  bool *used; /* [columns of the file] */
 } Measured;
 
 typedef struct Reading {
@@ -88,6 +89,8 @@ static ZpStatus find_measured(Reading *r) {
     Measured *measured = &r->measured[i];
     int x[NAMES_MOST];
     measured->data = data;
+    measured->used = calloc(data->columns, sizeof *measured->used);
+    if (!measured->used) return zp_fail_memory(r->err);
     if (find_columns(data, &r->x, 0, x) == 0) return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
     measured->x = x[0];
     measured->columns = find_columns(data, &r->y, 1, measured->y);
@@ -196,6 +199,7 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
     const char *name = data->cell[column];
     const bool known = column == x || column == measured->x || is_measured(measured, column);
     int key = known ? -1 : key_of_header(fit, name, &factor, &divisor);
+    measured->used[column] |= known || key >= 0;
     if (key < 0) continue;
     if (set->x_key < 0)
       return zp_fail(err, ZP_BAD_INPUT,
@@ -371,7 +375,10 @@ static ZpStatus read_sigma(const Reading *r, const ZpFitSet *set, const Measured
                    "%.200s: column %.60s: the file has several measured columns; name the one that it belongs to, as "
                    "in sigma_%s_%s",
                    data->path, data->cell[column], zp_fit_number[set->kind].column, zp_fit_number[set->kind].unit);
-  if (column >= 0) return read_sigma_column(r->fit, set, data, column, sigma, r->err);
+  if (column >= 0) {
+    measured->used[column] = true;
+    return read_sigma_column(r->fit, set, data, column, sigma, r->err);
+  }
   for (size_t i = 0; i < set->rows; i++)
     sigma[i] = r->sigma[set->kind];
   return ZP_OK;
@@ -498,6 +505,22 @@ static ZpStatus read_sets(Reading *r) {
   return status == ZP_OK ? check_sigmas(r) : status;
 }
 
+/* Remember the columns of a file that are not used, by the names that the file has; one without a name is an empty one
+ * of a spreadsheet. */
+static void note_idle(ZpFit *fit, const Measured *measured) {
+  const char *folder = strrchr(measured->data->path, '/'), *file = folder ? folder + 1 : measured->data->path;
+  bool first = true;
+  for (size_t i = 0; i < measured->data->columns; i++) {
+    const size_t used = strlen(fit->idle), room = sizeof fit->idle - used;
+    if (measured->used[i] || !*measured->data->name[i]) continue;
+    if (first)
+      snprintf(fit->idle + used, room, "%s%.60s: \"%.60s\"", used ? "; " : "", file, measured->data->name[i]);
+    else
+      snprintf(fit->idle + used, room, ", \"%.60s\"", measured->data->name[i]);
+    first = false;
+  }
+}
+
 static ZpStatus read_files(Reading *r) {
   const ZpActuatorDef *def = r->fit->def;
   ZpStatus status = zp_data_read_all("data.file", def->data.file, def->data.columns, &r->files, r->err);
@@ -514,6 +537,10 @@ ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err) {
   ZpStatus status = read_files(&reading);
   if (status == ZP_OK) status = find_measured(&reading);
   if (status == ZP_OK) status = read_sets(&reading);
+  for (size_t i = 0; reading.measured && i < reading.files.count; i++) {
+    if (status == ZP_OK) note_idle(fit, &reading.measured[i]);
+    free(reading.measured[i].used);
+  }
   free(reading.measured);
   zp_data_files_destroy(&reading.files);
   return status;

@@ -21,6 +21,8 @@ enum { LONGEST_NAME = 200, LONGEST_NUMBER = 64 };
 
 void zp_data_destroy(ZpData *data) {
   free(data->text);
+  free(data->names);
+  free(data->name);
   free(data->cell);
   free(data->line);
   *data = (ZpData){0};
@@ -158,6 +160,17 @@ static bool counts(const char *line) {
   return *line && *line != '#';
 }
 
+/* Keep the names as they are: those in the cells become plain or are replaced. */
+static ZpStatus keep_names(ZpData *data, const char *names, ZpError *err) {
+  data->names = strdup(names);
+  data->name = calloc(data->columns + 1, sizeof *data->name);
+  if (!data->names || !data->name) return zp_fail_memory(err);
+  char *rest = data->names;
+  for (size_t i = 0; i < data->columns; i++)
+    data->name[i] = next_cell(&rest, data->separator);
+  return ZP_OK;
+}
+
 /* Allocate the rows of a text with so many lines, by its row of names. */
 static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err) {
   data->separator = find_separator(names);
@@ -165,7 +178,7 @@ static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err)
   if (data->columns > 1000)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: more than 1000 columns", data->key, data->path);
   data->cell = calloc(lines * (data->columns + 1), sizeof *data->cell);
-  return data->cell ? ZP_OK : zp_fail_memory(err);
+  return data->cell ? keep_names(data, names, err) : zp_fail_memory(err);
 }
 
 /* A line without its end; blanks at its ends may be empty cells and stay. */

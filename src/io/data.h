@@ -16,8 +16,10 @@ typedef struct ZpData {
   size_t columns, rows;
   char separator;
   char **cell; /* [1 + rows][columns]; row 0 has the names */
+  char **name; /* [columns] the names as the file has them */
   int *line;   /* [1 + rows] from 1 */
   char *text;  /* text to which the cells point */
+  char *names; /* text to which the names as in the file point */
 } ZpData;
 
 /* Several of them. */
