@@ -99,6 +99,8 @@ for study in actuate run; do
   ok "$study --help" status_is 0
   ok "$study --help names --set" prints '--set KEY=VALUE'
 done
+zp help limits
+ok "help STUDY" prints '^zipact limits '
 zp keys --help
 ok "keys --help" status_is 0
 ok "keys --help names its options" prints '^zipact keys \[--yaml\] \[--json\]'
@@ -211,6 +213,11 @@ refused "a misspelt study" 'equilibrum; did you mean equilibrium' equilibrum -o 
 refused "a misspelt command" 'reprodcue; did you mean reproduce' reprodcue -o refused
 refused "a key without --set" 'load\.mass=8g: .* --set "load\.mass=8g"' actuate load.mass=8g -o refused
 refused "a key without --set, behind a scenario" '--set "load\.mass=8g"' actuate starter.yaml load.mass=8g -o refused
+refused "a key in place of the study" 'load\.mass=8g: to set a key write zipact STUDY --set "load\.mass=8g"' load.mass=8g
+refused "a key as an option" 'load\.mass=8g: to set a key write --set "load\.mass=8g"' actuate --load.mass=8g -o refused
+refused "a key as an option, and its value" 'load\.mass: .* --set "load\.mass=VALUE"' actuate --load.mass 8g -o refused
+refused "an option in place of the study" 'a study or command comes before --set' --set load.mass=8g actuate -o refused
+refused "a scenario in place of the study" 'starter\.yaml: to run a scenario write zipact run starter\.yaml' starter.yaml
 refused "what is not modelled" 'temperature is not modelled; give .*medium\.kinematic_viscosity' actuate --set medium.temperature=300 -o refused
 refused "man without a folder" 'DIR' man
 refused "completion without a shell" 'bash, zsh or fish' completion
