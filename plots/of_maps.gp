@@ -5,7 +5,7 @@ none = found < cases ? '; white: no value' : ''
 if (exists('answer')) {
   title = answer
   remark = answers.none.'; linear between the runs'
-  what = number_name[1] eq '' ? quantity : quantity.' ('.number_name[1].')'
+  what = number_name[1] eq '' ? quantity : quantity.', '.number_name[1]
 } else {
   title = actuator_kind eq 'hinge' ? 'Force on the held end' : 'Force on the held platform'
   remark = sprintf('%d of %d runs are drawn', found, cases).none.'; linear between the runs'

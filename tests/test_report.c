@@ -710,7 +710,7 @@ START_TEST(design_chart) {
   ck_assert(strstr(chart, ">load / g<") && strstr(chart, ">medium.breakdown_field<"));
   ck_assert(strstr(chart, ">20 MV/m<") && strstr(chart, ">30 MV/m<") && strstr(chart, ">60 MV/m<"));
   ck_assert(strstr(map, ">load / g<") && strstr(map, "rgb(255, 255, 255)"));
-  ck_assert(strstr(map, ">drive.voltage / kV<") && strstr(map, ">medium.breakdown_field / MV/m<"));
+  ck_assert(strstr(map, ">drive.voltage / kV<") && strstr(map, ">medium.breakdown_field / (MV/m)<"));
   free(chart);
   free(map);
   char *data = read_whole(in_base("l/plots/map.dat"), &size);
@@ -791,6 +791,16 @@ START_TEST(small_print_of_a_map) {
 }
 END_TEST
 
+/* "factor" and "mesh.nodes" had no unit and did not say so; a unit with a slash was "field strength / MV/m". */
+START_TEST(axes_without_a_unit_say_so) {
+  write_rest("p", "profile", (const char *const[]){"isometric.separation=[1 mm, 2 mm]", NULL});
+  ck_assert(file_says("p/plots/factors.svg", ">factor (dimensionless)<"));
+  write_rest("p", "profile", (const char *const[]){NULL});
+  ck_assert(file_says("p/plots/profile.svg", ">field over plates (dimensionless)<"));
+  ck_assert(file_says("p/plots/field.svg", ">field strength / (MV/m)<"));
+}
+END_TEST
+
 /* Of three keys the first has a style of line and the second a shade. Where curves are left out, not every value of the
  * first key has as many, and each curve has a shade of its own. Names have at most four digits. */
 START_TEST(shades_of_three_keys) {
@@ -855,7 +865,7 @@ START_TEST(axes_of_a_fit) {
              (const char *const[]){file, "calibrate.fit=ribbon.young_modulus",
                                    "calibrate.x=medium.kinematic_viscosity_mm2/s", "calibrate.y=stroke_mm", NULL});
   ck_assert(file_says("g/table.csv", "medium.kinematic_viscosity_m2_per_s,measured_m,"));
-  ck_assert(file_says("g/plots/fit.svg", ">medium.kinematic_viscosity / mm²/s<"));
+  ck_assert(file_says("g/plots/fit.svg", ">medium.kinematic_viscosity / (mm²/s)<"));
 }
 END_TEST
 
@@ -1346,6 +1356,7 @@ static Suite *suite_of_report(void) {
                                contour_label_on_the_edge_of_a_map_is_cut,
                                largest_loads_are_those_of_no_load,
                                small_print_of_a_map,
+                               axes_without_a_unit_say_so,
                                legend_names_what_is_drawn,
                                distribution_with_indices,
                                axes_of_a_fit,
