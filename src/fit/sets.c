@@ -81,6 +81,14 @@ static ZpStatus check_names(const Reading *r, const Names *names) {
   return ZP_OK;
 }
 
+/* A file without columns is one whose columns are separated by something else. */
+static ZpStatus fail_columns(const Names *names, const char *text, const ZpData *data, ZpError *err) {
+  if (data->columns > 1 || names->count > 0) return fail_column(names, text, data->path, err);
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%.200s:1: one column, \"%.60s\"; commas, semicolons or tabs must separate the columns", data->path,
+                 data->name[0]);
+}
+
 /* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
 static ZpStatus find_measured(Reading *r) {
   ZpFit *fit = r->fit;
@@ -94,7 +102,7 @@ static ZpStatus find_measured(Reading *r) {
     if (find_columns(data, &r->x, 0, x) == 0) return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
     measured->x = x[0];
     measured->columns = find_columns(data, &r->y, 1, measured->y);
-    if (measured->columns == 0) return fail_column(&r->y, fit->def->calibrate.y, data->path, r->err);
+    if (measured->columns == 0) return fail_columns(&r->y, fit->def->calibrate.y, data, r->err);
     if (data->rows == 0) return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: 0 rows of data", data->path);
     fit->rows += data->rows * (size_t)measured->columns;
     r->sets += (size_t)measured->columns;
@@ -131,6 +139,10 @@ static int key_of_header(ZpFit *fit, const char *name, double *factor, double *d
     return zp_key_find("load.mass");
   }
   if (take_unit(fit, name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
+  if (fit->def->gravity > 0 && take_unit(fit, name, "load", "N", factor, divisor)) {
+    *divisor *= fit->def->gravity;
+    return zp_key_find("load.mass");
+  }
   if (take_unit(fit, name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
   for (int i = 0; i < zp_key_count(); i++)
     if (zp_fit_takes(i) && take_unit(fit, name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
@@ -384,6 +396,14 @@ static ZpStatus read_sigma(const Reading *r, const ZpFitSet *set, const Measured
   return ZP_OK;
 }
 
+/* The path of the file of a set: the sets are in the order of the files. */
+static const char *path_of(const Reading *r, const ZpFitSet *set) {
+  size_t file = 0;
+  for (int before = (int)(set - r->fit->set); before >= r->measured[file].columns; file++)
+    before -= r->measured[file].columns;
+  return r->measured[file].data->path;
+}
+
 /* Either all rows have a standard deviation, or none has one and all are of one kind: otherwise the relative weight of
  * a millimetre and a volt is unknown. */
 static ZpStatus check_sigmas(Reading *r) {
@@ -403,10 +423,10 @@ static ZpStatus check_sigmas(Reading *r) {
   }
   const ZpFitNumber *of = &zp_fit_number[without->kind];
   return zp_fail(r->err, ZP_BAD_INPUT,
-                 "data.file: a fit to %s requires standard deviations, but %s has none; add a column sigma_%s_%s to "
-                 "its file, or give calibrate.sigma = \"%s = ... %s\"",
-                 zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column, of->column,
-                 of->unit, of->column, of->unit);
+                 "data.file: a fit to %s requires standard deviations of all, but %s of %.200s has none; add a column "
+                 "sigma_%s_%s, or give calibrate.sigma = \"%s = ... %s\"",
+                 zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column,
+                 path_of(r, without), of->column, of->unit, of->column, of->unit);
 }
 
 /* Refuse calibrate.sigma for a quantity that is not measured: its name is misspelt or left over. */
@@ -463,7 +483,8 @@ static bool is_length(const char *name) {
 
 static bool is_force(const char *name) {
   double factor, divisor;
-  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor);
+  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor) ||
+         zp_data_unit(name, "load", "N", &factor, &divisor);
 }
 
 static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measured, int y) {

@@ -9,7 +9,8 @@
 
 /* CSV files as read: a row of names, then rows of cells. Empty lines and lines that start with # are ignored. The row
  * of names determines the separator: semicolon, tab or comma; if it is not a comma, numbers may have a decimal comma.
- * Cells may be quoted. A name "Load (g)" or "Load [g]" becomes "Load_g". */
+ * Cells may be quoted. A name "Load (g)", "Load [g]", "Load / g" or "Load in g" becomes "Load_g",
+ * "pull-in_voltage_V" pull_in_voltage_V. */
 typedef struct ZpData {
   const char *key;  /* key that names the file, for messages */
   const char *path; /* path of the file */
