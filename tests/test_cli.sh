@@ -244,6 +244,12 @@ refused "keys that contradict" 'platform\.length.*ribbon\.length' actuate --set 
 refused "incomplete preset" 'damping\.drag.*paper-text.*33' actuate --set preset=paper-text --set mesh.nodes=33 -o refused
 refused "one bad row of a sweep" 'platform\.length' actuate --set 'platform.length=[1 mm, 95 mm]' -o refused
 
+printf 'load_g,stroke_mm\n4,6.1\n8,11.2\n' >aligned.csv
+zp calibrate --set data.file=aligned.csv --set calibrate.fit=ribbon.young_modulus --set mesh.nodes=11 -o aligned
+ok "fitted keys are aligned with other numbers" [ "$(grep -c -E '^  .{39} (GPa|mm)' stdout)" -eq 2 ]
+zp isometric --set liquid.model=none --set mesh.nodes=11 --set drive.voltage=1kV --set 'isometric.separation=[6 mm, 12 mm]' -o aligned
+ok "rows show three digits of a small force" prints 'force  0\.00[0-9][0-9][0-9] N\|force 0\.000[0-9][0-9][0-9] N'
+
 cat >bad.yaml <<'END'
 load:
   mass: 8 g

@@ -306,8 +306,9 @@ static void say(const ZpFit *fit, const double *fitted, const char *bound, doubl
   const char *done = fit->n > 0 ? "fitted" : "compared", *at = bound ? "; at its bound: " : "";
   const ZpFitKind kind = fit->set[0].kind;
   if (zp_fit_kinds(fit) == 1)
-    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms%s%s", fit->rows, done,
-             of_kind[kind].factor * rms_of(fit, fitted, kind).plain, of_kind[kind].shown, at, bound ? bound : "");
+    snprintf(result->message, sizeof result->message, "%zu row%s %s, residual %.3g %s rms%s%s", fit->rows,
+             fit->rows == 1 ? "" : "s", done, of_kind[kind].factor * rms_of(fit, fitted, kind).plain,
+             of_kind[kind].shown, at, bound ? bound : "");
   else
     snprintf(result->message, sizeof result->message,
              "%zu rows of %zu kinds %s, residual %.3g standard deviations rms%s%s", fit->rows, zp_fit_kinds(fit), done,
