@@ -184,9 +184,9 @@ static const char *violated(const ZpActuatorDef *def, const ZpResult *r) {
 
 /* -- every study -------------------------------------------------------------------------------------- */
 
-/* The field's grid follows ribbons that do not run back: study profile says so, and of which separation. */
+/* The field's grid follows ribbons that do not fold back: study profile says so, and of which separation. */
 static bool is_beyond_the_grid(const ZpResult *r) {
-  return r->study == ZP_STUDY_PROFILE && r->outcome == ZP_DIVERGED && strstr(r->message, "a ribbon runs back");
+  return r->study == ZP_STUDY_PROFILE && r->outcome == ZP_DIVERGED && strstr(r->message, "a ribbon folds back");
 }
 
 static double cpu_s(void) {

@@ -70,13 +70,13 @@ static void write_entries(FILE *file, const char *section, const Entry *entry) {
 static const Entry files[] = {
     {"summary.json", "outcome, message and the study's numbers; written after all other numbers"},
     {"scenario.yaml", "all keys and their values; running it again gives the same result"},
-    {"table.csv", "the time series or branch, or one row per run of a sweep"},
+    {"table.csv", "the time series or branch, or one row per case of a sweep"},
     {"results.h5", "the same and the shapes, with units"},
     {"journal.sqlite", "of a sweep: a row per finished case, for `--resume`"},
     {"shapes.pvd, shapes/, field.vts", "for ParaView"},
-    {"checkpoint.zps", "the state of a run in time, from which it can be resumed (`initial.file`)"},
+    {"checkpoint.zps", "the last state of a run in time, from which another run can resume (`initial.file`)"},
     {"plots/", "SVG pictures and the gnuplot scripts that drew them; `zipact plots` writes the templates of these "
-               "scripts, `--templates` takes those of a folder"},
+               "scripts, and `--templates` draws with those of a folder"},
     {NULL, NULL}};
 
 static const Entry statuses[] = {
@@ -91,7 +91,7 @@ static const char scenarios[] =
     ".SH SCENARIOS\n"
     "YAML, nested or dotted.\n"
     "Values take units (130 um, 10 kV, 8 g); a number without a unit is in SI.\n"
-    "A number key with a list is swept; several lists give their product.\n"
+    "A numeric key with a list of values is swept; several lists give all combinations of their values.\n"
     "A range, \\fB\"10 um .. 200 um : 20\"\\fR or with \\fBlog\\fR at its end, stands for a list; in a file also\n"
     "{from: 10 um, to: 200 um, count: 20, spacing: log}.\n"
     "Later values override earlier ones, in this order: defaults, those of the kind, preset, materials, file,\n"

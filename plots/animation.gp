@@ -19,7 +19,8 @@ voltage_unit = unit(drive_voltage, 'V')
 u = 0.1*reach*length # a length to size clip, load and margins with
 platform = platform_length/2*length
 
-# the field between the faces by the plates law, V/m, and its colour: by the square root, so that weak fields show, too
+# the field between the faces by the plates law, V/m, and its colour: by the square root, so that weak fields show, too;
+# where beads of several actuators end is not known here, so neither is the field
 metal = '#37434d'
 tape = '#c9a66b'
 given = electro_insulator_offset == electro_insulator_offset
@@ -33,7 +34,7 @@ _blend(l, p, k) = floor(word(l, k + 1) + (4*p - k)*(word(l, k + 2) - word(l, k +
 field_colour(p) = 65536*_blend('223 142 244 239 181', p, _of(p)) + 256*_blend('238 202 201 123 23', p, _of(p)) \
                 + _blend('240 208 93 69 158', p, _of(p))
 shown(gap, volts) = field_colour(share(between(gap, volts)))
-coloured = ribbons > 1 && insulator_offset > 0
+coloured = ribbons > 1 && insulator_offset > 0 && field_known
 if (coloured) {
   do for [k=0:19] {
     set object 20+k rectangle from screen 0.70+0.012*k,0.08 to screen 0.712+0.012*k,0.095 fc rgb field_colour(k/19.0) fs solid noborder
@@ -100,7 +101,8 @@ do for [k=1:frames + hold] {
   if (!held && load_mass > 0) {
     set arrow 2 from h,v to h,v-u nohead lw 2 lc rgb '#555555'
     set object 3 rectangle from h-1.2*u,v-2.6*u to h+1.2*u,v-u fc rgb '#55626d' fs solid noborder
-    set label 5 load at h,v-1.8*u center front tc rgb '#ffffff'
+    if (members == 1) { set label 5 load at h,v-1.8*u center front tc rgb '#ffffff' }
+    if (members > 1) { set label 5 load at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
   }
   # what is between the faces, coloured by the field, then the ribbons over it
   shapes = bead ? 2*i - 2 : i - 1

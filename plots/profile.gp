@@ -1,4 +1,4 @@
-# Electric force along a ribbon by the plates law and by the solved field, and their ratio.
+# Electric force along a ribbon by the plates law and by the solved field, and their difference.
 title = 'Electric force along a ribbon'
 letters = 14
 load 'style.gp'
@@ -10,7 +10,7 @@ both = largest('plates_N_per_m field_N_per_m')
 force = scale(both, 'N/m')
 load 'upper_panel.gp'
 set yrange [0:*]
-set ylabel label('force', unit(both, 'N/m')) offset 0.5
+set ylabel 'force / ('.unit(both, 'N/m').')' offset 0.5
 set ytics step(both*force, 5)
 list = 'field_N_per_m plates_N_per_m'.(number('capped_length_m') > 0 ? ' force_N_per_m' : '')
 titles = 'field "plates law" "with breakdown"'
@@ -23,8 +23,7 @@ load 'lower_panel.gp'
 unset key
 set autoscale y
 set offsets 0, 0, graph 0.08, graph 0.05
-unset ylabel # tics of a ratio have so many digits that they would push it off the picture
-set label 9 label('field over plates', '') at screen 0.022, (bottom + middle)/2 center rotate font ',11'
-if (span('ratio') > 0) set ytics step(span('ratio'), 5)
-plot '../table.csv' using (column('x_m')*length):(column('ratio')*1) with lines lw 2.5 lc rgb '#0072b2' title ''
+set ylabel 'difference / %' offset 0.5
+if (span('ratio') > 0) set ytics step(100*span('ratio'), 5)
+plot '../table.csv' using (column('x_m')*length):(100*(column('ratio') - 1)) with lines lw 2.5 lc rgb '#0072b2' title ''
 unset multiplot

@@ -20,21 +20,22 @@ HEAD = """# Materials
 
 Made by `make docs` from `include/zipact/materials.def`.
 
-`ribbon.material`, `insulator.material` and `medium.material` name a material of these tables. A material sets the keys of its group that are not given, regardless of the order in the file. A key
-that is given in the file or by `--set` keeps its value, so `--set ribbon.material=brass` does not change a `ribbon.density` in the file. A material overrides the preset.
+`ribbon.material`, `insulator.material` and `medium.material` name a material of these tables. A material sets those keys of its group that you do not give. A key
+that is given in the file or by `--set` keeps its value ([order](interface.md#which-value-counts)), so `--set ribbon.material=brass` does not change a `ribbon.density` in the file.
 
     ribbon.material: steel_1.4310
     insulator: {material: kapton, thickness: 50 um}
     medium.material: silicone_oil_50cst
 
-The values are those of handbooks and data sheets at 20 to 25 °C; the column "from" names the source. If it ends in "checked", we compared the value with
-that publication in November 2026; the other values are from memory, so look them up before you rely on them. The spread is an estimate of one standard deviation between deliveries.
-A resistivity is listed but sets no key, because setting it adds [leakage](theory.md#25-leakage-and-interface-charge-insulatorresistivity-mediumresistivity), which not every model has.
+The values are those of handbooks and data sheets at 20 to 25 °C; the column "from" names the source. Where it ends in "checked", we compared the value with
+that publication in November 2026. The other values are from memory, so look them up before you rely on them. The spread is an estimate of one standard deviation between deliveries.
+
+A material does not set its resistivity, because a resistivity adds [leakage](theory.md#25-leakage-and-interface-charge-insulatorresistivity-mediumresistivity), which not every model has. Copy it from the table if you need it.
 
 ## Spreads as tolerances
 
-With `sampling.tolerances: materials` every key that a material sets is drawn from a lognormal distribution. Its median is the value of the table; the standard deviation of its logarithm is the spread.
-Keys that are given keep their value, or their own [distribution](campaigns.md#tolerances). [examples/materials.yaml](../examples/materials.yaml):
+With `sampling.tolerances: materials` every key that a material sets is drawn from a lognormal distribution. Its median is the value of the table; the standard deviation of its natural logarithm is the spread.
+Keys that you give keep their value, or their own [distribution](campaigns.md#tolerances). [examples/materials.yaml](../examples/materials.yaml):
 
 ```console
 $ zipact run examples/materials.yaml -o out/materials

@@ -518,8 +518,27 @@ START_TEST(test_attraction_and_film_along_the_ribbon) {
     most = fmax(most, liquid.pressure[i]);
   }
   ck_assert(reach > 5e-3 && reach < 0.04 && most > 100);
+  ck_assert_double_eq(liquid.wet_length[0], reach);
   ck_near(liquid.thickness[30], quarter, 1e-12);
   ck_near(2 * sum, zp_sim_get(sim, "force"), 0.02);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Each member of a series has its own liquid; only that of the uppermost was given. */
+START_TEST(test_liquid_of_a_series) {
+  ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 21}, {"stack.series", 2});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 20e-3, false, NULL, NULL);
+  ZpLiquid liquid = zp_sim_liquid(sim);
+  for (size_t member = 0; member < 2; member++)
+    for (size_t i = 0; i < model->nodes; i++) {
+      bool wet = (double)i * model->l <= liquid.wet_length[member];
+      ck_assert_int_eq(liquid.thickness[member * model->nodes + i] > 0, wet);
+    }
+  ck_assert(liquid.wet_length[1] > liquid.wet_length[0] + 1e-4); /* the lowest has begun to zip */
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
@@ -546,6 +565,7 @@ int main(void) {
   tcase_add_test(c, test_whole_is_two_halves);
   tcase_add_test(c, test_bead_is_kept_in_a_snapshot);
   tcase_add_test(c, test_attraction_and_film_along_the_ribbon);
+  tcase_add_test(c, test_liquid_of_a_series);
   tcase_add_loop_test(c, test_what_is_refused, 0, 6);
   suite_add_tcase(suite, c);
   return run_suite(suite);

@@ -704,7 +704,7 @@ START_TEST(bad_input_is_refused) {
   set_text(&renamed, "data.columns", "Masse = voltage_kV");
   refuse(ZP_STUDY_CALIBRATE, &renamed, "Masse: no such column in good.csv, which has load_g, stroke_mm");
   set_text(&renamed, "data.columns", "load_g");
-  refuse(ZP_STUDY_CALIBRATE, &renamed, "their name = our name");
+  refuse(ZP_STUDY_CALIBRATE, &renamed, "name in the file = name in zipact");
   set_text(&bounded, "calibrate.bounds", "ribbon.thickness = 40 um .. 60 um");
   refuse(ZP_STUDY_CALIBRATE, &bounded, "ribbon.thickness is not in calibrate.fit");
   set_text(&bounded, "calibrate.bounds", "ribbon.young_modulus = 210 GPa .. 250 GPa");

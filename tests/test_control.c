@@ -550,7 +550,7 @@ END_TEST
 
 START_TEST(no_controller_in_cycles) {
   ZpActuatorDef def = controlled(0, 0);
-  ck_refused_by(ZP_STUDY_CYCLE, &def, "study cycle has no controller");
+  ck_refused_by(ZP_STUDY_CYCLE, &def, "study cycle requires none");
 }
 END_TEST
 

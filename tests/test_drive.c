@@ -818,16 +818,11 @@ START_TEST(wrong_inputs) {
     double value, rate;
     const char *named;
   } wrong[] = {
-      {ZP_INPUT_VOLTAGE, -1, 0, "drive.voltage"},
-      {ZP_INPUT_VOLTAGE, NAN, 0, "drive.voltage"},
-      {ZP_INPUT_VOLTAGE, 1e3, NAN, "rate of nan"},
-      {ZP_INPUT_VOLTAGE, 1e3, INFINITY, "rate of inf"},
-      {ZP_INPUT_LOAD, 2e4, 0, "load = 20000 N"},
-      {ZP_INPUT_LOAD, NAN, 0, "-10000 N to 10000 N"},
-      {ZP_INPUT_LOAD, 0, -2e12, "rate of -2e+12"},
-      {ZP_INPUT_COUNT, 0, 0, "there is none"},
-      {-1, 0, 0, "there is none"},
-      {ZP_INPUT_VOLTAGE, 1e7, 0, "drive.voltage"},
+      {ZP_INPUT_VOLTAGE, -1, 0, "drive.voltage"},  {ZP_INPUT_VOLTAGE, NAN, 0, "drive.voltage"},
+      {ZP_INPUT_VOLTAGE, 1e3, NAN, "rate of nan"}, {ZP_INPUT_VOLTAGE, 1e3, INFINITY, "rate of inf"},
+      {ZP_INPUT_LOAD, 2e4, 0, "load = 20000 N"},   {ZP_INPUT_LOAD, NAN, 0, "-10000 N to 10000 N"},
+      {ZP_INPUT_LOAD, 0, -2e12, "rate of -2e+12"}, {ZP_INPUT_COUNT, 0, 0, "there is no such input"},
+      {-1, 0, 0, "there is no such input"},        {ZP_INPUT_VOLTAGE, 1e7, 0, "drive.voltage"},
   };
   ZpActuatorDef def = hanging(true);
   ZpModel *model = model_of(&def);

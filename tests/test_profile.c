@@ -435,7 +435,7 @@ START_TEST(test_shape_that_runs_back) {
   ZpError err = {ZP_OK, ""};
   ck_assert_int_eq(zp_study_run(ZP_STUDY_PROFILE, &def, NULL, NULL, &result, &err), ZP_OK);
   ck_assert_int_eq(result->outcome, ZP_DIVERGED);
-  ck_assert_msg(strstr(result->message, "runs back") && strstr(result->message, "0.088 m"), "%s", result->message);
+  ck_assert_msg(strstr(result->message, "folds back") && strstr(result->message, "0.088 m"), "%s", result->message);
   zp_result_destroy(result);
 }
 END_TEST

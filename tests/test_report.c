@@ -796,7 +796,7 @@ START_TEST(axes_without_a_unit_say_so) {
   write_rest("p", "profile", (const char *const[]){"isometric.separation=[1 mm, 2 mm]", NULL});
   ck_assert(file_says("p/plots/factors.svg", ">factor (dimensionless)<"));
   write_rest("p", "profile", (const char *const[]){NULL});
-  ck_assert(file_says("p/plots/profile.svg", ">field over plates (dimensionless)<"));
+  ck_assert(file_says("p/plots/profile.svg", ">difference / %<"));
   ck_assert(file_says("p/plots/field.svg", ">field strength / (MV/m)<"));
 }
 END_TEST

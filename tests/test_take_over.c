@@ -1,4 +1,5 @@
 /* A simulation that continues where one of another model was: the page changes its actuator so while it runs. */
+#include "actuator/model.h"
 #include "check_util.h"
 
 typedef struct Run {
@@ -97,22 +98,91 @@ START_TEST(test_another_mesh_is_refused) {
 }
 END_TEST
 
-static Run start_with(const Setting *set, size_t count) {
-  Run run = {.def = def_with(set, count)};
+static Run begin(ZpActuatorDef def) {
+  Run run = {.def = def};
   run.model = model_of(&run.def);
   run.sim = sim_of(run.model);
   return run;
 }
 
+/* The whole stack continues; it took over the uppermost member only, at its own height. */
+START_TEST(test_a_stack_continues_with_all_its_members) {
+  Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2})), next = begin(first.def);
+  zp_sim_set_voltage(first.sim, 6e3, NULL);
+  zp_sim_run(first.sim, 0.02, false, NULL, NULL);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  zp_sim_run(first.sim, 0.03, false, NULL, NULL);
+  zp_sim_run(next.sim, 0.03, false, NULL, NULL);
+  expect_signals(&next, &first, 1);
+  ZpShape shape = zp_sim_shape(next.sim), other = zp_sim_shape(first.sim);
+  for (size_t j = 0; j < 2 * next.model->count; j++)
+    ck_assert_double_eq_tol(shape.y[j], other.y[j], 1e-12);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* Its members stay joined at another length. */
+START_TEST(test_a_stack_of_another_length_stays_joined) {
+  Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2})),
+      next = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"ribbon.length", 0.12}));
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  const size_t nodes = next.model->count; /* the last ones are those of the platforms */
+  ZpShape shape = zp_sim_shape(next.sim);
+  ck_near(shape.y[nodes - 1], shape.y[2 * nodes - 2], 1e-12);
+  expect_balance(&next);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* Neither more of them, nor a single actuator, nor antagonists instead of a series. */
+START_TEST(test_other_members_are_refused) {
+  const ZpActuatorDef others[] = {DEF({"mesh.nodes", 21}, {"stack.series", 3}), DEF({"mesh.nodes", 21}),
+                                  DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.03})};
+  Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2})), next = begin(others[_i]);
+  double opening = zp_sim_get(next.sim, "opening");
+  ZpError err;
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "other members"));
+  ck_assert_double_eq(zp_sim_get(next.sim, "opening"), opening);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* Antagonists fit between their mounts at one length only. */
+START_TEST(test_antagonists_keep_their_lengths) {
+  Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.03})),
+      farther = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.032})),
+      heavier = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.03}, {"load.mass", 0.01}));
+  ZpError err;
+  ck_assert_int_eq(zp_sim_take_over(farther.sim, first.sim, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "stack.distance"));
+  ck_assert_int_eq(zp_sim_take_over(heavier.sim, first.sim, &err), ZP_OK);
+  expect_signals(&heavier, &first, 1);
+  end(&first);
+  end(&farther);
+  end(&heavier);
+}
+END_TEST
+
+/* A ribbon actuator does not become a fold, whose nodes it has. */
+START_TEST(test_other_ends_are_refused) {
+  Run first = begin(DEF({"mesh.nodes", 21})), next = begin(DEF({"mesh.nodes", 21}, {"actuator.kind", ZP_KIND_HINGE}));
+  ZpError err;
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "the ends or the platforms differ"));
+  end(&first);
+  end(&next);
+}
+END_TEST
+
 /* A slow supply that replaces the ideal one starts at the present voltage; and vice versa. */
 START_TEST(test_another_supply) {
-  static const Setting ideal[] = {{"mesh.nodes", 21}, {"drive.voltage", 5e3}, {"liquid.model", ZP_LIQUID_NONE}},
-                       slow[] = {{"mesh.nodes", 21},
-                                 {"drive.voltage", 5e3},
-                                 {"liquid.model", ZP_LIQUID_NONE},
-                                 {"source.supply", ZP_SUPPLY_POCKET_6KV}};
-  Run first = start_with(ideal, LENGTH_OF(ideal)), next = start_with(slow, LENGTH_OF(slow)),
-      last = start_with(ideal, LENGTH_OF(ideal));
+  const ZpActuatorDef ideal = DEF({"mesh.nodes", 21}, {"drive.voltage", 5e3}),
+                      slow = DEF({"mesh.nodes", 21}, {"drive.voltage", 5e3}, {"source.supply", ZP_SUPPLY_POCKET_6KV});
+  Run first = begin(ideal), next = begin(slow), last = begin(ideal);
   zp_sim_run(first.sim, 0.01, false, NULL, NULL);
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_run(next.sim, 0.011, false, NULL, NULL), ZP_REACHED_END);
@@ -134,6 +204,11 @@ int main(void) {
   tcase_add_test(all, test_the_same_model_goes_on_as_if_nothing_was);
   tcase_add_test(all, test_another_mesh_is_refused);
   tcase_add_test(all, test_another_supply);
+  tcase_add_test(all, test_a_stack_continues_with_all_its_members);
+  tcase_add_test(all, test_a_stack_of_another_length_stays_joined);
+  tcase_add_loop_test(all, test_other_members_are_refused, 0, 3);
+  tcase_add_test(all, test_antagonists_keep_their_lengths);
+  tcase_add_test(all, test_other_ends_are_refused);
   suite_add_tcase(suite, all);
   return run_suite(suite);
 }

@@ -9,5 +9,6 @@ await page.click('#step');
 await page.waitForFunction(() => Number(document.getElementById('n-zipped').textContent) >= 12);
 await page.click('#pause');
 await page.waitForTimeout(300);
-await page.screenshot({path: process.argv[2], clip: {x: 0, y: 0, width: 1280, height: 890}}); // down to the notes
+const numbers = await page.locator('#numbers').boundingBox();
+await page.screenshot({path: process.argv[2], clip: {x: 0, y: 0, width: 1280, height: Math.ceil(numbers.y + numbers.height) + 12}});
 await browser.close();

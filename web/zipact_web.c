@@ -10,6 +10,7 @@
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
+#include "actuator/model.h"
 #include "base/fail.h"
 #include "base/memory.h"
 #include "def/check.h"
@@ -156,28 +157,13 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   return say(web, ZP_BAD_INPUT, message);
 }
 
-/* Does gravity pull both halves to one side? */
-static bool halves_differ(const ZpActuatorDef *def) {
-  static const double rounding = 1e-6; /* of its sideways part */
-  return fabs(sin(def->mount.tilt)) > rounding;
-}
-
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
+  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON && def->actuator.kind != ZP_KIND_HINGE)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "this page supports actuator.kind electro_ribbon only; use the command for the other kinds");
+                   "this page supports actuator.kind electro_ribbon and hinge; use the command for the other kinds");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs studies actuate and equilibrium only; use the command for the others");
-  if (zp_def_members(def) > 1)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "this page shows one actuator only; use the command for stack.series, stack.distance and keys of "
-                   "member_K");
-  if (def->platform.rotates || halves_differ(def))
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "this page draws one half and its mirror image; use the command for platform.rotates and a mount.tilt "
-        "other than 0 and 180 degree");
   if (def->drive.waveform != ZP_WAVEFORM_STEP)
     return zp_fail(err, ZP_BAD_INPUT, "this page has buttons for the voltage; use the command for drive.waveform");
   if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
@@ -295,16 +281,54 @@ EXPORT double zp_web_zip_time(ZpWeb *web) {
   return zp_sim_zip_time(web->sim);
 }
 
-EXPORT double zp_web_insulator_offset(ZpWeb *web) {
-  return zp_model_info(web->model).insulator_offset;
+/* Members of a stack that have shapes of their own: those of a series, and unequal parallel ones. */
+EXPORT int zp_web_members(ZpWeb *web) {
+  return (int)zp_members(web->model);
 }
 
-/* Shape of the left half; the page draws it with its mirror image. */
+/* Modelled halves of each: 1, which has a mirror image, or 2; 0 of a hinge, which has neither. */
+EXPORT int zp_web_halves(ZpWeb *web) {
+  const ZpTopology *topology = &web->model->topology;
+  return zp_is_hinge(topology) ? 0 : (int)topology->halves;
+}
+
+/* Stations of each ribbon. */
 EXPORT int zp_web_nodes(ZpWeb *web) {
-  return zp_model_def(web->model)->mesh.nodes;
+  return (int)web->model->topology.stations;
 }
 
-/* x and y [2 nodes] of interleaved faces, gap and line force [nodes]. */
+static const ZpModel *member_of(const ZpWeb *web, int member) {
+  const ZpModel *model = web->model;
+  while (member-- > 0)
+    model = model->below;
+  return model;
+}
+
+static ZpActuatorDef ribbon_of(const ZpWeb *web, int member, int ribbon) {
+  const ZpActuatorDef *def = &member_of(web, member)->def;
+  return ribbon > 0 ? zp_def_lower(def) : *def;
+}
+
+/* Thicknesses of ribbon 0, the upper one, or 1 of a member, m. */
+EXPORT double zp_web_insulator(const ZpWeb *web, int member, int ribbon) {
+  return ribbon_of(web, member, ribbon).insulator.thickness;
+}
+
+EXPORT double zp_web_metal(const ZpWeb *web, int member, int ribbon) {
+  return ribbon_of(web, member, ribbon).ribbon.thickness;
+}
+
+EXPORT double zp_web_insulator_offset(const ZpWeb *web, int member) {
+  return zp_model_info(member_of(web, member)).insulator_offset;
+}
+
+/* The voltage of a member if the first one has `voltage`, V. */
+EXPORT double zp_web_member_voltage(const ZpWeb *web, int member, double voltage) {
+  bool lower = member > 0 && zp_def_opposed(&web->def);
+  return lower ? zp_def_lower_voltage(&web->def, voltage) : voltage;
+}
+
+/* x and y [members * nodes * 2] of interleaved faces, gap and line force [members * nodes]. */
 EXPORT const double *zp_web_x(ZpWeb *web) {
   return zp_sim_shape(web->sim).x;
 }
@@ -321,13 +345,18 @@ EXPORT const double *zp_web_line_force(ZpWeb *web) {
   return zp_sim_shape(web->sim).line_force;
 }
 
-/* Film of the liquid [nodes]; NULL if there is none. */
+/* Film and pressure of the liquid [members * nodes], and the wet length of each modelled half; NULL if there is none.
+ */
 EXPORT const double *zp_web_film(ZpWeb *web) {
   return zp_sim_liquid(web->sim).thickness;
 }
 
 EXPORT const double *zp_web_pressure(ZpWeb *web) {
   return zp_sim_liquid(web->sim).pressure;
+}
+
+EXPORT const double *zp_web_wet_length(ZpWeb *web) {
+  return zp_sim_liquid(web->sim).wet_length;
 }
 
 /* -- study ---------------------------------------------------------------------------------------- */

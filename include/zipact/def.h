@@ -1,13 +1,12 @@
-/* What the user wants: plain data, one field per key of keys.def.
+/* The definition of an actuator, "Def": plain data, one field per key of keys.def.
  *
- * A Def begins as zp_actuator_def_default() or by zp_def_resolve, which note the layout of the headers in it. What was
- * not made so, or by headers with other keys than the library has, is refused by whatever takes a Def (ZP_BAD_INPUT, or
- * NAN and NULL where there is no status): a program is never given shifted keys.
+ * Make a Def by zp_actuator_def_default or zp_def_resolve, which store the layout of the headers in it. Every function
+ * that takes a Def refuses one that was made in another way, or with headers whose keys differ from those of the
+ * library (ZP_BAD_INPUT; NAN or NULL if it returns no status). So a program never reads the wrong key.
  *
- * A Def may be filled in three ways that give the same thing: by assigning its fields
- * (def.load.mass = 0.008), by key (zp_def_set), or from a list of assignments (zp_def_resolve), which
- * also applies presets. Nothing is checked until zp_def_check, which every user of a Def calls.
- * All numbers are SI. A key that is `auto` or `none` is NAN.
+ * There are three ways to fill a Def, with the same result: assign its fields (def.load.mass = 0.008), set it by key
+ * (zp_def_set), or give a list of assignments (zp_def_resolve), which also applies presets. zp_def_check checks the
+ * values; all functions that use a Def call it. All numbers are SI. A key that is `auto` or `none` is NAN.
  */
 #ifndef ZIPACT_DEF_H
 #define ZIPACT_DEF_H
@@ -39,9 +38,8 @@ extern "C" {
 /* Bytes of a text key with the final 0. */
 #define ZP_TEXT_SIZE 256
 
-/* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; meaning, unit,
- * default and range of each are in keys.def (or: `zipact keys`). Which study is run is no part of it: a scenario is a
- * Def and a study (study.h). */
+/* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; keys.def (or `zipact keys`) has
+ * meaning, unit, default and range of each. The study is not part of it: a scenario is a Def and a study (study.h). */
 #define ZP_GROUP(group) struct {
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \
@@ -56,7 +54,7 @@ extern "C" {
 #define ZP_TEXT(path, name, def, help)                                  char name[ZP_TEXT_SIZE];
 #define ZP_OF_SCENARIO(name, type, def, help)
 typedef struct ZpActuatorDef {
-  uint64_t layout; /* zp_def_layout of the headers that the program was compiled with; not to be changed */
+  uint64_t layout; /* zp_def_layout of the headers that the program was compiled with; do not change it */
 #include <zipact/keys.def>
 } ZpActuatorDef;
 
@@ -70,7 +68,7 @@ typedef enum ZpKeyType {
   ZP_KEY_TEXT       /* a text; has no number (NAN) */
 } ZpKeyType;
 
-/* Offset of a key that is of the scenario and has no field in a Def: study. */
+/* Offset of a key that belongs to the scenario and has no field in a Def: study. */
 #define ZP_NO_FIELD ((size_t)-1)
 
 /* A word of a choice key. */
@@ -79,7 +77,7 @@ typedef struct ZpChoice {
   const char *help; /* one line */
 } ZpChoice;
 
-/* All there is to know of a key: one row of keys.def. */
+/* A key: one row of keys.def. */
 typedef struct ZpKey {
   const char *name;        /* "ribbon.length" */
   ZpKeyType type;          /* kind of value */
@@ -91,21 +89,21 @@ typedef struct ZpKey {
   const char *help;        /* one line */
   const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
   size_t offset;           /* of its field in ZpActuatorDef, bytes; ZP_NO_FIELD: a key of the scenario */
-  const char *text;        /* ZP_KEY_TEXT: default; ZP_KEY_REAL_AUTO: the word of NAN, auto or none; else NULL */
+  const char *text;        /* ZP_KEY_TEXT: default; ZP_KEY_REAL_AUTO: the word for NAN, auto or none; else NULL */
 } ZpKey;
 
-/* A value for a key, on its way into a Def. */
+/* A value for a key. */
 typedef struct ZpAssignment {
   int key;      /* index of the key, see zp_key_find */
   double value; /* SI; NAN for auto and none; the place of a word in its list; 0 or 1 */
 } ZpAssignment;
 
-/* What a material says of one key of its group: one row of materials.def. */
+/* The value that a material has for one key of its group: one row of materials.def. */
 typedef struct ZpMaterialValue {
   int material;       /* place of its word in the list of key `material` of the group */
-  const char *name;   /* of the key without its group: "young_modulus" */
+  const char *name;   /* name of the key without its group: "young_modulus" */
   double value;       /* SI */
-  double spread;      /* standard deviation of the natural logarithm, from one delivery to another; above 0 */
+  double spread;      /* standard deviation of the natural logarithm between deliveries; above 0 */
   const char *source; /* where the value comes from, one line */
 } ZpMaterialValue;
 
@@ -118,8 +116,8 @@ ZP_API const ZpKey *zp_key(int index);
 /* Index of the key called `name`, or -1. */
 ZP_API int zp_key_find(const char *name);
 
-/* How many letters must be inserted, deleted, replaced or swapped with the next to make one word of the other, whatever
- * their case. Of words with more than 63 letters the rest is ignored. */
+/* Number of letters that must be inserted, deleted, replaced or swapped with the next to turn one word into the other,
+ * ignoring case. Letters after the 63rd are ignored. */
 ZP_API int zp_word_distance(const char *a, const char *b);
 
 /* The key name that differs least from `name`, for "did you mean". Never NULL. */
@@ -133,11 +131,11 @@ ZP_API void zp_key_unknown(const char *name, char *text, size_t size);
 /* Place of `word` in the list of the choice key `index`, or -1. */
 ZP_API int zp_key_choice(int index, const char *word);
 
-/* Value of key `index` in `def`, as in ZpAssignment; NAN of a text key and of a key of the scenario. */
+/* Value of key `index` in `def`, as in ZpAssignment; NAN for a text key and for a key of the scenario. */
 ZP_API double zp_def_get(const ZpActuatorDef *def, int index);
 
-/* Set one key. ZP_BAD_INPUT with key, value, unit and range if the value is out of range or not a
- * number, or the key is one of the scenario; `def` is then unchanged. */
+/* Set one key. ZP_BAD_INPUT, with key, value, unit and range, if the value is out of range or not a number, or if the
+ * key belongs to the scenario; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err);
 
 /* Text of the text key `index` in `def`; NULL if the key is of another type. */
@@ -147,40 +145,40 @@ ZP_API const char *zp_def_text(const ZpActuatorDef *def, int index);
  * of another type; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
 
-/* How many members does the system have: stack.series, or stack.parallel where a member has keys of its own; equal
- * actuators side by side count as one. */
+/* Number of members of the system: stack.series, or stack.parallel if a member has keys of its own. Equal actuators
+ * side by side count as one. */
 ZP_API int zp_def_members(const ZpActuatorDef *def);
 
-/* Does this key name a material (ribbon.material and the like), whose values fill other keys before anything is
- * computed? */
+/* Does this key name a material (ribbon.material and the like), which sets other keys? */
 ZP_API bool zp_key_is_material(int index);
 
-/* What the material that `def` names for the group of key `index` fills into that key; NULL if it fills nothing. */
+/* The value that key `index` gets from the material that `def` names for its group; NULL if it gets none. */
 ZP_API const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index);
 
-/* As zp_def_resolve, where def->layout is set already: for that function and zp_actuator_def_default. ZP_BAD_INPUT, and
- * nothing but it is looked at, if the layout is not that of the library. */
+/* As zp_def_resolve, with def->layout already set: for that function and zp_actuator_def_default. ZP_BAD_INPUT if the
+ * layout differs from that of the library; then nothing else is read. */
 ZP_API ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
 
-/* Check the range of every key and what keys ask of one another. ZP_BAD_INPUT names the key. What a study asks besides,
- * zp_study_check says. */
+/* Check the range of every key and the conditions between keys. ZP_BAD_INPUT names the key. zp_study_check also checks
+ * the conditions of a study. */
 ZP_API ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err);
 
-/* Check what motion asks of integrator, contact, mechanics and mass; zp_sim_create does.
- * ZP_BAD_INPUT names the key. Of a Def that zp_def_check has passed. */
+/* Check the conditions of motion on integrator, contact, mechanics and mass, as zp_sim_create does. ZP_BAD_INPUT names
+ * the key. `def` must have passed zp_def_check. */
 ZP_API ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err);
 
-/* Does a model of this Def take a table (zp_model_create_driven): of the setpoint's waveform where there is a
- * controller, else of the drive's? */
+/* Does a model of this Def need a table (zp_model_create_driven), for the waveform of the setpoint if there is a
+ * controller, or else of the drive? */
 ZP_API bool zp_def_takes_table(const ZpActuatorDef *def);
 
-/* Check that `voltage` (V, any sign) is no short circuit: without an insulator (insulator.thickness 0) only 0 V is
- * allowed where electrodes touch even at rest, at the clip of electro_ribbon or the clamp of a flange without a gap. A
- * flange with a gap may have none; a study then ends where it touches. ZP_BAD_INPUT says so. */
+/* Check that `voltage` (V, any sign) does not cause a short circuit. Without an insulator (insulator.thickness 0) only
+ * 0 V is allowed if the electrodes touch at rest: at the clip of an electro_ribbon, or at the clamp of a flange without
+ * a gap. A flange with a gap needs no insulator; a study then ends when it touches. ZP_BAD_INPUT if there is a short
+ * circuit. */
 ZP_API ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 
-/* liquid.model, or what its word auto stands for with the other keys of `def`: ZP_LIQUID_BEAD where a bead is
- * modelled, else ZP_LIQUID_NONE. ZP_LIQUID_NONE also for a Def that is not of this library. */
+/* liquid.model, or what auto means with the other keys of `def`: ZP_LIQUID_BEAD if a bead is modelled, else
+ * ZP_LIQUID_NONE. ZP_LIQUID_NONE also for a Def of another library. */
 ZP_API ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
 
 #ifdef __cplusplus
@@ -193,10 +191,10 @@ ZP_API ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
 extern "C" {
 #endif
 
-/* The two functions that make a Def are compiled into the program, since only there it is known how large it takes a
- * Def to be. A library with other keys refuses what they made, by a sentence, and writes nothing into it. */
+/* The two functions that make a Def are compiled into the program, because only the program knows the size of its Def.
+ * A library with other keys refuses their Defs with an error and writes nothing into them. */
 
-/* The default of every key: the paper's actuator, physically right. */
+/* The default of every key: the paper's actuator, with correct physics. */
 static inline ZpActuatorDef zp_actuator_def_default(void) {
   ZpActuatorDef def;
   memset(&def, 0, sizeof def);
@@ -206,8 +204,8 @@ static inline ZpActuatorDef zp_actuator_def_default(void) {
 }
 
 /* Fill `def` from the defaults, those of the kind, the preset, supply and materials, and `count` assignments, in this
- * order; later assignments of a key win. ZP_BAD_INPUT as zp_def_set, and where a preset leaves a key to the user and it
- * is not given. */
+ * order; the last assignment of a key counts. ZP_BAD_INPUT as zp_def_set, and if a preset has no value of a key that is
+ * not given. */
 static inline ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   def->layout = zp_def_layout();
   return zp_def_fill(def, list, count, err);

@@ -10,15 +10,15 @@
 extern "C" {
 #endif
 
-/* Rows of times and voltages. Between two rows the voltage goes straight, before the first and after the last it is
- * theirs. Two rows at one time are a jump. */
+/* Rows of times and voltages. The voltage is linear between two rows, and constant before the first and after the last.
+ * Two rows at the same time are a jump. */
 typedef struct ZpDriveTable {
   size_t rows;           /* two or more */
-  const double *time;    /* [rows] s, from 0 on; never falls */
-  const double *voltage; /* [rows] V; of a setpoint in the unit of control.signal */
+  const double *time;    /* [rows] s, 0 or more; must not decrease */
+  const double *voltage; /* [rows] V; for a setpoint in the unit of control.signal */
 } ZpDriveTable;
 
-/* What is wrong with a table, in half a sentence, and in which row (from 0); NULL if nothing is. */
+/* The fault of a table, as half a sentence, and its row (from 0); NULL if there is none. */
 ZP_API const char *zp_drive_table_fault(const ZpDriveTable *table, size_t *row);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
-/* Status of a call: was it right, and could the machine do it?
+/* Status of a call: whether its arguments were right and the machine could do it.
  *
- * How the *numerics* ended is not a status but an outcome (study.h): a run that diverges returns
- * ZP_OK and says "diverged".
+ * How the *solver* ended is not a status but an outcome (sim.h): a study whose run diverges returns ZP_OK, with outcome
+ * "diverged".
  */
 #ifndef ZIPACT_ERROR_H
 #define ZIPACT_ERROR_H
@@ -10,18 +10,17 @@
 extern "C" {
 #endif
 
-/* The kinds of failure. Their values are the exit statuses of the command where it has one. */
+/* The kinds of failure. Their values are exit statuses of the command. */
 typedef enum ZpStatus {
   ZP_OK = 0,        /* the call did what it says */
   ZP_BAD_INPUT = 2, /* a value, key, unit, file content or argument is wrong; nothing was done */
   ZP_MACHINE = 3    /* no memory, disk full, no permission, a library failed */
 } ZpStatus;
 
-/* Why a call failed. Filled only when the call does not return ZP_OK; may be NULL where the caller
- * does not care. */
+/* The reason why a call failed. Filled only if the call does not return ZP_OK. Callers may pass NULL instead. */
 typedef struct ZpError {
-  ZpStatus status;   /* same as the value returned */
-  char message[512]; /* one sentence naming key, value, unit and range; no newline at its end */
+  ZpStatus status;   /* the returned status */
+  char message[512]; /* one sentence that names key, value, unit and range; no newline at its end */
 } ZpError;
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* The layout of ZpActuatorDef as a number, so that a library can tell a Def of another one. Part of def.h, which
- * comes first wherever this is included. */
+/* The layout of ZpActuatorDef as a number, by which a library detects a Def that was made with other headers. Part of
+ * def.h, which includes this file. */
 #include <zipact/def.h>
 #ifndef ZIPACT_LAYOUT_H
 #define ZIPACT_LAYOUT_H
@@ -13,10 +13,10 @@
 extern "C" {
 #endif
 
-/* ZpActuatorDef of these headers as a number: another where a key or a word has come or gone, or where a key has
- * another type, place or (by its length and its last letters) name. A sum over all keys, which a compiler that
- * optimises works out: the same in the library and in a program that were compiled with the same keys.def and
- * choices.def. */
+/* The layout of ZpActuatorDef in these headers as a number. It changes if a key or a word is added or removed, and if a
+ * key gets another type, place or name (only length and last letters count). It is a sum over all keys, which an
+ * optimising compiler evaluates. Library and program have the same number if they were compiled with the same keys.def
+ * and choices.def. */
 static inline uint64_t zp_def_layout(void) {
 #define ZP_LETTER(name, back) ((uint64_t)(unsigned char)(name)[sizeof(name) - 1 - (back)])
 #define ZP_NAME_TERM(name)                                                                                             \

@@ -1,4 +1,4 @@
-/* A compiled problem: built once from a Def, then never changed, so threads may share it. */
+/* A model: built once from a Def and never changed, so threads may share it. */
 #ifndef ZIPACT_MODEL_H
 #define ZIPACT_MODEL_H
 
@@ -12,22 +12,23 @@ extern "C" {
 
 typedef struct ZpModel ZpModel;
 
-/* Check `def` and build a model of it. On success *model is new and the caller's; else it is NULL and
- * `err` says why (ZP_BAD_INPUT, or ZP_MACHINE if there is no memory). */
+/* Check `def` and build a model of it. On success *model is new and belongs to the caller; otherwise it is NULL and
+ * `err` gives the reason (ZP_BAD_INPUT, or ZP_MACHINE if there is no memory). */
 ZP_API ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err);
 
-/* The same with the rows of `table`, which are copied: of drive.waveform, or with a controller of setpoint.waveform,
- * which must be `table`. NULL: as zp_model_create. ZP_BAD_INPUT as zp_drive_table_fault says. */
+/* The same with the rows of `table`, which are copied. They belong to drive.waveform, or with a controller to
+ * setpoint.waveform, which must be table. NULL: as zp_model_create. ZP_BAD_INPUT with the fault of
+ * zp_drive_table_fault. */
 ZP_API ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **model,
                                        ZpError *err);
 
-/* Free a model; NULL is allowed. Nothing that uses it may live longer. */
+/* Free a model; NULL is allowed. Destroy everything that uses it first. */
 ZP_API void zp_model_destroy(ZpModel *model);
 
 /* The definition that the model was built from. */
 ZP_API const ZpActuatorDef *zp_model_def(const ZpModel *model);
 
-/* Derived constants of a model, for reading: they explain what runs. SI. */
+/* Constants that follow from the keys, SI, for information. */
 typedef struct ZpModelInfo {
   int ribbons;              /* 1 or 2 */
   int nodes;                /* per ribbon */
@@ -41,10 +42,10 @@ typedef struct ZpModelInfo {
   double insulator_offset;  /* d, m */
   double internal_damping;  /* Kelvin-Voigt time, s */
   double closed_line_force; /* attraction per length of closed faces at the highest voltage, N/m */
-  double stable_time_step;  /* largest explicit step that is surely stable, s */
+  double stable_time_step;  /* largest explicit step that is certainly stable, s */
 } ZpModelInfo;
 
-/* Those of `model`; of a series those of its uppermost member. */
+/* The constants of `model`; for a series, those of its uppermost member. */
 ZP_API ZpModelInfo zp_model_info(const ZpModel *model);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* A model at rest, for programs that ask for one state after another. Whole studies of rest: study.h. */
+/* A model at rest, for programs that need one equilibrium after another. study.h has complete studies of equilibria. */
 #ifndef ZIPACT_REST_H
 #define ZIPACT_REST_H
 
@@ -13,29 +13,29 @@ extern "C" {
 
 typedef struct ZpRest ZpRest;
 
-/* `model` at rest, which must outlive it; straight at first. *rest is NULL where there is no memory (ZP_MACHINE). */
+/* `model` at rest, with straight ribbons at first. `model` must outlive it. *rest is NULL if there is no memory
+ * (ZP_MACHINE). */
 ZP_API ZpStatus zp_rest_create(const ZpModel *model, ZpRest **rest, ZpError *err);
 
 /* Free it; NULL is allowed. */
 ZP_API void zp_rest_destroy(ZpRest *rest);
 
-/* Move to the equilibrium in which the actuator hangs at `voltage` (V, 0 or more), the one that a slowly rising voltage
- * leads to. False if there is none: the actuator pulls in below it, electrodes without an insulator touch, or no
+/* Go to the equilibrium in which the actuator hangs at `voltage` (V, 0 or more), to which a slowly rising voltage
+ * leads. False if there is none: the actuator pulls in at a lower voltage, electrodes without an insulator touch, or no
  * equilibrium was found. */
 ZP_API bool zp_rest_hang(ZpRest *rest, double voltage);
 
-/* The present state: height of the clip over the lower platform, signed (of one ribbon: how far its right end is below
- * the left), m; distance of the platforms' faces, m, NAN of one ribbon. */
+/* The present state: height of the clip over the lower platform, signed (one ribbon: height of its left end over its
+ * right end), m; distance between the platforms' faces, m, NAN for one ribbon. */
 ZP_API double zp_rest_stroke(const ZpRest *rest);
 ZP_API double zp_rest_opening(const ZpRest *rest);
 
-/* Its capacitance between the electrodes, F, of the whole actuator. */
+/* The capacitance of the whole actuator, F. */
 ZP_API double zp_rest_capacitance(const ZpRest *rest);
 
-/* Derivatives of both by key `key` at the present state, which zp_rest_hang has found: m per SI unit of the key, the
- * voltage being that of the state; exact but for rounding. Where the state has none they are NAN. ZP_BAD_INPUT: `key`
- * is no real number that the model has (zp_study_check says what sensitivity.by may name), or electro.model is
- * field; ZP_MACHINE: no memory. */
+/* Derivatives of stroke and opening by key `key` in the present state, which zp_rest_hang has found, at its voltage: m
+ * per SI unit of the key, exact except for rounding. They are NAN if they do not exist. ZP_BAD_INPUT: `key` is not a
+ * real number of the model (as zp_study_check for sensitivity.by), or electro.model is field; ZP_MACHINE: no memory. */
 ZP_API ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* A study: a Def goes in, numbers, a table and shapes come out. Which studies there are: studies.def. */
+/* A study computes numbers, a table and shapes from a Def. studies.def lists the studies. */
 #ifndef ZIPACT_STUDY_H
 #define ZIPACT_STUDY_H
 
@@ -13,21 +13,21 @@ extern "C" {
 typedef struct ZpScalar {
   const char *name; /* "zip_time_s" */
   const char *unit; /* "s"; "1" for a pure number; "count" for a whole number */
-  double value;     /* NAN where it does not exist (null in JSON) */
-  bool timing;      /* follows from wall time: differs from run to run */
+  double value;     /* NAN if it does not exist (null in JSON) */
+  bool timing;      /* a wall time, which differs from run to run */
 } ZpScalar;
 
 #define ZP_MAX_SCALARS 64
 #define ZP_MAX_NOTES   8
 
-/* A derivative of an output by a key of sensitivity.by, exact but for rounding. */
+/* A derivative of an output by a key of sensitivity.by, exact except for rounding. */
 typedef struct ZpSensitivity {
   const char *output; /* name of a scalar: "stroke_m" */
   int key;            /* index of the key */
-  double value;       /* in SI units of both; NAN where it does not exist */
+  double value;       /* in SI units of both; NAN if it does not exist */
 } ZpSensitivity;
 
-/* Most keys of sensitivity.by, and most derivatives. */
+/* Largest numbers of keys of sensitivity.by and of derivatives. */
 #define ZP_MAX_SENSITIVITY_KEYS 16
 #define ZP_MAX_SENSITIVITIES    512
 
@@ -37,8 +37,8 @@ typedef struct ZpFieldMap {
   size_t nx, ny;        /* of nodes */
   double *x, *y;        /* [nx ny] m */
   double *potential;    /* [nx ny] V */
-  double *strength;     /* [(nx - 1) (ny - 1)] of the field in the middle of a cell, V/m */
-  double *permittivity; /* [(nx - 1) (ny - 1)] relative, of a cell; 0 in metal */
+  double *strength;     /* [(nx - 1) (ny - 1)] field strength in the middle of a cell, V/m */
+  double *permittivity; /* [(nx - 1) (ny - 1)] relative permittivity of a cell; 0 in metal */
   size_t surface[6];    /* j of the nodes on the lower metal's underside and top, the lower and the upper insulator
                          * face, the upper metal's underside and top */
   void *memory;
@@ -48,21 +48,20 @@ typedef struct ZpFieldMap {
 ZP_API ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
 ZP_API void zp_field_map_destroy(ZpFieldMap *map);
 
-/* What study limits keeps for a neighbour, see ZpStudyInput. */
+/* States of study limits from which a similar case can start, see ZpStudyInput. */
 typedef struct ZpLimits ZpLimits;
 
-/* Free them; NULL is allowed. Whoever frees those of a result sets its field to NULL. */
+/* Free them; NULL is allowed. After freeing those of a result, set its field to NULL. */
 ZP_API void zp_limits_destroy(ZpLimits *limits);
 
-/* What a study found. */
+/* The result of a study. */
 typedef struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
-  char message[256]; /* one sentence on how it ended */
-  char note[ZP_MAX_NOTES]
-           [256]; /* [notes] sentences: breakdown, yield, limits of the model and of the mesh that were met */
+  char message[256];            /* one sentence on how it ended */
+  char note[ZP_MAX_NOTES][256]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
   size_t notes;
-  double resolution; /* elements on the shortest length over which a ribbon bends, of the zip front or where it hangs
+  double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest
                       * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
   size_t scalars;
@@ -72,50 +71,51 @@ typedef struct ZpResult {
   ZpShapes *shapes;         /* NULL if it has none */
   ZpFieldMap *map;          /* NULL if it has none */
   ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
-  ZpLimits *limits;         /* the states of study limits; NULL of another */
+  ZpLimits *limits;         /* the states of study limits; NULL for other studies */
 } ZpResult;
 
-/* The word of a study: "actuate"; "unknown" of any other number. */
+/* The word for a study: "actuate"; "unknown" for any other number. */
 ZP_API const char *zp_study_name(ZpStudy study);
 
-/* Whether a run of `study` may start from the result of a neighbour (ZpStudyInput); then its bits depend on it. */
+/* Can a run of `study` start from the result of a neighbour (ZpStudyInput)? The bits of its result then depend on it.
+ */
 ZP_API bool zp_study_follows(ZpStudy study);
 
-/* Check `def` and what `study` asks of it besides. ZP_BAD_INPUT names the key. */
+/* Check `def` and the conditions of `study` on it. ZP_BAD_INPUT names the key. */
 ZP_API ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err);
 
-/* What a study takes beside a Def; NULL where it does not. */
+/* Inputs of a study in addition to a Def; NULL if there is none. */
 typedef struct ZpStudyInput {
   const ZpDriveTable *table; /* actuate: with drive.waveform or setpoint.waveform table, as zp_model_create_driven */
   const ZpCheckpoint *start; /* actuate: with initial.state checkpoint, as zp_sim_continue */
-  const ZpResult *neighbour; /* limits: the result of a Def that differs little: it starts from its states, some
-                                       times faster; what it finds differs by less than 1e-6 */
+  const ZpResult *neighbour; /* limits: the result of a similar Def, from whose states the study starts; this is several
+                              * times faster, and results differ by less than 1e-6 */
 } ZpStudyInput;
 
-/* Run `study`. On ZP_OK *result is new and the caller's, whatever its outcome; else it is NULL and `err` says why:
- * ZP_BAD_INPUT as zp_study_check, and of study calibrate, which needs a file (zp_data_study_run). `input` and `hooks`
- * may be NULL. */
+/* Run `study`. On ZP_OK *result is new and belongs to the caller, whatever its outcome; otherwise it is NULL and `err`
+ * gives the reason: ZP_BAD_INPUT as zp_study_check, and for study calibrate, which needs a file (zp_data_study_run).
+ * `input` and `hooks` may be NULL. */
 ZP_API ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
                              ZpResult **result, ZpError *err);
 
-/* A result of `study` without anything in it, for whoever fills one; NULL if there is no memory. */
+/* An empty result of `study`; NULL if there is no memory. */
 ZP_API ZpResult *zp_result_create(ZpStudy study);
 
-/* Append the derivative of the scalar `output` by key `key`; beyond ZP_MAX_SENSITIVITIES it is left out. `output` must
+/* Append the derivative of the scalar `output` by key `key`; beyond ZP_MAX_SENSITIVITIES it is omitted. `output` must
  * outlive the result. */
 ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
 
-/* Append a number to the summary; one that follows from wall time; a sentence of note. Beyond ZP_MAX_SCALARS and
- * ZP_MAX_NOTES they are left out. `name` and `unit` must outlive the result. */
+/* Append a number to the summary, a wall time, or a note of one sentence. Beyond ZP_MAX_SCALARS and ZP_MAX_NOTES they
+ * are omitted. `name` and `unit` must outlive the result. */
 ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
 
-/* Note breakdown where the faces of two ribbons touch, at the clip, and a mesh that is too coarse, for `model` under
- * voltages up to `highest` (V). */
+/* Add notes, for `model` at voltages up to `highest` (V), if the insulators break down at the clip, where the faces
+ * touch, or if the mesh is too coarse. */
 ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest);
 
-/* Free a result with all that it holds; NULL is allowed. */
+/* Free a result and all its parts; NULL is allowed. */
 ZP_API void zp_result_destroy(ZpResult *result);
 
 /* The scalar called `name`, NAN if there is none. */

@@ -1,7 +1,8 @@
-/* Results as plain data: a table of numbers with named columns, and a film of shapes.
+/* Results as plain data: a table of numbers with named columns, and a sequence of shapes.
  *
- * Both have a bounded size: when they are full, every second row is dropped and from then on only every
- * second, fourth, ... offered row is kept. The first row stays; zp_table_keep_last keeps the last one.
+ * Both have a bounded size: when they are full, every second row is dropped, and from then on only every second,
+ * fourth,
+ * ... offered row is kept. The first row stays; zp_table_keep_last keeps the last one.
  */
 #ifndef ZIPACT_TABLE_H
 #define ZIPACT_TABLE_H
@@ -40,31 +41,31 @@ ZP_API void zp_table_destroy(ZpTable *table);
 /* Offer a row of table->columns values; true if it was kept. */
 ZP_API bool zp_table_offer(ZpTable *table, const double *row);
 
-/* Make `row` the last row, whatever the thinning says; nothing if it is the last row already (same
- * value in column 0). In a full table it takes the place of the last row. */
+/* Make `row` the last row, even if thinning would drop it; do nothing if it is already the last row (same value in
+ * column 0). In a full table it replaces the last row. */
 ZP_API void zp_table_keep_last(ZpTable *table, const double *row);
 
 /* Value in row `row` of the column called `name`; NAN if there is none. */
 ZP_API double zp_table_get(const ZpTable *table, size_t row, const char *name);
 
-/* What is known of every node in one shape. Station i of ribbon r is at [i * ribbons + r]; ribbon 0 is
- * the upper one (kind ribbon: the only one). Insulator faces, m; x to the right from the clip's place in
- * the straight actuator, y upwards from the upper platform (kind ribbon: from the clamp). */
+/* One shape: values at every node. Station i of ribbon r is at [i * ribbons + r]; ribbon 0 is the upper one (kind
+ * ribbon: the only one). Positions are those of the insulators' faces, m: x to the right from the clip of the straight
+ * actuator, y upwards from the upper platform (kind ribbon: from the clamp). */
 typedef struct ZpShape {
   double time;              /* s */
   double voltage;           /* V */
   size_t zipped;            /* pairs 0 .. zipped are closed (the clip is pair 0) */
   const double *x;          /* [nodes * ribbons] m */
   const double *y;          /* [nodes * ribbons] m */
-  const double *gap;        /* [nodes] m, distance of the faces; NULL for the kind ribbon */
+  const double *gap;        /* [nodes] m, distance between the faces; NULL for the kind ribbon */
   const double *line_force; /* [nodes] N/m, attraction per length; NULL for the kind ribbon */
   const double
-      *insulator_field; /* [nodes] V/m, of the series law, 0 or more; NULL for the kind ribbon; NAN: no insulator */
+      *insulator_field; /* [nodes] V/m, by the series law, 0 or more; NULL for the kind ribbon; NAN: no insulator */
   const double
-      *stress; /* [nodes * ribbons] Pa, largest of the metal's section, 0 or more; NULL where it is not known */
+      *stress; /* [nodes * ribbons] Pa, largest in the section of the metal, 0 or more; NULL if it is not known */
 } ZpShape;
 
-/* A film of shapes of one actuator. */
+/* A sequence of shapes of one actuator. */
 typedef struct ZpShapes {
   size_t ribbons;  /* 1 or 2 */
   size_t nodes;    /* per ribbon; of a series, of all its members, the uppermost first */
@@ -76,20 +77,20 @@ typedef struct ZpShapes {
   bool facing;       /* the shapes have gap, line_force and insulator_field */
   bool stressed;     /* the shapes have stress */
   double *value;     /* [capacity][frame_size] */
-  size_t members;    /* of a series; 1 of all else */
+  size_t members;    /* of a series; otherwise 1 */
 } ZpShapes;
 
-/* A new empty film of at most `capacity` frames (2 or more), or NULL if there is no memory. */
+/* A new empty sequence of at most `capacity` frames (2 or more), or NULL if there is no memory. */
 ZP_API ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity);
 ZP_API void zp_shapes_destroy(ZpShapes *shapes);
 
 /* Offer a shape; true if it was kept (copied). */
 ZP_API bool zp_shapes_offer(ZpShapes *shapes, const ZpShape *shape);
 
-/* As zp_table_keep_last, told by the time. */
+/* As zp_table_keep_last; equal times mean the same shape. */
 ZP_API void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape);
 
-/* Frame `frame` of the film; its pointers are valid until the film changes. */
+/* Frame `frame` of the sequence; its pointers are valid until the sequence changes. */
 ZP_API ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame);
 
 #ifdef __cplusplus

@@ -10,12 +10,12 @@ extern "C" {
 
 #define ZP_VERSION "0.1.0"
 
-/* Number of the binary interface: the SOVERSION of the shared libraries. A release raises it when a program that was
- * compiled against the one before could break: a function is gone or takes something else, a public struct or
- * enumeration is another, a key has come or gone. See docs/design.md. */
+/* Number of the binary interface: the SOVERSION of the shared libraries. A release raises it if programs that were
+ * compiled with the previous release could break: a function was removed or takes other arguments, a public struct or
+ * enumeration changed, a key was added or removed. See docs/design.md. */
 #define ZP_ABI 1
 
-/* ZP_VERSION of the library that runs, which may be another than that of the headers. */
+/* Version of the running library, which may differ from ZP_VERSION of the headers. */
 ZP_API const char *zp_version(void);
 
 #ifdef __cplusplus

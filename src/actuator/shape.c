@@ -11,8 +11,6 @@ void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
   room->line_force = zp_carve(carver, model->nodes);
   room->insulator_field = zp_carve(carver, model->nodes);
   room->stress = zp_carve(carver, model->count);
-  room->film = zp_carve(carver, model->nodes);
-  room->pressure = zp_carve(carver, model->nodes);
 }
 
 bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i) {

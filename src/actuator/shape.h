@@ -14,7 +14,6 @@ typedef struct ZpShapeRoom {
   double *line_force;      /* [nodes] */
   double *insulator_field; /* [nodes] */
   double *stress;          /* [count] */
-  double *film, *pressure; /* [nodes] */
 } ZpShapeRoom;
 
 /* Without interface voltages, with liquid everywhere. */

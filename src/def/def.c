@@ -1006,8 +1006,8 @@ static ZpStatus check_rotates(const ZpActuatorDef *def, ZpError *err) {
       {zp_def_liquid(def) != ZP_LIQUID_NONE, "liquid.model none",
        "the liquid between the platforms is modelled for level ones only"},
       {def->ribbon.plane == ZP_PLANE_ANTICLASTIC, "ribbon.plane strain or stress",
-       "the curl across the strip is modelled beside level platforms only"},
-      {def->ribbon.plasticity, "ribbon.plasticity false", "yielding is modelled beside level platforms only"},
+       "the curl across the strip is modelled with level platforms only"},
+      {def->ribbon.plasticity, "ribbon.plasticity false", "yielding is modelled with level platforms only"},
       {def->load.stiffness > 0, "load.stiffness 0 N/m", "the spring is modelled for level platforms only"},
       {!isnan(def->load.stop_opening), "load.stop_opening none", "the stop is modelled for level platforms only"},
       {def->load.change_mass != 0, "load.change_mass 0 kg", "the impact is modelled for level platforms only"}};

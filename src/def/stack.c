@@ -88,7 +88,7 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
   bool abreast = zp_def_abreast(def), series = def->stack.series > 1;
   int members = abreast || series ? zp_def_members(def) : 0;
   if (abreast && members > ZP_MOST_MEMBERS)
-    return zp_fail(err, ZP_BAD_INPUT, "stack.parallel = %d: with keys of member_K at most %d", members,
+    return zp_fail(err, ZP_BAD_INPUT, "stack.parallel = %d: with keys of member_K it is at most %d", members,
                    ZP_MOST_MEMBERS);
   for (int key = first_member.first; key < last_member.end; key++) {
     int member = member_of(key);
@@ -107,8 +107,7 @@ static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
   static const double part = 0.98; /* at which study isometric holds a platform at most */
   double most = 2 * part * (def->ribbon.length - def->platform.length);
   if (def->stack.distance <= most) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "stack.distance = %g m: two ribbons of ribbon.length = %g m with their platforms span at most %g m",
+  return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: two actuators of ribbon.length = %g m span at most %g m",
                  def->stack.distance, def->ribbon.length, most);
 }
 
@@ -119,16 +118,16 @@ static ZpStatus check_opposed(const ZpActuatorDef *def, ZpError *err) {
     bool given;
     const char *says;
   } wrong[] = {
-      {!opposed && bias, "stack.lower_voltage: requires stack.distance, of antagonists"},
-      {!opposed && !alike, "stack.voltage_ratio: requires stack.distance, of antagonists"},
-      {opposed && def->stack.series != 2, "stack.distance: requires stack.series 2, the two antagonists"},
+      {!opposed && bias, "stack.lower_voltage: requires stack.distance, which makes two members antagonists"},
+      {!opposed && !alike, "stack.voltage_ratio: requires stack.distance, which makes two members antagonists"},
+      {opposed && def->stack.series != 2, "stack.distance: requires stack.series 2, for two antagonists"},
       {opposed && bias && !alike, "stack.lower_voltage: give it or stack.voltage_ratio, not both"},
-      {opposed && def->stack.link_mass > 0, "stack.link_mass: requires stack.distance none; what both antagonists move "
-                                            "is load.mass"},
+      {opposed && def->stack.link_mass > 0,
+       "stack.link_mass: requires stack.distance none; for antagonists load.mass is the whole moving mass"},
       {opposed && !alike && def->drive.waveform == ZP_WAVEFORM_TABLE,
        "stack.voltage_ratio: requires a drive.waveform other than table"},
       {opposed && def->initial.state == ZP_INITIAL_STRAIGHT,
-       "stack.distance: requires initial.state equilibrium; ribbons that are all straight do not reach the load"},
+       "stack.distance: requires initial.state equilibrium; straight ribbons do not reach the load"},
   };
   for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
     if (wrong[k].given) return zp_fail(err, ZP_BAD_INPUT, "%s", wrong[k].says);
@@ -142,22 +141,25 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
     const char *key, *instead, *why;
   } unknown[] = {
       {def->actuator.symmetry != ZP_SYMMETRY_HALF, "actuator.symmetry", "half",
-       "links join platforms of symmetric halves only"},
-      {def->ribbon.model != ZP_RIBBON_ROD, "ribbon.model", "rod", "links join rods only"},
+       "links are modelled between the platforms of symmetric halves"},
+      {def->ribbon.model != ZP_RIBBON_ROD, "ribbon.model", "rod", "links are modelled between rods"},
       {def->solver.integrator != ZP_INTEGRATOR_IMPLICIT, "solver.integrator", "implicit",
        "the forces of the links are unknowns of implicit steps"},
       {def->contact.model != ZP_CONTACT_UNILATERAL, "contact.model", "unilateral",
-       "sequential contact is that of a single actuator"},
+       "sequential contact is modelled in a single actuator"},
       {def->electro.model != ZP_ELECTRO_PLATES, "electro.model", "plates", "the field is solved for a single actuator"},
       {def->source.model != ZP_SOURCE_IDEAL, "source.model", "ideal", "a supply is modelled with a single actuator"},
       {def->control.kind != ZP_CONTROL_NONE, "control.kind", "none", "a controller measures a single actuator"},
-      {def->load.share != 0.5, "load.share", "0.5", "what hangs below a member has its weight on both halves alike"},
+      {def->load.share != 0.5, "load.share", "0.5",
+       "both halves of a member carry the same share of what hangs below it"},
       {def->load.change_mass != 0, "load.change_mass", "0",
        "an impact is modelled on the platform of a single actuator"},
       {def->ribbon.plasticity && zp_def_opposed(def), "ribbon.plasticity", "false with stack.distance",
-       "members find their common place by unloading, which ribbons that yield do not retrace"},
-      {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unlike members",
-       "members find their common place by unloading, which ribbons that yield do not retrace"},
+       "the members' common equilibrium is found by unloading, and a ribbon that has yielded does not return on the "
+       "same path"},
+      {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unequal members",
+       "the members' common equilibrium is found by unloading, and a ribbon that has yielded does not return on the "
+       "same path"},
       {def->load.stiffness > 0, "load.stiffness", "0", "a spring acts between the platforms of a single actuator"},
       {!isnan(def->load.stop_opening), "load.stop_opening", "none",
        "a stop acts between the platforms of a single actuator"},
@@ -166,12 +168,12 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
       {!isnan(def->medium.resistivity), "medium.resistivity", "none",
        "leakage is modelled in the medium of a single actuator"},
       {!isnan(def->sense.frequency), "sense.frequency", "none", "the meter measures a single actuator"},
-      {*def->sensitivity.by != 0, "sensitivity.by", "empty", "derivatives are those of a single actuator"},
+      {*def->sensitivity.by != 0, "sensitivity.by", "empty", "derivatives are computed for a single actuator"},
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
     if (unknown[k].given)
       return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s; %s", stack_of(def), zp_def_members(def),
-                     zp_def_abreast(def) ? " of unlike members" : "", unknown[k].key, unknown[k].instead,
+                     zp_def_abreast(def) ? " with unequal members" : "", unknown[k].key, unknown[k].instead,
                      unknown[k].why);
   for (int member = 1; member <= zp_def_members(def); member++) {
     ZpActuatorDef one = zp_def_member(def, member);

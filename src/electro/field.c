@@ -34,7 +34,7 @@ struct ZpFieldRow {
 const char *zp_field_words(ZpFieldEnd end) {
   static const char *const words[] = {
       "solved", "the faces pass through each other", "the faces touch without an insulator between the metals",
-      "a ribbon runs back or bends too sharply for its thickness", "the numbers left all bounds"};
+      "a ribbon folds back or bends too sharply for its thickness", "the solution is not finite"};
   return words[end];
 }
 

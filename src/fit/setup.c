@@ -93,7 +93,7 @@ static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %.80s: %s", name, reason);
   }
   if (!zp_fit_takes(key))
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s: is not a real number and cannot be fitted", name);
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is not a real number and cannot be fitted", name);
   if (fit->n == ZP_FIT_MOST)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: more than %d keys; fit fewer at a time", ZP_FIT_MOST);
   for (int i = 0; i < fit->n; i++)

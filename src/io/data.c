@@ -290,7 +290,8 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
   char *equals = strchr(part, '=');
   if (!equals)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "data.columns: \"%.80s\": write \"their name = our name\", as in Gewicht = load_g", part);
+                   "data.columns: \"%.80s\": write \"name in the file = name in zipact\", as in Gewicht = load_g",
+                   part);
   *equals = 0;
   char *theirs = trim(part), *ours = trim(equals + 1);
   if (strchr(ours, '='))

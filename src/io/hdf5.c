@@ -154,7 +154,7 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStud
     zipped[i] = (long long)shape.zipped;
   }
   put_reals(store, group, zp_study_shows(study) == ZP_SHOWS_motion ? &moment : &mark, 1, &size, time);
-  put_reals(store, group, &(Meaning){"voltage", "V", "potential difference of the electrodes"}, 1, &size, voltage);
+  put_reals(store, group, &(Meaning){"voltage", "V", "voltage between the electrodes"}, 1, &size, voltage);
   put_array(store, group, &(Meaning){"zipped", "1", "pairs 0 .. zipped are closed; the clip is pair 0"}, H5T_STD_I64LE,
             H5T_NATIVE_LLONG, 1, &size, zipped);
   free(time);
@@ -183,7 +183,7 @@ ZP_FIELD(stress)
 static const Field fields[] = {
     {{"x", "m", "horizontal position of a node; [frame][ribbon][node]"}, true, x_of},
     {{"y", "m", "height of a node; [frame][ribbon][node]"}, true, y_of},
-    {{"gap", "m", "distance of the faces; [frame][node]"}, false, gap_of},
+    {{"gap", "m", "distance between the faces; [frame][node]"}, false, gap_of},
     {{"line_force", "N/m", "attraction per length; [frame][node]"}, false, line_force_of},
     {{"insulator_field", "V/m", "field in the insulators; [frame][node]"}, false, insulator_field_of},
     {{"stress", "Pa", "largest stress of the metal in the section; [frame][ribbon][node]"}, true, stress_of},

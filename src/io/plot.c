@@ -144,7 +144,7 @@ static void define_table(const ZpTable *table, FILE *file) {
 /* Whether what is in the box can be seen where x and y have the same scale. */
 static bool fits_same_scale(const ZpPlotBox *box) {
   const double width = box->right - box->left, height = box->top - box->bottom;
-  return height > 0.15 * width && width > 0.15 * height;
+  return height > 0.25 * width && width > 0.15 * height;
 }
 
 void zp_plot_define_box(FILE *file, const ZpPlotBox *box) {

@@ -240,6 +240,7 @@ static void define_animation(const ZpPlot *plot, FILE *file) {
   zp_plot_define_count(file, "path", is_path(plot));
   zp_plot_define_count(file, "has_platform", has_platform(plot));
   zp_plot_define_count(file, "bead", has_bead(plot));
+  zp_plot_define_count(file, "field_known", film(plot)->members == 1 || zp_def_liquid(&plot->def) != ZP_LIQUID_BEAD);
   zp_plot_define_count(file, "bath", has_liquid(plot) && zp_def_liquid(&plot->def) != ZP_LIQUID_BEAD);
   zp_plot_define_count(file, "platform_point", (zp_plot_is_half(plot) ? 2 : 1) * points_of(plot, 0).count - 1);
   zp_plot_define(file, "middle", stage.middle);

@@ -167,7 +167,7 @@ static json_t *key_schema(int index) {
 /* The parts of a range or a distribution. */
 static json_t *range_schema(void) {
   return json_pack("{s:s, s:s, s:b, s:[s, s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}, s:{s:s, s:i, s:i}, s:{s:[s, s]}}}",
-                   "description", "values in equal steps, or by equal factors, both ends among them", "type", "object",
+                   "description", "values in equal steps or with equal ratios, both ends included", "type", "object",
                    "additionalProperties", 0, "required", "from", "to", "count", "properties", "from", "type", "number",
                    "string", "to", "type", "number", "string", "count", "type", "integer", "minimum", 2, "maximum",
                    20000, "spacing", "enum", "linear", "log");

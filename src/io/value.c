@@ -243,7 +243,7 @@ static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError
     return ZP_OK;
   }
   if (strcmp(text, "auto") == 0)
-    return fail_number(index, automatic ? "this key takes none, not auto" : "this key cannot be auto", err);
+    return fail_number(index, automatic ? "this key can be none, not auto" : "this key cannot be auto", err);
   return read_number(index, text, value, err);
 }
 

@@ -69,7 +69,7 @@ static void put_difference(FILE *file, double difference) {
   double ratio = 1 + difference;
   if (ratio > 10)
     snprintf(text, sizeof text, "× %.0f", ratio);
-  else if (ratio < 0.1 && ratio > 1e-9)
+  else if (ratio < 0.1 && ratio > 1e-3)
     snprintf(text, sizeof text, "÷ %.0f", 1 / ratio);
   else
     snprintf(text, sizeof text, "%+.2f %%", 100 * difference);
@@ -363,8 +363,10 @@ static const Section sections[] = {
      {{"plots/fig-7.svg", "Electric force per length on one ribbon"}}},
     {"fig-8",
      "Fig. 8: contractile force against separation",
-     {"The paper prints no numbers here, and its experiments are points in a picture, so no difference can be taken. "
-      "Models can be compared: ours with breakdown of the liquid, ours without (the authors' runs had none), and the "
+     {"The paper prints no numbers here, and its experiments are points in a picture, so no difference can be "
+      "computed. "
+      "The table compares models: ours with breakdown of the liquid, ours without (the authors' runs had none), and "
+      "the "
       "paper's text, with half the voltage, its own insulator offset and the factor on the force.",
       "The paper finds its simulation consistently above the mean of the experiments. Breakdown lowers the force, and "
       "so "
@@ -403,7 +405,7 @@ static const Section sections[] = {
       {"runs/fig-10-code/plots/profiles.svg", "The authors' program, N = 61"}}},
     {"factor",
      "Section III.B: the factor of 27 cases",
-     {"Openings of 1, 2 and 4 mm at nine voltages. By the paper's own bookkeeping our field gives its factor, as the "
+     {"Openings of 1, 2 and 4 mm at nine voltages. The paper's own method gives its factor for our field, too, as the "
       "product of four causes. The right law needs no factor."},
      NULL,
      "Factor",
@@ -411,8 +413,8 @@ static const Section sections[] = {
      {{"runs/factor/plots/factors.svg", "The factor against the opening"}}},
     {"cost",
      "Section III: constants and cost",
-     {"The cost of a simulated second with the authors' chain, the electric force computed in every step, and as many "
-      "steps as the paper's mean step makes: CPU time on one thread of this machine."},
+     {"The cost is the CPU time of a simulated second on one thread of this machine, with the authors' chain, the "
+      "electric force computed in every step, and as many steps as the paper's mean step requires."},
      NULL,
      "Section III",
      NULL,
@@ -498,7 +500,7 @@ static void put_head(FILE *file, const ZpPage *page) {
       "<title>The paper beside zipact</title>\n<style>%s</style></head><body>\n"
       "<h1>Modular simulation framework for Electro-ribbon Actuators: the paper beside zipact " ZP_VERSION "</h1>\n"
       "<p>Every number that the paper by B. Castro, R. S. Diteesawat, M. Taghavi and J. Rossiter prints of its model, "
-      "beside the same from this program, computed in %.1f s. Of %zu numbers:</p>\n",
+      "beside the same number from this program, computed in %.1f s. Of %zu numbers:</p>\n",
       style, page->wall_time, page->comparisons->count);
   put_verdicts(file, page);
   fprintf(
@@ -572,14 +574,13 @@ static void put_reasons(FILE *file, const ZpPage *page) {
 }
 
 static void put_files(FILE *file) {
-  fputs(
-      "<section id=\"files\"><h2>Data, and how to run it again</h2>\n"
-      "<p><code>comparison.csv</code> and <code>summary.json</code> beside this page hold every comparison; "
-      "<code>plots</code> holds the pictures of several runs. Each folder of <code>runs</code> is a study of its own "
-      "with "
-      "<code>table.csv</code>, <code>results.h5</code>, <code>plots</code> and <code>scenario.yaml</code>, which runs "
-      "again: <code>zipact run scenario.yaml</code>.</p>\n<p>Folders:",
-      file);
+  fputs("<section id=\"files\"><h2>Data, and how to run it again</h2>\n"
+        "<p><code>comparison.csv</code> and <code>summary.json</code> beside this page hold every comparison; "
+        "<code>plots</code> holds the pictures of several runs. Each folder of <code>runs</code> is a study of its own "
+        "with "
+        "<code>table.csv</code>, <code>results.h5</code>, <code>plots</code> and <code>scenario.yaml</code>, which "
+        "repeats the run: <code>zipact run scenario.yaml</code>.</p>\n<p>Folders:",
+        file);
   for (int id = 0; id < ZP_RUN_COUNT; id++)
     fprintf(file, " <code>%s</code>", zp_run_name((ZpRunId)id));
   fputs("</p></section>\n", file);

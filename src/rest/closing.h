@@ -6,15 +6,15 @@
 #include "rest/statics.h"
 #include "solve/march.h"
 
-/* Distance of the faces that close last, m: at the platform or the right end, between two clamps in the middle. Of the
- * last residual. `self` is a ZpStatics; its derivative by the coordinates => row [n] (NULL: not asked for). */
+/* Distance between the faces that close last, m: at the platform or the right end; between two clamps in the middle. Of
+ * the last residual. `self` is a ZpStatics; row [n] gets the derivative by the coordinates (NULL: not needed). */
 double zp_closing_gap(void *self, double *row);
 
 /* The gap at which it counts as closed, m: 1 % of the hanging one, or where faces touch. */
 double zp_closing_limit(const ZpStatics *statics, double hanging);
 
-/* The static system along the square of the voltage (V^2), as forces go: along the voltage itself nothing moves at
- * first. */
+/* The static system along the square of the voltage (V^2), because forces are proportional to it: along the voltage
+ * itself nothing moves at first. */
 ZpBranchSystem zp_closing_by_square(ZpStatics *statics);
 
 #endif

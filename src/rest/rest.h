@@ -1,5 +1,5 @@
-/* A model at rest with all that it takes to find and follow its equilibria: the system, Newton's and the branch's work
- * space, and the arrays of whoever asks, in one block. The one place that puts these together. */
+/* A model at rest with everything that is needed to find and follow its equilibria: the system, the work space of
+ * Newton's method and of the branch, and the arrays of the caller, in one block. Only this file combines these. */
 #ifndef ZP_REST_REST_H
 #define ZP_REST_REST_H
 
@@ -16,12 +16,12 @@ struct ZpRest {
 };
 
 /* Fill `rest`: straight, without voltage. `carve` (may be NULL) takes the caller's own arrays from the same block; it
- * is called twice with `user`. False if there is no memory. `rest` must not be moved, and is to be closed, also if this
+ * is called twice with `user`. False if there is no memory. `rest` must not be moved, and must be closed, also if this
  * fails. */
 bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user);
 void zp_rest_close(ZpRest *rest);
 
-/* A copy of the present point takes so many doubles. */
+/* Number of doubles in a copy of the present point. */
 size_t zp_rest_save_size(const ZpRest *rest);
 
 /* Start to follow the branch from the present equilibrium, towards a growing or falling voltage; then
@@ -31,7 +31,7 @@ bool zp_rest_follow(ZpRest *rest, bool growing);
 /* The same with steps of arc length from `first` to `longest`. */
 bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest);
 
-/* From the present point, which is near, to the equilibrium at `voltage`, V. */
+/* From the present point, which is close, to the equilibrium at `voltage`, V. */
 ZpNewtonInfo zp_rest_settle(ZpRest *rest, double voltage);
 
 #endif

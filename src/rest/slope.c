@@ -20,10 +20,11 @@ static bool is_numerical(const char *name) {
 ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err) {
   const ZpKey *k = zp_key(key);
   if (def->electro.model == ZP_ELECTRO_FIELD)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "sensitivity.by: requires electro.model plates; the derivatives of a solved field are not known");
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "sensitivity.by: requires electro.model plates; the derivatives of a computed field are not available");
   if (k->type != ZP_KEY_REAL && k->type != ZP_KEY_REAL_AUTO)
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is not a real number: it has no derivative", k->name);
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is not a real number, so it has no derivative", k->name);
   if (is_numerical(k->name))
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
                    k->name);

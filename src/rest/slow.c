@@ -291,8 +291,8 @@ ZpMarchEnd zp_slow_pull_in(ZpSlow *f, double top, ZpLimit *limit) {
 }
 
 ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closing) {
-  static const char *const lost = "the hanging state was lost on the way up";
-  zp_limit_none(pull_in, "no limit point on the way up to drive.voltage");
+  static const char *const lost = "the hanging state was lost as the voltage rose";
+  zp_limit_none(pull_in, "no limit point up to drive.voltage");
   zp_limit_none(closing, "it does not close up to drive.voltage");
   choose(f, &f->square);
   ZpSlowEnd end = change(f, top * top, closing, pull_in);
@@ -324,7 +324,7 @@ ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
   choose(f, &f->square);
   ZpSlowEnd end = change(f, 0, release, NULL);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
-  if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost on the way down");
+  if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost as the voltage fell");
   if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;
   return end;
 }

@@ -1,28 +1,28 @@
-/* What a slow change of the voltage or of the load leads to: the limits of an actuator at rest, each solved as the
- * limit point or event that it is. Theory, section 10.
+/* The limits of an actuator under a slow change of the voltage or of the load, each solved as a limit point or an
+ * event. Theory, section 10.
  *
- * zp_march goes to the next limit point or to where the actuator counts as closed; from a limit point the state falls
- * to what is beyond, and it goes on until the actuator has closed or opened. */
+ * zp_march goes to the next limit point, or to where the actuator counts as closed. From a limit point the state falls
+ * to the stable state beyond it. This is repeated until the actuator has closed or opened. */
 #ifndef ZP_REST_SLOW_H
 #define ZP_REST_SLOW_H
 
 #include "rest/closing.h"
 #include "rest/rest.h"
 
-/* One limit: a state of rest. */
+/* One limit: an equilibrium. */
 typedef struct ZpLimit {
   ZpMarchEnd end;     /* a limit point or an event; ZP_MARCH_ARRIVED: there is none, ZP_MARCH_LOST: it was not found */
-  double value;       /* V or kg; NAN where it does not exist */
-  const char *reason; /* why it does not */
+  double value;       /* V or kg; NAN if it does not exist */
+  const char *reason; /* why it does not exist */
   double *state;      /* as ZpBranchSystem saves it */
-  double *null;       /* [equations] of a limit point */
-  double room;        /* all other crests of its ripple are lower by this share of the value; 0: nobody has looked */
+  double *null;       /* [equations] null vector of a limit point */
+  double room;        /* all other crests of its ripple are lower by this share of the value; 0: not known */
 } ZpLimit;
 
-/* State, of zp_rest_save_size, and null vector come from the caller's block. */
+/* Take state (zp_rest_save_size) and null vector from the caller's block. */
 void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver);
 
-/* It does not exist; it was not found. */
+/* Mark a limit as one that does not exist; as one that was not found. */
 void zp_limit_none(ZpLimit *limit, const char *reason);
 void zp_limit_lost(ZpLimit *limit, const char *reason);
 
@@ -32,12 +32,12 @@ typedef struct ZpSlow {
   ZpBranchSystem square, load; /* along the voltage's square, along the load */
   ZpMarch march;
   double closed;   /* gap at which it counts as closed, m */
-  void *held;      /* a state to come back to */
-  bool was_closed; /* at the limit point that it falls from */
+  void *held;      /* a state to return to */
+  bool was_closed; /* at the limit point from which it falls */
 } ZpSlow;
 
 typedef enum ZpSlowEnd {
-  ZP_SLOW_ARRIVED, /* where the change was to end */
+  ZP_SLOW_ARRIVED, /* the change has ended */
   ZP_SLOW_CHANGED, /* it has closed or opened */
   ZP_SLOW_LOST,
   ZP_SLOW_STOPPED
@@ -45,27 +45,28 @@ typedef enum ZpSlowEnd {
 
 void zp_slow_carve(ZpSlow *slow, ZpRest *rest, ZpCarver *carver);
 
-/* The actuator hangs with this gap that closes last, m: that says when it is closed. */
+/* `hanging` is the gap that closes last, m, when the actuator hangs; it determines when the actuator counts as closed.
+ */
 void zp_slow_start(ZpSlow *slow, double hanging);
 
 bool zp_slow_is_closed(const ZpSlow *slow);
 
-/* To a state that was saved. */
+/* Go to a saved state. */
 void zp_slow_go_to(ZpSlow *slow, const double *state);
 
-/* The present point, which a march ended at, is this limit. */
+/* Store the present point, at which a march has ended, as this limit. */
 void zp_slow_note(ZpSlow *slow, ZpLimit *limit, ZpMarchEnd end);
 void zp_slow_copy(const ZpSlow *slow, const ZpLimit *from, ZpLimit *to);
 
-/* What is along the branch, on both sides of the limit point at the present point, as far as a ripple may go? Its
- * highest crest is where the parameter, growing (sign 1) or falling (-1), goes furthest. => room of the limit, too */
+/* Examine the branch on both sides of the limit point at the present point, as far as a ripple may extend. Its highest
+ * crest is where the parameter, growing (sign 1) or falling (-1), goes furthest. Also sets the room of the limit. */
 typedef enum ZpAround { ZP_NOTHING_HIGHER, ZP_STABLE_HIGHER, ZP_CREST_HIGHER, ZP_OUT_OF_SIGHT } ZpAround;
 ZpAround zp_slow_look_around(ZpSlow *slow, ZpLimit *limit, double sign);
 
-/* What is left of the room of `near`, a limit of a neighbour with this `gap`, where the one at the present point is. */
+/* The room that the limit at the present point keeps of that of `near`, a limit of a neighbour with this `gap`. */
 double zp_slow_room_left(ZpSlow *slow, const ZpLimit *near, double gap);
 
-/* From the present equilibrium, change the load to `target`, kg, until the actuator closes: that limit is `at`. */
+/* From the present equilibrium, change the load to `target`, kg, or until the actuator closes: this limit is `at`. */
 ZpSlowEnd zp_slow_change_load(ZpSlow *slow, double target, ZpLimit *at);
 
 /* The same with the voltage, rising to `target`, V. */
@@ -75,11 +76,11 @@ ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double target, ZpLimit *at);
  * first limit point that is no ripple of the mesh, and closing. */
 ZpSlowEnd zp_slow_raise(ZpSlow *slow, double top, ZpLimit *pull_in, ZpLimit *closing);
 
-/* The same, but only to the first limit point on the way, ripple or not, or to where it has closed. */
+/* The same, but only to the first limit point, ripple or not, or to where the actuator has closed. */
 ZpMarchEnd zp_slow_pull_in(ZpSlow *slow, double top, ZpLimit *limit);
 
-/* The closed state at voltage `top`, from the present point where that is closed, else from the straight shape. False
- * if it is not closed there. */
+/* Go to the closed state at voltage `top`: from the present point if it is closed, else from the straight shape. False
+ * if the actuator is not closed there. */
 bool zp_slow_close(ZpSlow *slow, double top);
 
 /* From that state, lower the voltage to 0 or until the actuator opens => release, which is not above closing. */

@@ -32,8 +32,8 @@ void zp_sim_start_control(ZpSim *sim) {
 
 const ZpColumn *zp_sample_columns(size_t *count) {
   static const ZpColumn column[ZP_SAMPLE_COLUMNS] = {{"time_s", "s", "time of the sample"},
-                                                     {"setpoint", "1", "what the controller is to hold"},
-                                                     {"signal", "1", "what it measures, without noise"}};
+                                                     {"setpoint", "1", "setpoint of the controller"},
+                                                     {"signal", "1", "measured signal, without noise"}};
   *count = ZP_SAMPLE_COLUMNS;
   return column;
 }
@@ -84,10 +84,10 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
     sim->control = (ZpOwnControl){.since = 0};
     return ZP_OK;
   }
-  if (sim->below) return zp_fail(err, ZP_BAD_INPUT, "controller: actuators in series (stack.series) have none");
+  if (sim->below) return zp_fail(err, ZP_BAD_INPUT, "controller: not available for actuators in series (stack.series)");
   if (is_controlled(sim))
-    return zp_fail(err, ZP_BAD_INPUT, "controller: the model has one already, control.kind; use control.kind none");
-  if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: it has no function voltage");
+    return zp_fail(err, ZP_BAD_INPUT, "controller: the model already has that of control.kind; use control.kind none");
+  if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: its function `voltage` is missing");
   if (!(controller->period >= shortest && controller->period <= longest))
     return zp_fail(err, ZP_BAD_INPUT, "controller: a period of %g s is out of range; %g s to %g s", controller->period,
                    shortest, longest);

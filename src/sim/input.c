@@ -61,7 +61,7 @@ static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
   if (input == ZP_INPUT_VOLTAGE && controlled)
     return zp_fail(err, ZP_BAD_INPUT, "voltage: the controller sets it (control.kind); set the setpoint");
   if (input == ZP_INPUT_SETPOINT && !controlled)
-    return zp_fail(err, ZP_BAD_INPUT, "setpoint: there is no controller; control.kind gives one");
+    return zp_fail(err, ZP_BAD_INPUT, "setpoint: there is no controller; set control.kind");
   return ZP_OK;
 }
 
@@ -91,7 +91,8 @@ static ZpStatus set_load(ZpSim *sim, double load, double rate, ZpError *err) {
 }
 
 ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err) {
-  if ((size_t)input >= ZP_INPUT_COUNT) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is none", (int)input);
+  if ((size_t)input >= ZP_INPUT_COUNT)
+    return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
   if (!(fabs(rate) <= most_rate))
     return zp_fail(err, ZP_BAD_INPUT, "%s: a rate of %g %s/s is out of range; %g to %g %s/s", inputs[input].name, rate,
                    inputs[input].unit, -most_rate, most_rate, inputs[input].unit);

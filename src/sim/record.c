@@ -18,7 +18,7 @@ enum {
 
 /* Behind the signals, of a series: the opening of each member. */
 #define OPENING_OF(member)                                                                                             \
-  { "member_" #member "_opening_m", "m", "distance of the platforms' faces of member " #member " of a series" }
+  { "member_" #member "_opening_m", "m", "distance between the platforms' faces of member " #member " of a series" }
 #define OPENINGS                                                                                                       \
   OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
 
@@ -414,7 +414,8 @@ static void read_at(ZpSim *sim, double voltage, double *row) {
 ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err) {
   static const double part = 1e-5, least = 1e-2; /* of the voltage, and V: far from the rounding of differences */
   double above[SIGNAL_COUNT], below[SIGNAL_COUNT];
-  if ((size_t)input >= ZP_INPUT_COUNT) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is none", (int)input);
+  if ((size_t)input >= ZP_INPUT_COUNT)
+    return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
   memset(slope, 0, SIGNAL_COUNT * sizeof *slope);
   if (input == ZP_INPUT_SETPOINT) slope[SIGNAL_setpoint] = 1; /* the controller measures at its next sample */
   if (input != ZP_INPUT_VOLTAGE) return ZP_OK;                /* a load acts on what moves only */
@@ -460,18 +461,29 @@ ZpShape zp_sim_shape(ZpSim *sim) {
   return join_shapes(sim);
 }
 
-ZpLiquid zp_sim_liquid(ZpSim *sim) {
+/* Of one member => where the liquid of all is, from its first station on. */
+static void fill_liquid(ZpSim *sim, double *thickness, double *pressure, double *wet_length) {
   const ZpModel *model = sim->model;
-  const ZpShapeRoom *room = &sim->shape_room;
   const double *head = zp_state_own(model, sim->state), *share = model->film.share;
-  if (!model->has_film) return (ZpLiquid){NULL, NULL};
   ZpShape shape = shape_of(sim);
   for (size_t i = 0; i < model->nodes; i++, head += model->own) {
-    bool wet = zp_shape_is_wet(model, room, i);
-    room->film[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;
-    room->pressure[i] = wet ? share[0] * head[0] + share[1] * head[1] : 0;
+    bool wet = zp_shape_is_wet(model, &sim->shape_room, i);
+    thickness[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;
+    pressure[i] = wet ? share[0] * head[0] + share[1] * head[1] : 0;
   }
-  return (ZpLiquid){room->film, room->pressure};
+  for (size_t half = 0; half < model->topology.halves; half++)
+    wet_length[half] = sim->shape_room.reach[half];
+}
+
+ZpLiquid zp_sim_liquid(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  const ZpLiquidRoom *room = &sim->liquid;
+  size_t member = 0;
+  if (!model->has_film) return (ZpLiquid){NULL, NULL, NULL};
+  for (ZpSim *m = sim; m; m = m->below, member++)
+    fill_liquid(m, room->thickness + member * model->nodes, room->pressure + member * model->nodes,
+                room->wet_length + member * model->topology.halves);
+  return (ZpLiquid){room->thickness, room->pressure, room->wet_length};
 }
 
 void zp_sim_watch(ZpSim *sim) {

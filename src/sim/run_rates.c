@@ -226,7 +226,7 @@ void zp_run_rates_follow(ZpRunRates *rates) {
     if (cause)
       lose(rates, of, cause);
     else if (!follow_key(rates, of))
-      lose(rates, of, "the derivative of a step is not found");
+      lose(rates, of, "the derivative of a step was not found");
   }
 }
 

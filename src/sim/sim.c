@@ -42,6 +42,22 @@ static bool make_shape_room(ZpSim *sim) {
   return sim->shape_memory != NULL;
 }
 
+static void carve_liquid(const ZpModel *model, ZpLiquidRoom *room, ZpCarver *carver) {
+  size_t members = zp_members(model);
+  room->thickness = zp_carve(carver, members * model->nodes);
+  room->pressure = zp_carve(carver, members * model->nodes);
+  room->wet_length = zp_carve(carver, members * ZP_BEADS);
+}
+
+static bool make_liquid_room(ZpSim *sim) {
+  ZpCarver carver = {NULL, 0};
+  carve_liquid(sim->model, &sim->liquid, &carver);
+  sim->liquid.memory = zp_calloc(1, carver.used);
+  carver = (ZpCarver){sim->liquid.memory, 0};
+  if (sim->liquid.memory) carve_liquid(sim->model, &sim->liquid, &carver);
+  return sim->liquid.memory != NULL;
+}
+
 /* One member alone; its steps are those of the uppermost. */
 static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
@@ -53,8 +69,9 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   sim->row = zp_calloc(signals, sizeof(double));
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  return zp_system_create(model, true, &sim->eval) && (!uppermost || sim->stepping->create(sim)) && sim->state &&
-         sim->kept && sim->before && sim->relax_work && sim->row && make_shape_room(sim);
+  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
+             sim->row && make_shape_room(sim);
+  return own && (!uppermost || (sim->stepping->create(sim) && make_liquid_room(sim)));
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
@@ -108,7 +125,7 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   bool drive = def->drive.waveform == ZP_WAVEFORM_TABLE && model->waveform.table.rows == 0;
   bool setpoint = def->setpoint.waveform == ZP_WAVEFORM_TABLE && model->setpoint.table.rows == 0;
   if (drive || setpoint)
-    return zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: the model has none; zp_model_create_driven takes it",
+    return zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: the model has no table; zp_model_create_driven takes it",
                    drive ? "drive" : "setpoint");
   ZpStatus status = zp_def_check_motion(&model->def, err);
   if (status != ZP_OK) return status;
@@ -236,6 +253,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->shape_memory);
+  zp_free(sim->liquid.memory);
   zp_free(sim);
 }
 
@@ -580,7 +598,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     if (sim->settled == ZP_REACHED_END)
       snprintf(text, size, "the controller's voltage at %g s: %.200s", t, sim->control.fault.message);
     else
-      snprintf(text, size, "initial.state = checkpoint: none was given; zp_sim_continue takes it");
+      snprintf(text, size, "initial.state = checkpoint: no checkpoint was given; zp_sim_continue takes it");
     break;
   }
 }
@@ -599,7 +617,8 @@ static ZpOutcome refuse(const ZpSim *sim, const char *name, double value, const 
 }
 
 ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *out) {
-  if (!(end_time >= sim->state->t)) return refuse(sim, "end_time", end_time, "not a time from the present one on", out);
+  if (!(end_time >= sim->state->t))
+    return refuse(sim, "end_time", end_time, "must not be earlier than the present time", out);
   ZpRunInfo info = {.settle_steps = sim->settle_steps,
                     .settle_residual = sim->settle_residual,
                     .smallest_bound = {INFINITY, INFINITY, INFINITY}};
@@ -628,7 +647,7 @@ ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *in
   static const double rounding = 1e-9; /* above that of the time reached: no sliver of a step is left at the end */
   double longest = fmin(sim->model->stable_step, sim->model->def.solver.time_step); /* NAN, auto, does not count */
   double end = sim->state->t + dt;
-  if (!(end > sim->state->t) || isinf(dt)) return refuse(sim, "dt", dt, "not a finite time that moves on", info);
+  if (!(end > sim->state->t) || isinf(dt)) return refuse(sim, "dt", dt, "must be a finite time step above 0", info);
   sim->paper.longest = dt / ceil(dt / longest) * (1 + rounding);
   ZpOutcome outcome = zp_sim_run(sim, end, false, hooks, info);
   sim->paper.longest = INFINITY;
@@ -722,7 +741,7 @@ static ZpStatus read_states(ZpSim *sim, const void *bytes, size_t size, ZpError 
   zp_sim_keep_states(sim);
   ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->states, reason);
   if (status == ZP_OK && !is_joined(sim))
-    status = zp_fail(reason, ZP_BAD_INPUT, "of another model: its members are not joined as those here");
+    status = zp_fail(reason, ZP_BAD_INPUT, "of another model: its members are joined in another way");
   if (status != ZP_OK) zp_sim_take_states_back(sim);
   return status;
 }

@@ -13,60 +13,67 @@
 /* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
 typedef struct ZpOwnControl {
   ZpController controller; /* without a function: there is none */
-  double since;            /* s */
-  double taken;            /* samples so far, a whole number */
-  ZpError fault;           /* why its voltage was refused */
+  double since;            /* time of the first sample, s */
+  double taken;            /* number of samples so far, a whole number */
+  ZpError fault;           /* the reason why its voltage was refused */
 } ZpOwnControl;
 
-/* When a controller is due next, with a sample or an output, s; INFINITY without one. */
+/* Time of the next sample or output of a controller, s; INFINITY without a controller. */
 double zp_sim_control_due(const ZpSim *sim);
 
 /* Take the sample and give the output that are due, if any. False if the voltage is refused. */
 bool zp_sim_control(ZpSim *sim);
 
-/* Where the state is another one: the next sample of a controller of the program's own is the first from the present
- * time on. */
+/* After another state was set: the next sample of a controller of the program's own is the first at or after the
+ * present time. */
 void zp_sim_resume_control(ZpSim *sim);
 
-/* The model's controller begins: no voltage until its first output. */
+/* Start the model's controller: the voltage is 0 until its first output. */
 void zp_sim_start_control(ZpSim *sim);
 
-/* What the setpoint is now, in the unit of control.signal; 0 without a controller. */
+/* The present setpoint, in the unit of control.signal; 0 without a controller. */
 double zp_sim_setpoint(const ZpSim *sim);
 
 /* The signal that the controller measures, without noise. */
 double zp_sim_controlled(ZpSim *sim);
 
-/* What a controller has seen, in columns of a table. */
+/* Samples of a controller, as columns of a table. */
 enum { ZP_SAMPLE_TIME, ZP_SAMPLE_SETPOINT, ZP_SAMPLE_SIGNAL, ZP_SAMPLE_COLUMNS };
 const ZpColumn *zp_sample_columns(size_t *count);
 
-/* From now on each sample is a row of this table, the signal without noise; NULL: of none. */
+/* From now on add a row to this table for each sample, with the signal without noise; NULL: no table. */
 void zp_sim_keep_samples(ZpSim *sim, ZpTable *samples);
 
-/* How a run moves on (stepping.c). */
+/* A method of time stepping (stepping.c). */
 typedef struct ZpStepping {
-  /* What it takes. False if there is no memory. */
+  /* Allocate what it needs. False if there is no memory. */
   bool (*create)(ZpSim *sim);
-  /* One step that ends at `latest`, s, or before => what set its size; false if none was found. */
+  /* Take one step that ends at `latest`, s, or earlier => the limit that set its size; false if no step succeeded. */
   bool (*step)(ZpSim *sim, double latest, ZpStepLimit *limit);
-  /* No step will be longer than that, s. */
+  /* Upper bound of the next step, s. */
   double (*longest)(const ZpSim *sim);
-  int64_t between_questions; /* steps between questions to the caller, about a millisecond */
-  bool fine;                 /* steps are so short that what happens inside one happens at its end */
+  int64_t between_questions; /* steps between calls of the progress hook, about a millisecond */
+  bool fine;                 /* steps are so short that events inside a step count at its end */
 } ZpStepping;
 
-/* As solver.integrator says. */
+/* The method of solver.integrator. */
 const ZpStepping *zp_stepping_of(const ZpModel *model);
 
-/* From now on a source, which must live as long, is between the drive and the electrodes of a simulation by implicit
- * steps; it says what the voltage is. False if there is no memory. */
+/* Connect a source, which must outlive the simulation, between the drive and the electrodes of a simulation with
+ * implicit steps; from now on it determines the voltage. False if there is no memory. */
 bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 
 /* An actuator is closed below this part of its hanging opening. */
 #define ZP_CLOSED_PART 0.01
 
-/* The platform where a step begins. */
+/* Arrays for the liquid of all members, in the uppermost simulation. */
+typedef struct ZpLiquidRoom {
+  double *thickness, *pressure; /* [members nodes] */
+  double *wet_length;           /* [members ZP_BEADS] */
+  void *memory;                 /* memory of the arrays */
+} ZpLiquidRoom;
+
+/* The platform at the start of a step. */
 typedef struct ZpStepStart {
   double t, opening, rate; /* s, m, m/s */
 } ZpStepStart;
@@ -74,137 +81,139 @@ typedef struct ZpStepStart {
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
-  ZpState *kept;   /* a copy of a state of sound numbers that a longer run passes through, too, where */
-  ZpState *before; /* behind a supply: a copy of where the step began */
+  ZpState *kept;   /* a copy of a valid state through which a longer run would also pass */
+  ZpState *before; /* behind a supply: a copy of the state at the start of the step */
   ZpFeed feed;     /* the supply at the electrodes */
   ZpOwnControl control;
-  bool cut;   /* the end of the run has cut a step since */
-  int drive;  /* the key drive.voltage: its range is that of voltages set by hand */
+  bool cut;   /* the end of the run has shortened a step since `kept` */
+  int drive;  /* the key drive.voltage, which has the range of voltages that a program sets */
   int signal; /* the key control.signal */
   ZpEval eval;
   double *relax_work;            /* [12 stride] work space of settling */
-  ZpTable *series;               /* the caller's; NULL: no record */
-  ZpShapes *shapes;              /* the caller's; NULL: no record */
+  ZpTable *series;               /* belongs to the caller; NULL: no record */
+  ZpShapes *shapes;              /* belongs to the caller; NULL: no record */
   ZpTable *trace;                /* likewise */
   ZpTable *samples;              /* likewise, of a controller */
   double *row;                   /* one value per signal */
-  ZpShapeRoom shape_room;        /* of the shape handed out, */
-  void *shape_memory;            /* and where it is */
+  ZpShapeRoom shape_room;        /* of the shape that zp_sim_shape returns */
+  void *shape_memory;            /* memory of shape_room */
   ZpShape shape;                 /* this member at the last row with margins */
-  ZpMargins now;                 /* the worst that materials see in the row, */
-  bool watched;                  /* and whether they are watched over time: */
-  ZpMargins seen;                /* the worst that those of this member saw */
-  double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part, behind a
-                                    supply what that has given; */
-  double row_energy;             /* and for the mean power, of the whole actuator */
+  ZpMargins now;                 /* the smallest margins of the materials in the row */
+  bool watched;                  /* whether margins are followed over time */
+  ZpMargins seen;                /* the smallest margins of this member so far */
+  double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part; behind a
+                                    supply, the charge that it has supplied */
+  double row_energy;             /* of that row, for the mean power, of the whole actuator */
   double own_charge, own_energy; /* of the last row: charge per part and source energy, without the members below */
   ZpOutcome settled;             /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
-  const ZpStepping *stepping; /* how it moves on: */
-  ZpDynamics dynamics;        /* by implicit steps, */
-  ZpPaperMotion paper;        /* or by the paper's */
+  const ZpStepping *stepping; /* the method of time stepping */
+  ZpDynamics dynamics;        /* of implicit steps */
+  ZpPaperMotion paper;        /* of the paper's steps */
   ZpStepStart step_start;     /* of the last step */
-  bool stuck;                 /* no step was found */
-  bool stops_at_events;       /* the run ends at the first one */
-  bool at_event;              /* the last step has ended at one */
+  bool stuck;                 /* no step succeeded */
+  bool stops_at_events;       /* the run ends at the first event */
+  bool at_event;              /* the last step has ended at an event */
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
-  ZpState **states;           /* of the uppermost: of it and of all below */
-  struct ZpRunRates *rates;   /* what follows the derivatives of the run; NULL: nothing does */
-  ZpManyShapes all;           /* of the uppermost of a series: room for the shape of all, */
-  void *all_memory;           /* and where it is */
+  ZpState **states;           /* of the uppermost member: its state and those of all below */
+  struct ZpRunRates *rates;   /* derivatives of the run; NULL: none */
+  ZpLiquidRoom liquid;        /* of the liquid that zp_sim_liquid returns */
+  ZpManyShapes all;           /* of the uppermost member of a series: arrays for the shape of all members */
+  void *all_memory;           /* memory of these arrays */
 };
 
-/* A simulation that starts at coordinates q [2 stride], NULL: straight, without looking for its hanging equilibrium,
- * whose opening is given. NULL: there is no memory. */
+/* A simulation that starts at coordinates q [2 stride] (NULL: straight) with a given hanging opening, without computing
+ * its hanging equilibrium. NULL: there is no memory. */
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 
-/* The next corner of what is told from outside, s. */
+/* Time of the next corner of the inputs, s. */
 double zp_sim_next_corner(ZpSim *sim);
 
 /* Copy the states of all members of a series, or of the only one, to `before`, and back. */
 void zp_sim_keep_states(ZpSim *sim);
 void zp_sim_take_states_back(ZpSim *sim);
 
-/* What the materials of one member see counts, if they are watched (sim/margins.h). */
+/* Update the smallest margins of one member, if margins are followed (sim/margins.h). */
 void zp_sim_see_one(ZpSim *sim);
 
-/* Before a step moves anything; false: it cannot. And where it has ended. */
+/* Prepare a step before anything moves; false if this fails. Complete a step at its end. */
 bool zp_sim_prepare(ZpSim *sim);
 void zp_sim_arrive(ZpSim *sim);
 
-/* When the path of the last step, of two ribbons, passes the opening that counts as closed, s; that may be a little
- * before it or after it. */
+/* Time at which the path of the last step, of two ribbons, passes the opening that counts as closed, s; this may be
+ * slightly before or after the step. */
 double zp_sim_crossing(const ZpSim *sim);
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
-/* The same of antagonists, which are at rest against each other. */
+/* The same for antagonists, which are at rest against each other. */
 bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks);
 
-/* Lay the beads of the state where its gaps let them be: at rest, of all liquid that is not outside or lost. */
+/* Place the beads of the state by its gaps: at rest, with all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 
-/* The member that the load hangs on. */
+/* The member that carries the load. */
 ZpSim *zp_sim_loaded(ZpSim *sim);
 
-/* When load.change_mass is still to come or to go, s; INFINITY: never. And it comes or goes now (catch.c). */
+/* Time at which load.change_mass will still be caught or dropped, s; INFINITY: never. Catch or drop it now (catch.c).
+ */
 double zp_sim_load_due(const ZpSim *sim);
 void zp_sim_change_load(ZpSim *sim);
 
-/* Resume from the state as it has just been given: at the waveform's voltage of its time. */
+/* Resume from a state that was just set, with the voltage that the waveform has at its time. */
 void zp_sim_resume(ZpSim *sim);
 
-/* The last states so far that a longer run passes through, too; of sound numbers => state [members]. */
+/* The last valid states through which a longer run would also pass => state [members]. */
 void zp_sim_passed(const ZpSim *sim, ZpState *state[]);
 
 /* Sum of kinetic and stored energy without the field, of one part, J. */
 double zp_energy_without_field(const ZpEnergies *energies);
 
-/* What the source has given and the field has not kept of jumps so far, of one part, J (account.c). */
+/* Work of the source so far, and the part of it at jumps that the field did not store, of one part, J (account.c). */
 typedef struct ZpAccount {
   double work, charging_loss;
 } ZpAccount;
 
-/* (electric totals where the state is) => the account there; the state stays as it is. */
+/* The account of the present state, with its electric totals `now`; the state does not change. */
 ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now);
 
-/* Energies and losses count from here on. */
+/* Count energies and losses from now on. */
 void zp_sim_start_account(ZpSim *sim);
 
-/* Book what the source has given until now, with a jump that is still open; a held field that is out of date is found
- * again on the way. */
+/* Close the account of the source at the present time, including a jump that is still open; a held field that is out of
+ * date is recomputed first. */
 void zp_sim_close_account(ZpSim *sim);
 
-/* From now on this voltage by hand, V, within its range: behind a supply its command, else a jump. */
+/* Set this voltage from now on, V, within its range: the command of a supply, or else a jump. */
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage);
 
-/* The voltage jumps: an ideal source charges at once. */
+/* Let the voltage jump: an ideal source charges at once. */
 void zp_sim_jump(ZpSim *sim, double voltage);
 
-/* The voltage goes to another one while nothing moves, without loss. */
+/* Change the voltage without loss while nothing moves. */
 void zp_sim_glide(ZpSim *sim, double voltage);
 
-/* The mean current and power of the next row count from here. */
+/* Start the interval of the mean current and power of the next row now. */
 void zp_sim_start_row(ZpSim *sim);
 
-/* What a trace of a run has, in columns of a table. */
+/* A trace of a run, as columns of a table. */
 enum { ZP_TRACE_TIME, ZP_TRACE_VOLTAGE, ZP_TRACE_CHARGE, ZP_TRACE_CAPACITANCE, ZP_TRACE_STROKE, ZP_TRACE_COLUMNS };
 const ZpColumn *zp_trace_columns(size_t *count);
 
-/* From now on rows are offered to this trace, too, as often as to the records; NULL: to none. The charge is that which
- * the source has given to electrodes and insulators, C. */
+/* From now on also offer rows to this trace, as often as to the records; NULL: no trace. The charge is what the source
+ * has supplied to electrodes and insulators, C. */
 void zp_sim_trace(ZpSim *sim, ZpTable *trace);
 
-/* What leaks now, of one part; all 0 where nothing does. */
+/* The present leakage of one part; all 0 without leakage. */
 ZpLeakNow zp_sim_leak(ZpSim *sim);
 
-/* When member 1 .. of a series has closed, s; NAN: it has not. */
+/* Time at which member 1, 2, ... of a series has closed, s; NAN: it has not. */
 double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
 
-/* Numbers of a row, openings of the members of a series included. */
+/* Number of values in a row, including the openings of the members of a series. */
 size_t zp_sim_row_size(void);
 
 /* Offer the present row and shape to the records; at the end make them the last. */

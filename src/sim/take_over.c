@@ -6,12 +6,44 @@
 #include "ribbon/rod_plastic.h"
 #include "sim/sim_internal.h"
 
-ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
-  const ZpModel *model = sim->model, *other = from->model;
+/* Ends, halves and platforms of the same kinds? */
+static bool are_alike(const ZpTopology *a, const ZpTopology *b) {
+  if (a->halves != b->halves || a->joints != b->joints || a->platform.kind != b->platform.kind) return false;
+  for (size_t k = 0; k < a->joints; k++)
+    if (a->joint[k].kind != b->joint[k].kind) return false;
+  return true;
+}
+
+static ZpStatus check_one(const ZpModel *model, const ZpModel *other, ZpError *err) {
   if (model->s != other->s || model->nodes != other->nodes)
     return zp_fail(err, ZP_BAD_INPUT,
                    "mesh.nodes = %zu: the simulation to take over from has %zu nodes on each of %zu ribbons",
                    model->nodes, other->nodes, other->s);
+  if (!are_alike(&model->topology, &other->topology))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "the ends or the platforms differ from those of the simulation to take over from");
+  return ZP_OK;
+}
+
+/* Members that share a load fit to each other only at the lengths at which they were. */
+static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
+  const ZpModel *model = sim->model, *other = from->model;
+  if (zp_members(model) != zp_members(other) || zp_is_opposed(model) != zp_is_opposed(other) ||
+      model->abreast != other->abreast)
+    return zp_fail(err, ZP_BAD_INPUT, "stack: the simulation to take over from has other members");
+  if (zp_shares_load(model) && (model->L != other->L || model->distance != other->distance))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "ribbon.length, platform.length, stack.distance: members that share a load must keep them");
+  for (; sim; sim = sim->below, from = from->below) {
+    ZpStatus status = check_one(sim->model, from->model, err);
+    if (status != ZP_OK) return status;
+  }
+  return ZP_OK;
+}
+
+/* The state of one member, stretched to its length. */
+static void take_state(ZpSim *sim, const ZpSim *from) {
+  const ZpModel *model = sim->model, *other = from->model;
   ZpState *state = sim->state;
   double opening0 = state->opening0, stretch = model->L / other->L;
   size_t size = zp_state_size(model), known = zp_state_size(other);
@@ -27,15 +59,29 @@ ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
     for (size_t j = 0; j < 2 * model->stride; j++)
       moving[k][j] *= stretch;
   state->opening0 = opening0;
+}
+
+/* What drives a member from now on. */
+static void take_drive(ZpSim *sim, const ZpSim *from) {
+  ZpState *state = sim->state;
   zp_sim_lay_beads(sim);
   double voltage = zp_sim_is_fed(from) ? zp_sim_command(from) : state->U;
   if (!state->by_hand) state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
   state->by_hand = true;
   if (!zp_sim_is_fed(from)) state->supply = (ZpSupplyState){voltage, voltage};
   state->refreshed = NAN;
-  if (zp_held_due(model, state)) zp_held_refresh(model, state, &sim->eval);
-  zp_control_restart(&model->control, state->t, &state->control);
+  if (zp_held_due(sim->model, state)) zp_held_refresh(sim->model, state, &sim->eval);
+  zp_control_restart(&sim->model->control, state->t, &state->control);
   zp_sim_start_account(sim);
+}
+
+ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
+  ZpStatus status = check_all(sim, from, err);
+  if (status != ZP_OK) return status;
+  for (ZpSim *m = sim; m; m = m->below, from = from->below) {
+    take_state(m, from);
+    take_drive(m, from);
+  }
   zp_sim_resume(sim);
   return ZP_OK;
 }

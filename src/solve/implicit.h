@@ -1,9 +1,9 @@
 /* Implicit time stepping of M q'' = f by the midpoint rule with mean forces: over a step h
  *   q1 = q0 + h w,   v1 = 2 w - v0,   M (v1 - v0) / h = f(q0, q1, h)                                       (18.1)
- * of second order for any symmetric mean f; if f does exactly the work by which an energy changes, so does the step,
- * whatever its size. Beside positions there may be unknowns of first order, whose mean rates w are in the residual, and
- * algebraic ones, which belong to the step as a whole, (18.6). Newton's method on the banded Jacobian with a border,
- * steps controlled by the local error. Knows no physics.
+ * It is of second order for any symmetric mean f. If the work of f is exactly the change of an energy, the step
+ * conserves energy, whatever its size. Besides positions there may be unknowns of first order, whose mean rates w are
+ * in the residual, and algebraic ones, which belong to the step as a whole, (18.6). Newton's method uses the banded
+ * Jacobian with a border; the local error controls the steps. This file contains no physics.
  */
 #ifndef ZP_SOLVE_IMPLICIT_H
 #define ZP_SOLVE_IMPLICIT_H
@@ -17,9 +17,9 @@
 
 typedef enum ZpUnknown {
   ZP_SECOND_ORDER, /* a position, with a velocity */
-  ZP_FIRST_ORDER,  /* as a charge behind a resistor: it has a mean rate over a step, and no velocity */
-  ZP_ALGEBRAIC     /* as a pressure or a multiplier: of one step, without memory. Where its own diagonal is 0 it belongs
-                    * to the border, or to a band that is not symmetric */
+  ZP_FIRST_ORDER,  /* like a charge behind a resistor: it has a mean rate over a step, and no velocity */
+  ZP_ALGEBRAIC /* like a pressure or a multiplier: of one step, without memory. If its diagonal is 0 it belongs in the
+                * border, or in a band that is not symmetric */
 } ZpUnknown;
 
 /* Rows of the residual are conjugate to their unknowns: row i times a change of unknown i is an energy, J. */
@@ -27,100 +27,103 @@ typedef struct ZpImplicitSystem {
   size_t n;              /* unknowns */
   size_t border;         /* the last of these, fewer than n, couple with all others; the rest is banded */
   size_t bandwidth;      /* diagonals of the matrix above the main one */
-  size_t lower;          /* and below; 0: it is symmetric, and only the upper triangle is kept */
-  ZpBandGroups groups;   /* of a symmetric one */
+  size_t lower;          /* diagonals below; 0: it is symmetric, and only the upper triangle is stored */
+  ZpBandGroups groups;   /* of a symmetric matrix */
   const ZpUnknown *kind; /* [n]; NULL: all of second order */
-  const double *scale;   /* [n] positive: what counts as much as 1 m of a position; NULL: all 1 */
-  ZpParts parts;         /* like ones that it consists of, the first one's unknowns first; all 0: it is one */
-  void *self;            /* handed to the functions below */
-  const double *mass;    /* [n] 0 or more, the inertia that the stepper adds; 0 of what is not of second order */
-  /* A step begins at y0 [n], with velocities v0 [n], 0 of what is not of second order; both stay valid until it ends =>
-   * an energy of the system there, J, by which an imbalance is judged. */
+  const double *scale;   /* [n] positive: the change that counts as much as 1 m of a position; NULL: all 1 */
+  ZpParts parts;         /* equal parts of the system, the unknowns of the first one first; all 0: there is one part */
+  void *self;            /* argument of the functions below */
+  const double *mass;    /* [n] 0 or more, the inertia that the stepper adds; 0 for unknowns not of second order */
+  /* Begin a step at y0 [n], with velocities v0 [n], 0 for unknowns not of second order; both stay valid until it ends.
+   * Returns an energy of the system there, J, to which an imbalance is compared. */
   double (*begin)(void *self, const double *y0, const double *v0);
-  /* What is left over a step of h that ends at y1, without M a => r [n]: mean forces; of other unknowns their equation,
-   * with its rates (y1 - y0) / h. An inertia beyond `mass` is in r, too, at the mean acceleration 2 (w - v0) / h. */
+  /* Residual of a step of length h that ends at y1, without M a => r [n]: mean forces, and for other unknowns their
+   * equations, with the rates (y1 - y0) / h. r includes inertia beyond `mass` at the mean acceleration 2 (w - v0) / h.
+   */
   ZpEnd (*residual)(void *self, const double *y1, double h, double *r);
-  /* -dr/dy1 at the last residual, or what is near it and cheaper => J. */
+  /* -dr/dy1 at the last residual, or a cheaper approximation => J. */
   void (*tangent)(void *self, ZpBordered *J);
-  /* -dr/dy1 exactly there => J, with `bandwidth` diagonals on both sides. May be NULL. */
+  /* Exact -dr/dy1 at the last residual => J, with `bandwidth` diagonals on both sides. May be NULL. */
   void (*exact)(void *self, ZpBordered *J);
-  /* f [n] += the inertia beyond `mass` times a [n]. NULL: there is none. */
+  /* f [n] += inertia beyond `mass` times a [n]. NULL: there is none. */
   void (*inertia)(void *self, const double *a, double *f);
-  /* The step is tried, from a first guess of its end, which may be made one that can be: nothing passes through
+  /* Called before a step is tried from a first guess y1 of its end; may change y1 so that nothing passes through
    * anything. May be NULL. */
   void (*attempt)(void *self, double *y1);
-  /* The last correction has led to y1 => |work|, J, of the forces that the last tangent did not foresee there: those of
-   * contacts that have closed or opened since. An accepted step ends at the last y1 seen here. May be NULL. */
+  /* Called after the last correction has led to y1. Returns |work|, J, of the forces that the last tangent did not
+   * predict there: those of contacts that have closed or opened since. An accepted step ends at the last y1 of these
+   * calls. May be NULL. */
   double (*unforeseen)(void *self, const double *y1);
 } ZpImplicitSystem;
 
-/* What evolves beside q and v: the last step, which the next one's guess and error follow from. */
+/* What evolves besides q and v: the last step, from which the guess and the error of the next one follow. */
 typedef struct ZpImplicitHistory {
-  double *w, *a;     /* [n] mean rate and mean acceleration of the last step; 0 of algebraic unknowns */
-  double last, next; /* its length, 0 where there is none; that of the next to try, s */
+  double *w, *a;     /* [n] mean rate and mean acceleration of the last step; 0 for algebraic unknowns */
+  double last, next; /* length of the last step, 0 if there is none; length of the next step to try, s */
 } ZpImplicitHistory;
 
 typedef struct ZpImplicitCounts {
-  int64_t steps, rejected; /* taken; thrown away for their local error */
-  int64_t failures;        /* thrown away because Newton's method found no end */
+  int64_t steps, rejected; /* accepted; rejected for their local error */
+  int64_t failures;        /* rejected because Newton's method did not converge */
   int64_t iterations;
 } ZpImplicitCounts;
 
 typedef struct ZpImplicit {
   const ZpImplicitSystem *system;
-  double accuracy; /* local error asked for, root mean square over all but algebraic unknowns in their scales, m */
-  double balance;  /* work that the iteration may leave unbalanced in a step, of the energy there */
-  double fixed;    /* length of all steps; 0: by the local error, s */
-  double energy;   /* where the step under way begins, J */
+  double accuracy; /* required local error, root mean square over all but algebraic unknowns in their scales, m */
+  double balance;  /* work that the iteration may leave unbalanced in a step, as a fraction of the energy there */
+  double fixed;    /* length of all steps, s; 0: by the local error */
+  double energy;   /* at the start of the present step, J */
   double reach;    /* largest unknown of the first part there, in its scale: all are rounded to its last digits */
   ZpEnd end;       /* how the last step ended; ZP_END_SHORTER: even the shortest was too long */
   ZpImplicitCounts counts;
-  double *q, *r; /* [n] end of the step under way; what is left of its force, and more */
+  double *q, *r; /* [n] end of the present step; its residual, and more */
   double *x;     /* [n] work space */
   ZpBordered A;
 } ZpImplicit;
 
-/* Cut the arrays from `carver`. */
+/* Take the arrays from `carver`. */
 void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCarver *carver);
 
-/* One step of at most `longest`: (q, v, history) at its start => at its end; v and history.a are 0 of algebraic
- * unknowns, v of first-order ones, too. => its length, 0 if none is found (see `end`); all is then as it was. */
+/* Take one step of at most `longest`: (q, v, history) at its start => at its end. v and history.a are 0 for algebraic
+ * unknowns; v is also 0 for unknowns of first order. Returns its length; 0 if no step succeeded (see `end`), and then
+ * nothing has changed. */
 double zp_implicit_step(ZpImplicit *stepper, double longest, double *q, double *v, ZpImplicitHistory *history);
 
-/* A system that differs from one whose step is known by `offset` of some number: its step, of length h. */
+/* A step of length h of a system that differs by `offset` in some number from a system whose step is known. */
 typedef struct ZpNearStep {
   ZpImplicit *stepper;
-  double offset, weight; /* where the system is, and how much it counts in the difference quotient by that number */
+  double offset, weight; /* difference of the number, and the weight in the difference quotient by the number */
   double h;              /* s */
-  double *q, *v;         /* as of zp_implicit_step */
+  double *q, *v;         /* as in zp_implicit_step */
   ZpImplicitHistory *history;
 } ZpNearStep;
 
 typedef struct ZpNearSteps {
   ZpNearStep near[4];
   int count;
-  const double *q1;              /* [n] where the known step ends, */
-  const ZpImplicitHistory *lead; /* with what rates */
+  const double *q1;              /* [n] end of the known step */
+  const ZpImplicitHistory *lead; /* rates of the known step */
   double *work;                  /* [6 n] */
 } ZpNearSteps;
 
-/* How the end of the known step moves with the number => rate [n], eq. (20.7), and all near steps, accepted at
- * q1 + offset rate. `with_matrix`: their Jacobians are factored there, for zp_implicit_smooth and zp_implicit_calm.
- * False: the rate is not found. */
+/* Derivative of the end of the known step by the number => rate [n], eq. (20.7); all near steps are accepted at
+ * q1 + offset rate. With `with_matrix` their Jacobians are factored there, for zp_implicit_smooth and zp_implicit_calm.
+ * False if the rate was not found. */
 bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate);
 
-/* The share (x / (1 + x))^3 of what velocities v have beyond the mean rates w of the last step, by the inertia `mass`
- * alone: where a resistance is far above that, the step lets them turn round without end. */
+/* Remove from velocities v the share (x / (1 + x))^3 of their difference from the mean rates w of the last step, by the
+ * inertia `mass` alone: where a resistance is far larger than this inertia, they would change sign in every step. */
 void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v);
 
-/* -d(r - M a)/dy1 at the last residual of the system, exactly, for a step of h => J, whose arrays
- * zp_implicit_carve_exact cuts. False if the system has no `exact`. */
+/* Exact -d(r - M a)/dy1 at the last residual of the system, for a step of length h => J, whose arrays come from
+ * zp_implicit_carve_exact. False if the system has no `exact`. */
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver);
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
-/* Take out of velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of
- * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) keeps such modes, turned round in
- * every step. */
+/* Remove from velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of
+ * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with their
+ * sign changed in every step. */
 void zp_implicit_smooth(ZpImplicit *stepper, double h, double *v);
 
 #endif

@@ -1,36 +1,36 @@
-/* To the end of a stable branch r(q, m) = 0 without following it: a few long steps, from which a limit point, an event
- * or what is asked for is near enough to be solved as such. Knows no physics.
+/* To the end of a stable branch r(q, m) = 0 without following it: in a few long steps, until a limit point, an event or
+ * the target is close enough to be solved directly. This file contains no physics.
  *
  * Near a limit point m_f the branch is a parabola: q_f - q = 2 (m_f - m) dq/dm, and 1 / |dq/dm|^2 falls to 0 like
- * m_f - m. The first is what an answer is checked with, the second says how far the limit point is. */
+ * m_f - m. The first relation checks a result; the second tells how far the limit point is. */
 #ifndef ZP_SOLVE_MARCH_H
 #define ZP_SOLVE_MARCH_H
 
 #include "solve/fold.h"
 
 typedef enum ZpMarchEnd {
-  ZP_MARCH_ARRIVED, /* at the m that was asked for */
-  ZP_MARCH_FOLD,    /* at a limit point, which `fold.null` belongs to */
-  ZP_MARCH_EVENT,   /* where the event is */
-  ZP_MARCH_LOST     /* neither was found: at the last good point */
+  ZP_MARCH_ARRIVED, /* at the target m */
+  ZP_MARCH_FOLD,    /* at a limit point, with the null vector `fold.null` */
+  ZP_MARCH_EVENT,   /* at the event */
+  ZP_MARCH_LOST     /* at the last good point: none of these was found */
 } ZpMarchEnd;
 
 typedef struct ZpMarch {
   ZpFold fold;
   ZpEvent event;  /* NULL: none */
-  double limit;   /* its value where it is */
+  double limit;   /* value of its function at the event */
   double *q;      /* [n] at the last good point */
   double *before; /* [n] dq/dm there */
   double *guess;  /* [n] a step */
   void *good;     /* the last good point */
-  void *start;    /* where the march began */
-  ZpFoldTo to;    /* how near steps come to the branch: roughly first, exactly where that was lost */
-  double m;       /* its parameter */
-  double value;   /* of the event there */
-  double slope;   /* of the event along m */
+  void *start;    /* the start of the march */
+  ZpFoldTo to;    /* how accurate steps are: rough at first, exact if the branch was lost */
+  double m;       /* parameter at the last good point */
+  double value;   /* value of the event there */
+  double slope;   /* derivative of the event along m there */
   double flat;    /* 1 / |dq/dm|^2 there */
-  double to_fold; /* how far the limit point is, along m; INFINITY: none is in sight */
-  bool tried;     /* to solve for it from there */
+  double to_fold; /* distance of the limit point along m; INFINITY: none is expected */
+  bool tried;     /* the solution for it from there has been tried */
 } ZpMarch;
 
 void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,

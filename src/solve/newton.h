@@ -1,5 +1,5 @@
-/* Newton's method for an equilibrium r(q) = 0, and one step of arc-length continuation along a parameter.
- * Knows no physics; the system keeps its own point and says how to move it. */
+/* Newton's method for an equilibrium r(q) = 0, and one step of arc-length continuation along a parameter. It contains
+ * no physics; the system stores its point and moves it. */
 #ifndef ZP_SOLVE_NEWTON_H
 #define ZP_SOLVE_NEWTON_H
 
@@ -12,35 +12,36 @@
 
 typedef struct ZpStaticSystem {
   size_t n;   /* equations */
-  void *self; /* handed to the functions below */
-  /* Forces left at the present point => r [n], and their size relative to what acts (NULL: not asked for). */
+  void *self; /* argument of the functions below */
+  /* Unbalanced forces at the present point => r [n], and their size relative to the acting forces (NULL: not needed).
+   */
   ZpEnd (*residual)(void *self, double *r, double *size);
-  /* -dr/dq at the point of the last residual => K. Where a coordinate moves as prescribed, what that does to the others
-   * is taken into r (NULL: it does not move), and its row and column are those of no other. */
+  /* -dr/dq at the point of the last residual => K. If the motion of a coordinate is prescribed, its effect on the
+   * others is added to r (NULL: it does not move), and its row and column are uncoupled. */
   void (*stiffness)(void *self, ZpBand *K, double *r);
-  /* How far a step would go, in units of the longest step that linearisation stands. */
+  /* Length of a step, in units of the longest step for which linearisation is valid. */
   double (*length)(void *self, const double *step);
-  /* What a step would change, in units of the accuracy asked for. The residual alone does not say how near the
-   * equilibrium is: the scale of forces may be far above those that decide, or rounding hide them. */
+  /* Change by a step, in units of the required accuracy. The residual alone does not show how close the equilibrium is:
+   * the scale of forces may be far larger than the forces that matter, or rounding may hide these. */
   double (*change)(void *self, const double *step);
   /* Move the present point by fraction * step. */
   void (*move)(void *self, const double *step, double fraction);
-  /* Find again, at the present point, what is dear and what the residual holds while a point moves. NULL where nothing
-   * is held. An equilibrium is one with nothing out of date. */
+  /* Recompute at the present point what is expensive and what the residual keeps constant while the point moves. NULL
+   * if there is none. In an equilibrium nothing is out of date. */
   ZpEnd (*refresh)(void *self);
-  ZpParts parts; /* like ones that it consists of; all 0: it is one */
+  ZpParts parts; /* equal parts of the system; all 0: there is one part */
 } ZpStaticSystem;
 
 /* Inner product of two changes of the coordinates, each part by itself. */
 double zp_static_dot(const ZpStaticSystem *system, const double *a, const double *b);
 
-/* By which test an iteration ended. */
+/* The test that ended an iteration. */
 typedef enum ZpNewtonEnd {
   ZP_NEWTON_CONVERGED, /* residual below tolerance, and the next correction below the accuracy */
-  ZP_NEWTON_FLOOR,     /* residual and corrections stay where rounding leaves them, below 100 times what is asked */
-  ZP_NEWTON_SINGULAR,  /* stiffness without inverse */
-  ZP_NEWTON_DIVERGED,  /* there is no residual, or what it holds cannot be found */
-  ZP_NEWTON_SLOW       /* most iterations done */
+  ZP_NEWTON_FLOOR,     /* residual and corrections are limited by rounding, below 100 times the tolerance */
+  ZP_NEWTON_SINGULAR,  /* the stiffness is singular */
+  ZP_NEWTON_DIVERGED,  /* there is no residual, or `refresh` failed */
+  ZP_NEWTON_SLOW       /* the largest number of iterations was reached */
 } ZpNewtonEnd;
 
 typedef struct ZpNewtonInfo {
@@ -55,11 +56,11 @@ typedef struct ZpNewtonWork {
   double *r; /* [n] */
 } ZpNewtonWork;
 
-/* How an iteration closes in. Start with zp_closing_start. */
+/* The convergence of an iteration. Start with zp_closing_start. */
 typedef struct ZpClosing {
-  double change, before; /* of the last correction and of the one before it, see ZpStaticSystem; INFINITY: none yet */
+  double change, before; /* by the last correction and the one before it, see ZpStaticSystem; INFINITY: none yet */
   double least_residual, least_change;
-  int stalled; /* residuals looked at since either has halved */
+  int stalled; /* number of residuals since either of these has halved */
 } ZpClosing;
 
 void zp_closing_start(ZpClosing *closing);
@@ -67,14 +68,14 @@ void zp_closing_start(ZpClosing *closing);
 /* After a correction by `step`, before it is moved. */
 void zp_closing_correct(ZpClosing *closing, const ZpStaticSystem *system, const double *step);
 
-/* Take in the next residual. => Is it below tolerance, and what the next correction would change below the accuracy, as
- * the last two corrections foretell? A residual of 0 is enough. */
+/* Examine the next residual: is it below the tolerance, and is the change by the next correction below the accuracy, as
+ * predicted from the last two corrections? A residual of 0 is enough. */
 bool zp_closing_done(ZpClosing *closing, double residual, double tolerance);
 
-/* Does nothing get better any more, for rounding, with residual and correction below 100 times what is asked for? */
+/* Does rounding prevent further progress, with residual and correction below 100 times their tolerances? */
 bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolerance);
 
-/* What was held has been recomputed: the residual may be larger again. */
+/* After a refresh, when the residual may be larger again. */
 void zp_closing_renew(ZpClosing *closing);
 
 void zp_newton_carve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpCarver *carver);

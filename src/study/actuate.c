@@ -240,7 +240,8 @@ static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Z
 static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start, ZpError *err) {
   bool goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
   if (goes_on && !start)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: there is none; the input of zp_study_run takes it");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "initial.state = checkpoint: no checkpoint was given; the input of zp_study_run takes it");
   if (start && !goes_on)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state: a checkpoint was given; it requires initial.state checkpoint");
   return ZP_OK;

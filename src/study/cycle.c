@@ -341,8 +341,8 @@ static void describe(const Cycles *c, ZpResult *result) {
              c->repeats);
   else
     snprintf(text, size,
-             "not periodic within %d cycles: from start to start of the last two it still moves by %.2g hanging "
-             "openings (slow decay, beating or chaos of impacts)",
+             "not periodic within %d cycles: between the starts of the last two cycles the state still changes by %.2g "
+             "hanging openings (slow decay, beating or chaotic impacts)",
              c->done, c->moved[0]);
 }
 
@@ -475,17 +475,17 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
   ZpWaveformKind kind = def->drive.waveform;
   if (def->control.kind != ZP_CONTROL_NONE)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "control.kind = %s: study cycle has no controller, it looks for the periodic answer to a periodic "
-                   "voltage; use none, or study actuate with a periodic setpoint",
+                   "control.kind = %s: study cycle requires none, because it finds the periodic motion under a "
+                   "periodic voltage; for a controller use study actuate with a periodic setpoint",
                    zp_key(zp_key_find("control.kind"))->choices[def->control.kind].word);
   if (kind == ZP_WAVEFORM_RAMP || kind == ZP_WAVEFORM_TABLE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",
                    zp_key(zp_key_find("drive.waveform"))->choices[kind].word);
   if (def->load.change_mass != 0)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "load.change_mass: study cycle looks for periodic motion under one load; use study "
-                   "actuate");
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "load.change_mass: study cycle requires a constant load, because it finds periodic motion; use study actuate");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)

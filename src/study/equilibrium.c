@@ -16,13 +16,13 @@
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
-    {"voltage_V", "V", "potential difference of the electrodes"},
+    {"voltage_V", "V", "voltage between the electrodes"},
     {"stroke_m", "m", "height of the clip over the lower platform, signed"},
-    {"opening_m", "m", "distance of the platforms' faces"},
-    {"zipped_length_m", "m", "closed length from the clip, one half"},
+    {"opening_m", "m", "distance between the platforms' faces"},
+    {"zipped_length_m", "m", "closed length of one half, from the clip"},
     {"charge_C", "C", "charge on the electrodes"},
     {"capacitance_F", "F", "capacitance of the electrodes"},
-    {"stable", "1", "1: comes back when pushed, 0: does not"},
+    {"stable", "1", "1: stable, 0: unstable"},
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
     ZP_MARGIN_COLUMNS,
 };
@@ -178,8 +178,8 @@ static bool find_voltages(Follower *f) {
   none(f, "it hangs closed");
   if (f->hanging <= zp_closing_limit(&f->rest.statics, 0)) return false;
   ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
-  zp_limit_none(&f->release, "closed it is a short circuit");
-  if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "closed it is a short circuit");
+  zp_limit_none(&f->release, "when closed, it is a short circuit");
+  if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "when closed, it is a short circuit");
   if (zp_insulation(&f->model->def) == 0 || up == ZP_SLOW_STOPPED) return false;
   zp_limit_none(&f->release, "it is not closed at drive.voltage");
   if (!zp_slow_close(&f->slow, top)) return false;
@@ -215,7 +215,7 @@ static void note(Follower *f) {
   if (!isnan(f->left))
     zp_result_note(
         r,
-        "the table ends a branch at %.4g V, beyond its first limit point, so other states of rest are missing there; "
+        "a branch of the table ends at %.4g V, beyond its first limit point, so equilibria are missing there; "
         "pull-in, closing and release do not depend on them",
         f->left);
   if (!isnan(f->shorted))

@@ -48,7 +48,7 @@ static void report(const ZpRest *rest, const ZpGrowth *open, const ZpGrowth *clo
     zp_result_add(result, factor_name[k], "1", closed[k].factor);
   }
   zp_result_note(result,
-                 "control: the setpoint is a state of rest at %.5g V%s; small motions about it %s without the "
+                 "control: the setpoint is an equilibrium at %.5g V%s; small motions about it %s without the "
                  "controller, %s with it: %s",
                  U, U > highest ? ", above drive.voltage" : "", in_words(open, alone, sizeof alone),
                  in_words(closed, looped, sizeof looped), held ? "held" : "not held");
@@ -109,8 +109,7 @@ ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err) {
   } else if (done) {
     add_none(result, 0);
     zp_result_note(
-        result,
-        "control: no state of rest on the branch from the hanging state has the setpoint, so it cannot be held");
+        result, "control: no equilibrium on the branch from the hanging state has the setpoint, so it cannot be held");
   }
   if (rest) zp_rest_close(rest);
   zp_free(rest);
@@ -121,17 +120,19 @@ ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err) {
 ZpStatus zp_check_hold(const ZpActuatorDef *def, ZpError *err) {
   if (def->control.kind == ZP_CONTROL_NONE) return ZP_OK;
   if (def->electro.model == ZP_ELECTRO_FIELD)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.model = field: the eigenvalues of a loop are those of plates; use plates");
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "electro.model = field: the eigenvalues of the control loop are computed for plates only; use plates");
   if (def->bead.suction > 0)
-    return zp_fail(err, ZP_BAD_INPUT, "bead.suction = %g: the eigenvalues of a loop are found without suction; use 0",
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "bead.suction = %g: the eigenvalues of the control loop are computed without suction only; use 0",
                    def->bead.suction);
   if (isnan(def->setpoint.value))
-    return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: the study modes looks at the state that it asks for; give it");
+    return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: missing; with control.kind, study modes requires it");
   if (def->control.kind == ZP_CONTROL_BOOST_PI && def->control.boost_voltage > 0 && def->setpoint.value == 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "setpoint.value = 0: there control.boost_voltage = %g V acts in full on any error, and the loop has no "
+        "setpoint.value = 0: there control.boost_voltage = %g V acts in full on any error, so the loop has no "
         "eigenvalues; use another setpoint, or control.kind pi",
         def->control.boost_voltage);
   return ZP_OK;

@@ -19,13 +19,13 @@
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
-    {"voltage_V", "V", "potential difference of the electrodes"},
-    {"force_N", "N", "what the voltage adds to the load that would just hold the platform there"},
-    {"zipped_length_m", "m", "closed length from the clip, one half"},
+    {"voltage_V", "V", "voltage between the electrodes"},
+    {"force_N", "N", "what the voltage adds to the force that holds the platform"},
+    {"zipped_length_m", "m", "closed length of one half, from the clip"},
     {"charge_C", "C", "charge on the electrodes"},
     {"capacitance_F", "F", "capacitance of the electrodes"},
-    {"stable", "1", "1: comes back when pushed, 0: does not"},
-    {"passed", "1", "1: a rising voltage leads through it, 0: it is jumped over"},
+    {"stable", "1", "1: stable, 0: unstable"},
+    {"passed", "1", "1: a rising voltage passes through this state, 0: it jumps over it"},
     ZP_MARGIN_COLUMNS,
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
@@ -274,10 +274,11 @@ static void note(Holder *h) {
   zp_note_rest(r, h->model);
   zp_note_no_controller(r, h->model);
   if (h->jumps > 0)
-    zp_result_note(r,
-                   "%d jump%s on the way up, the largest by %.3g N; a wedge shorter than an element causes such jumps: "
-                   "increase mesh.nodes to see whether they are real",
-                   h->jumps, h->jumps == 1 ? "" : "s", h->leap);
+    zp_result_note(
+        r,
+        "%d jump%s as the voltage rises, the largest by %.3g N; a wedge shorter than an element causes such jumps: "
+        "increase mesh.nodes to see whether they are real",
+        h->jumps, h->jumps == 1 ? "" : "s", h->leap);
   if (h->others > 0)
     zp_result_note(
         r,
@@ -297,11 +298,10 @@ static void describe(Holder *h) {
   else if (h->outcome == ZP_INTERRUPTED)
     snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
   else if (h->outcome == ZP_BRANCH_LOST)
-    snprintf(
-        r->message, size,
-        "a rising voltage was followed to %.4g V of drive.voltage = %g V%s%s: set more mesh.nodes; what was found is "
-        "kept",
-        h->highest, top, trouble ? "; there " : "", trouble ? trouble : "");
+    snprintf(r->message, size,
+             "the rising voltage was followed to %.4g V only, of drive.voltage = %g V%s%s; set more mesh.nodes; the "
+             "results so far are kept",
+             h->highest, top, trouble ? "; there " : "", trouble ? trouble : "");
   else
     snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
 }

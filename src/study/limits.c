@@ -15,11 +15,11 @@
 
 static const ZpColumn columns[] = {
     {"limit", "1", "0: pull-in, 1: closing, 2: release, 3: largest load"},
-    {"voltage_V", "V", "potential difference of the electrodes"},
+    {"voltage_V", "V", "voltage between the electrodes"},
     {"load_kg", "kg", "mass hung on the actuator"},
     {"stroke_m", "m", "height of the clip over the lower platform, signed"},
-    {"opening_m", "m", "distance of the platforms' faces"},
-    {"zipped_length_m", "m", "closed length from the clip, one half"},
+    {"opening_m", "m", "distance between the platforms' faces"},
+    {"zipped_length_m", "m", "closed length of one half, from the clip"},
     {"charge_C", "C", "charge on the electrodes"},
     {"capacitance_F", "F", "capacitance of the electrodes"},
     ZP_MARGIN_COLUMNS,
@@ -208,17 +208,17 @@ static bool find(Finder *f) {
   if (f->limits->hanging <= zp_closing_limit(&f->rest.statics, 0)) return true;
   ZpSlowEnd up = raise_voltage(f);
   bool shorts = zp_insulation(&f->model->def) == 0;
-  if (shorts) none_closed(f, "closed it is a short circuit");
+  if (shorts) none_closed(f, "when closed, it is a short circuit");
   if (shorts) return true;
-  zp_limit_none(&f->limits->limit[ZP_LIMIT_RELEASE], "it was not looked for");
-  zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it was not looked for");
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_RELEASE], "it was not searched");
+  zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it was not searched");
   if (up == ZP_SLOW_STOPPED || up == ZP_SLOW_LOST) return true;
   lower_voltage(f);
   f->rest.statics.load = f->model->def.load.mass;
   if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
     lower_load(f, up == ZP_SLOW_CHANGED);
   else
-    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "where gravity does not pull it down a mass is no load");
+    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "gravity does not pull the platform down, so a mass is no load");
   return true;
 }
 
@@ -438,13 +438,13 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
 
 ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   static const ZpColumn columns[] = {
-      {"member", "1", "of the series, 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
-      {"pull_in_voltage_V", "V", "at which it pulls in"},
-      {"closing_voltage_V", "V", "at which it is closed"},
-      {"release_voltage_V", "V", "at which it opens, the voltage falling"},
-      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, what it carries included"},
-      {"travel_m", "m", "by which its opening shrinks"},
+      {"member", "1", "number of the member; 1 is the uppermost"},
+      {"carried_kg", "kg", "mass of members and links that hangs on it in addition to the load"},
+      {"pull_in_voltage_V", "V", "voltage at which it pulls in"},
+      {"closing_voltage_V", "V", "voltage at which it is closed"},
+      {"release_voltage_V", "V", "voltage at which it opens again as the voltage falls"},
+      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, including what it carries"},
+      {"travel_m", "m", "decrease of its opening"},
   };
   ZpMembers members;
   ZpStatus status = zp_members_run(task, result->study, zp_study_limits, &members, err);

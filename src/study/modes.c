@@ -191,17 +191,17 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
 
 ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   if (def->ribbon.model != ZP_RIBBON_ROD)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "ribbon.model: modes go with rod only; the shear law of mass_spring has no energy");
-  if (def->liquid.model == ZP_LIQUID_SUBMERGED)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "liquid.model = submerged: the study modes finds frequencies without the mass of a liquid, which is "
-                   "far above that of the ribbons; use none");
-  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "modes.voltage = %g V: with electro.model field frequencies are found without voltage only; use plates",
-        def->modes.voltage);
+        "ribbon.model = mass_spring: study modes requires rod, because the shear law of mass_spring has no energy");
+  if (def->liquid.model == ZP_LIQUID_SUBMERGED)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "liquid.model = submerged: study modes neglects the mass of the liquid, which is far larger than "
+                   "that of the ribbons; use none");
+  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "modes.voltage = %g V: with electro.model field, study modes requires 0 V; use plates",
+                   def->modes.voltage);
   ZpStatus status = zp_check_mass(def, err);
   if (status == ZP_OK) status = zp_check_hold(def, err);
   if (status == ZP_OK) status = zp_check_sensitivity(def, err);

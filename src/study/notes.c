@@ -118,7 +118,7 @@ void zp_note_rest(ZpResult *result, const ZpModel *model) {
                            "actuate to include the supply");
   if (model->leaks)
     zp_result_note(result, "resistivities are ignored: these are states just after the voltage is switched on, before "
-                           "charge collects between insulators and liquid; use study actuate to include it");
+                           "charge accumulates between insulators and liquid; use study actuate to include it");
 }
 
 /* -- the start ------------------------------------------------------------------------------------- */

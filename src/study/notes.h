@@ -10,8 +10,8 @@
 
 /* Of states of rest: the end of their tables' columns, and of their rows. */
 #define ZP_MARGIN_COLUMNS                                                                                              \
-  {"insulator_field_V_per_m", "V/m", "field in the insulators where it is strongest, of the series law"}, {            \
-    "max_stress_Pa", "Pa", "stress of the metal where it is largest"                                                   \
+  {"insulator_field_V_per_m", "V/m", "largest field in the insulators, by the series law"}, {                          \
+    "max_stress_Pa", "Pa", "largest stress of the metal"                                                               \
   }
 #define ZP_MARGIN_VALUES(margins) (margins).insulator, (margins).stress
 

@@ -18,17 +18,18 @@
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
-/* A row per column of the grid from the clip's edge on. */
+/* A row per column of the grid, from the edge of the clip on. */
 enum { X, GAP, PLATES, FIELD, UPPER, LOWER, RATIO, FORCE, LIQUID, INSULATOR, CAPPED, COLUMNS };
 static const ZpColumn columns[COLUMNS] = {
-    {"x_m", "m", "from the clip's edge"},
-    {"gap_m", "m", "distance of the faces"},
+    {"x_m", "m", "distance from the edge of the clip"},
+    {"gap_m", "m", "distance between the faces"},
     {"plates_N_per_m", "N/m", "attraction per length by the plates law as set, without breakdown cap"},
-    {"field_N_per_m", "N/m", "the same by the field, mean of both ribbons"},
-    {"field_upper_N_per_m", "N/m", "of the upper ribbon"},
-    {"field_lower_N_per_m", "N/m", "of the lower ribbon"},
+    {"field_N_per_m", "N/m", "attraction per length by the field, mean of both ribbons"},
+    {"field_upper_N_per_m", "N/m", "attraction per length of the upper ribbon by the field"},
+    {"field_lower_N_per_m", "N/m", "attraction per length of the lower ribbon by the field"},
     {"ratio", "1", "field over plates"},
-    {"force_N_per_m", "N/m", "attraction per length as electro.model and electro.breakdown_cap say"},
+    {"force_N_per_m", "N/m",
+     "attraction per length by electro.model, limited by breakdown if electro.breakdown_cap is true"},
     {"medium_field_V_per_m", "V/m", "field in the liquid at the faces, before any cap"},
     {"insulator_field_V_per_m", "V/m", "field in the insulators"},
     {"capped", "1", "1: breakdown limits the force, 0: it does not"},

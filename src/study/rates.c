@@ -15,14 +15,16 @@ static ZpStatus refuse(const char *what, const char *why, ZpError *err) {
 
 static ZpStatus check_model(const ZpActuatorDef *def, ZpError *err) {
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
-    return refuse("solver.integrator explicit", "they follow the implicit steps", err);
+    return refuse("solver.integrator explicit", "the derivatives follow implicit steps", err);
   if (def->control.kind != ZP_CONTROL_NONE)
     return refuse("control.kind", "a controller's samples and limits are not differentiated", err);
-  if (def->ribbon.plasticity) return refuse("ribbon.plasticity", "a strip that begins to yield is not followed", err);
+  if (def->ribbon.plasticity)
+    return refuse("ribbon.plasticity", "the derivatives do not follow a strip that yields", err);
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
-    return refuse("initial.state checkpoint", "a checkpoint does not say how it goes with a key", err);
+    return refuse("initial.state checkpoint", "a checkpoint does not contain its derivatives by a key", err);
   if (def->source.model != ZP_SOURCE_IDEAL && isfinite(def->source.slew_rate))
-    return refuse("source.slew_rate", "the instants where the slew rate is reached and left are not followed", err);
+    return refuse("source.slew_rate",
+                  "the derivatives do not follow the instants at which the slew rate is reached and left", err);
   return ZP_OK;
 }
 

@@ -16,11 +16,11 @@ typedef struct Sensing {
 } Sensing;
 
 static const ZpColumn columns[] = {
-    {"time_s", "s", "end of a reading's window"},
-    {"capacitance_F", "F", "as it is read"},
-    {"stroke_m", "m", "as it follows from that along the states of rest"},
-    {"true_capacitance_F", "F", "in the middle of the window"},
-    {"true_stroke_m", "m", "in the middle of the window"},
+    {"time_s", "s", "end of the window of a reading"},
+    {"capacitance_F", "F", "measured capacitance"},
+    {"stroke_m", "m", "stroke at rest that has the measured capacitance"},
+    {"true_capacitance_F", "F", "true capacitance in the middle of the window"},
+    {"true_stroke_m", "m", "true stroke in the middle of the window"},
 };
 enum { TIME, CAPACITANCE, STROKE, TRUE_CAPACITANCE, TRUE_STROKE, COLUMNS };
 

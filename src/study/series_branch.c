@@ -10,16 +10,16 @@
 #include "study/series.h"
 
 static const ZpColumn columns[] = {
-    {"voltage_V", "V", "potential difference of the electrodes"},
-    {"stroke_m", "m", "sum of the members' heights of the clip over the lower platform, signed"},
-    {"opening_m", "m", "sum of the distances of the members' platforms' faces"},
-    {"zipped_length_m", "m", "sum of the members' closed lengths from the clip, one half"},
+    {"voltage_V", "V", "voltage between the electrodes"},
+    {"stroke_m", "m", "sum of the members' strokes, signed"},
+    {"opening_m", "m", "sum of the members' openings"},
+    {"zipped_length_m", "m", "sum of the members' closed lengths, of one half"},
     {"charge_C", "C", "charge on all electrodes"},
     {"capacitance_F", "F", "capacitance of all electrodes"},
-    {"stable", "1", "1: comes back when pushed"},
+    {"stable", "1", "1: stable"},
     {"branch", "1", "0: as the voltage rises from 0, 1: as it falls from drive.voltage"},
     ZP_MARGIN_COLUMNS,
-    {"closed_members", "1", "how many have closed"},
+    {"closed_members", "1", "number of closed members"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], LEVELS = 100, MOST = LEVELS + 1 + 2 * ZP_MOST_MEMBERS };
 

@@ -10,14 +10,14 @@
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
-    {"station", "1", "number of the node from the clip or clamp on"},
-    {"x_m", "m", "lower or only ribbon, to the right"},
-    {"y_m", "m", "lower or only ribbon, upwards"},
-    {"tension_N", "N", "in the edge to the right"},
-    {"upper_x_m", "m", "upper ribbon"},
-    {"upper_y_m", "m", "upper ribbon"},
-    {"stress_Pa", "Pa", "of the metal of the lower or only ribbon, largest of its section"},
-    {"upper_stress_Pa", "Pa", "of the metal of the upper ribbon"},
+    {"station", "1", "number of the node, from the clip or clamp"},
+    {"x_m", "m", "horizontal position of the lower or only ribbon"},
+    {"y_m", "m", "height of the lower or only ribbon"},
+    {"tension_N", "N", "tension in the edge to the right of the node"},
+    {"upper_x_m", "m", "horizontal position of the upper ribbon"},
+    {"upper_y_m", "m", "height of the upper ribbon"},
+    {"stress_Pa", "Pa", "largest stress of the metal in the section of the lower or only ribbon"},
+    {"upper_stress_Pa", "Pa", "largest stress of the metal in the section of the upper ribbon"},
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
@@ -124,10 +124,10 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
 
 ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
   static const ZpColumn columns[] = {
-      {"member", "1", "of the series, 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it beside the load"},
+      {"member", "1", "number of the member; 1 is the uppermost"},
+      {"carried_kg", "kg", "mass of members and links that hangs on it in addition to the load"},
       {"stroke_m", "m", "height of its clip over its lower platform"},
-      {"opening_m", "m", "distance of its platforms' faces"},
+      {"opening_m", "m", "distance between its platforms' faces"},
       {"max_stress_Pa", "Pa", "largest stress of its metal"},
   };
   ZpMembers members;
@@ -135,8 +135,8 @@ ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err
   if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
   if (status == ZP_OK && !zp_members_shape(&members, result)) status = zp_fail_memory(err);
   if (status == ZP_OK && zp_outcome_good(result->outcome))
-    snprintf(result->message, sizeof result->message, "%zu members at rest, each under all that hangs on it",
-             members.count);
+    snprintf(result->message, sizeof result->message,
+             "%zu members at rest, each under the load and what hangs below it", members.count);
   zp_members_forget(&members);
   return status;
 }

@@ -88,20 +88,20 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
   if (!run_of(study, def) && zp_def_opposed(def))
-    return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: study %s does not know antagonists; %s",
+    return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: study %s does not support antagonists; %s",
                    def->stack.distance, table[study].word, instead_of_shared(study));
   if (!run_of(study, def) && zp_def_abreast(def))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.parallel = %d of unlike members: study %s does not know them; %s, and all studies know equal "
-                   "members, without keys of member_K",
+                   "stack.parallel = %d with unequal members: study %s does not support them; %s; without keys of "
+                   "member_K the members are equal, which all studies support",
                    def->stack.parallel, table[study].word, instead_of_shared(study));
   if (!run_of(study, def))
-    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s knows a single actuator only; %s", def->stack.series,
-                   table[study].word, instead_of(study));
+    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s does not support members in series; %s",
+                   def->stack.series, table[study].word, instead_of(study));
   if (def->ribbon.plasticity && is_elastic(study))
     return zp_fail(err, ZP_BAD_INPUT,
-                   "ribbon.plasticity = true: study %s unloads ribbons through states of rest, which have no history; "
-                   "use study actuate, or ribbon.plasticity false",
+                   "ribbon.plasticity = true: study %s unloads ribbons along equilibria, which assumes that they do "
+                   "not yield; use study actuate, or ribbon.plasticity false",
                    table[study].word);
   return table[study].check(def, err);
 }

@@ -14,21 +14,22 @@
 #include "study/notes.h"
 
 #define COMMON                                                                                                         \
-  {"voltage_V", "V", "potential difference of the electrodes, of antagonists of the upper one's"},                     \
-      {"stroke_m", "m", "height of the clip over the load, of antagonists of the upper one's, signed"},                \
-      {"opening_m", "m", "distance of the platforms' faces, of antagonists of the upper one's"},                       \
-      {"zipped_length_m", "m", "closed length from the clip, one half, of antagonists of the upper one, else of all"}, \
+  {"voltage_V", "V", "voltage between the electrodes; antagonists: of the upper one"},                                 \
+      {"stroke_m", "m", "height of the clip over the load, signed; antagonists: of the upper one"},                    \
+      {"opening_m", "m", "distance between the platforms' faces; antagonists: of the upper one"},                      \
+      {"zipped_length_m", "m",                                                                                         \
+       "closed length of one half, from the clip, of all members; antagonists: of the upper one"},                     \
       {"charge_C", "C", "charge on the electrodes of all members"},                                                    \
       {"capacitance_F", "F", "capacitance of the electrodes of all members"},                                          \
-      {"stable", "1", "1: comes back when pushed, 0: does not"},                                                       \
-      {"branch", "1", "0: followed from the state without voltage"}, ZP_MARGIN_COLUMNS
+      {"stable", "1", "1: stable, 0: unstable"}, {"branch", "1", "0: followed from the state without voltage"},        \
+      ZP_MARGIN_COLUMNS
 #define STIFFNESS                                                                                                      \
-  { "stiffness_N_per_m", "N/m", "force per way by which the load comes back, all else at rest" }
+  { "stiffness_N_per_m", "N/m", "restoring force per displacement of the load" }
 static const ZpColumn columns_opposed[] = {
     COMMON,
-    {"lower_voltage_V", "V", "potential difference of the lower one's electrodes"},
-    {"lower_opening_m", "m", "distance of the lower one's platforms' faces"},
-    {"lower_zipped_length_m", "m", "closed length of the lower one from the clip, one half"},
+    {"lower_voltage_V", "V", "voltage between the electrodes of the lower one"},
+    {"lower_opening_m", "m", "distance between the platforms' faces of the lower one"},
+    {"lower_zipped_length_m", "m", "closed length of one half of the lower one, from the clip"},
     STIFFNESS,
 };
 #define OF_MEMBER(k)                                                                                                   \
@@ -39,16 +40,16 @@ static const ZpColumn columns_abreast[] = {COMMON,       STIFFNESS,    OF_MEMBER
                                            OF_MEMBER(4), OF_MEMBER(5), OF_MEMBER(6), OF_MEMBER(7), OF_MEMBER(8)};
 static const ZpColumn columns_limits[] = {
     {"limit", "1", "0: pull-in, 1: closing, 2: release"},
-    {"voltage_V", "V", "potential difference of the electrodes, of antagonists of the upper one's"},
+    {"voltage_V", "V", "voltage between the electrodes; antagonists: of the upper one"},
     {"load_kg", "kg", "mass hung on the actuators"},
-    {"stroke_m", "m", "height of the clip over the load, of antagonists of the upper one's, signed"},
-    {"opening_m", "m", "distance of the platforms' faces, of antagonists of the upper one's"},
-    {"zipped_length_m", "m", "closed length from the clip, one half, of antagonists of the upper one, else of all"},
+    {"stroke_m", "m", "height of the clip over the load, signed; antagonists: of the upper one"},
+    {"opening_m", "m", "distance between the platforms' faces; antagonists: of the upper one"},
+    {"zipped_length_m", "m", "closed length of one half, from the clip, of all members; antagonists: of the upper one"},
     {"charge_C", "C", "charge on the electrodes of all members"},
     {"capacitance_F", "F", "capacitance of the electrodes of all members"},
     ZP_MARGIN_COLUMNS,
-    {"lower_voltage_V", "V", "potential difference of the lower one's electrodes"},
-    {"lower_opening_m", "m", "distance of the lower one's platforms' faces"},
+    {"lower_voltage_V", "V", "voltage between the electrodes of the lower one"},
+    {"lower_opening_m", "m", "distance between the platforms' faces of the lower one"},
 };
 enum {
   OF_LOWER = 2, /* columns of limits that only antagonists have */
@@ -223,7 +224,7 @@ static bool hang(Follower *f) {
   snprintf(f->result->message, sizeof f->result->message, "%s",
            !found              ? "no equilibrium of all members found"
            : f->model->abreast ? "all members at rest under their load"
-                               : "both at rest against each other");
+                               : "both members at rest against each other");
   return found;
 }
 

@@ -124,7 +124,8 @@ export class Core {
   start(goOn = false) {
     this.#check(this.#c.zp_web_start(this.#web, goOn ? 1 : 0));
     this.nodes = this.#c.zp_web_nodes(this.#web);
-    this.insulatorOffset = this.#c.zp_web_insulator_offset(this.#web);
+    this.halves = this.#c.zp_web_halves(this.#web);
+    this.members = this.#c.zp_web_members(this.#web);
   }
 
   setVoltage(voltage) {
@@ -152,19 +153,28 @@ export class Core {
     return this.#c.zp_web_zip_time(this.#web);
   }
 
-  /** Insulator faces: x, y [2 nodes], upper and lower alternating; gap, lineForce [nodes]; film and pressure of the
-   * liquid [nodes], empty if there is none. Valid until the next call. */
+  /** Numbers of a member of a stack if the electrodes of the first one have `voltage`: see `ofMember` of frame.js. */
+  member(k, voltage) {
+    const c = this.#c, web = this.#web;
+    return [c.zp_web_member_voltage(web, k, voltage), c.zp_web_insulator_offset(web, k),
+            ...[0, 1].map((r) => c.zp_web_insulator(web, k, r)), ...[0, 1].map((r) => c.zp_web_metal(web, k, r))];
+  }
+
+  /** Insulator faces: x, y [members 2 nodes], upper and lower alternating; gap, lineForce [members nodes]; film and
+   * pressure of the liquid [members nodes], empty if there is none, and wetLength [members halves], the length of each
+   * modelled half that is wet. Valid until the next call. */
   shape() {
-    const c = this.#c, web = this.#web, n = this.nodes;
+    const c = this.#c, web = this.#web, n = this.members * this.nodes, halves = this.members * Math.max(this.halves, 1);
     const x = c.zp_web_x(web), y = c.zp_web_y(web), gap = c.zp_web_gap(web), force = c.zp_web_line_force(web);
-    const film = c.zp_web_film(web), pressure = c.zp_web_pressure(web), wet = film ? n : 0;
+    const film = c.zp_web_film(web), pressure = c.zp_web_pressure(web), wet = c.zp_web_wet_length(web);
     return {
       x: this.#doubles(x, 2 * n),
       y: this.#doubles(y, 2 * n),
       gap: this.#doubles(gap, n),
       lineForce: this.#doubles(force, n),
-      film: this.#doubles(film, wet),
-      pressure: this.#doubles(pressure, wet),
+      film: this.#doubles(film, film ? n : 0),
+      pressure: this.#doubles(pressure, film ? n : 0),
+      wetLength: this.#doubles(wet, film ? halves : 0),
     };
   }
 

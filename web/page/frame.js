@@ -1,16 +1,21 @@
 // The state at one instant as numbers in one array, which is passed to the engine and back without a copy: single
-// numbers by name, the shape, and the strokes since the previous frame.
+// numbers by name, the strokes since the previous frame, numbers of each member of a stack, and the shapes.
 
-const own = ['time', 'since', 'marks', 'advanced', 'nodes', 'offset', 'liquid', 'samples'];
+const own = ['time', 'since', 'marks', 'advanced', 'nodes', 'halves', 'members', 'liquid', 'samples'];
 const signals = {
   voltage: 'voltage_V', stroke: 'stroke_m', opening: 'opening_m', contraction: 'contraction', zipped_length: 'zipped_length_m',
   force: 'force_N', capacitance: 'capacitance_F', insulator_field: 'insulator_field_V_per_m', max_stress: 'max_stress_Pa',
-  film_thickness: 'film_thickness_m', wet_length: 'wet_length_m',
+  film_thickness: 'film_thickness_m',
 };
 // of the scenario of this instant, which is not always the newest
-const keys = ['ribbon.length', 'platform.length', 'platform.electrode', 'ribbon.thickness', 'insulator.thickness', 'load.mass',
+const keys = ['actuator.kind', 'ribbon.length', 'platform.length', 'platform.electrode', 'load.mass', 'load.offset',
+              'mount.tilt', 'stack.series', 'stack.parallel', 'stack.distance',
               'medium.breakdown_field', 'medium.permittivity', 'air.breakdown_field', 'electro.breakdown_cap', 'electro.voltage_share'];
 const place = new Map([...own, ...Object.keys(signals), ...keys].map((name, k) => [name, k]));
+
+/** Of each member: voltage of its electrodes (V), liquid equivalent to both insulators (m), thicknesses of the upper and
+ * the lower insulator and metal (m). */
+const ofMember = ['voltage', 'offset', 'upperInsulator', 'lowerInsulator', 'upperMetal', 'lowerMetal'];
 
 /** Columns of a sample; the time counts from the last mark, the current is the mean since the previous sample, NaN if an
  * ideal source has charged the electrodes at once. */
@@ -18,19 +23,24 @@ export const sampled = ['time_s', 'stroke_m', 'voltage_V', 'command_V', 'current
 
 /** Largest number of samples in a frame. */
 export const mostSamples = 64;
-const head = place.size + sampled.length * mostSamples, ofNodes = 8;
+const head = place.size + sampled.length * mostSamples, ofNodes = 8, most = 2; // halves of a member
 
 /** Fill `data`, or a new array if it is too short, from a Motion. `advanced`: simulated s since the previous frame. */
 export function write(data, motion, advanced) {
-  const {core, samples} = motion, length = head + ofNodes * core.nodes;
+  const {core, samples} = motion, {members, nodes} = core;
+  const length = head + members * (ofMember.length + most + ofNodes * nodes);
   const frame = data?.length >= length ? data : new Float64Array(length);
-  const numbers = [motion.time, motion.time - motion.zero, motion.marks, advanced, core.nodes, core.insulatorOffset,
-                   core.effective('liquid.model'), samples.length / sampled.length, ...core.read(Object.values(signals)),
+  const seen = core.read(Object.values(signals)), voltage = seen[Object.keys(signals).indexOf('voltage')];
+  const numbers = [motion.time, motion.time - motion.zero, motion.marks, advanced, nodes, core.halves, members,
+                   core.effective('liquid.model'), samples.length / sampled.length, ...seen,
                    ...keys.map((name) => core.value(name))];
+  const ofMembers = Array.from({length: members}, (_, k) => core.member(k, voltage)).flat();
   const shape = core.shape();
   frame.set(numbers);
   frame.set(samples, place.size);
-  let at = head;
+  frame.set(ofMembers, head);
+  frame.set(shape.wetLength, head + members * ofMember.length);
+  let at = head + members * (ofMember.length + most);
   for (const part of [shape.x, shape.y, shape.gap, shape.lineForce, shape.film, shape.pressure]) {
     frame.set(part, at);
     at += part.length;
@@ -45,17 +55,26 @@ export class Frame {
   }
 
   /** A number by its name: time (of the simulation), since (the last mark), marks (their count), advanced (s since the
-   * previous frame), nodes, offset (liquid equivalent to both insulators, m), liquid (as liquid.model, auto resolved), a
-   * signal or a key of the lists above. */
+   * previous frame), nodes (stations of each ribbon), halves and members (as those of the core), liquid (as
+   * liquid.model, auto resolved), a signal or a key of the lists above. */
   get(name) {
     return this.data[place.get(name)];
   }
 
-  /** Insulator faces: x, y [2 nodes], upper and lower alternating; gap, lineForce [nodes]; film, pressure [nodes],
-   * without meaning if there is no liquid. */
-  get shape() {
-    const nodes = this.get('nodes'), part = (from, to) => this.data.subarray(head + from * nodes, head + to * nodes);
-    return {x: part(0, 2), y: part(2, 4), gap: part(4, 5), lineForce: part(5, 6), film: part(6, 7), pressure: part(7, 8)};
+  /** Member k of a stack: the numbers of `ofMember`; x, y [2 nodes] of the insulator faces, upper and lower alternating;
+   * gap, lineForce [nodes]; film, pressure [nodes] and wetLength [halves], without meaning if there is no liquid. */
+  member(k) {
+    const {data} = this, nodes = this.get('nodes'), members = this.get('members'), halves = Math.max(this.get('halves'), 1);
+    const wet = head + members * ofMember.length, shapes = wet + members * most;
+    const part = (from, size) => {
+      const at = shapes + nodes * (from * members + size * k);
+      return data.subarray(at, at + size * nodes);
+    };
+    return {
+      ...Object.fromEntries(ofMember.map((name, i) => [name, data[head + k * ofMember.length + i]])),
+      x: part(0, 2), y: part(2, 2), gap: part(4, 1), lineForce: part(5, 1), film: part(6, 1), pressure: part(7, 1),
+      wetLength: data.subarray(wet + k * halves, wet + (k + 1) * halves),
+    };
   }
 
   /** `note` is called with the numbers of each sample. */

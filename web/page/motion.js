@@ -1,4 +1,5 @@
 // The actuator in motion, computed by the core step by step.
+import {Refused} from './core.js';
 import {mostSamples, sampled} from './frame.js';
 
 const longest = 1e-3; // s of simulated time between two samples of the stroke
@@ -30,12 +31,21 @@ export class Motion {
     this.#mark();
   }
 
-  /** The scenario has changed: continue in it; after a failure, or with another number of nodes, from its start. */
+  /** The scenario has changed: continue in it; after a failure, or in an actuator of another kind, from its start. */
   change(voltage, limit) {
-    const {core} = this;
-    if (this.ended || core.nodes !== core.value('mesh.nodes')) return this.restart(voltage, limit);
-    this.#begin(true, limit);
-    if (core.signal('command') !== voltage) this.#switch(voltage);
+    if (this.ended || !this.#continues(limit)) return this.restart(voltage, limit);
+    if (this.core.signal('command') !== voltage || this.core.members > 1) this.#switch(voltage);
+  }
+
+  /** Continue, if the core can do so from the last state. */
+  #continues(limit) {
+    try {
+      this.#begin(true, limit);
+      return true;
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      return false;
+    }
   }
 
   /** A button was pressed: another voltage from now on. */

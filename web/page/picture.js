@@ -1,26 +1,25 @@
-// The actuator drawn to scale on a canvas: ribbons, liquid coloured by the field, load, and a lens at the zip front.
+// The actuators drawn to scale on a canvas: ribbons, liquid coloured by the field, load, and a lens at a zip front.
 import {shade, theme} from './theme.js';
 
 const steel = 7850; // kg/m3, of the weight that is drawn
-const margin = {top: 8e-3, side: 6e-3, string: 5e-3, bottom: 4e-3}; // m around the actuator
-const clip = 3.5e-3; // m, length of a clip
+const margin = {top: 8e-3, side: 2.5e-3, string: 5e-3, bottom: 4e-3}; // m around the actuator
 const magnification = 25; // of the lens
+const narrow = 500, legendHeight = 40; // px: the legend of the field is below the actuators of a narrow picture
 const thinnest = 1.6; // px of a metal strip that would be thinner, not in the lens
 
-/** Faces of one half on the screen; side 1: the left one. Ribbons continue straight in clip and platform. */
+/** A half of a member on the screen (geometry.js), `place` m to the right. */
 class Half {
-  constructor({shape, nodes, centre, platform}, side, to) {
-    const last = nodes - 1;
-    const stations = [[0, -clip], ...Array.from({length: nodes}, (_, i) => [i, 0]), [last, platform / 2]];
-    this.x = [0, 1].map((r) => stations.map(([i, beyond]) => to.x(side * (shape.x[2 * i + r] + beyond - centre))));
-    this.y = [0, 1].map((r) => stations.map(([i]) => to.y(shape.y[2 * i + r])));
-    this.scale = to.scale;
+  constructor(half, {turned}, to, place = 0) {
+    this.half = half;
+    this.x = half.x.map((of) => of.map((x) => to.x(x + place)));
+    this.y = half.y.map((of) => of.map((y) => to.y(y)));
+    this.upward = [turned ? to.scale : -to.scale, turned ? -to.scale : to.scale]; // px per m outward, of ribbons 0 and 1
   }
 
   /** Path along ribbon r at a distance from its face, m, up to place `end`, a number of points with its fraction; the
    * other way round: backwards. */
   along(context, r, outward, backwards = false, end = this.x[r].length - 1) {
-    const shift = (r === 0 ? -outward : outward) * this.scale, whole = Math.floor(end);
+    const shift = outward * this.upward[r], whole = Math.floor(end);
     const places = Array.from({length: whole + 1}, (_, i) => i);
     if (whole < end) places.push(end);
     if (backwards) places.reverse();
@@ -43,16 +42,16 @@ class Half {
 
   /** The liquid between the ribbons, up to `outward` from their faces, coloured by the field; a bead up to its end, with
    * its meniscus. */
-  liquid(context, {field, largest, electrode, wetEnd}, outward) {
-    const x = this.x[0], span = x.at(-2) - x[1];
-    const gradient = context.createLinearGradient(x[1], 0, x.at(-2), 0);
-    field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max((x[i + 1] - x[1]) / span, 0), 1), shade(E / largest)));
+  liquid(context, {largest, electrode}, outward) {
+    const {first, last, field, wetEnd} = this.half, x = this.x[0], span = x[last] - x[first];
+    const gradient = context.createLinearGradient(x[first], 0, x[last], 0);
+    field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max((x[first + i] - x[first]) / span, 0), 1), shade(E / largest)));
     if (!electrode) gradient.addColorStop(1, shade(0));
     context.fillStyle = gradient;
     const end = Math.min(wetEnd, x.length - 1);
     context.beginPath();
-    this.along(context, 0, outward, false, end);
-    this.along(context, 1, outward, true, end);
+    this.along(context, 0, outward[0], false, end);
+    this.along(context, 1, outward[1], true, end);
     context.fill();
     if (end === x.length - 1) return;
     context.strokeStyle = theme.colour.accent;
@@ -63,13 +62,21 @@ class Half {
   }
 }
 
-/** The first place, from the clip on, where the gap equals the thickness of an insulator; the platform if there is none. */
-function zipFront({shape: {x, y, gap}, nodes, centre, insulator}) {
+/** The first place of a half, from the clip on, where the gap equals the mean thickness of an insulator; the platform if
+ * there is none. */
+function zipFront({x, y, gap, first}, insulator) {
+  const thick = (insulator[0] + insulator[1]) / 2;
   let i = 1;
-  while (i < nodes - 1 && gap[i] < insulator) i++;
-  const share = Math.min(Math.max((insulator - gap[i - 1]) / (gap[i] - gap[i - 1]), 0), 1) || 0;
-  const between = (values, k) => values[2 * i - 2 + k] + share * (values[2 * i + k] - values[2 * i - 2 + k]);
-  return {x: between(x, 0) - centre, y: (between(y, 0) + between(y, 1)) / 2};
+  while (i < gap.length - 1 && gap[i] < thick) i++;
+  const share = Math.min(Math.max((thick - gap[i - 1]) / (gap[i] - gap[i - 1]), 0), 1) || 0, k = first + i;
+  const between = (of) => of[k - 1] + share * (of[k] - of[k - 1]);
+  return {x: between(x[0]), y: (between(y[0]) + between(y[1])) / 2};
+}
+
+/** Middle and radius of the lens, px. */
+function lensPlace(width, height) {
+  const radius = Math.min(84, height * 0.19, width * 0.15);
+  return {at: {x: radius + 16, y: height - radius - 34}, radius};
 }
 
 export class Picture {
@@ -82,9 +89,8 @@ export class Picture {
     this.#context = canvas.getContext('2d');
   }
 
-  /** scene: shape, nodes, centre (x of the middle, m), field [nodes] and largest (V/m), bath (is there liquid around?),
-   * wetEnd (where a bead ends: a number of points of a Half; Infinity: nowhere), platform (m),
-   * metal, insulator (m, thickness), mass (kg), hanging (opening without voltage, m; NaN: unknown), texts. */
+  /** scene: geometry (of geometry.js), largest field (V/m), bath (is there liquid around?), electrode (does the platform
+   * attract?), opening (m), mass (kg), hanging (opening without voltage, m; NaN: unknown), texts. */
   draw(scene, still) {
     const context = this.#context, ratio = Math.min(devicePixelRatio, 2);
     const {clientWidth: width, clientHeight: height} = this.#canvas;
@@ -97,61 +103,102 @@ export class Picture {
       context.fillRect(0, 0, width, height);
     }
     const to = this.#fit(scene, width, height, still);
-    this.#support(to);
+    for (const [k, y] of scene.geometry.mounts.entries()) this.#mounts(scene.geometry, y, k > 0, to);
     this.#hanging(scene, to);
     this.#ribbons(scene, to);
     this.#load(scene, to);
     this.#opening(scene, to);
     this.#scaleBar(to, width, height);
-    this.#lens(scene, to, width, height);
+    if (to.lens) this.#lens(scene, to, width, height);
     this.#where(scene, width);
+    this.#gravity(scene.geometry, width, height);
   }
 
-  /** The surroundings of the ribbons. */
+  /** What the picture does not show otherwise: the surroundings of the ribbons, members that are not drawn. */
   #where({texts}, width) {
-    if (!texts.liquid) return;
     const context = this.#context;
     context.fillStyle = theme.colour.soft;
     context.font = '12px system-ui, sans-serif';
     context.textAlign = 'right';
     context.textBaseline = 'top';
-    context.fillText(texts.liquid, width - 12, 10);
+    texts.where.forEach((words, k) => context.fillText(words, width - 12, 10 + 16 * k));
   }
 
-  /** The view: the whole actuator, its load and some margin, with the same scale in both directions. */
+  /** An arrow, if gravity does not point down. */
+  #gravity({gravity}, width, height) {
+    if (Math.abs(gravity) < 1e-6) return;
+    const context = this.#context, size = 16, x = width - 34, y = height - 92, way = {x: Math.sin(gravity), y: Math.cos(gravity)};
+    context.strokeStyle = context.fillStyle = theme.colour.soft;
+    context.lineWidth = 1.5;
+    const tip = {x: x + size * way.x, y: y + size * way.y};
+    context.beginPath();
+    context.moveTo(x - size * way.x, y - size * way.y);
+    context.lineTo(tip.x, tip.y);
+    for (const turn of [2.6, -2.6]) {
+      const angle = Math.atan2(way.y, way.x) + turn;
+      context.moveTo(tip.x, tip.y);
+      context.lineTo(tip.x + 7 * Math.cos(angle), tip.y + 7 * Math.sin(angle));
+    }
+    context.stroke();
+    context.font = '12px system-ui, sans-serif';
+    context.textAlign = 'right';
+    context.textBaseline = 'middle';
+    context.fillText('gravity', x - size - 8, y);
+  }
+
+  /** The view: all actuators, the load and some margin, with the same scale in both directions; beside the lens if they
+   * are deep. Where there is no room for both, there is no lens. */
   #fit(scene, width, height, still) {
-    const opening = Math.max(scene.opening, 1.1 * (scene.hanging || 0));
-    const wanted = {
-      width: 2 * (scene.centre + margin.side),
-      depth: opening + margin.string + Math.cbrt(scene.mass / steel) + margin.bottom,
-    };
+    const {geometry, mass} = scene, below = Math.max(-geometry.bottom, 1.1 * (geometry.opposed ? 0 : scene.hanging || 0));
+    const under = geometry.opposed ? margin.top : margin.string + Math.cbrt(mass / steel) + margin.bottom;
+    const wanted = {width: 2 * (geometry.reach + margin.side), depth: below + under};
     const soft = this.#view && !still ? 0.12 : 1;
     this.#view ??= wanted;
     for (const key of ['width', 'depth']) this.#view[key] += soft * (wanted[key] - this.#view[key]);
-    const scale = Math.min(width / this.#view.width, height / (this.#view.depth + margin.top));
-    const top = margin.top * scale + Math.max(0, 0.35 * (height - (this.#view.depth + margin.top) * scale));
-    return {scale, x: (x) => width / 2 + scale * x, y: (y) => top - scale * y};
+    const free = width < narrow ? height - legendHeight : height, {width: wide, depth} = this.#view;
+    const scale = Math.min(width / wide, free / (depth + margin.top));
+    const top = margin.top * scale + Math.max(0, 0.35 * (free - (depth + margin.top) * scale));
+    const {at, radius} = lensPlace(width, height), covered = at.x + radius + 8 - (width - wide * scale) / 2;
+    const deep = top - scale * geometry.bottom > at.y - radius, spare = (width - wide * scale) / 2;
+    const middle = width / 2 + (deep ? Math.min(Math.max(covered, 0), spare) : 0);
+    return {scale, x: (x) => middle + scale * x, y: (y) => top - scale * y, lens: !deep || covered <= spare};
   }
 
-  #support(to) {
-    const context = this.#context, y = to.y(4.5e-3), half = 9e-3 * to.scale, x = to.x(0);
+  /** What holds the uppermost platform of each column, or the lowest one of antagonists, from below; a hinge. */
+  #mounts({members, hinge}, y, below, to) {
+    const context = this.#context, way = below ? -1 : 1;
+    const places = new Set(members.flatMap((member) => member.places));
+    for (const place of places) {
+      context.save();
+      const x = hinge ? members[0].halves[0].x[0][0] : place;
+      context.translate(to.x(x), to.y(y));
+      if (hinge) context.rotate(-Math.PI / 2);
+      context.scale(1, -way);
+      this.#mount(4.5e-3 * to.scale, (hinge ? 4.5e-3 : 9e-3) * to.scale);
+      context.restore();
+    }
+  }
+
+  /** A bar with hatches at `height` px above the origin, and what hangs from it. */
+  #mount(height, half) {
+    const context = this.#context;
     context.strokeStyle = theme.colour.soft;
     context.lineWidth = 1.5;
     context.beginPath();
-    context.moveTo(x - half, y);
-    context.lineTo(x + half, y);
+    context.moveTo(-half, height);
+    context.lineTo(half, height);
     for (let k = -4; k <= 4; k++) {
-      context.moveTo(x + (k * half) / 4.5, y);
-      context.lineTo(x + (k * half) / 4.5 + 6, y - 6);
+      context.moveTo((k * half) / 4.5, height);
+      context.lineTo((k * half) / 4.5 + 6, height + 6);
     }
-    context.moveTo(x, y);
-    context.lineTo(x, to.y(0));
+    context.moveTo(0, height);
+    context.lineTo(0, 0);
     context.stroke();
   }
 
   #hanging(scene, to) {
     if (!(scene.hanging > 0)) return;
-    const context = this.#context, y = to.y(-scene.hanging), half = 0.6 * scene.centre;
+    const context = this.#context, y = to.y(-scene.hanging), half = 0.6 * scene.geometry.reach;
     context.strokeStyle = context.fillStyle = theme.colour.soft;
     context.lineWidth = 1;
     context.setLineDash([4, 5]);
@@ -168,59 +215,103 @@ export class Picture {
   }
 
   #ribbons(scene, to) {
-    const context = this.#context, thickness = Math.max(scene.metal, thinnest / to.scale);
-    for (const side of [1, -1]) {
-      const half = new Half(scene, side, to);
-      half.liquid(context, scene, scene.insulator);
+    const {geometry} = scene;
+    for (const member of geometry.members)
+      for (const place of member.places) this.#member(scene, member, to, place);
+    if (geometry.joined) this.#links(geometry, to);
+  }
+
+  #member(scene, member, to, place) {
+    const context = this.#context, {insulator, metal} = member;
+    for (const half of member.halves) {
+      const drawn = new Half(half, member, to, place);
+      drawn.liquid(context, scene, insulator);
       context.fillStyle = theme.colour.metal;
-      for (const r of [0, 1]) half.layer(context, r, scene.insulator, scene.insulator + thickness);
-      this.#clip(half, to, side);
+      for (const r of [0, 1]) drawn.layer(context, r, insulator[r], insulator[r] + Math.max(metal[r], thinnest / to.scale));
+      if (member.platforms.length) this.#clip(drawn, half, to);
     }
-    this.#platforms(scene, to);
+    this.#platforms(member, to, place);
   }
 
   /** Rigid pieces on the metal where the ribbons are held and the load hangs. */
-  #platforms(scene, to) {
-    const context = this.#context, y = scene.shape.y, last = scene.nodes - 1;
-    const x = to.x(-scene.platform / 2), width = scene.platform * to.scale, height = Math.max(4, 0.6e-3 * to.scale);
+  #platforms({platforms, insulator, turned}, to, place) {
+    const context = this.#context, height = Math.max(4, 0.6e-3 * to.scale);
     context.fillStyle = theme.colour.metal;
-    context.fillRect(x, to.y(y[2 * last] + scene.insulator) - height, width, height);
-    context.fillRect(x, to.y(y[2 * last + 1] - scene.insulator), width, height);
+    for (const [r, [left, right]] of platforms.entries()) {
+      const up = (r === 0) === !turned;
+      context.save();
+      context.translate(to.x(left.x + place), to.y(left.y));
+      context.rotate(-Math.atan2(right.y - left.y, right.x - left.x));
+      const outward = insulator[r] * to.scale;
+      context.fillRect(0, up ? -outward - height : outward, Math.hypot(right.x - left.x, right.y - left.y) * to.scale, height);
+      context.restore();
+    }
   }
 
-  #clip(half, to, side) {
-    const context = this.#context, length = clip * to.scale, height = Math.max(9, 2.4e-3 * to.scale);
+  /** The rigid bar that joins the lowest platforms of columns. */
+  #links({load, joined}, to) {
+    const context = this.#context, y = to.y(load.y) + Math.max(4, 0.6e-3 * to.scale);
+    context.strokeStyle = theme.colour.metal;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(to.x(joined.from), y);
+    context.lineTo(to.x(joined.to), y);
+    context.stroke();
+  }
+
+  #clip({x, y}, {first, outward}, to) {
+    const context = this.#context, length = Math.abs(x[0][0] - x[0][first]), height = Math.max(9, 2.4e-3 * to.scale);
     context.fillStyle = theme.colour.load;
     context.beginPath();
-    context.roundRect(side > 0 ? half.x[0][0] : half.x[0][1], (half.y[0][0] + half.y[1][0] - height) / 2, length, height, 3);
+    context.roundRect(outward < 0 ? x[0][0] : x[0][first], (y[0][0] + y[1][0] - height) / 2, length, height, 3);
     context.fill();
   }
 
+  /** The load hangs on a string along gravity. Between antagonists, and where gravity does not point down, it sits on the
+   * platform. */
   #load(scene, to) {
     if (!(scene.mass > 0)) return;
-    const context = this.#context, side = Math.cbrt(scene.mass / steel) * to.scale;
-    const top = to.y(-scene.opening), y = to.y(-scene.opening - margin.string), x = to.x(0);
+    const context = this.#context, side = Math.cbrt(scene.mass / steel) * to.scale, {load, gravity, opposed} = scene.geometry;
+    const hangs = !opposed && Math.cos(gravity) > 0.3, string = hangs ? margin.string * to.scale : 0;
+    const from = {x: to.x(load.x), y: to.y(load.y)};
+    const at = {x: from.x + string * Math.sin(gravity), y: opposed ? from.y - side / 2 : from.y + string * Math.abs(Math.cos(gravity))};
     context.strokeStyle = theme.colour.load;
     context.lineWidth = 1.5;
     context.beginPath();
-    context.moveTo(x, top);
-    context.lineTo(x, y);
+    context.moveTo(from.x, from.y);
+    context.lineTo(at.x, at.y);
     context.stroke();
     context.fillStyle = theme.colour.load;
     context.beginPath();
-    context.roundRect(x - side / 2, y, side, side, Math.min(4, side / 5));
+    context.roundRect(at.x - side / 2, at.y, side, side, Math.min(4, side / 5));
     context.fill();
-    const inside = side > 44;
     context.font = '600 13px system-ui, sans-serif';
+    if (opposed) return this.#label(scene.texts.mass, at.x - side / 2 - 7 - context.measureText(scene.texts.mass).width, at.y + side / 2);
+    const inside = side > 44;
     context.textBaseline = 'middle';
     context.textAlign = inside ? 'center' : 'left';
     context.fillStyle = inside ? theme.colour.panel : theme.colour.ink;
-    context.fillText(scene.texts.mass, inside ? x : x + side / 2 + 7, y + side / 2);
+    context.fillText(scene.texts.mass, inside ? at.x : at.x + side / 2 + 7, at.y + side / 2);
+  }
+
+  /** Words over what is drawn, from x on. */
+  #label(words, x, y) {
+    const context = this.#context;
+    context.textAlign = 'left';
+    context.textBaseline = 'middle';
+    context.fillStyle = theme.colour.panel;
+    context.globalAlpha = 0.75;
+    context.beginPath();
+    context.roundRect(x - 4, y - 10, context.measureText(words).width + 8, 20, 5);
+    context.fill();
+    context.globalAlpha = 1;
+    context.fillStyle = theme.colour.ink;
+    context.fillText(words, x, y);
   }
 
   /** The opening, beside the platforms. */
   #opening(scene, to) {
-    const context = this.#context, x = to.x(scene.platform / 2 + 3e-3), top = to.y(0), bottom = to.y(-scene.opening);
+    const context = this.#context, x = to.x(scene.geometry.openingAt), top = to.y(0), bottom = to.y(-scene.opening);
     if (bottom - top < 26) return;
     context.strokeStyle = context.fillStyle = theme.colour.ink;
     context.lineWidth = 1;
@@ -234,17 +325,7 @@ export class Picture {
     context.lineTo(x, bottom - 2);
     context.stroke();
     context.font = '600 13px system-ui, sans-serif';
-    context.textAlign = 'left';
-    context.textBaseline = 'middle';
-    const y = (top + bottom) / 2, width = context.measureText(scene.texts.opening).width;
-    context.fillStyle = theme.colour.panel;
-    context.globalAlpha = 0.75;
-    context.beginPath();
-    context.roundRect(x + 5, y - 10, width + 8, 20, 5);
-    context.fill();
-    context.globalAlpha = 1;
-    context.fillStyle = theme.colour.ink;
-    context.fillText(scene.texts.opening, x + 9, y);
+    this.#label(scene.texts.opening, x + 9, (top + bottom) / 2);
   }
 
   #scaleBar(to, width, height) {
@@ -263,13 +344,13 @@ export class Picture {
     context.fillText('10 mm', right - length / 2, y - 4);
   }
 
-  /** The zip front of the left half, magnified: metal, insulator, liquid, insulator, metal, all to scale. */
+  /** The zip front of a left half, magnified: metal, insulator, liquid, insulator, metal, all to scale. */
   #lens(scene, to, width, height) {
-    const context = this.#context, radius = Math.min(84, height * 0.19, width * 0.15);
-    const at = {x: radius + 16, y: height - radius - 34};
-    const scale = to.scale * magnification, focus = zipFront(scene);
+    const context = this.#context, {at, radius} = lensPlace(width, height);
+    const member = scene.geometry.focus, {insulator, metal, places} = member;
+    const scale = to.scale * magnification, focus = zipFront(member.halves[0], insulator);
     const inside = {scale, x: (x) => at.x + scale * (x - focus.x), y: (y) => at.y - scale * (y - focus.y)};
-    const from = {x: to.x(focus.x), y: to.y(focus.y)};
+    const from = {x: to.x(focus.x + places[0]), y: to.y(focus.y)};
     this.#beam(from, at, radius);
     context.save();
     context.beginPath();
@@ -277,13 +358,13 @@ export class Picture {
     context.fillStyle = scene.bath ? theme.colour.bath : theme.colour.panel;
     context.fill();
     context.clip();
-    const half = new Half(scene, 1, inside);
-    half.liquid(context, scene, 0);
+    const half = new Half(member.halves[0], member, inside);
+    half.liquid(context, scene, [0, 0]);
     for (const r of [0, 1]) {
       context.fillStyle = theme.colour.insulator;
-      half.layer(context, r, 0, scene.insulator);
+      half.layer(context, r, 0, insulator[r]);
       context.fillStyle = theme.colour.metal;
-      half.layer(context, r, scene.insulator, scene.insulator + scene.metal);
+      half.layer(context, r, insulator[r], insulator[r] + metal[r]);
     }
     context.restore();
     context.strokeStyle = theme.colour.accent;
@@ -295,7 +376,7 @@ export class Picture {
     context.font = '12px system-ui, sans-serif';
     context.textAlign = 'left';
     context.textBaseline = 'alphabetic';
-    context.fillText(`zip front, ${magnification} times larger`, at.x - radius, height - 12);
+    context.fillText(`${scene.texts.front}, ${magnification} times larger`, at.x - radius, height - 12);
     this.#layers(scene, at.x + radius + 8, height - 40);
   }
 
@@ -303,7 +384,7 @@ export class Picture {
   #layers({bath, texts}, x, y) {
     const context = this.#context, gap = context.createLinearGradient(x, 0, x + 14, 0);
     [0, 0.25, 1].forEach((share) => gap.addColorStop(Math.sqrt(share), shade(share)));
-    const between = bath || texts.liquid ? 'liquid, by field' : 'gap, by field';
+    const between = bath || texts.wet ? 'liquid, by field' : 'gap, by field';
     for (const [colour, words] of [[gap, between], [theme.colour.insulator, 'insulator'], [theme.colour.metal, 'metal']]) {
       context.fillStyle = colour;
       context.fillRect(x, y - 9, 14, 9);

@@ -95,6 +95,13 @@ export const presets = [
   {of: 'Supplies', name: 'Open hardware, 5 kV', help: '15 V/µs; lifts 4 g', values: {'drive.voltage': '5 kV', 'load.mass': '4 g', 'bead.volume': '100 uL', 'source.supply': 'open_5kv'}},
   {of: 'Supplies', name: 'Laboratory, 10 kV', help: '700 V/µs and 10 mA: nearly ideal', values: {'source.supply': 'laboratory_10kv'}},
   {of: 'Supplies', name: 'Converter, 10 kV', help: '0.3 mA, and a bleeder of 500 MΩ through which it discharges', values: {'source.supply': 'converter_10kv'}},
+  {of: 'Arrangements', name: 'Three in series', help: 'the lowest, which carries the others, begins to zip; the strokes add up', values: {'stack.series': '3', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Three side by side', help: 'they share 24 g; the strip of the middle one is thicker and carries most', values: {'stack.parallel': '3', 'member_2.ribbon.thickness': '80 um', 'load.mass': '24 g', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Antagonists', help: 'the upper one lifts the load against the lower one, which has 2 kV', values: {'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g', 'liquid.model': 'submerged', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Off the centre', help: 'a load 2 mm right of the centre of a platform that may turn', values: {'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false', 'load.offset': '2 mm', 'liquid.model': 'none', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Leaning', help: 'gravity pulls 60 degrees to the right; a spring opens the actuator', values: {'actuator.symmetry': 'none', 'mount.tilt': '60 degree', 'load.mass': '4 g', 'load.stiffness': '5 N/m', 'load.rest_opening': '20 mm', 'drive.voltage': '8 kV', 'liquid.model': 'none', 'mesh.nodes': '31'}},
+  {of: 'Arrangements', name: 'Fold', help: 'electro-origami: a strip zips onto a plate about a hinge with a spring', values: {'actuator.kind': 'hinge', 'ribbon.length': '40 mm', 'ribbon.thickness': '1 mm', 'lower.ribbon.thickness': '100 um', 'hinge.stiffness': '0.4 mN m/rad', 'hinge.rest_angle': '20 degree', 'load.mass': '0 g', 'drive.voltage': '8 kV'}},
+  {of: 'Arrangements', name: 'Pre-opened', help: 'ribbons bowed apart near the clips are open without a load', values: {'segment_1.length': '20 mm', 'segment_1.curvature': '5 1/m', 'load.mass': '2 g', 'liquid.model': 'none'}},
 ];
 
 const usualFactor = 10; // of slow motion

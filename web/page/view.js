@@ -1,4 +1,5 @@
 // The view of the actuator: picture, numbers and plots of the current instant, and the results of the two studies.
+import {geometryOf} from './geometry.js';
 import {digits, fixed, pretty, Tiles} from './numbers.js';
 import {Picture} from './picture.js';
 
@@ -7,7 +8,7 @@ const tiles = {
   stroke: {label: 'Stroke', unit: 'mm', title: 'height of the clip over the lower platform'},
   opening: {label: 'Opening', unit: 'mm', title: 'distance of the platforms’ faces'},
   contraction: {label: 'Contraction', unit: '%', title: '1 − opening / opening when hanging without voltage'},
-  zipped: {label: 'Zipped', unit: 'mm', title: 'closed length from the clip, one half'},
+  zipped: {label: 'Zipped', unit: 'mm', title: 'closed length of one half, from the clip'},
   force: {label: 'Attraction', unit: 'N', title: 'electric attraction of the ribbons, vertical'},
   field: {label: 'Largest field', unit: 'MV/m', title: 'in the liquid; with electro.breakdown_cap at most its breakdown field'},
   inside: {label: 'Insulator field', unit: 'MV/m', title: 'largest field in the insulators'},
@@ -38,7 +39,6 @@ const wetWords = {bead: 'a bead of oil at each clip, air beyond', submerged: 'in
 const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
-  hanging = NaN; // m, opening without voltage
   release = NaN; // V, where it opens again
   #time; // what the plots show
   #rest;
@@ -96,7 +96,6 @@ export class View {
   showRun({result}, words) {
     const columns = result?.columns;
     this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
-    this.hanging = columns?.opening_m[0] ?? NaN;
     const scalars = result?.scalars ?? {};
     this.tiles.show('zip', digits(1e3 * (scalars.zip_time_s ?? NaN)));
     this.tiles.show('stress', digits((scalars.max_stress_Pa ?? NaN) / 1e6));
@@ -146,52 +145,39 @@ export class View {
     this.#numbers(frame, scene);
   }
 
-  /** Field between the faces at each station by the plates law, V/m: in the liquid, beyond a bead in air. */
-  #field(frame, gap, wet) {
-    const voltage = frame.get('electro.voltage_share') * frame.get('voltage'), offset = frame.get('offset');
-    const cap = (name) => (frame.get('electro.breakdown_cap') ? frame.get(name) : Infinity);
-    const liquid = {offset, most: cap('medium.breakdown_field')};
-    const air = {offset: offset / frame.get('medium.permittivity'), most: cap('air.breakdown_field')};
-    return Float64Array.from(gap, (g, i) => {
-      const {offset: other, most} = wet(i) ? liquid : air;
-      return Math.min(Math.abs(voltage) / (Math.max(g, 0) + other), most);
-    });
+  /** The word of the liquid's model. */
+  #liquidWord(frame) {
+    return this.core.keys.get('liquid.model').choices[frame.get('liquid')].word;
   }
 
-  /** The liquid: the word of its model, and the end of a bead, as a number of stations. */
-  #wet(frame) {
-    const {word} = this.core.keys.get('liquid.model').choices[frame.get('liquid')];
-    const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / (frame.get('nodes') - 1);
-    return {word, end: word === 'bead' ? frame.get('wet_length') / l : Infinity};
-  }
-
-  /** The end of a bead, also below the platform, as a number of points of the picture, which has one more before the clip. */
-  #wetEnd(frame, end) {
-    const beyond = end - (frame.get('nodes') - 1);
-    if (beyond <= 0) return 1 + end;
-    const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / (frame.get('nodes') - 1);
-    return frame.get('nodes') + (beyond * l) / (frame.get('platform.length') / 2 || 1);
+  /** Texts of the picture. */
+  #texts(frame, geometry, word) {
+    const parallel = frame.get('stack.parallel'), many = geometry.members.length > 1 && !geometry.joined && !geometry.opposed;
+    const unseen = parallel > 1 && geometry.columns === 1 ? `one of ${parallel} side by side` : null;
+    return {
+      mass: pretty(this.core.print('load.mass', frame.get('load.mass'))),
+      opening: `${fixed(1e3 * frame.get('opening'), 1)} mm`,
+      wet: word !== 'none',
+      where: [wetWords[word], unseen].filter(Boolean),
+      front: many ? 'lowest zip front' : 'zip front',
+    };
   }
 
   #scene(frame) {
-    const platform = frame.get('platform.length'), length = (frame.get('ribbon.length') - platform) / 2;
-    const opening = frame.get('opening'), mass = frame.get('load.mass'), strongest = frame.get('medium.breakdown_field');
-    const {shape} = frame, wet = this.#wet(frame), field = this.#field(frame, shape.gap, (i) => i <= wet.end);
-    const texts = {mass: pretty(this.core.print('load.mass', mass)), opening: `${fixed(1e3 * opening, 1)} mm`, liquid: wetWords[wet.word]};
-    Object.assign(this.#liquid, {length, film: shape.film, pressure: shape.pressure});
-    $('of-liquid').hidden = wet.word === 'none';
-    Object.assign(this.#profile, {length, field, force: Float64Array.from(shape.lineForce), largest: strongest});
+    const strongest = frame.get('medium.breakdown_field'), word = this.#liquidWord(frame);
+    const geometry = geometryOf(frame, word === 'bead'), [half] = geometry.focus.halves, {length, field, film, pressure} = half;
+    Object.assign(this.#liquid, {length, film, pressure});
+    $('of-liquid').hidden = word === 'none';
+    Object.assign(this.#profile, {length, field, force: half.lineForce, largest: strongest});
     return {
-      shape, field, platform, opening, mass, texts,
-      bath: wet.word === 'submerged',
-      wetEnd: this.#wetEnd(frame, wet.end),
-      nodes: frame.get('nodes'),
-      centre: length + platform / 2,
+      geometry, field,
+      texts: this.#texts(frame, geometry, word),
+      opening: frame.get('opening'),
+      mass: frame.get('load.mass'),
+      bath: word === 'submerged',
       largest: strongest,
-      electrode: frame.get('platform.electrode') !== 0,
-      metal: frame.get('ribbon.thickness'),
-      insulator: frame.get('insulator.thickness'),
-      hanging: this.hanging,
+      electrode: geometry.hinge || frame.get('platform.electrode') !== 0,
+      hanging: frame.get('opening') / (1 - frame.get('contraction')), // by the definition of the contraction
     };
   }
 

@@ -47,6 +47,15 @@ const fixedSteps = {
     'liquid.model': 'none',
     'ribbon.thickness': '100 um', 'load.mass': '25 g', 'damping.internal': '1000 us',
   },
+  'two in series': {'liquid.model': 'none', 'stack.series': '2', 'mesh.nodes': '31', 'solver.end_time': '20 ms'},
+  'a platform that turns': {
+    'liquid.model': 'none', 'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false',
+    'load.offset': '2 mm', 'mesh.nodes': '31', 'solver.end_time': '20 ms',
+  },
+  'a fold': {
+    'actuator.kind': 'hinge', 'ribbon.length': '40 mm', 'hinge.stiffness': '0.4 mN m/rad', 'hinge.rest_angle': '20 degree',
+    'load.mass': '0 g', 'solver.end_time': '20 ms',
+  },
   'half a zip in thin steel': {'liquid.model': 'none', 'ribbon.thickness': '30 um', 'drive.voltage': '7 kV', 'solver.end_time': '30 ms'},
 };
 
@@ -129,9 +138,7 @@ test('after a refusal the scenario is what it was', () => {
 
 const leftOut = [
   {'electro.model': 'field'}, {'electro.edges': 'true'}, {'actuator.kind': 'ribbon'}, {study: 'modes'},
-  {'stack.series': '2'}, {'stack.series': '2', 'stack.distance': '20 mm'}, {'stack.parallel': '3', 'member_2.ribbon.thickness': '80 um'},
-  {'platform.rotates': 'true', 'actuator.held_clip': 'left', 'actuator.symmetry': 'none', 'platform.electrode': 'false', 'liquid.model': 'none'},
-  {'mount.tilt': '30 degree', 'actuator.symmetry': 'none'}, {'drive.waveform': 'sine'}, {'initial.state': 'checkpoint'},
+  {'drive.waveform': 'sine'}, {'initial.state': 'checkpoint'},
   {'solver.integrator': 'explicit', 'contact.model': 'sequential'},
 ];
 

@@ -6,6 +6,7 @@ import {axisEnds, digits, fixed, pretty} from '../page/numbers.js';
 import {Core} from '../page/core.js';
 import {Engine} from '../page/engine.js';
 import {Frame} from '../page/frame.js';
+import {geometryOf} from '../page/geometry.js';
 import * as scenario from '../page/scenario.js';
 
 const module = new WebAssembly.Module(readFileSync(new URL('../build/zipact.wasm', import.meta.url)));
@@ -78,12 +79,11 @@ test('one drives an actuator through a supply, with and without liquid, from one
   const bath = go([low, ['liquid.model', 'submerged']]);
   assert.deepEqual(frames.map((frame) => frame.get('liquid')), [0, 0, 0, 2, 1]);
   for (const frame of [dry, fed, bead, bath]) assert.ok(Math.abs(frame.get('voltage') / 5e3 - 1) < 0.02, `${frame.get('voltage')} V`);
-  assert.equal(dry.get('wet_length'), 0);
-  const reach = bead.get('wet_length'), l = 45e-3 / 60, {film, pressure} = bead.shape;
+  const {film, pressure, wetLength: [reach]} = bead.member(0), l = 45e-3 / 60;
   assert.ok(reach > 5e-3 && reach < 40e-3, String(reach));
   film.forEach((thickness, i) => assert.equal(thickness > 0, i * l <= reach, `station ${i}`));
   assert.ok(pressure.some((p) => p !== 0) && pressure.every((p, i) => film[i] > 0 || p === 0));
-  assert.ok(bath.shape.film.every((thickness) => thickness > 0));
+  assert.ok(bath.member(0).film.every((thickness) => thickness > 0));
 });
 
 test('a jump of an ideal source has no current to show, a supply’s has', () => {
@@ -97,6 +97,72 @@ test('a jump of an ideal source has no current to show, a supply’s has', () =>
   const ideal = currents([['liquid.model', 'none']]), fed = currents([['liquid.model', 'none'], ['source.supply', 'open_5kv'], ['drive.voltage', '5 kV']]);
   assert.deepEqual(ideal.map(Number.isNaN), [true, false, false]);
   assert.ok(fed[0] > 10 * Math.abs(ideal[1]) && fed.every(Number.isFinite), fed.join());
+});
+
+/** The picture of a scenario at rest without voltage, and its engine. */
+function geometryAt(values) {
+  const engine = new Engine(module, {study: Infinity, start: Infinity, frame: Infinity});
+  const {frame, failure} = engine.answer({values: new Map(Object.entries(values)), voltage: 0, restart: true, span: 0});
+  assert.equal(failure, null);
+  return {engine, frame: new Frame(frame), ...geometryOf(new Frame(frame), false)};
+}
+const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-9, `${a}, ${b}`);
+const dry = {'liquid.model': 'none', 'mesh.nodes': '21'};
+
+test('a series: each member hangs on the one above, and the load on the lowest', () => {
+  const {members, frame, load, mounts, bottom} = geometryAt({...dry, 'stack.series': '3'});
+  assert.equal(members.length, 3);
+  members.slice(1).forEach(({platforms: [upper]}, k) => near(upper[0].y, members[k].platforms[1][0].y));
+  near(load.y, -frame.get('opening'));
+  near(bottom, load.y);
+  assert.deepEqual(mounts, [0]);
+  for (const {halves: [left, right]} of members) {
+    left.x[0].forEach((x, i) => near(x, -right.x[0][i]));
+    near(left.x[0].at(-1), 0);
+  }
+});
+
+test('antagonists: the lower one is upside down on its mount, and the load is between both', () => {
+  const {members: [upper, lower], frame, load, mounts} = geometryAt({...dry, 'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g'});
+  near(lower.platforms[0][0].y, -20e-3);
+  near(lower.platforms[1][0].y, upper.platforms[1][0].y);
+  near(load.y, upper.platforms[1][0].y);
+  assert.ok(lower.turned && !upper.turned);
+  assert.deepEqual(mounts, [0, -20e-3]);
+  assert.equal(frame.member(1).voltage, 2e3);
+  assert.ok(lower.halves[0].field[0] > 1e6 && upper.halves[0].field[0] === 0);
+});
+
+test('a whole actuator: its right half is not the mirror image; a platform that turns is drawn so', () => {
+  const {members: [{halves: [left, right], platforms: [, [a, b]]}], load} = geometryAt({...dry, 'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false', 'load.offset': '2 mm'});
+  assert.ok(b.y < a.y - 1e-4, 'the right end is lower');
+  near(Math.hypot(b.x - a.x, b.y - a.y), 10e-3);
+  near(left.x[1].at(-1), right.x[1].at(-1));
+  near(left.y[1].at(-1), right.y[1].at(-1));
+  near(load.x - (a.x + b.x) / 2, (2 / 10) * (b.x - a.x));
+  assert.ok(left.x[0][0] < left.x[0][1] && right.x[0][0] > right.x[0][1]);
+  assert.equal(left.gap.length, 21);
+});
+
+test('side by side: equal ones are copies, unequal ones have their own strips; a fold has one half and no clip', () => {
+  const equal = geometryAt({...dry, 'stack.parallel': '3'}), unequal = geometryAt({...dry, 'stack.parallel': '3', 'member_2.ribbon.thickness': '80 um'});
+  assert.deepEqual([equal.members.length, equal.members[0].places.length, unequal.members.length], [1, 3, 3]);
+  assert.deepEqual(unequal.members.map(({metal}) => metal[0]), [50e-6, 80e-6, 50e-6]);
+  assert.deepEqual(equal.members[0].places, unequal.members.map(({places}) => places[0]));
+  const fold = geometryAt({'actuator.kind': 'hinge', 'mesh.nodes': '21', 'lower.insulator.thickness': '50 um'}), [{halves, platforms, insulator}] = fold.members;
+  assert.deepEqual([halves.length, platforms.length, halves[0].x[0].length], [1, 0, 21]);
+  assert.deepEqual(insulator, [130e-6, 50e-6]);
+});
+
+test('a stack continues when the load changes, and starts again when it becomes another one', () => {
+  const {engine} = geometryAt({...dry, 'stack.series': '2'});
+  const go = (values) => new Frame(engine.answer({values: values && new Map(Object.entries({...dry, ...values})), voltage: 5e3, span: 2e-3}).frame);
+  go({'stack.series': '2'});
+  const later = go(), heavier = go({'stack.series': '2', 'load.mass': '10 g'}), other = go({'stack.series': '3'});
+  near(later.get('time'), 4e-3);
+  near(heavier.get('time'), 6e-3);
+  near(other.get('time'), 2e-3);
+  assert.equal(other.get('members'), 3);
 });
 
 test('every preset runs', () => {
@@ -157,8 +223,8 @@ test('a frame has what the core has, in an array that goes to and fro', () => {
     assert.ok(Math.abs(seen.get(name) / core.signal(name) - 1) < 1e-9, `${name}: ${seen.get(name)}, ${core.signal(name)}`);
   assert.equal(seen.get('advanced'), 5e-3);
   assert.equal(seen.get('nodes'), 31);
-  assert.equal(seen.get('ribbon.thickness'), 50e-6);
-  const {x, y, gap, lineForce} = seen.shape, shape = core.shape();
+  assert.equal(seen.member(0).upperMetal, 50e-6);
+  const {x, y, gap, lineForce} = seen.member(0), shape = core.shape();
   assert.deepEqual([x.length, y.length, gap.length, lineForce.length], [62, 62, 31, 31]);
   for (let i = 0; i < 62; i++) assert.ok(Math.abs(y[i] - shape.y[i]) < 1e-9 && Math.abs(x[i] - shape.x[i]) < 1e-9);
   const samples = [];
