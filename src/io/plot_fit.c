@@ -6,7 +6,7 @@
 #include "io/plot.h"
 
 /* A panel: the column of what was set, and the first of those of what was measured; after that one are what was
- * computed, the residual, and, where there are several kinds, sigma. */
+ * computed, the residual, and, where it is known, sigma. */
 typedef struct Panel {
   size_t x, measured;
 } Panel;
