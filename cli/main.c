@@ -83,9 +83,24 @@ static int take_option(int letter, const char **set, Options *options) {
   return EXIT_DONE;
 }
 
+/* "load.mass=8g" or "load.mass" without --set: `before`, what stands before that. */
+static int fail_assignment(const char *word, const char *before) {
+  const char *value = strchr(word, '=') ? "" : "=VALUE";
+  fprintf(stderr, "zipact: %s: to set a key write %s--set \"%s%s\"\n", word, before, word, value);
+  return EXIT_INPUT;
+}
+
+/* Is this a key, "load.mass", or "load.mass=8g"? */
+static bool names_key(const char *word) {
+  char name[64];
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
+  return zp_key_find(name) >= 0;
+}
+
 /* Report an option that getopt refuses: it answers ':' if the argument of the option is missing, otherwise '?'. */
 static int fail_option(char **argv, int answer) {
   const char short_option[] = {'-', (char)optopt, 0}, *word = argv[optind - 1];
+  if (answer == '?' && strncmp(word, "--", 2) == 0 && names_key(word + 2)) return fail_assignment(word + 2, "");
   if (answer == '?' && optopt && strncmp(word, "--", 2) != 0) word = short_option;
   const char *nearest = answer == '?' ? word_nearest_option(word + strspn(word, "-")) : NULL;
   fprintf(stderr, "zipact: %s %s%s%s%s; see zipact %s --help\n",
@@ -102,10 +117,7 @@ static bool is_assignment(const char *word) {
 /* Take the arguments that are not options: one scenario, or the word that the command takes. */
 static int take_arguments(int argc, char **argv, Options *options) {
   for (int i = optind; i < argc; i++) {
-    if (is_assignment(argv[i])) {
-      fprintf(stderr, "zipact: %s: to set a key write --set \"%s\"\n", argv[i], argv[i]);
-      return EXIT_INPUT;
-    }
+    if (is_assignment(argv[i])) return fail_assignment(argv[i], "");
     if (options->scenario) return fail_usage("only one scenario at a time; unexpected argument ", argv[i]);
     options->scenario = argv[i];
   }
@@ -152,7 +164,19 @@ static int check_words(const Command *command, const Options *o, unsigned given)
   return EXIT_DONE;
 }
 
+/* Is this the name of a scenario rather than of a study? */
+static bool is_scenario(const char *word) {
+  const char *ending = strrchr(word, '.');
+  return ending && (strcmp(ending, ".yaml") == 0 || strcmp(ending, ".yml") == 0);
+}
+
 static int fail_word(const char *word) {
+  if (*word == '-') return fail_usage("a study or command comes before ", word);
+  if (is_assignment(word) || names_key(word)) return fail_assignment(word, "zipact STUDY ");
+  if (is_scenario(word)) {
+    fprintf(stderr, "zipact: %s: to run a scenario write zipact run %s\n", word, word);
+    return EXIT_INPUT;
+  }
   const char *nearest = word_nearest(word);
   fprintf(stderr, "zipact: unknown study or command: %s%s%s%s\n", word,
           nearest ? "; did you mean " : "; see zipact --help", nearest ? nearest : "", nearest ? "?" : "");
@@ -194,10 +218,15 @@ int cli_main(int argc, char **argv, const Crew *crew) {
     puts("zipact " ZP_VERSION);
     return cli_flush(EXIT_DONE);
   }
+  Command command;
   if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
-    help_print();
+    if (argc > 2 && word_find(argv[2], &command))
+      help_print_command(&command);
+    else
+      help_print();
     return cli_flush(EXIT_DONE);
   }
+  if (*argv[1] == '-') return fail_word(argv[1]);
   const char **set = calloc((size_t)argc, sizeof *set);
   if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   Options options;

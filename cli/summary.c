@@ -58,12 +58,13 @@ static void print_number(const ZpResult *result, const Shown *s, double value) {
   printf("\n");
 }
 
-/* Print six digits, in the customary unit of the key: "184.357 GPa". */
-static void print_of_key(int key, double value, int digits) {
+/* Print a value with so many digits, in the customary unit of the key, its number in `width` letters: "184.357 GPa". */
+static void print_of_key(int key, double value, int digits, int width) {
   char rounded[32], text[64];
   snprintf(rounded, sizeof rounded, "%.*e", digits - 1, value);
   zp_value_print(key, strtod(rounded, NULL), text, sizeof text);
-  fputs(text, stdout);
+  const int number = (int)strcspn(text, " ");
+  printf("%*.*s%s", width, number, text, text + number);
 }
 
 /* Print a fitted key with its standard error. => is `scalar` one? */
@@ -73,11 +74,11 @@ static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
   if (key < 0) return false;
   snprintf(name, sizeof name, "%s_standard_error", scalar->name);
   const double error = zp_result_get(result, name);
-  printf("  %-26s  ", scalar->name);
-  print_of_key(key, scalar->value, 6);
+  printf("  %-26s ", scalar->name);
+  print_of_key(key, scalar->value, 6, 12);
   if (!isnan(error)) {
     printf("  +- ");
-    print_of_key(key, error, 2);
+    print_of_key(key, error, 2, 0);
   }
   printf("\n");
   return true;
@@ -104,11 +105,17 @@ static void print_result(const ZpResult *result) {
 
 /* -- many runs -------------------------------------------------------------------------------------- */
 
+/* Three decimals, or as many digits of a small number; what is not 0 only by rounding is 0. */
+static void print_short(const char *label, double value, const char *unit) {
+  const double size = fabs(value);
+  printf(size >= 1e-6 && size < 0.1 ? "  %s %8.3g %s" : "  %s %8.3f %s", label, size < 1e-6 ? 0 : value, unit);
+}
+
 static void print_headlines(const ZpResult *result) {
   for (size_t i = 0; i < SHOWN; i++) {
     const double value = zp_result_get(result, shown[i].scalar);
     if (shown[i].study == result->study && shown[i].headline && !isnan(value))
-      printf("  %s %8.3f %s", shown[i].label, value * shown[i].factor, shown[i].unit);
+      print_short(shown[i].label, value * shown[i].factor, shown[i].unit);
   }
 }
 

@@ -15,7 +15,7 @@ load 'lower_panel.gp'
 unset key
 unset logscale y
 set ytics 45
-set ylabel 'phase / deg' offset 0.5
+set ylabel 'phase / degree' offset 0.5
 plot for [k=1:|curve|] '../table.csv' every ::first[k]::last[k] using (x(0)):(column('phase_rad')*180/pi) \
      with linespoints lw 2 dt dash(k) pt mark(k) ps 0.8 lc rgb shade_of(k) notitle
 unset multiplot

@@ -26,7 +26,8 @@ do for [k=1:panels] {
   set xlabel label(x_name[k], x_unit[k]) font ',12' offset 0,0.5
   set ylabel label(quantity[k], unit(both, si[k])) font ',12' offset 0.5
   unset xzeroaxis
-  plot data using (x(0)):(measured(0)*y_factor) with points pt 6 ps 1.1 lw 1.5 lc rgb colour(1) title (k == 1 ? 'measured' : ''), \
+  plot data using (x(0)):((measured(0) - bar(0))*y_factor):(0):(2*bar(0)*y_factor) with vectors heads size screen 0.006,90 lw 1.5 lc rgb colour(1) notitle, \
+       data using (x(0)):(measured(0)*y_factor) with points pt 6 ps 1.1 lw 1.5 lc rgb colour(1) title (k == 1 ? title_measured : ''), \
        data using (x(0)):(computed(0)*y_factor) with points pt 2 ps 0.7 lw 1.5 lc rgb colour(2) title (k == 1 ? (fitted ? 'fitted' : 'computed') : '')
   unset label
   set lmargin at screen 0.65

@@ -28,8 +28,9 @@ prefix(x) = power(x) == 0 ? '' : word('f p n µ m - k M G T', power(x) + 6)
 unit(x, u) = u eq 'kg' ? prefix(x * 1000).'g' : u eq '%' || u eq '' ? u : prefix(x).u
 scale(x, u) = u eq 'kg' ? 1000 * 10.0**(-3 * power(x * 1000)) : u eq '%' ? 100.0 : u eq '' ? 1.0 : 10.0**(-3 * power(x))
 
-# label('stroke', 'mm') = 'stroke / mm', of a pure number 'stroke'.
-label(quantity, u) = u eq '' ? quantity : quantity.' / '.u
+# label('stroke', 'mm') = 'stroke / mm', label('field', 'MV/m') = 'field / (MV/m)', of a pure number 'factor
+# (dimensionless)'.
+label(quantity, u) = quantity.(u eq '' ? ' (dimensionless)' : strstrt(u, '/') ? ' / ('.u.')' : ' / '.u)
 
 # legend(n): the first n list keys of a sweep, each on a line so that they fit over the legend; letters_of(n): those of
 # the longest.

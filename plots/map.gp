@@ -3,7 +3,12 @@ data = 'map.dat'
 tics_most = 9
 contours = 8
 load 'of_maps.gp'
+panel = 0
+map_left = left
+map_bottom = bottom
+map_width = 600*(right - left)
+map_height = height*(top - bottom)
+load 'contour_labels.gp'
 splot 'map.dat' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with pm3d nocontour, \
       '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 2.4 lc rgb '#ffffff' nosurface, \
-      '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 0.8 lc rgb '#000000' nosurface, \
-      '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with labels boxed tc rgb '#000000' nosurface
+      '' index 0 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 0.8 lc rgb '#000000' nosurface

@@ -18,10 +18,16 @@ set multiplot
 do for [k=1:|panel_at|] {
   panel_left = left + panel_width*((k - 1) % across)
   panel_top = top - panel_height*((k - 1)/across)
+  panel = k - 1
+  map_left = panel_left
+  map_bottom = panel_top - panel_height + 0.005
+  map_width = 600*(panel_width - 0.02)
+  map_height = height*(panel_height - 0.055)
+  load 'contour_labels.gp'
   set lmargin at screen panel_left
   set rmargin at screen panel_left + panel_width - 0.02
   set tmargin at screen panel_top - 0.05
-  set bmargin at screen panel_top - panel_height + 0.005
+  set bmargin at screen map_bottom
   set label 5 sprintf('%.4g %s', panel_at[k]*z_factor, z_unit) at screen panel_left + panel_width/2, panel_top - 0.03 center font ',11'
   lowest = k + across > |panel_at|
   first = (k - 1) % across == 0
@@ -30,8 +36,7 @@ do for [k=1:|panel_at|] {
   if (k > 1) { unset colorbox }
   splot 'maps.dat' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with pm3d nocontour, \
         '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 2.4 lc rgb '#ffffff' nosurface, \
-        '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 0.8 lc rgb '#000000' nosurface, \
-        '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with labels boxed tc rgb '#000000' nosurface
+        '' index k-1 using ($1*x_factor):($2*y_factor):($3*factor) with lines lw 0.8 lc rgb '#000000' nosurface
   unset label
 }
 unset multiplot

@@ -7,7 +7,7 @@ set datafile separator ','
 set xrange [0.5:stack_series + 0.5]
 set xtics 1
 set yrange [0:*]
-set xlabel 'member'
+set xlabel 'number of the member'
 voltage = scale(drive_voltage, 'V')
 set ylabel label('voltage', unit(drive_voltage, 'V'))
 list = 'pull_in_voltage_V closing_voltage_V release_voltage_V'

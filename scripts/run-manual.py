@@ -19,6 +19,9 @@ import tempfile
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
 PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "materials.md", "paper.md"]
 PICTURES = {
+    "unlike-ribbons.svg": "unlike/plots/shapes.svg",
+    "antagonists-motion.svg": "antagonists-motion/plots/members.svg",
+    "stack-tolerances.svg": "stack-tolerances/plots/parallel.svg",
     "stationary.svg": "stationary/plots/shape.svg",
     "pull-in.svg": "equilibrium/plots/stroke.svg",
     "limits.svg": "chart/plots/loads.svg",

@@ -383,12 +383,42 @@ START_TEST(test_key_unknown) {
       {"solver.dt", "unknown key; did you mean solver.time_step?"},
       {"load.time", "unknown key; did you mean load.change_time?"},
       {"Glue.thickness", "glue is not modelled; add its thickness to insulator.thickness"},
-      {"ribbon_fatigue", "fatigue is not modelled"},
+      {"ribbon_fatigue", "fatigue is not modelled; yield_margin says how far stresses are from yield"},
+      {"magnet.strength", "magnetism is not modelled"},
+      {"magnetic_field", "magnetism is not modelled"},
+      {"thermal.expansion",
+       "temperature is not modelled; give the properties at that temperature, such as medium.kinematic_viscosity"},
+      {"humid", "humidity is not modelled; give insulator.resistivity and air.breakdown_field at that humidity"},
+      {"ribbon.lifetime", "lifetime is not modelled; breakdown_margin and yield_margin say how far fields and stresses "
+                          "are from their limits"},
+      {"buoyancy", "buoyancy of the load is not modelled; subtract it from load.mass"},
+      {"electrolysis", "electrolysis is not modelled"},
+      {"insulator.viscosity", "unknown key; insulator has material, thickness, permittivity, density, young_modulus, "
+                              "breakdown_field, resistivity"},
+      {"oil.colour", "unknown key; medium has material, permittivity, breakdown_field, kinematic_viscosity, density, "
+                     "surface_tension, drag_coefficient, resistivity"},
+      {"cost", "unknown key, and none has a similar name; zipact keys lists all"},
+      {"skin_effect", "unknown key, and none has a similar name; zipact keys lists all"},
+      {"acceleration", "unknown key, and none has a similar name; zipact keys lists all"},
+      {"flow.velocity", "unknown key, and none has a similar name; zipact keys lists all"},
+      {"young", "unknown key; did you mean ribbon.young_modulus?"},
+      {"lenght", "unknown key; did you mean ribbon.length?"},
+      {"load.msas", "unknown key; did you mean load.mass?"},
+      {"wire.resistance", "unknown key; did you mean source.resistance?"},
+      {"electrode",
+       "unknown key; ribbon has material, length, width, thickness, young_modulus, poisson_ratio, density, "
+       "yield_stress, plasticity, hardening_modulus, plane, model"},
   };
   char text[256];
   for (size_t i = 0; i < LENGTH_OF(pairs); i++) {
     zp_key_unknown(pairs[i][0], text, sizeof text);
     ck_assert_str_eq(text, pairs[i][1]);
+  }
+  zp_key_unknown("lower.colour", text, sizeof text); /* more keys than fit */
+  ck_assert_str_eq(text + strlen(text) - 5, ", ...");
+  for (int i = 0; i < zp_key_count(); i++) { /* no part of a key is said not to be modelled */
+    zp_key_unknown(zp_key(i)->name, text, sizeof text);
+    ck_assert_msg(!strstr(text, "not modelled"), "%s: %s", zp_key(i)->name, text);
   }
   char word[500], little[8];
   memset(word, '.', sizeof word);

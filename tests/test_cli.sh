@@ -99,6 +99,8 @@ for study in actuate run; do
   ok "$study --help" status_is 0
   ok "$study --help names --set" prints '--set KEY=VALUE'
 done
+zp help limits
+ok "help STUDY" prints '^zipact limits '
 zp keys --help
 ok "keys --help" status_is 0
 ok "keys --help names its options" prints '^zipact keys \[--yaml\] \[--json\]'
@@ -211,6 +213,11 @@ refused "a misspelt study" 'equilibrum; did you mean equilibrium' equilibrum -o 
 refused "a misspelt command" 'reprodcue; did you mean reproduce' reprodcue -o refused
 refused "a key without --set" 'load\.mass=8g: .* --set "load\.mass=8g"' actuate load.mass=8g -o refused
 refused "a key without --set, behind a scenario" '--set "load\.mass=8g"' actuate starter.yaml load.mass=8g -o refused
+refused "a key in place of the study" 'load\.mass=8g: to set a key write zipact STUDY --set "load\.mass=8g"' load.mass=8g
+refused "a key as an option" 'load\.mass=8g: to set a key write --set "load\.mass=8g"' actuate --load.mass=8g -o refused
+refused "a key as an option, and its value" 'load\.mass: .* --set "load\.mass=VALUE"' actuate --load.mass 8g -o refused
+refused "an option in place of the study" 'a study or command comes before --set' --set load.mass=8g actuate -o refused
+refused "a scenario in place of the study" 'starter\.yaml: to run a scenario write zipact run starter\.yaml' starter.yaml
 refused "what is not modelled" 'temperature is not modelled; give .*medium\.kinematic_viscosity' actuate --set medium.temperature=300 -o refused
 refused "man without a folder" 'DIR' man
 refused "completion without a shell" 'bash, zsh or fish' completion
@@ -236,6 +243,12 @@ refused "wrong word, nearest named" 'contact\.model.*did you mean sequential' ac
 refused "keys that contradict" 'platform\.length.*ribbon\.length' actuate --set 'platform.length=95 mm' -o refused
 refused "incomplete preset" 'damping\.drag.*paper-text.*33' actuate --set preset=paper-text --set mesh.nodes=33 -o refused
 refused "one bad row of a sweep" 'platform\.length' actuate --set 'platform.length=[1 mm, 95 mm]' -o refused
+
+printf 'load_g,stroke_mm\n4,6.1\n8,11.2\n' >aligned.csv
+zp calibrate --set data.file=aligned.csv --set calibrate.fit=ribbon.young_modulus --set mesh.nodes=11 -o aligned
+ok "fitted keys are aligned with other numbers" [ "$(grep -c -E '^  .{39} (GPa|mm)' stdout)" -eq 2 ]
+zp isometric --set liquid.model=none --set mesh.nodes=11 --set drive.voltage=1kV --set 'isometric.separation=[6 mm, 12 mm]' -o aligned
+ok "rows show three digits of a small force" prints 'force  0\.00[0-9][0-9][0-9] N\|force 0\.000[0-9][0-9][0-9] N'
 
 cat >bad.yaml <<'END'
 load:
@@ -338,7 +351,7 @@ interrupt 1 actuate --set mesh.nodes=2001 --json -o interrupted-early
 ok "130: Ctrl-C while it settles" status_is 130
 ok "130: --json, too" json stdout 'd["outcome"] == "interrupted"'
 ok "130: files, too" complete interrupted-early
-interrupt 1 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
+interrupt 4 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
 ok "130: Ctrl-C in a sweep" status_is 130
 ok "130: the rows until then" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time"] and d["outcome"] == "interrupted"'
 ok "130: and their files" complete interrupted-sweep

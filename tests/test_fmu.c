@@ -606,7 +606,11 @@ END_TEST
 
 /* -- many ------------------------------------------------------------------------------------------ */
 
-/* What malloc has given and not got back, bytes: exact, unlike the memory of the process, which hides a block lost in
+/* Free blocks that malloc keeps for the thread, a few of each size, count as given: equal states differ by up to this
+ * number of bytes. */
+static const size_t kept_for_thread = 16384;
+
+/* What malloc has given and not got back, bytes: finer than the memory of the process, which hides a block lost in
  * each of 5000 rounds. 0 where the C library does not tell: before glibc 2.33, and in others. */
 static size_t allocated(void) {
 #if defined __GLIBC__ && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
@@ -633,13 +637,14 @@ START_TEST(resets) {
     if (k == USUAL) before = allocated();
     ck_assert_int_eq(fmu_reset(&instance), OK);
   }
-  if (!SANITIZED) ck_assert_uint_le(allocated(), before + 4096);
+  if (!SANITIZED) ck_assert_uint_le(allocated(), before + kept_for_thread);
   fmu_free(&instance);
   fmu_close(&fmu);
 }
 END_TEST
 
-/* A thousand instances at once, twice: each computes the same, and what they took is given back. */
+/* A thousand instances at once, twice: each computes the same, and what they took is given back: the least block lost in
+ * each would be 32 kB. */
 START_TEST(instances) {
   enum { MOST = 1000 };
   const int count = FULL_OR(MOST, 100);
@@ -659,7 +664,7 @@ START_TEST(instances) {
       fmu_free(&instance[k]);
     if (round == 0) before = allocated();
   }
-  if (!SANITIZED) ck_assert_uint_le(allocated(), before + 4096);
+  if (!SANITIZED) ck_assert_uint_le(allocated(), before + kept_for_thread);
   fmu_close(&fmu);
 }
 END_TEST

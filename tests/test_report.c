@@ -710,7 +710,7 @@ START_TEST(design_chart) {
   ck_assert(strstr(chart, ">load / g<") && strstr(chart, ">medium.breakdown_field<"));
   ck_assert(strstr(chart, ">20 MV/m<") && strstr(chart, ">30 MV/m<") && strstr(chart, ">60 MV/m<"));
   ck_assert(strstr(map, ">load / g<") && strstr(map, "rgb(255, 255, 255)"));
-  ck_assert(strstr(map, ">drive.voltage / kV<") && strstr(map, ">medium.breakdown_field / MV/m<"));
+  ck_assert(strstr(map, ">drive.voltage / kV<") && strstr(map, ">medium.breakdown_field / (MV/m)<"));
   free(chart);
   free(map);
   char *data = read_whole(in_base("l/plots/map.dat"), &size);
@@ -742,6 +742,64 @@ static void write_rest(const char *name, const char *study, const char *const *m
     ck_assert_msg(zp_scenario_set(scenario, *more, &err) == ZP_OK, "%s", err.message);
   write_scenario(name, scenario);
 }
+
+/* The labels of contours of a map lie inside its axes => how many there are. */
+static int check_labels(const char *name, double left, double right, double top, double bottom) {
+  size_t size;
+  char *whole = read_whole(in_base(name), &size), number[32];
+  int labels = 0;
+  for (const char *at = whole; (at = strstr(at, "<g transform=\"translate(")) != NULL; at++) {
+    double x, y, letter;
+    if (sscanf(at,
+               "<g transform=\"translate(%lf,%lf)\" stroke=\"none\" fill=\"black\" font-family=\"Helvetica\" "
+               "font-size=\"11.00\"  text-anchor=\"middle\"> <text><tspan font-family=\"Helvetica\" >%31[^<]",
+               &x, &y, number) != 3)
+      continue;
+    letter = 3.5 * (double)strlen(number);
+    ck_assert_msg(x - letter > left && x + letter < right && y - 10 > top && y + 1 < bottom, "%s at %g, %g", number, x,
+                  y);
+    labels++;
+  }
+  free(whole);
+  return labels;
+}
+
+/* The label 30 of docs/images/design-chart.svg was on the right edge. A contour that cuts off a small corner has none.
+ */
+START_TEST(contour_label_on_the_edge_of_a_map_is_cut) {
+  write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
+  ck_assert_int_ge(check_labels("l/plots/map.svg", 84, 462, 58.8, 336), 3);
+}
+END_TEST
+
+/* The chart of largest loads said "load 8 g", on which these do not depend. */
+START_TEST(largest_loads_are_those_of_no_load) {
+  write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
+  ck_assert(file_says("l/plots/loads.gp", "\nsubtitle = 'N = 15'\n"));
+  ck_assert(file_says("l/plots/map.gp", "\nsubtitle = 'N = 15'\n"));
+}
+END_TEST
+
+/* "straight between them" did not say what lies between what, and a hole of a map was not explained. */
+START_TEST(small_print_of_a_map) {
+  write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
+  ck_assert(file_says("l/plots/map.svg", ">9 of 9 runs lift a load; linear between the runs<"));
+  write_rest("e", "equilibrium",
+             (const char *const[]){"load.mass=[5 g, 10 g, 20 g, 100 g]",
+                                   "ribbon.thickness=[80 um, 90 um, 100 um, 110 um]", NULL});
+  ck_assert(file_says("e/plots/map.svg", " of 16 runs pull in; white: no value; linear between the runs<"));
+}
+END_TEST
+
+/* "factor" and "mesh.nodes" had no unit and did not say so; a unit with a slash was "field strength / MV/m". */
+START_TEST(axes_without_a_unit_say_so) {
+  write_rest("p", "profile", (const char *const[]){"isometric.separation=[1 mm, 2 mm]", NULL});
+  ck_assert(file_says("p/plots/factors.svg", ">factor (dimensionless)<"));
+  write_rest("p", "profile", (const char *const[]){NULL});
+  ck_assert(file_says("p/plots/profile.svg", ">difference / %<"));
+  ck_assert(file_says("p/plots/field.svg", ">field strength / (MV/m)<"));
+}
+END_TEST
 
 /* Of three keys the first has a style of line and the second a shade. Where curves are left out, not every value of the
  * first key has as many, and each curve has a shade of its own. Names have at most four digits. */
@@ -807,7 +865,7 @@ START_TEST(axes_of_a_fit) {
              (const char *const[]){file, "calibrate.fit=ribbon.young_modulus",
                                    "calibrate.x=medium.kinematic_viscosity_mm2/s", "calibrate.y=stroke_mm", NULL});
   ck_assert(file_says("g/table.csv", "medium.kinematic_viscosity_m2_per_s,measured_m,"));
-  ck_assert(file_says("g/plots/fit.svg", ">medium.kinematic_viscosity / mm²/s<"));
+  ck_assert(file_says("g/plots/fit.svg", ">medium.kinematic_viscosity / (mm²/s)<"));
 }
 END_TEST
 
@@ -825,6 +883,21 @@ static void check_numbers(const char *name) {
     free(text);
   }
 }
+
+/* Of one kind of measurement the standard deviations were neither in the picture nor in the table. */
+START_TEST(error_bars_of_a_fit) {
+  char file[1100];
+  put_file("bench.csv", "load_g,stroke_mm,sigma_mm\n4,6,0.5\n8,10,0.5\n20,20,2\n");
+  snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
+  write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
+  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m,sigma_m\n"));
+  ck_assert(file_says("f/plots/fit.svg", ">measured ± σ<"));
+  put_file("bench.csv", "load_g,stroke_mm\n4,6\n8,10\n20,20\n");
+  write_rest("f", "calibrate", (const char *const[]){file, "calibrate.fit=ribbon.young_modulus", NULL});
+  ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m\n"));
+  ck_assert(file_says("f/plots/fit.svg", ">measured<"));
+}
+END_TEST
 
 /* The SVG holds the picture of the field itself; field.vts has the bytes that its head promises. */
 START_TEST(field_of_a_profile) {
@@ -1280,9 +1353,14 @@ static Suite *suite_of_report(void) {
                                sweeps_of_rest,
                                design_chart,
                                shades_of_three_keys,
+                               contour_label_on_the_edge_of_a_map_is_cut,
+                               largest_loads_are_those_of_no_load,
+                               small_print_of_a_map,
+                               axes_without_a_unit_say_so,
                                legend_names_what_is_drawn,
                                distribution_with_indices,
                                axes_of_a_fit,
+                               error_bars_of_a_fit,
                                rest_is_the_same_each_time,
                                field_of_a_profile,
                                field_of_equal_permittivities,

@@ -217,6 +217,26 @@ START_TEST(a_folder_that_is_not_there) {
 }
 END_TEST
 
+/* The label of each axis has a unit, or says that there is none. A template writes it by label() or as "time / ms". */
+START_TEST(axes_have_units) {
+  static const char *const set[] = {"\nset xlabel ", "\nset ylabel ", "\nset cblabel ", "\n  set xlabel ",
+                                    "\n  set ylabel "};
+  static const char *const variable[] = {"xlabel\n", "x_label\n", "y_label ",
+                                         "name(colour_axis) "}; /* made by label() */
+  for (const ZpTemplate *one = zp_templates; one->name; one++)
+    for (size_t i = 0; i < sizeof set / sizeof set[0]; i++)
+      for (const char *at = one->text; (at = strstr(at, set[i])) != NULL; at++) {
+        const char *text = at + strlen(set[i]);
+        char line[256];
+        snprintf(line, sizeof line, "%.*s\n", (int)strcspn(text, "\n"), text);
+        bool has = strstr(line, "label(") || strstr(line, " / ") || strstr(line, "'number of");
+        for (size_t k = 0; k < sizeof variable / sizeof variable[0]; k++)
+          has |= strncmp(line, variable[k], strlen(variable[k])) == 0;
+        ck_assert_msg(has, "%s: %s", one->name, line);
+      }
+}
+END_TEST
+
 /* Each picture has its template, and each template loads only what there is. */
 START_TEST(what_templates_load) {
   for (const ZpTemplate *one = zp_templates; one->name; one++)
@@ -233,7 +253,7 @@ END_TEST
 
 int main(void) {
   const TTest *const all[] = {built_in_are_those_of_the_repository, files_that_are_there_stay, what_templates_load,
-                              a_folder_that_is_not_there};
+                              axes_have_units, a_folder_that_is_not_there};
   const TTest *const drawn[] = {an_edited_template_changes_the_picture,
                                 a_shared_template_alone,
                                 a_template_of_ones_own,

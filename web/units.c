@@ -51,5 +51,5 @@ ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpE
   }
   for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
     if (read_prefix(from, others[i], &exponent)) return zp_unit_fail_dimension(to, err);
-  return zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
+  return zp_fail(err, ZP_BAD_INPUT, "unknown unit \"%s\"", from);
 }

@@ -116,15 +116,16 @@ ZP_API const ZpKey *zp_key(int index);
 /* Index of the key called `name`, or -1. */
 ZP_API int zp_key_find(const char *name);
 
-/* Number of letters that must be inserted, deleted or replaced to turn one word into the other, ignoring case. Letters
- * after the 63rd are ignored. */
+/* Number of letters that must be inserted, deleted, replaced or swapped with the next to turn one word into the other,
+ * ignoring case. Letters after the 63rd are ignored. */
 ZP_API int zp_word_distance(const char *a, const char *b);
 
 /* The key name that differs least from `name`, for "did you mean". Never NULL. */
 ZP_API const char *zp_key_nearest(const char *name);
 
-/* The reason why `name`, which zp_key_find does not find, is not a key: "unknown key; did you mean load.mass?", or
- * "temperature is not modelled" with what to give instead. `text` gets at most `size` bytes with the final 0. */
+/* The reason why `name`, which zp_key_find does not find, is not a key: "unknown key; did you mean load.mass?", the
+ * keys of its group, or "temperature is not modelled" with what to give instead. `text` gets at most `size` bytes with
+ * the final 0. */
 ZP_API void zp_key_unknown(const char *name, char *text, size_t size);
 
 /* Place of `word` in the list of the choice key `index`, or -1. */

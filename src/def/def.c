@@ -136,21 +136,25 @@ static int length_within(const char *text, int most) {
 
 int zp_word_distance(const char *a, const char *b) {
   enum { LONGEST = 64 };
-  int row[LONGEST] = {0};
+  int row[3][LONGEST] = {{0}}; /* of the letters of `a` before the last, before this one, with this one */
   int len = length_within(b, LONGEST - 1);
   for (int j = 0; j <= len; j++)
-    row[j] = j;
+    row[1][j] = row[2][j] = j;
   for (int i = 1; i < LONGEST && a[i - 1]; i++) {
-    int diagonal = row[0];
-    row[0] = i;
+    memcpy(row[0], row[1], sizeof row[0]);
+    memcpy(row[1], row[2], sizeof row[1]);
+    row[2][0] = i;
     for (int j = 1; j <= len; j++) {
-      int replaced = diagonal + (lower(a[i - 1]) != lower(b[j - 1]));
-      int shifted = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-      diagonal = row[j];
-      row[j] = replaced < shifted ? replaced : shifted;
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      int least = row[1][j - 1] + !same;
+      if (row[1][j] + 1 < least) least = row[1][j] + 1;
+      if (row[2][j - 1] + 1 < least) least = row[2][j - 1] + 1;
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      if (swapped && row[0][j - 2] + 1 < least) least = row[0][j - 2] + 1;
+      row[2][j] = least;
     }
   }
-  return row[len];
+  return row[2][len];
 }
 
 /* The first key of the group in `name` whose last word contains `word`, or NULL. */

@@ -5,37 +5,46 @@
 
 #include <zipact/def.h>
 
-/* A part of the name, between points and underscores, and what to give instead. */
+/* How a part of the name, between points and underscores, begins; what that is; what to give instead. */
 typedef struct NotModelled {
-  const char *word, *instead;
+  const char *begins, *what, *instead;
 } NotModelled;
 
 static const NotModelled not_modelled[] = {
-    {"temperature", "give the properties at that temperature, such as medium.kinematic_viscosity"},
-    {"heat", NULL},
-    {"heating", NULL},
-    {"thermal", NULL},
-    {"humidity", "give insulator.resistivity and air.breakdown_field at that humidity"},
-    {"pressure", "give air.breakdown_field at the pressure of the surroundings"},
-    {"altitude", "give air.breakdown_field at that altitude"},
-    {"friction", NULL},
-    {"adhesion", NULL},
-    {"stiction", NULL},
-    {"adhesive", "add its thickness to insulator.thickness"},
-    {"glue", "add its thickness to insulator.thickness"},
-    {"twist", NULL},
-    {"torsion", NULL},
-    {"fatigue", NULL},
-    {"creep", NULL},
-    {"ageing", NULL},
-    {"aging", NULL},
-    {"wear", NULL},
-    {"crack", NULL},
-    {"evaporation", NULL},
-    {"corona", "notes report a field that exceeds the dielectric strength"},
-    {"discharge", "notes report a field that exceeds the dielectric strength"},
-    {"spark", "notes report a field that exceeds the dielectric strength"},
-    {"magnetic", NULL},
+    {"temperature", "temperature", "give the properties at that temperature, such as medium.kinematic_viscosity"},
+    {"therm", "temperature", "give the properties at that temperature, such as medium.kinematic_viscosity"},
+    {"heat", "heat", NULL},
+    {"humid", "humidity", "give insulator.resistivity and air.breakdown_field at that humidity"},
+    {"pressure", "pressure", "give air.breakdown_field at the pressure of the surroundings"},
+    {"altitude", "altitude", "give air.breakdown_field at that altitude"},
+    {"buoyan", "buoyancy of the load", "subtract it from load.mass"},
+    {"friction", "friction", NULL},
+    {"adhesive", "adhesive", "add its thickness to insulator.thickness"},
+    {"glue", "glue", "add its thickness to insulator.thickness"},
+    {"adhes", "adhesion", NULL},
+    {"sticti", "stiction", NULL},
+    {"twist", "twist", NULL},
+    {"torsion", "torsion", NULL},
+    {"fatigue", "fatigue", "yield_margin says how far stresses are from yield"},
+    {"life", "lifetime", "breakdown_margin and yield_margin say how far fields and stresses are from their limits"},
+    {"creep", "creep", NULL},
+    {"viscoelastic", "viscoelasticity", "damping.internal is the damping of the ribbons"},
+    {"ageing", "ageing", NULL},
+    {"aging", "aging", NULL},
+    {"wear", "wear", NULL},
+    {"crack", "cracks", NULL},
+    {"corro", "corrosion", NULL},
+    {"electroly", "electrolysis", NULL},
+    {"evaporat", "evaporation", NULL},
+    {"corona", "corona", "notes report a field that exceeds the dielectric strength"},
+    {"discharge", "discharge", "notes report a field that exceeds the dielectric strength"},
+    {"spark", "spark", "notes report a field that exceeds the dielectric strength"},
+    {"magnet", "magnetism", NULL},
+    {"piezo", "piezoelectricity", NULL},
+    {"induct", "inductance", NULL},
+    {"acoustic", "sound", NULL},
+    {"sound", "sound", NULL},
+    {"radiat", "radiation", NULL},
 };
 
 /* A name that others use for a group or for the last word of a key, and its name here. */
@@ -72,14 +81,14 @@ static bool is_word(const char *text, size_t length, const char *word) {
   return strlen(word) == length && zp_word_distance(copy, word) == 0;
 }
 
-/* The row of not_modelled with a word of the name, -1 if there is none. */
-static int find_row(const char *name) {
+/* The row of not_modelled with which a part of the name begins, NULL if there is none. */
+static const NotModelled *find_row(const char *name) {
   for (size_t length; *name; name += length + (name[length] != 0)) {
     length = strcspn(name, "._");
     for (size_t i = 0; i < sizeof not_modelled / sizeof not_modelled[0]; i++)
-      if (is_word(name, length, not_modelled[i].word)) return (int)i;
+      if (is_word(name, strlen(not_modelled[i].begins), not_modelled[i].begins)) return &not_modelled[i];
   }
-  return -1;
+  return NULL;
 }
 
 /* The name with the names that groups and keys have here. */
@@ -100,15 +109,78 @@ static void rename_parts(const char *name, char *text, size_t size) {
   }
 }
 
+/* "mass" of load.mass. */
+static const char *last_part(const char *name) {
+  const char *dot = strrchr(name, '.');
+  return dot ? dot + 1 : name;
+}
+
+/* Length of the group of a name, which is the whole name if it has no point. */
+static size_t group_length(const char *name) {
+  return strcspn(name, ".");
+}
+
+static bool same_group(const char *name, const char *key) {
+  char group[LONGEST];
+  snprintf(group, sizeof group, "%.*s", (int)group_length(key), key);
+  return is_word(name, group_length(name), group);
+}
+
+/* Is the name a misspelling of the key, or a part of it in the same group, as medium.viscosity? */
+static bool resembles(const char *name, const char *key) {
+  const int length = (int)strlen(name), whole = zp_word_distance(name, key);
+  const int last = zp_word_distance(name, last_part(key)) + 1, least = whole < last ? whole : last;
+  const bool is_part = strchr(name, '.') && *last_part(name) && strstr(last_part(key), last_part(name));
+  return (is_part && same_group(name, key)) || 3 * least <= length;
+}
+
+/* The key of any group whose last part contains the name and is shortest, as ribbon.young_modulus for young; NULL if
+ * there is none. */
+static const char *find_part(const char *name) {
+  const char *found = NULL;
+  for (int i = 0; strlen(name) >= 5 && i < zp_key_count(); i++) {
+    const char *key = zp_key(i)->name;
+    const bool has = strstr(last_part(key), name) != NULL;
+    if (has && (!found || strlen(last_part(key)) < strlen(last_part(found)))) found = key;
+  }
+  return found;
+}
+
+/* "unknown key; load has mass, share, ..."; false if there is no such group. */
+static bool list_group(const char *name, char *text, size_t size) {
+  bool found = false;
+  size_t used = 0;
+  for (int i = 0; i < zp_key_count(); i++) {
+    const char *key = zp_key(i)->name, *rest = key + group_length(key);
+    if (!*rest || !same_group(name, key)) continue;
+    if (found && used + strlen(rest) + sizeof ", ..." >= size) {
+      snprintf(text + used, size - used, ", ...");
+      return true;
+    }
+    if (found)
+      snprintf(text + used, size - used, ", %s", rest + 1);
+    else
+      snprintf(text, size, "unknown key; %.*s has %s", (int)group_length(key), key, rest + 1);
+    found = true;
+    used = strlen(text);
+  }
+  return found;
+}
+
 void zp_key_unknown(const char *name, char *text, size_t size) {
-  const int row = find_row(name);
-  if (row >= 0) {
-    const char *instead = not_modelled[row].instead;
-    snprintf(text, size, "%s is not modelled%s%s", not_modelled[row].word, instead ? "; " : "", instead ? instead : "");
+  const NotModelled *row = find_row(name);
+  if (row) {
+    snprintf(text, size, "%s is not modelled%s%s", row->what, row->instead ? "; " : "",
+             row->instead ? row->instead : "");
     return;
   }
   char renamed[LONGEST];
   rename_parts(name, renamed, sizeof renamed);
   const bool fits = zp_key_find(renamed) >= 0 || !strchr(name, '.');
-  snprintf(text, size, "unknown key; did you mean %s?", zp_key_nearest(fits ? renamed : name));
+  const char *meant = fits ? renamed : name, *nearest = zp_key_nearest(meant);
+  const char *key = resembles(meant, nearest) ? nearest : find_part(meant);
+  if (key)
+    snprintf(text, size, "unknown key; did you mean %s?", key);
+  else if (!list_group(renamed, text, size))
+    snprintf(text, size, "unknown key, and none has a similar name; zipact keys lists all");
 }

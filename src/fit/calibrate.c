@@ -32,7 +32,8 @@ static const Names names[] = {
 
 static const ZpColumn time_column = {"time_s", "s", "time since the voltage was switched on"};
 
-enum { COLUMNS_ALONE = 3, COLUMNS_OF_KIND = 4 };
+/* Columns of a kind: without and with standard deviations. */
+enum { COLUMNS_PLAIN = 3, COLUMNS_WEIGHTED = 4 };
 
 /* For each kind: the names of its residuals in summary.json and in the message, and the columns of its table, for one
  * kind and for several. */
@@ -40,10 +41,11 @@ typedef struct OfKind {
   const char *residual, *shown;
   double factor;
   const char *residual_of, *weighted; /* with several kinds */
-  ZpColumn alone[COLUMNS_ALONE], several[COLUMNS_OF_KIND];
+  ZpColumn alone[COLUMNS_WEIGHTED], several[COLUMNS_WEIGHTED];
 } OfKind;
 
 #define COMPUTED(number, none) number ", computed with the fitted values; nan: " none
+#define SIGMA                  "standard deviation of the measured value"
 #define OF_KIND(kind, of, unit, shown, factor, what, number, none)                                                     \
   [kind] = {"residual_rms_" unit,                                                                                      \
             shown,                                                                                                     \
@@ -52,11 +54,12 @@ typedef struct OfKind {
             of "_weighted_rms",                                                                                        \
             {{"measured_" unit, unit, what " in data.file"},                                                           \
              {"fitted_" unit, unit, COMPUTED(number, none)},                                                           \
-             {"residual_" unit, unit, "fitted minus measured"}},                                                       \
+             {"residual_" unit, unit, "fitted minus measured"},                                                        \
+             {"sigma_" unit, unit, SIGMA}},                                                                            \
             {{"measured_" of "_" unit, unit, what " in data.file"},                                                    \
              {"fitted_" of "_" unit, unit, COMPUTED(number, none)},                                                    \
              {"residual_" of "_" unit, unit, "fitted minus measured"},                                                 \
-             {"sigma_" of "_" unit, unit, "standard deviation of the measured value"}}}
+             {"sigma_" of "_" unit, unit, SIGMA}}}
 static const OfKind of_kind[ZP_FIT_KINDS] = {
     OF_KIND(ZP_FIT_STROKE, "stroke", "m", "mm", 1e3, "stroke", "the same", "no equilibrium"),
     OF_KIND(ZP_FIT_OPENING, "opening", "m", "mm", 1e3, "opening", "the same", "no equilibrium"),
@@ -134,6 +137,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
   }
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
   if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);
+  if (*fit->idle) zp_result_note(result, "columns that are not used: %s", fit->idle);
   if (!told_apart && n > 0)
     zp_result_note(
         result,
@@ -145,6 +149,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
 /* The columns of the table: one for each quantity that was set and those of each kind; NAN in rows of another one. */
 typedef struct Columns {
   size_t count, x_count, width; /* width: columns of one kind */
+  bool alone;                   /* there is one kind */
   ZpColumn *column;
   int *x_key; /* [x_count] */
   char (*x_name)[ZP_KEY_COLUMN_SIZE];
@@ -171,13 +176,12 @@ static void add_kind(Columns *columns, ZpFitKind kind) {
   if (columns->kind[kind]) return;
   columns->kind[kind] = columns->count;
   for (size_t i = 0; i < columns->width; i++)
-    columns->column[columns->count++] =
-        columns->width == COLUMNS_ALONE ? of_kind[kind].alone[i] : of_kind[kind].several[i];
+    columns->column[columns->count++] = columns->alone ? of_kind[kind].alone[i] : of_kind[kind].several[i];
 }
 
 static bool open_columns(const ZpFit *fit, Columns *columns) {
-  *columns = (Columns){.width = zp_fit_kinds(fit) > 1 ? COLUMNS_OF_KIND : COLUMNS_ALONE};
-  columns->column = calloc(fit->sets + (size_t)ZP_FIT_KINDS * COLUMNS_OF_KIND, sizeof *columns->column);
+  *columns = (Columns){.width = fit->sigma ? COLUMNS_WEIGHTED : COLUMNS_PLAIN, .alone = zp_fit_kinds(fit) == 1};
+  columns->column = calloc(fit->sets + (size_t)ZP_FIT_KINDS * COLUMNS_WEIGHTED, sizeof *columns->column);
   columns->x_key = calloc(fit->sets, sizeof *columns->x_key);
   columns->x_name = calloc(fit->sets, sizeof *columns->x_name);
   if (!columns->column || !columns->x_key || !columns->x_name) return false;
@@ -197,7 +201,7 @@ static void fill_row(const ZpFit *fit, const Columns *columns, size_t row, const
   own[0] = fit->y[row];
   own[1] = fitted[row];
   own[2] = fitted[row] - fit->y[row];
-  if (columns->width == COLUMNS_OF_KIND) own[COLUMNS_ALONE] = fit->sigma[row];
+  if (fit->sigma) own[COLUMNS_PLAIN] = fit->sigma[row];
 }
 
 static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result) {
@@ -302,8 +306,9 @@ static void say(const ZpFit *fit, const double *fitted, const char *bound, doubl
   const char *done = fit->n > 0 ? "fitted" : "compared", *at = bound ? "; at its bound: " : "";
   const ZpFitKind kind = fit->set[0].kind;
   if (zp_fit_kinds(fit) == 1)
-    snprintf(result->message, sizeof result->message, "%zu rows %s, residual %.3g %s rms%s%s", fit->rows, done,
-             of_kind[kind].factor * rms_of(fit, fitted, kind).plain, of_kind[kind].shown, at, bound ? bound : "");
+    snprintf(result->message, sizeof result->message, "%zu row%s %s, residual %.3g %s rms%s%s", fit->rows,
+             fit->rows == 1 ? "" : "s", done, of_kind[kind].factor * rms_of(fit, fitted, kind).plain,
+             of_kind[kind].shown, at, bound ? bound : "");
   else
     snprintf(result->message, sizeof result->message,
              "%zu rows of %zu kinds %s, residual %.3g standard deviations rms%s%s", fit->rows, zp_fit_kinds(fit), done,

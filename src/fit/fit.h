@@ -54,6 +54,7 @@ typedef struct ZpFit {
   size_t sets, rows;
   double *x, *y;  /* [rows] SI, one set after the other */
   char bare[160]; /* columns without a unit in their name: "load in kg, stroke in m" */
+  char idle[200]; /* columns that are not used: "monday.csv: Date, Remark; tuesday.csv: Date" */
   double *sigma;  /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   int evaluations;
   bool stopped;    /* the progress hook asked to stop */

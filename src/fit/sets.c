@@ -23,10 +23,11 @@ typedef struct Names {
   bool used[NAMES_MOST];
 } Names;
 
-/* A file, with its columns that were set and measured. */
+/* A file, with its columns that were set and measured, and all that are used. */
 typedef struct Measured {
   const ZpData *data;
   int x, y[NAMES_MOST], columns;
+  bool *used; /* [columns of the file] */
 } Measured;
 
 typedef struct Reading {
@@ -80,6 +81,14 @@ static ZpStatus check_names(const Reading *r, const Names *names) {
   return ZP_OK;
 }
 
+/* A file without columns is one whose columns are separated by something else. */
+static ZpStatus fail_columns(const Names *names, const char *text, const ZpData *data, ZpError *err) {
+  if (data->columns > 1 || names->count > 0) return fail_column(names, text, data->path, err);
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%.200s:1: one column, \"%.60s\"; commas, semicolons or tabs must separate the columns", data->path,
+                 data->name[0]);
+}
+
 /* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
 static ZpStatus find_measured(Reading *r) {
   ZpFit *fit = r->fit;
@@ -88,10 +97,12 @@ static ZpStatus find_measured(Reading *r) {
     Measured *measured = &r->measured[i];
     int x[NAMES_MOST];
     measured->data = data;
+    measured->used = calloc(data->columns, sizeof *measured->used);
+    if (!measured->used) return zp_fail_memory(r->err);
     if (find_columns(data, &r->x, 0, x) == 0) return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
     measured->x = x[0];
     measured->columns = find_columns(data, &r->y, 1, measured->y);
-    if (measured->columns == 0) return fail_column(&r->y, fit->def->calibrate.y, data->path, r->err);
+    if (measured->columns == 0) return fail_columns(&r->y, fit->def->calibrate.y, data, r->err);
     if (data->rows == 0) return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: 0 rows of data", data->path);
     fit->rows += data->rows * (size_t)measured->columns;
     r->sets += (size_t)measured->columns;
@@ -128,6 +139,10 @@ static int key_of_header(ZpFit *fit, const char *name, double *factor, double *d
     return zp_key_find("load.mass");
   }
   if (take_unit(fit, name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
+  if (fit->def->gravity > 0 && take_unit(fit, name, "load", "N", factor, divisor)) {
+    *divisor *= fit->def->gravity;
+    return zp_key_find("load.mass");
+  }
   if (take_unit(fit, name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
   for (int i = 0; i < zp_key_count(); i++)
     if (zp_fit_takes(i) && take_unit(fit, name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
@@ -196,6 +211,7 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
     const char *name = data->cell[column];
     const bool known = column == x || column == measured->x || is_measured(measured, column);
     int key = known ? -1 : key_of_header(fit, name, &factor, &divisor);
+    measured->used[column] |= known || key >= 0;
     if (key < 0) continue;
     if (set->x_key < 0)
       return zp_fail(err, ZP_BAD_INPUT,
@@ -371,10 +387,21 @@ static ZpStatus read_sigma(const Reading *r, const ZpFitSet *set, const Measured
                    "%.200s: column %.60s: the file has several measured columns; name the one that it belongs to, as "
                    "in sigma_%s_%s",
                    data->path, data->cell[column], zp_fit_number[set->kind].column, zp_fit_number[set->kind].unit);
-  if (column >= 0) return read_sigma_column(r->fit, set, data, column, sigma, r->err);
+  if (column >= 0) {
+    measured->used[column] = true;
+    return read_sigma_column(r->fit, set, data, column, sigma, r->err);
+  }
   for (size_t i = 0; i < set->rows; i++)
     sigma[i] = r->sigma[set->kind];
   return ZP_OK;
+}
+
+/* The path of the file of a set: the sets are in the order of the files. */
+static const char *path_of(const Reading *r, const ZpFitSet *set) {
+  size_t file = 0;
+  for (int before = (int)(set - r->fit->set); before >= r->measured[file].columns; file++)
+    before -= r->measured[file].columns;
+  return r->measured[file].data->path;
 }
 
 /* Either all rows have a standard deviation, or none has one and all are of one kind: otherwise the relative weight of
@@ -396,10 +423,10 @@ static ZpStatus check_sigmas(Reading *r) {
   }
   const ZpFitNumber *of = &zp_fit_number[without->kind];
   return zp_fail(r->err, ZP_BAD_INPUT,
-                 "data.file: a fit to %s requires standard deviations, but %s has none; add a column sigma_%s_%s to "
-                 "its file, or give calibrate.sigma = \"%s = ... %s\"",
-                 zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column, of->column,
-                 of->unit, of->column, of->unit);
+                 "data.file: a fit to %s requires standard deviations of all, but %s of %.200s has none; add a column "
+                 "sigma_%s_%s, or give calibrate.sigma = \"%s = ... %s\"",
+                 zp_fit_kinds(fit) > 1 ? "several kinds of measurement" : "several files", of->column,
+                 path_of(r, without), of->column, of->unit, of->column, of->unit);
 }
 
 /* Refuse calibrate.sigma for a quantity that is not measured: its name is misspelt or left over. */
@@ -456,7 +483,8 @@ static bool is_length(const char *name) {
 
 static bool is_force(const char *name) {
   double factor, divisor;
-  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor);
+  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor) ||
+         zp_data_unit(name, "load", "N", &factor, &divisor);
 }
 
 static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measured, int y) {
@@ -498,6 +526,22 @@ static ZpStatus read_sets(Reading *r) {
   return status == ZP_OK ? check_sigmas(r) : status;
 }
 
+/* Remember the columns of a file that are not used, by the names that the file has; one without a name is an empty one
+ * of a spreadsheet. */
+static void note_idle(ZpFit *fit, const Measured *measured) {
+  const char *folder = strrchr(measured->data->path, '/'), *file = folder ? folder + 1 : measured->data->path;
+  bool first = true;
+  for (size_t i = 0; i < measured->data->columns; i++) {
+    const size_t used = strlen(fit->idle), room = sizeof fit->idle - used;
+    if (measured->used[i] || !*measured->data->name[i]) continue;
+    if (first)
+      snprintf(fit->idle + used, room, "%s%.60s: \"%.60s\"", used ? "; " : "", file, measured->data->name[i]);
+    else
+      snprintf(fit->idle + used, room, ", \"%.60s\"", measured->data->name[i]);
+    first = false;
+  }
+}
+
 static ZpStatus read_files(Reading *r) {
   const ZpActuatorDef *def = r->fit->def;
   ZpStatus status = zp_data_read_all("data.file", def->data.file, def->data.columns, &r->files, r->err);
@@ -514,6 +558,10 @@ ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err) {
   ZpStatus status = read_files(&reading);
   if (status == ZP_OK) status = find_measured(&reading);
   if (status == ZP_OK) status = read_sets(&reading);
+  for (size_t i = 0; reading.measured && i < reading.files.count; i++) {
+    if (status == ZP_OK) note_idle(fit, &reading.measured[i]);
+    free(reading.measured[i].used);
+  }
   free(reading.measured);
   zp_data_files_destroy(&reading.files);
   return status;

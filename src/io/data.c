@@ -21,6 +21,8 @@ enum { LONGEST_NAME = 200, LONGEST_NUMBER = 64 };
 
 void zp_data_destroy(ZpData *data) {
   free(data->text);
+  free(data->names);
+  free(data->name);
   free(data->cell);
   free(data->line);
   *data = (ZpData){0};
@@ -39,7 +41,8 @@ static ZpStatus read_text(const char *key, const char *path, char **text, ZpErro
   FILE *file = fopen(path, "rb");
   if (!file)
     return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE,
-                   "%s: %.300s: cannot be opened: %s", key, path, strerror(errno));
+                   "%s: %.300s: cannot be opened: %s%s", key, path, strerror(errno),
+                   strchr(path, ',') ? "; several files are separated by semicolons" : "");
   *text = malloc(LARGEST_FILE + 1);
   size_t size = *text ? fread(*text, 1, LARGEST_FILE, file) : 0;
   bool failed = ferror(file) != 0;
@@ -48,6 +51,8 @@ static ZpStatus read_text(const char *key, const char *path, char **text, ZpErro
   (*text)[size] = 0;
   if (failed) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read: %s", key, path, strerror(errno));
   if (size == LARGEST_FILE) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: longer than 16 MB", key, path);
+  if (size > 1 && (memcmp(*text, "\xFF\xFE", 2) == 0 || memcmp(*text, "\xFE\xFF", 2) == 0))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: text in UTF-16; save it as CSV in UTF-8", key, path);
   if (strlen(*text) != size) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: not a text file", key, path);
   return ZP_OK;
 }
@@ -117,22 +122,40 @@ static size_t count_cells(char *line, char separator) {
   return count;
 }
 
-/* "Zip time (ms)" => Zip_time_ms, in place: shorter than before. */
-static void plain_name(char *name) {
+/* The unit in a name, without what is around it, and the end of the name before it: of "Zip time (ms)", "Zip time
+ * [ms]", "Zip time / ms" and "Zip time in ms". False if the name has no such unit. */
+static bool find_unit(char *name, char **unit, char **end) {
+  static const char *const before[] = {" / ", " in "};
   const size_t length = strlen(name);
   char *open = strrchr(name, '[') ? strrchr(name, '[') : strrchr(name, '(');
-  const bool closed = length > 0 && strchr(")]", name[length - 1]);
-  if (!open || !closed || open == name) return;
-  name[length - 1] = 0;
-  char *unit = trim(open + 1), *end = open;
-  while (end > name && end[-1] == ' ')
+  if (open && open > name && strchr(")]", name[length - 1])) {
+    name[length - 1] = 0;
+    *unit = trim(open + 1);
+    *end = open;
+    return true;
+  }
+  for (size_t i = 0; i < sizeof before / sizeof before[0]; i++) {
+    char *found = strstr(name, before[i]);
+    if (!found) continue;
+    *unit = trim(found + strlen(before[i]));
+    *end = found;
+    return true;
+  }
+  return false;
+}
+
+/* "Pull-in voltage (kV)" => Pull_in_voltage_kV, in place: not longer than before. */
+static void plain_name(char *name) {
+  char *unit = strrchr(name, '_'), *end = unit;
+  const bool apart = find_unit(name, &unit, &end);
+  if (!end) return;
+  while (apart && end > name && end[-1] == ' ')
     end--;
   for (char *c = name; c < end; c++)
-    if (*c == ' ') *c = '_';
-  if (!*unit) {
-    *end = 0;
-    return;
-  }
+    if (*c == '-' || (apart && *c == ' ')) *c = '_';
+  if (!apart) return;
+  *end = 0;
+  if (!*unit) return;
   *end = '_';
   memmove(end + 1, unit, strlen(unit) + 1);
 }
@@ -153,9 +176,33 @@ static ZpStatus take_line(ZpData *data, char *line, int number, size_t *rows, Zp
   return ZP_OK;
 }
 
+/* A copy with a decimal point; false if it is no decimal. */
+static bool plain_decimal(const char *text, char separator, char copy[LONGEST_NUMBER]) {
+  snprintf(copy, LONGEST_NUMBER, "%s", text);
+  char *comma = separator != ',' && !strchr(copy, '.') ? strchr(copy, ',') : NULL;
+  if (comma) *comma = '.';
+  return *text && strlen(text) < LONGEST_NUMBER && strspn(copy, "+-.0123456789eE") == strlen(copy);
+}
+
 static bool counts(const char *line) {
   line += strspn(line, " \t");
   return *line && *line != '#';
+}
+
+/* Keep the names as they are: those in the cells become plain or are replaced. */
+static ZpStatus keep_names(ZpData *data, const char *names, ZpError *err) {
+  data->names = strdup(names);
+  data->name = calloc(data->columns + 1, sizeof *data->name);
+  if (!data->names || !data->name) return zp_fail_memory(err);
+  char *rest = data->names, number[LONGEST_NUMBER];
+  size_t numbers = 0;
+  for (size_t i = 0; i < data->columns; i++) {
+    data->name[i] = next_cell(&rest, data->separator);
+    numbers += plain_decimal(data->name[i], data->separator, number);
+  }
+  if (numbers == 0 || numbers < data->columns) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: the first row has numbers; it needs names with units, such as load_g",
+                 data->key, data->path);
 }
 
 /* Allocate the rows of a text with so many lines, by its row of names. */
@@ -165,7 +212,7 @@ static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err)
   if (data->columns > 1000)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: more than 1000 columns", data->key, data->path);
   data->cell = calloc(lines * (data->columns + 1), sizeof *data->cell);
-  return data->cell ? ZP_OK : zp_fail_memory(err);
+  return data->cell ? keep_names(data, names, err) : zp_fail_memory(err);
 }
 
 /* A line without its end; blanks at its ends may be empty cells and stay. */
@@ -247,6 +294,8 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
                    part);
   *equals = 0;
   char *theirs = trim(part), *ours = trim(equals + 1);
+  if (strchr(ours, '='))
+    return zp_fail(err, ZP_BAD_INPUT, "data.columns: \"%.80s\": several names are separated by semicolons", ours);
   plain_name(theirs);
   bool found = false;
   for (size_t i = 0; i < files->count; i++) {
@@ -280,14 +329,6 @@ int zp_data_line(const ZpData *data, size_t row) {
   return data->line[row + 1];
 }
 
-/* A copy with a decimal point; false if it is no decimal. */
-static bool plain_decimal(const char *text, char separator, char copy[LONGEST_NUMBER]) {
-  snprintf(copy, LONGEST_NUMBER, "%s", text);
-  char *comma = separator != ',' && !strchr(copy, '.') ? strchr(copy, ',') : NULL;
-  if (comma) *comma = '.';
-  return *text && strlen(text) < LONGEST_NUMBER && strspn(copy, "+-.0123456789eE") == strlen(copy);
-}
-
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err) {
   const char *text = data->cell[(row + 1) * data->columns + column];
   ZpSource source = {.name = data->path};
@@ -298,6 +339,9 @@ ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *v
   if (plain_decimal(text, data->separator, copy)) *value = strtod_l(copy, &end, c_locale);
   freelocale(c_locale);
   if (end && end > copy && *end == 0 && isfinite(*value)) return ZP_OK;
+  if (!*text)
+    return zp_source_fail(&source, zp_data_line(data, row), err, "column %.60s: an empty cell; remove the row",
+                          data->cell[column]);
   return zp_source_fail(&source, zp_data_line(data, row), err, "column %.60s: \"%.60s\": text in a number column",
                         data->cell[column], text);
 }

@@ -9,15 +9,18 @@
 
 /* CSV files as read: a row of names, then rows of cells. Empty lines and lines that start with # are ignored. The row
  * of names determines the separator: semicolon, tab or comma; if it is not a comma, numbers may have a decimal comma.
- * Cells may be quoted. A name "Load (g)" or "Load [g]" becomes "Load_g". */
+ * Cells may be quoted. A name "Load (g)", "Load [g]", "Load / g" or "Load in g" becomes "Load_g",
+ * "pull-in_voltage_V" pull_in_voltage_V. */
 typedef struct ZpData {
   const char *key;  /* key that names the file, for messages */
   const char *path; /* path of the file */
   size_t columns, rows;
   char separator;
   char **cell; /* [1 + rows][columns]; row 0 has the names */
+  char **name; /* [columns] the names as the file has them */
   int *line;   /* [1 + rows] from 1 */
   char *text;  /* text to which the cells point */
+  char *names; /* text to which the names as in the file point */
 } ZpData;
 
 /* Several of them. */

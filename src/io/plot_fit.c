@@ -6,7 +6,7 @@
 #include "io/plot.h"
 
 /* A panel: the column of the quantity that was set, and the first of those of the measured quantity. After that one are
- * the computed value, the residual, and, if there are several kinds, sigma. */
+ * the computed value, the residual, and, if it is known, sigma. */
 typedef struct Panel {
   size_t x, measured;
 } Panel;

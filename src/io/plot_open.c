@@ -44,13 +44,15 @@ static const Subtitle subtitles[] = {
 #include <zipact/studies.def>
 };
 
-/* A single ribbon has no voltage. */
+/* A single ribbon has no voltage. An optimisation may have other objectives than the answer of its study, and these
+ * depend on all keys. */
 static void add_subtitle(ZpPlot *plot, const Subtitle *s) {
   if (plot->def.actuator.kind == ZP_KIND_RIBBON && strncmp(s->key, "drive.", 6) == 0) return;
-  if (s->alone)
-    add_key(plot, s->key, plot->single ? s->alone : s->swept);
-  else
+  const char *words = plot->single || (plot->report->optimum && !s->swept) ? s->alone : s->swept;
+  if (!s->alone)
     add_drive(plot);
+  else if (words)
+    add_key(plot, s->key, words);
 }
 
 static void add_subtitles(ZpPlot *plot, ZpStudy study) {

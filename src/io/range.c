@@ -24,8 +24,10 @@ char *zp_trim(char *text) {
 
 ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err) {
   char *dots = strstr(text, ".."), *colon = dots ? strchr(dots, ':') : NULL;
-  if (!colon)
-    return zp_fail(err, ZP_BAD_INPUT, "not a range; write \"10 um .. 200 um : 20\" or \"10 um .. 200 um : 20 log\"");
+  if (!colon) /* or YAML has taken the colon, where there were no quotes */
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "not a range; write \"%.60s : 20\" or \"%.60s : 20 log\", with the number of values and the quotes",
+                   zp_trim(text), zp_trim(text));
   *dots = *colon = 0;
   *range = (ZpRange){.from = zp_trim(text), .to = zp_trim(dots + 2), .count = zp_trim(colon + 1)};
   char *blank = strpbrk(colon + 1 + strspn(colon + 1, " \t"), " \t");

@@ -122,7 +122,7 @@ static ZpStatus scale_locked(const char *from, const char *to, ZpUnitScale *scal
   if (!to_unit)
     status = zp_fail(err, ZP_MACHINE, "the UDUNITS-2 database does not know %s", to);
   else if (!from_unit)
-    status = zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
+    status = zp_fail(err, ZP_BAD_INPUT, "unknown unit \"%s\"", from);
   else
     status = scale_between(from_unit, to_unit, to, scale, err);
   ut_free(from_unit);
@@ -147,7 +147,7 @@ ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpE
     *scale = (ZpUnitScale){.decimal = true, .factor = 1};
     return ZP_OK;
   }
-  if (!is_plain_unit(from)) return zp_fail(err, ZP_BAD_INPUT, "unknown unit %s", from);
+  if (!is_plain_unit(from)) return zp_fail(err, ZP_BAD_INPUT, "unknown unit \"%s\"", from);
   if (pthread_mutex_lock(&lock)) return zp_fail(err, ZP_MACHINE, "cannot lock the UDUNITS-2 database");
   ZpStatus status = scale_guarded(from, to, scale, err);
   pthread_mutex_unlock(&lock);

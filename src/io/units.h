@@ -16,7 +16,7 @@ typedef struct ZpUnitScale {
 } ZpUnitScale;
 
 /* (unit as people write it, SI unit) => scale. ZP_BAD_INPUT with a message that is a part of a sentence, "unknown unit
- * xyz" or "not a length"; ZP_MACHINE if the UDUNITS database cannot be read. Several threads may call it. */
+ * "xyz"" or "not a length"; ZP_MACHINE if the UDUNITS database cannot be read. Several threads may call it. */
 ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err);
 
 /* ZP_BAD_INPUT, "not a length": the quantity of the unit differs from that of the SI unit `to`. */

@@ -149,11 +149,22 @@ static bool has_digits(const char *text, const Decimal *decimal) {
   return strcspn(text, "123456789") < (size_t)decimal->mantissa;
 }
 
+/* "8,5 g", as in some countries, or "8 g, 9 g" without the brackets of a list; `rest`: what follows the first number.
+ */
+static ZpStatus fail_comma(int index, const char *text, const char *rest, ZpError *err) {
+  char reason[ZP_VALUE_SIZE];
+  if (*rest == ',' && isdigit((unsigned char)rest[1]))
+    return fail_number(index, "not a decimal number; decimals have a point, not a comma", err);
+  snprintf(reason, sizeof reason, "not one value; a list needs brackets: [%.100s]", text);
+  return fail_number(index, reason, err);
+}
+
 ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err) {
   Decimal decimal;
   ZpUnitScale scale;
   if (!scan_decimal(text, &decimal)) return fail_number(index, "not a number", err);
   const char *unit = decimal.end;
+  if (strchr(unit, ',')) return fail_comma(index, text, unit, err);
   if (*unit && strchr("_,.xX+-0123456789", *unit) && !isspace((unsigned char)*unit))
     return fail_number(index, "not a decimal number", err);
   while (isspace((unsigned char)*unit))

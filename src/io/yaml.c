@@ -37,13 +37,33 @@ typedef struct Walk {
   size_t used, capacity;   /* bytes */
 } Walk;
 
+/* What is probably wrong where libfyaml's message, which names rules of YAML, does not tell. */
+static const struct {
+  const char *message, *question;
+} questions[] = {
+    {"invalid multiline plain key", "is the next line indented more, or a value with a colon not in quotes?"},
+    {"invalid value after mapping", "is the blank after a colon missing, or the colon?"},
+    {"invalid indentation in mapping", "is the line indented less than the one before it?"},
+    {"wrongly indented double-quoted scalar", "is a quote not closed?"},
+    {"wrongly indented single-quoted scalar", "is a quote not closed?"},
+    {"missing comma in flow mapping", "is a brace not closed?"},
+};
+
+static const char *question_of(const char *message) {
+  for (size_t i = 0; i < sizeof questions / sizeof questions[0]; i++)
+    if (strcmp(message, questions[i].message) == 0) return questions[i].question;
+  return NULL;
+}
+
 /* The first error of libfyaml. */
 static ZpStatus fail_syntax(Walk *walk) {
   void *position = NULL;
   const struct fy_diag_error *error = fy_diag_errors_iterate(walk->diag, &position);
   if (!error || !error->msg) return zp_source_fail(walk->source, walk->line, walk->err, "not YAML");
   const char *place = walk->source->argument ? " of the value" : "";
-  return zp_source_fail(walk->source, error->line, walk->err, "column %d%s: %s", error->column, place, error->msg);
+  const char *question = question_of(error->msg);
+  return zp_source_fail(walk->source, error->line, walk->err, "column %d%s: %s%s%s", error->column, place, error->msg,
+                        question ? "; " : "", question ? question : "");
 }
 
 __attribute__((format(printf, 2, 3))) static ZpStatus fail_here(Walk *walk, const char *format, ...) {

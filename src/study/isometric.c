@@ -277,15 +277,15 @@ static void note(Holder *h) {
   if (h->jumps > 0)
     zp_result_note(
         r,
-        "%d jumps as the voltage rises, the largest by %.3g N; a wedge shorter than an element causes such jumps: "
+        "%d jump%s as the voltage rises, the largest by %.3g N; a wedge shorter than an element causes such jumps: "
         "increase mesh.nodes to see whether they are real",
-        h->jumps, h->leap);
+        h->jumps, h->jumps == 1 ? "" : "s", h->leap);
   if (h->others > 0)
     zp_result_note(
         r,
-        "%d more stable states at drive.voltage (force %.4g N in the last): a voltage that is higher at first, or "
-        "applied suddenly, may lead to them",
-        h->others, h->other_force);
+        "%d more stable state%s at drive.voltage (force %.4g N in the last): a voltage that is higher at first, or "
+        "applied suddenly, may lead there",
+        h->others, h->others == 1 ? "" : "s", h->other_force);
 }
 
 static void describe(Holder *h) {
