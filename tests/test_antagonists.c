@@ -188,7 +188,7 @@ START_TEST(middle_is_lost_where_both_slopes_vanish) {
 }
 END_TEST
 
-/* The upper one closes at the highest voltage of all states of rest on the way there. */
+/* The upper one closes at the highest voltage of all equilibria on the way there. */
 START_TEST(one_closes_where_the_way_is_highest) {
   ZpActuatorDef def =
       DEF(BOTH, {"mesh.nodes", 121}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
@@ -298,7 +298,7 @@ START_TEST(two_swing_as_one_with_half_the_load) {
 }
 END_TEST
 
-/* A heavy load between unlike light ones is a mass on the stiffness that study equilibrium finds, whose two terms the
+/* A heavy load between unequal light ones is a mass on the stiffness that study equilibrium finds, whose two terms the
  * voltages reduce; for small openings it is that of beams. Eqs. (31.4), (31.6). */
 START_TEST(heavy_load_swings_on_both_stiffnesses) {
   ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"ribbon.density", 1}, {"insulator.density", 0}, {"load.mass", 1},

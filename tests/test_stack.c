@@ -123,7 +123,7 @@ static ZpActuatorDef unlike(void) {
              {"member_3.insulator.thickness", 110e-6}, {"drive.voltage", 6e3});
 }
 
-/* At every voltage, on stable and unstable ways, forces of unlike members carry the load. Eq. (29.5). */
+/* At every voltage, on stable and unstable ways, forces of unequal members carry the load. Eq. (29.5). */
 START_TEST(forces_carry_the_load) {
   ZpActuatorDef def = unlike();
   def.load.force = 20e-3;

@@ -1,4 +1,4 @@
-/* Can a controller hold its setpoint? Small motions about the state of rest that the setpoint asks for, with the
+/* Can a controller hold its setpoint? Small motions about the equilibrium that the setpoint determines, with the
  * controller and without it. docs/theory.md, section 28. */
 #ifndef ZP_STUDY_HOLD_H
 #define ZP_STUDY_HOLD_H

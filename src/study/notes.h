@@ -8,7 +8,7 @@
 
 #include "actuator/shape.h"
 
-/* Of states of rest: the end of their tables' columns, and of their rows. */
+/* The last columns of tables of equilibria, and the last values of their rows. */
 #define ZP_MARGIN_COLUMNS                                                                                              \
   {"insulator_field_V_per_m", "V/m", "largest field in the insulators, by the series law"}, {                          \
     "max_stress_Pa", "Pa", "largest stress of the metal"                                                               \

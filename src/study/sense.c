@@ -9,7 +9,7 @@
 
 /* Of one run. */
 typedef struct Sensing {
-  const ZpTable *trace, *path; /* of the run; of the states of rest */
+  const ZpTable *trace, *path; /* of the run; of the equilibria */
   ZpMeter meter;
   ZpTable *readings;
   double zipped, released; /* when, s; INFINITY: never */

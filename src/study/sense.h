@@ -11,8 +11,8 @@ bool zp_senses(const ZpActuatorDef *def);
 /* What a simulation has to keep for it, from its start on; NULL if there is no memory. */
 ZpTable *zp_sense_trace(void);
 
-/* (trace of a whole run, sim at its end) => numbers of the summary, columns of the series. Finds the states of rest,
- * along which a capacitance says a stroke. */
+/* (trace of a whole run, sim at its end) => numbers of the summary, columns of the series. Finds the
+ * equilibria along which the capacitance determines the stroke. */
 ZpStatus zp_sense(const ZpTask *task, const ZpModel *model, const ZpTable *trace, ZpResult *result, ZpError *err);
 
 #endif

@@ -1,5 +1,5 @@
-/* Studies at rest of several actuators that share one load, which are one system: antagonists (docs/theory.md,
- * section 31), and unlike ones side by side (section 29). */
+/* Studies of equilibria of several actuators that share one load and are one system: antagonists (docs/theory.md,
+ * section 31), and unequal ones side by side (section 29). */
 #ifndef ZP_STUDY_TOGETHER_H
 #define ZP_STUDY_TOGETHER_H
 
