@@ -69,12 +69,12 @@ static bool touches(const double *gap, size_t i) {
 
 /* -- at rest ----------------------------------------------------------------------------------------- */
 
-/* What some elements do to their left and right stations. */
+/* Contributions of some elements to their left and right stations. */
 typedef struct Block {
   double push[2][ZP_LANES], own[2][ZP_LANES], next[ZP_LANES], stiffness[2][ZP_LANES];
 } Block;
 
-/* At rest the mean of a point is s^3, and half of its slope 3 s^2 / 2. */
+/* In equilibrium the mean at a point is s^3, and half of its slope 3 s^2 / 2. */
 ZP_KERNEL static void block_at_rest(const ZpFacesParams *p, const double *restrict gap, size_t count,
                                     Block *restrict of) {
   double per_depth = 1 / p->depth, l = p->l * p->push;
@@ -150,7 +150,7 @@ ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const dou
   return (ZpFacesSpan){start, end, h / (h + p->settling), 1 / h};
 }
 
-/* Length of the faces that station i stands for, m. */
+/* Length of the faces that belong to station i, m. */
 static double length_of(const ZpFacesParams *p, size_t i) {
   bool left = i > 0 && !is_rigid(p, i - 1), right = i + 1 < p->nodes && !is_rigid(p, i);
   bool flat = i >= p->platform && i <= p->platform_end;

@@ -45,7 +45,7 @@ double zp_control_output_time(const ZpControl *c, const ZpControlState *state) {
   return (state->given + whole) * c->period + (rest > rounding * c->period ? rest : 0);
 }
 
-/* What is added while the actuator should close further, eq. (28.3). */
+/* Added to the output while the actuator should close further, eq. (28.3). */
 static double boost(const ZpControl *c, double error, double setpoint) {
   if (c->boost == 0 || error <= 0) return 0;
   double band = c->band * fabs(setpoint);

@@ -36,7 +36,7 @@ static Loop loop_of(const ZpControl *c, size_t n, double rest) {
   return loop;
 }
 
-/* What of the delay is no whole period, s. */
+/* The part of the delay beyond whole periods, s. */
 static double rest_of(const ZpControl *c) {
   double rest = c->delay - floor(c->delay / c->period + 1e-9) * c->period;
   return rest > 1e-9 * c->period ? rest : 0;
@@ -72,7 +72,7 @@ static void fill(const ZpControl *c, const ZpLinear *s, double proportional, con
   if (rest > 0) {
     hold(s, rest, P, g, more);
     hold(s, c->period - rest, P, late, more);
-    for (size_t i = 0; i < n; i++) { /* what acted first goes on without voltage */
+    for (size_t i = 0; i < n; i++) { /* the effect of the earlier output continues without voltage */
       double after = 0;
       for (size_t j = 0; j < n; j++)
         after += P[i * n + j] * g[j];
@@ -96,7 +96,7 @@ static int faster_first(const void *a, const void *b) {
   return (x < y) - (x > y);
 }
 
-/* Leave out the `neutral` ones that are nearest to `at` on the real axis. */
+/* Omit the `neutral` eigenvalues that are nearest to `at` on the real axis. */
 static size_t without_neutral(ZpEigenvalue *value, size_t count, size_t neutral, double at) {
   for (; neutral > 0 && count > 0; neutral--) {
     size_t nearest = 0;

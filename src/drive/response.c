@@ -11,18 +11,18 @@ static size_t last_change(const ZpResponseSample *s, size_t count) {
   return k;
 }
 
-/* A setpoint that rests before it changes has jumped. */
+/* A setpoint that is constant before it changes has jumped. */
 static bool is_step(const ZpResponseSample *s, size_t at) {
   return at < 2 || s[at - 1].setpoint == s[at - 2].setpoint;
 }
 
-/* When the signal is at `level` between a sample and the next, on a straight line. */
+/* The time at which the signal is at `level` between a sample and the next, on a straight line. */
 static double crossing(const ZpResponseSample *s, double level) {
   double share = (level - s[0].signal) / (s[1].signal - s[0].signal);
   return s[0].time + share * (s[1].time - s[0].time);
 }
 
-/* When it first has gone that part of the way from sample 0 to its setpoint; NAN: never. */
+/* The time at which it first has covered that part of the way from sample 0 to its setpoint; NAN: never. */
 static double reached_at(const ZpResponseSample *s, size_t count, double part) {
   double from = s[0].signal, way = s[0].setpoint - from, level = from + part * way;
   for (size_t k = 0; k + 1 < count; k++)

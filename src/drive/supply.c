@@ -7,7 +7,7 @@
 
 static const double same = 1e-6; /* V: y and V are one */
 
-/* Without a limit where the key is none. */
+/* Infinite if the key is none. */
 static double or_none(double value) {
   return isnan(value) ? INFINITY : value;
 }
@@ -51,7 +51,7 @@ ZpSupplyState zp_supply_jump(const ZpSupply *s, const ZpCommand *c, double t, Zp
   return at;
 }
 
-/* y towards V as far as the slew rate goes within h. */
+/* Move V towards y as far as the slew rate allows within h. */
 static double slewed(const ZpSupply *s, double y, double V, double h) {
   double reach = s->slew * h;
   return fmin(fmax(y, V - reach), V + reach);
@@ -67,7 +67,7 @@ static double lagged_rate(const ZpSupply *s, const ZpCommand *c, double t, doubl
   return isinf(s->rate) ? command_rate(c, t) : s->rate * (zp_command_voltage(c, t) - y);
 }
 
-/* Where the slew rate limits just after t: +1 on the way up, -1 down; 0 where it does not. */
+/* Where the slew rate limits just after t: +1 upwards, -1 downwards; 0 if it does not limit. */
 static double slewing(const ZpSupply *s, const ZpCommand *c, double t, ZpSupplyState at) {
   double left = at.lagged - at.voltage, rate = lagged_rate(s, c, t, at.lagged);
   if (isinf(s->slew)) return 0;
@@ -80,8 +80,8 @@ double zp_supply_rate(const ZpSupply *s, const ZpCommand *c, double t, ZpSupplyS
   return way == 0 ? lagged_rate(s, c, t, at.lagged) : way * s->slew;
 }
 
-/* At time `to`: by how much V has passed y, V; or, where the slew rate does not limit (way == 0), by how much y is
- * faster than it, V/s. Both change their sign where the event is. */
+/* At time `to`: by how much V has passed y, V. If the slew rate does not limit (way == 0): by how much the rate of y
+ * exceeds it, V/s. Both change their sign at the event. */
 static double past_event(const ZpSupply *s, const ZpCommand *c, double from, double to, ZpSupplyState at, double way) {
   double y = lag(c, s->rate, from, to, at.lagged);
   if (way != 0) return s->slew * (to - from) - way * (y - at.voltage);

@@ -52,7 +52,7 @@ static int64_t knots(const ZpWaveform *w) {
   return 0;
 }
 
-/* One cycle goes up within the rise time, stays, goes down in as much, stays. */
+/* One cycle rises within the rise time, stays, falls within the rise time, stays. */
 static Knot square_knot(const ZpWaveform *w, int64_t i) {
   int64_t place = i % PER_CYCLE;
   int64_t cycles = i / PER_CYCLE;

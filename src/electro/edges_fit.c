@@ -1,5 +1,5 @@
-/* How the law of lateral edges is made: the field of the cross-section across the strips, solved at some gaps, and a
- * polynomial through what it gives. Letters as in edges.c. */
+/* How the law of lateral edges is made: the field of the cross-section across the strips is solved at some gaps, and a
+ * polynomial interpolates the results. Letters as in edges.c. */
 #include "electro/edges.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #include "electro/plates.h"
 
-/* A quarter of the cross-section is mirrored in the middle of the strips; upper and lower half are both solved. */
+/* A quarter of the cross-section, with a mirror in the middle of the strips; upper and lower half are both solved. */
 enum { MIRRORED = 2, STATIONS = 3, TERMS = ZP_EDGE_TERMS };
 
 ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
@@ -53,7 +53,8 @@ bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t
 
 /* -- the law --------------------------------------------------------------------------------------- */
 
-/* z = stretch (s - s0) / (s + s0): like a logarithm over the range, but of roots, which are the same everywhere. */
+/* z = stretch (s - s0) / (s + s0): like a logarithm over the range, but it needs square roots only, which are the same
+ * everywhere. */
 static void choose_variable(ZpEdgeLaw *law) {
   double most = law->largest + law->d, middle = sqrt(law->d * most), s = sqrt(most);
   law->s0 = sqrt(middle);
@@ -91,8 +92,8 @@ static void expand(const double z[TERMS], const double value[TERMS], double c[TE
   }
 }
 
-/* Coefficients of Chebyshev's polynomials => of powers. These stay as small as those: they fall off faster than 2^k
- * grows. */
+/* Coefficients of Chebyshev's polynomials => of powers. These stay as small as those, because they decrease faster than
+ * 2^k grows. */
 static void to_powers(const double c[TERMS], double p[TERMS]) {
   double T[TERMS] = {1}, before[TERMS] = {0, 1}; /* T_0 = 1, T_-1 = z */
   memset(p, 0, TERMS * sizeof *p);
@@ -105,7 +106,7 @@ static void to_powers(const double c[TERMS], double p[TERMS]) {
     }
 }
 
-/* What the last terms still add, as a share of the least capacitance. */
+/* Contribution of the last terms, as a share of the least capacitance. */
 static double error_of(const double c[TERMS], double least) {
   return (fabs(c[TERMS - 1]) + fabs(c[TERMS - 2])) / least;
 }

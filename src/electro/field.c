@@ -16,7 +16,7 @@
 
 enum { SURFACES = 8, LAYERS = 7, LOWER_METAL = 1, LOWER_INSULATOR = 2, GAP = 3, UPPER_INSULATOR = 4, UPPER_METAL = 5 };
 
-/* The grid ends this far away, m. By then a dipole's field is 1e-8 of what it is a millimetre away. */
+/* The grid ends this far away, m. There a dipole's field is 1e-8 of the one a millimetre away. */
 static const double far_away = 10;
 
 struct ZpFieldColumn {
@@ -40,7 +40,7 @@ const char *zp_field_words(ZpFieldEnd end) {
 
 /* -- rows and columns ----------------------------------------------------------------------------- */
 
-/* n elements of sizes 1, growth, growth^2, ... stretched to fill [0, 1]: where their node k of 0 .. 2 n lies. */
+/* n elements of sizes 1, growth, growth^2, ... scaled to fill [0, 1]: the place of their node k of 0 .. 2 n. */
 static double graded(size_t k, size_t n, double growth) {
   double at = 0, sum = 0, size = 1;
   for (size_t e = 0; e < n; e++, size *= growth) {
@@ -146,7 +146,7 @@ static void fill_materials(ZpField *f) {
       g->eps[c * g->rows + r] = permittivity(f, c, r);
 }
 
-/* Is the gap of element column c wet? Liquid covers more than half of its stations' way then. */
+/* Is the gap of element column c wet, with liquid over more than half of the length between its stations? */
 static bool is_wet(const ZpField *f, const ZpCover *cover, size_t c) {
   const ZpFieldColumn *from = &f->column[2 * c], *to = &f->column[2 * c + 2];
   if (2 * c < f->first) return true;
@@ -218,7 +218,7 @@ void zp_field_destroy(ZpField *f) {
 /* -- shape ---------------------------------------------------------------------------------------- */
 
 ZpFieldEnd zp_field_check(const ZpFieldParams *p, const ZpFaces *faces) {
-  static const double overlap = 1e-6; /* m: contact at rest presses faces less than that into each other */
+  static const double overlap = 1e-6; /* m: contact in equilibrium overlaps faces less than that */
   ZpFieldEnd end = ZP_FIELD_SOLVED;
   for (size_t i = 0; i < p->stations; i++) {
     size_t k = i * faces->step;
@@ -248,7 +248,7 @@ static Point face_at(const ZpFaces *faces, const ZpFieldColumn *c, size_t r) {
   return (Point){mix(c->share, x[at], x[to]) + c->offset, mix(c->share, y[at], y[to])};
 }
 
-/* The eight points in which a column crosses the surfaces. Faces that overlap are laid on each other. */
+/* The eight points at which a column crosses the surfaces. Faces that overlap are put on each other. */
 static void cross(const ZpField *f, Point upper, Point lower, Point at[SURFACES]) {
   double t = f->params.t, outer = t + f->params.b;
   double apart = fmax(upper.y - lower.y, ZP_FIELD_LEAST_GAP), middle = 0.5 * (upper.y + lower.y);
@@ -273,7 +273,8 @@ static void place_nodes(ZpField *f, const ZpFaces *faces) {
 
 /* -- forces on the stations: the chain of place_nodes backwards ----------------------------------- */
 
-/* How far row j goes with the faces of ribbon r along x and y: in the gap in part, far away along x only. */
+/* Share of the motion of ribbon r's faces with which row j moves along x and y: partial in the gap, far away along x
+ * only. */
 static Point follows(const ZpFieldRow *row, size_t r) {
   double above = row->share, below = 1 - row->share;
   if (row->layer == GAP) return r ? (Point){below, below} : (Point){above, above};
@@ -293,7 +294,7 @@ static Point column_force(const ZpField *f, size_t i, size_t r) {
   return (Point){F.x * f->params.w, F.y * f->params.w};
 }
 
-/* The clip holds both ribbons: what acts on either there acts on both alike. */
+/* The clip holds both ribbons: a force on either acts equally on both. */
 static void hand_on_clip(ZpField *f, Point upper, Point lower) {
   for (size_t r = 0; r < 2; r++) {
     f->Fx[r] += 0.5 * (upper.x + lower.x);
@@ -323,7 +324,7 @@ static void find_forces(ZpField *f) {
       hand_on(f, &f->column[i], r, column_force(f, i, r));
 }
 
-/* Without what the clip's closed part has by the plates law. */
+/* Less the energy of the clip's closed part by the plates law. */
 static void find_energy(ZpField *f) {
   const ZpFieldParams *p = &f->params;
   double h = 2 * p->t * p->eps_m / p->eps_i + ZP_FIELD_LEAST_GAP;
@@ -412,9 +413,9 @@ void zp_field_profile(ZpField *f) {
   }
 }
 
-/* Vertical force on ribbon r from the nodes of column i when it moves as a body and all else stays, N/m. Nothing
- * outside moves: where the body is cut off at the clip, stress then acts on the cut only where the field is
- * normal to the faces and has none along them. */
+/* Vertical force on ribbon r from the nodes of column i when it moves as a rigid body and all else is fixed, N/m.
+ * Nothing outside moves: where the body is cut at the clip, the stress on the cut contributes only where the field is
+ * normal to the faces, and has no component along them. */
 static double body_force(const ZpField *f, size_t i, size_t r) {
   const ZpGrid *g = &f->grid;
   double F = 0;

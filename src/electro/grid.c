@@ -54,7 +54,7 @@ static void nodes_of(const ZpGrid *g, size_t c, size_t r, size_t node[NODES]) {
       node[3 * p + q] = (2 * c + p) * g->ny + 2 * r + q;
 }
 
-/* Number column by column what no conductor holds. => how many. */
+/* Number the nodes that no conductor holds, column by column => their number. */
 static size_t number(ZpGrid *g) {
   int next = 0;
   size_t node[NODES];
@@ -71,7 +71,7 @@ static size_t number(ZpGrid *g) {
   return (size_t)next;
 }
 
-/* The first unknown that each one meets in an element. */
+/* The first unknown that shares an element with each unknown. */
 static void profile(const ZpGrid *g, size_t n, size_t *first) {
   size_t node[NODES];
   for (size_t i = 0; i < n; i++)
@@ -136,7 +136,7 @@ static Reference reference(void) {
   return e;
 }
 
-/* What an element is at its integration points. */
+/* Quantities of an element at its integration points. */
 typedef struct Element {
   size_t node[NODES];
   double x[NODES], y[NODES], phi[NODES];

@@ -50,7 +50,7 @@ static bool is_held(Charge charge, double Y) {
   return charge.slope * fabs(Y) > charge.most;
 }
 
-/* What conducts there, C/(m s): through the insulators, and how much more than through the liquid. */
+/* Conduction there, C/(m s): through the insulators, and the excess over that through the liquid. */
 typedef struct Conduction {
   double insulators, gathers;
 } Conduction;
@@ -60,7 +60,7 @@ static Conduction conduction(const ZpLeakParams *p, double q, double Z) {
   return (Conduction){through, through - p->discharge * q};
 }
 
-/* Weight of a step's end, with which a place of constant gap and voltage relaxes exactly. */
+/* Weight of a step's end with which a place of constant gap and voltage relaxes exactly. */
 static double weight_of_end(const ZpLeakParams *p, Charge charge, double Y, double h) {
   double slope = is_held(charge, Y) ? 0 : charge.slope;
   return zp_decay_weight(h * (p->conductance * (1 - slope / p->insulators) + p->discharge * slope) / p->insulators);
@@ -72,7 +72,7 @@ typedef struct End {
   ZpLeakPassed passed;
 } End;
 
-/* C (Z1 - Z0) = h times the weighted mean of what gathers: linear in Y1, or with q held. */
+/* C (Z1 - Z0) = h times the weighted mean of the excess: linear in Y1, or with q fixed by the cap. */
 static End end_of(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, double Z0, double g0,
                   double g1) {
   double C = p->insulators, G = p->conductance, Y0 = step->U0 + Z0, U1 = step->U1;
@@ -110,7 +110,7 @@ void zp_leak_step(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpL
 
 /* -- forces ---------------------------------------------------------------------------------------- */
 
-/* What the interface charge adds to the potential, J/m: eq. (25.4). */
+/* Contribution of the interface charge to the potential, J/m: eq. (25.4). */
 static double of_interface(const ZpLeakParams *p, double U, double Z) {
   return p->insulators * Z * (U + 0.5 * Z);
 }
@@ -132,7 +132,7 @@ void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const Z
 
 /* -- by the voltage -------------------------------------------------------------------------------- */
 
-/* Of the mean force: the law at the end is half of it. */
+/* Derivative of the mean force: half of the law at the end. */
 static ZpPlatesMean force_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
                                      const ZpLeakEval *e, size_t k, double g0, double g1) {
   double Z = e->Z[k], U = step->U1, by_U = e->by_voltage[k];
@@ -142,7 +142,8 @@ static ZpPlatesMean force_by_voltage(const ZpLeakParams *p, const ZpPlatesParams
   return piece;
 }
 
-/* Of the charge q - C Z at the end with what has passed, of which half goes with the x-length there. */
+/* Derivative of the charge q - C Z at the end and of the conducted charge, half of which depends on the x-length
+ * there. */
 static ZpPlatesMean charge_piece(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
                                  const ZpLeakEval *e, size_t k, double g1) {
   double Z = e->Z[k], C = p->insulators, Y = step->U1 + Z;

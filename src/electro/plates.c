@@ -21,13 +21,14 @@ double zp_plates_least_h(const ZpPlatesParams *p, double U) {
   return h_c > p->h_least ? h_c : p->h_least;
 }
 
-/* The gap from which the edges' law continues straight to where there is a cap below h_c, or beyond its ends. */
+/* The gap at which the edges' law is evaluated. From there it continues as a straight line: into the range of the cap,
+ * and beyond the ends of the fit. */
 static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
   double least = h_c - p->d > 0 ? h_c - p->d : 0, bounded = gap > least ? gap : least;
   return bounded < p->edges->largest ? bounded : p->edges->largest;
 }
 
-/* Eqs. (16.3) to (16.5). Where the cap acts its gap goes with the voltage, and the charge with that. */
+/* Eqs. (16.3) to (16.5). Where the cap acts, its gap depends on the voltage, and so the charge does, too. */
 static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPlatesLaw *law) {
   double K = p->k * U * U, cap = p->h_per_volt * fabs(U) - p->d, at = edge_gap(p, zp_plates_least_h(p, U), gap);
   ZpEdgeValue v = zp_edges_value(p->edges, at);
@@ -190,7 +191,7 @@ static void add_elements_with_edges(const ZpPlatesParams *p, const ZpPlatesEval 
   }
 }
 
-/* Capacitance counts over that of the liquid. */
+/* Capacitance relative to that of the liquid. */
 static void add_part(const ZpPlatesParams *law, double U, double gap, double length, ZpPlatesTotals *totals) {
   ZpPlatesTotals part = {0, 0, 0, 0};
   add_piece(law, U, gap, length, &part);

@@ -17,7 +17,7 @@ void zp_plates_step_carve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpCarver *ca
     *arrays[k] = zp_carve(carver, p->nodes);
 }
 
-/* The laws of which a step takes the mean: one where the voltages of both ends attract alike. */
+/* The laws whose mean a step takes: one if the voltages of both ends attract alike. */
 typedef struct Laws {
   int count;
   double share; /* of each in the mean */
@@ -59,7 +59,7 @@ ZP_INLINE Between between(double K, double h_c, double h0, double h1, bool still
   return (Between){W, slope, 0.5 * (P0 + P1), W1};
 }
 
-/* The same of the law with what the strips' lateral edges add, which has no such quotient in closed form. */
+/* The same for the law with lateral edges, for which there is no such quotient in closed form. */
 static Between between_with_edges(const ZpPlatesParams *p, double U, double share, double g0, double g1) {
   static const double near =
       1e-8; /* m: closer, the difference of P is rounding, the mean force is exact to its square */
@@ -180,7 +180,7 @@ static Parts covered_element(const ZpPlatesParams *p, const Laws *wet, const Law
   return parts;
 }
 
-/* How many elements from i on have all liquid, or none. 0: it ends in element i. */
+/* Number of elements from i on that are all wet, or all dry. 0: the liquid ends in element i. */
 static size_t alike_from(const ZpPlatesParams *p, const ZpCover *cover, size_t i) {
   size_t end = i;
   double part = cover->part[i];
@@ -352,11 +352,11 @@ void zp_plates_by_voltage_carve(const ZpPlatesParams *p, ZpPlatesByVoltage *by, 
 
 /* Since dP/dU = -q, eq. (18.3) by the voltage has differences of the charge in place of those of the potential. */
 typedef struct Charges {
-  double W; /* -(q1 - q0) / (g1 - g0): how the force on the gap goes with the voltage, N/V per length */
+  double W; /* -(q1 - q0) / (g1 - g0): derivative of the force on the gap by the voltage, N/V per length */
   double P; /* -(q0 + q1) / 2 */
 } Charges;
 
-/* Of the law with edges gaps that are too close give rounding: they are then taken a little apart. */
+/* For the law with edges, the difference of gaps that are too close is rounding: they are moved a little apart. */
 static Charges charges_with_edges(const ZpPlatesParams *p, double U, double g0, double g1) {
   static const double little = 1e-8; /* m */
   double q0 = zp_plates_law(p, U, g0).q, q1 = zp_plates_law(p, U, g1).q, P = -0.5 * (q0 + q1), over = g1 - g0;
@@ -407,7 +407,7 @@ static void parts_of_charges_at(const ZpPlatesParams *p, const ZpPlatesEval *e0,
   s->P[i] = share * P;
 }
 
-/* The same of all elements at rest, under the law of plates alone. */
+/* The same for all elements in equilibrium, under the law of plates alone. */
 ZP_KERNEL static void parts_of_charges_at_rest(size_t count, double d, double h_c, double per_volt,
                                                const ZpPlatesEval *e, const ZpPlatesStep *s) {
   const double *restrict gap = e->gap, *restrict dx = e->dx;

@@ -46,12 +46,11 @@ void zp_surplus_destroy(ZpSurplus *s) {
   s->memory = NULL;
 }
 
-/* Pairs closer than that, m, are taken to be so far apart: the forces of a field in a narrower gap drown in rounding.
- */
+/* Pairs closer than this, m, count as this far apart: in a narrower gap rounding exceeds the forces of the field. */
 static const double narrowest = 1e-7;
 
-/* A bead ends between elements: the one that it ends in counts as wet where it covers more than half. => whether that
- * moved. */
+/* A bead's end within an element: the element counts as wet if liquid covers more than half of it. => whether this
+ * changed. */
 static bool round_cover(ZpSurplus *s, const ZpCover *cover) {
   bool moved = false;
   for (size_t i = 0; i + 1 < s->plates.nodes; i++) {
@@ -76,9 +75,9 @@ static double capped_gap(const ZpSurplus *s) {
   return s->U * s->h_per_volt - s->plates.d;
 }
 
-/* Capped pairs, and those that are closed, are parted about their middle, so that both laws are taken at the same gap.
- * The clip is none: it stays closed. Air breaks down in gaps of millimetres, next to closed ones that are wet: there
- * parted pairs would be no ribbons, and all stay where they are. */
+/* Capped and closed pairs are moved apart about their middle, so that both laws apply at the same gap. The clip stays
+ * closed. Air breaks down in gaps of millimetres, next to wet ones that are closed. Moving such pairs apart would
+ * distort the ribbons, so all stay where they are. */
 static void part_capped(ZpSurplus *s) {
   size_t stride = s->plates.stride;
   double *y = s->floored + stride, capped = fmax(capped_gap(s), narrowest);
@@ -91,15 +90,15 @@ static void part_capped(ZpSurplus *s) {
   }
 }
 
-/* What would part a pair further than the mean of both forces on it does no work. => what of it there was, N/V^2. */
+/* Remove the part of the forces on a pair that would move it apart, beyond their mean => that part, N/V^2. */
 static double hold_apart(double *Fy, size_t i) {
   double mean = 0.5 * (Fy[2 * i] + Fy[2 * i + 1]), opening = Fy[2 * i] - mean;
   Fy[2 * i] = Fy[2 * i + 1] = mean;
   return opening;
 }
 
-/* ... so what would part capped pairs further does no work at them, but changes the charge with the voltage's cap.
- * Those that are only closed keep the force that they have there: contact has no jump. */
+/* Forces that would move capped pairs further apart do no work on them, but change the charge with the voltage's cap.
+ * Pairs that are only closed keep their forces, so that contact causes no jump. */
 static void hold_capped(ZpSurplus *s) {
   double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, opening = 0;
   double capped = capped_gap(s), capped_in_air = s->U * s->air_h_per_volt - s->air.d;

@@ -39,7 +39,7 @@ void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
 
 /* -- geometry -------------------------------------------------------------------------------------- */
 
-/* A smooth step from g, far above the roughness, to nothing, far below 0. */
+/* A smooth transition from g, far above the roughness, to nothing, far below 0. */
 static double root(const ZpFilmParams *p, double gap) {
   return sqrt(gap * gap + 4 * p->roughness * p->roughness);
 }
@@ -64,7 +64,7 @@ double zp_film_depth(const ZpFilmParams *p, double H) {
   return H / (isolated * q + 1 / (1 + 1.066 * q * sqrt(q)));
 }
 
-/* How the thickness in the middle is foreseen: it goes on as in the last step, but halves at most. */
+/* The predicted thickness in the middle: it changes as in the last step, but is at least half of that at the start. */
 static double middle(const ZpFilmParams *p, double gap, double rate, double h) {
   double H = zp_film_thickness(p, gap), foreseen = zp_film_thickness(p, gap + 0.5 * h * rate);
   return fmax(foreseen, 0.5 * H);
@@ -134,7 +134,8 @@ static double length_between(const ZpFilmPiece *left, const ZpFilmPiece *right, 
   return left->cell[1][0] + left->cell[1][1] + right->cell[0][0] + right->cell[0][1] + flat_length;
 }
 
-/* The head that is given at station i, Pa: where no liquid is, beside a meniscus below the platform, at an outlet. */
+/* The head that is given at station i, Pa: where there is no liquid, beside a meniscus below the platform, at an
+ * outlet. */
 static double given_head(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i) {
   int half = half_of(p, i);
   if (!is_wet(p, ends->cover, i)) return 0;
@@ -160,8 +161,7 @@ double zp_film_wet(const ZpFilmEval *e, size_t i) {
   return length_between(left_of(e, i), &e->piece[i], e->flat[i]);
 }
 
-/* What the thickness at station j, i - 1 .. i + 1, counts in the cell of station i, m: half of each element beside it.
- */
+/* Weight of the thickness at station j, i - 1 .. i + 1, in the cell of station i, m: half of each element beside it. */
 static double cell_share(const ZpFilmEval *e, size_t i, size_t j) {
   if (i != j) return j < i ? e->piece[j].cell[1][0] : e->piece[i].cell[0][1];
   return left_of(e, i)->cell[1][1] + e->piece[i].cell[0][0] + e->flat[i];
@@ -175,7 +175,7 @@ static double over_cell(const ZpFilmParams *p, const ZpFilmEval *e, const double
   return sum;
 }
 
-/* What the heads of cells and menisci press on the thickness at station i, over w, N/m. */
+/* Force of the heads of cells and menisci on the thickness at station i, over w, N/m. */
 static double pressed(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) {
   double sum = cell_share(e, i, i) * e->head[i];
   if (i > 0)
@@ -192,14 +192,14 @@ bool zp_film_is_free(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k
 
 /* -- momentum -------------------------------------------------------------------------------------- */
 
-/* What the step does to one momentum in a film that is `thick` in its middle. */
+/* One momentum over a step, in a film that is `thick` in its middle. */
 typedef struct Momentum {
   double theta;
   double inertia; /* of the momentum's mean, and what resists to it, kg/m^3 */
 } Momentum;
 
-/* `depth` is H or E, mean over the step. What begins to flow, where a bead has just come, does so at once: theta is 1,
- * for with 1/2 a flow that the gap's motion prescribes would begin with twice of it, and turn round in every step. */
+/* `depth` is H or E, the mean over the step. A flow that begins because a bead has just arrived does so at once: theta
+ * is 1. With 1/2, a flow that the gap's motion prescribes would begin twice as large and reverse in every step. */
 static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h, bool begins) {
   double B = 6 * p->mu * h, inertia = p->rho * thick * thick, theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
   return (Momentum){theta, p->rho + 2 * theta * B * depth / (thick * thick * thick)};
@@ -209,7 +209,7 @@ static double mean(const double *x0, const double *x1, size_t i) {
   return 0.5 * (x0[i] + x1[i]);
 }
 
-/* Of what is wet of the element from station i on: thickness in the middle, foreseen, and mean thickness. */
+/* For the wet part of the element from station i on: predicted thickness in the middle, and mean thickness. */
 static double element_middle(const ZpFilmEval *e, size_t i) {
   return e->piece[i].mean[0] * e->middle[i] + e->piece[i].mean[1] * e->middle[i + 1];
 }
@@ -231,8 +231,8 @@ static size_t cavity_at(size_t i) {
   return ZP_FILM_STATE * i + ZP_FILM_CAVITY;
 }
 
-/* Where the film ends in an element: what passes its end takes its kinetic energy along, and what is drawn back brings
- * none. */
+/* The film's end within an element: liquid that passes it carries its kinetic energy away, and liquid that is drawn
+ * back brings none. */
 typedef struct Tip {
   bool is_left, is_right; /* the station there has no liquid */
   double head, per_speed; /* Pa; what it takes beyond that per mean speed, Pa s/m */
@@ -263,13 +263,13 @@ static void no_flow_along(size_t i, int k, const ZpFilmEval *e) {
   e->flow[zp_film_mode_at(i, k)] = e->conductance[zp_film_mode_at(i, k)] = e->end[along_at(i, k)] = 0;
 }
 
-/* The share of the long edges there where liquid can pass. */
+/* The share of the long edges there through which liquid can pass. */
 static double open_share(const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) {
   if (!(zp_film_wet(e, i) > 0)) return 0;
   return ends->open ? ends->open[i] : 1;
 }
 
-/* Where only a part of the edges has liquid at hand it flows in so slowly that its inertia does not count. */
+/* If only a part of the edges has liquid, it flows in so slowly that its inertia does not count. */
 static void flow_in(const ZpFilmParams *p, size_t i, double share, const double *heads, const ZpFilmEval *e) {
   double H = e->middle[i], mobility = share > 0 ? share * H * H * H / (12 * p->mu) : 0;
   e->jet[i] = e->coupling[i] = 0;
@@ -281,7 +281,7 @@ static void flow_in(const ZpFilmParams *p, size_t i, double share, const double 
   }
 }
 
-/* The flow out at the long edges is linear in the heads but for that of the jets, D = rho v^2 / 2 at speed v outwards:
+/* The flow out at the long edges is linear in the heads except for the jets, D = rho v^2 / 2 at speed v outwards:
  * together v + C rho v^2 / 2 = A. */
 static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, double h, const double *start,
                         const double *heads, const ZpFilmEval *e) {
@@ -325,7 +325,7 @@ static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
   return p->share[0] * heads[zp_film_mode_at(i, 0)] + p->share[1] * heads[zp_film_mode_at(i, 1)];
 }
 
-/* Below minus the zp_film_tension a cavity grows, so that its head hardly falls any more. */
+/* Below minus zp_film_tension a cavity grows, so that its head hardly falls further. */
 static double cavity_of(double head) {
   return give * fmax(0, -zp_film_tension - head);
 }
@@ -359,7 +359,7 @@ static double squares(const double *start, const double *end, size_t i) {
   return start[i] * start[i] + end[i] * end[i];
 }
 
-/* What the kinetic energies take of the force on the thickness at station i, over w, N/m. */
+/* Part of the force on the thickness at station i that comes from the kinetic energies, over w, N/m. */
 static double suction(const ZpFilmParams *p, const double *start, const ZpFilmEval *e, size_t i) {
   double slope = p->rho > 0 ? depth_slope(p, e, i) : 0, sum = 0;
   for (int k = 0; k < ZP_FILM_MODES; k++) {
@@ -407,7 +407,7 @@ static double past_tip(const ZpFilmParams *p, const double *rise, double h, cons
   return h * (from_right(p, i) ? -flow : flow) - (piece->tip[0] * rise[i] + piece->tip[1] * rise[i + 1]);
 }
 
-/* What has left the film at its ends: what is missing in a cell whose head is given has passed its end. */
+/* Volume that has left the film at its ends: the volume missing in a cell whose head is given has passed its end. */
 static void passed(const ZpFilmParams *p, const double *rise, double h, const double *start, const ZpFilmEval *e) {
   e->out[0] = e->out[1] = 0;
   for (size_t i = 0; i < p->nodes; i++) {
@@ -469,7 +469,7 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
   return sum * p->w;
 }
 
-/* Of one momentum over the step, per length and width, J/m^2: drag, and what theta takes beyond the mean. */
+/* Loss of one momentum over the step, per length and width, J/m^2: by drag, and by theta beyond the mean. */
 static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h,
                    bool begins) {
   Momentum m = momentum_of(p, thick, depth, h, begins);
@@ -485,7 +485,8 @@ static double lost_by_cavity(const double *start, const ZpFilmEval *e, size_t i)
   return energy_of_cavity(before) - energy_of_cavity(after) - e->head[i] * (after - before);
 }
 
-/* Across mode k at station i. Where the long edges are open in part only what flowed there stops. */
+/* Loss across, of mode k at station i. If the long edges are open only in part, inertia does not count, and the kinetic
+ * energy at the start is lost. */
 static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start,
                           const ZpFilmEval *e, size_t i, int k) {
   double E = mean(e->depth0, e->depth1, i), b = start[across_at(i, k)];
@@ -505,7 +506,7 @@ static double lost_along(const ZpFilmParams *p, const ZpFilmEnds *ends, double h
               change(start, e, along_at(i, k)), h, ends->cover && start[along_at(i, k)] == 0);
 }
 
-/* By what passes the film's end in element i, over w and the share of the mode, J/m. */
+/* Loss by liquid that passes the film's end in element i, over w and the share of the mode, J/m. */
 static double carried(const ZpFilmParams *p, const ZpFilmEnds *ends, double h, const double *start, const ZpFilmEval *e,
                       size_t i, int k) {
   if (!(e->piece[i].length > 0)) return 0;

@@ -19,8 +19,8 @@ static size_t across(size_t i, int k) {
   return ZP_FILM_FLOWS * i + ZP_FILM_MODES + (size_t)k;
 }
 
-/* Over a step so short that only inertia resists, and over one so long that only viscosity does: the program has these
- * formulas once, in the step. */
+/* A step so short that only inertia resists, and one so long that only viscosity does: so the program has these
+ * formulas only once, in the step. */
 void zp_film_ways(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *zeros,
                   const ZpFilmEval *e, ZpFilmWays *ways) {
   static const double instant = 1e-18, ever = 1e12; /* s */
@@ -54,7 +54,7 @@ static double pressed_out(const ZpFilmWays *ways, const double *rate, size_t i, 
   return sum / (p->share[k] * p->w);
 }
 
-/* Heads at which what is pressed out flows away, 0 where one is given: elimination from the left. */
+/* Heads at which the displaced liquid flows away, 0 where one is given: elimination from the left. */
 static void find_heads(const ZpFilmWays *ways, const double *rate, int k, const double *along_by,
                        const double *across_by) {
   const size_t N = ways->params->nodes;
