@@ -27,15 +27,15 @@ void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, ZpBandForm form,
   b->saved_before = zp_carve(carver, saved);
 }
 
-/* Negative eigenvalues for motions in which like parts move alike, as they do along a branch: what all have in common
- * is coupled to each in the same way, so each eigenvalue of a part by itself is there once for each part, and at most
- * one is left for them together. */
+/* Negative eigenvalues for motions in which equal parts move alike, as they do along a branch. The common unknowns are
+ * coupled to each part in the same way. So each eigenvalue of a part alone occurs once for each part, and at most one
+ * more belongs to them together. */
 static size_t negative_of_part(const ZpParts *parts, size_t negative) {
   return (negative + parts->more) / (1 + parts->more);
 }
 
-/* Tangent of the branch at the present point, of length 1 and towards growing m => direction. => is the determinant of
- * the stiffness negative? Not 0 or 1: there is no tangent. */
+/* Tangent of the branch at the present point, of length 1 and towards increasing m => direction. => is the determinant
+ * of the stiffness negative? Neither 0 nor 1: there is no tangent. */
 static int find_tangent(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -63,9 +63,9 @@ static void face(ZpBranch *b, bool growing) {
   b->direction_m = sign * b->a_m;
 }
 
-/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that is
- * the way back; the determinant of the stiffness tells, eq. (10.2). => cosine of the angle by which it has turned; 0 if
- * there is no direction. */
+/* Direction of the branch at the present point, of length 1, on the side of the last one. Across a sharp fold that side
+ * is the way back; the determinant of the stiffness decides, eq. (10.2). => cosine of the angle by which it has turned;
+ * 0 if there is no direction. */
 static double find_direction(ZpBranch *b) {
   int negative = find_tangent(b);
   if (negative < 0) return 0;
@@ -92,7 +92,7 @@ static bool refresh(const ZpStaticSystem *rest) {
   return !rest->refresh || rest->refresh(rest->self) == ZP_END_FOUND;
 }
 
-/* How far the point in b->q has gone along the direction from q_start, m_start. */
+/* Arc length of the point in b->q along the direction from q_start, m_start. */
 static double arc_length(const ZpBranch *b, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpParts *parts = &sys->at_rest.parts;
@@ -103,8 +103,8 @@ static double arc_length(const ZpBranch *b, double m_start) {
   return gone + common / sys->q_scale;
 }
 
-/* Corrections that go to and fro over a corner at which the branch turns by more than a right angle, so that there is
- * no solution at that arc length: det(K, -dr/dm; t) has another sign on the other side. */
+/* Corrections that alternate between the two sides of a corner at which the branch turns by more than a right angle.
+ * There is then no solution at that arc length: det(K, -dr/dm; t) has opposite signs on the two sides. */
 typedef struct Sides {
   bool first, last; /* is it negative? at the first correction, at the last */
   bool both;        /* it was either */
@@ -117,7 +117,7 @@ static void look_at_side(Sides *sides, bool negative, int corrections) {
 }
 
 /* Correct the present point onto the branch at arc length `s` from q_start, m_start. => corrections, the most between
- * two refreshes; -1: failed. If that is for a corner, the present point is beyond it. */
+ * two refreshes; -1: failed. If a corner is the reason, the present point is beyond it. */
 static int correct(ZpBranch *b, double s, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -188,8 +188,8 @@ static int try_step(ZpBranch *b, double s) {
   return predict(b, s) ? correct(b, s, m_start) : -1;
 }
 
-/* Has m turned twice on a step by s from m_start, along which `before` was its direction? Both ends go the same way
- * then, and a cubic through them goes the other way in the middle. */
+/* Has m turned twice on a step by s from m_start, where `before` was its direction? Then m has the same direction at
+ * both ends, and a cubic through them the opposite one in the middle. */
 static bool turned_twice(const ZpBranch *b, double s, double m_start, double before) {
   double after = b->direction_m, gone = (b->system->get(b->system->at_rest.self) - m_start) / b->system->m_scale;
   double middle = 1.5 * gone / s - 0.25 * (before + after);
@@ -204,7 +204,7 @@ static void go_back(ZpBranch *b, double direction_m) {
   b->direction_m = direction_m;
 }
 
-/* The tangent at the present point => direction, on the side that eq. (10.2) says. => cosine of the angle by which it
+/* The tangent at the present point => direction, on the side that eq. (10.2) gives. => cosine of the angle by which it
  * has turned; 2: there is no tangent. */
 static double face_on(ZpBranch *b) {
   int negative = find_tangent(b);
@@ -214,7 +214,7 @@ static double face_on(ZpBranch *b) {
   return zp_static_dot(&b->system->at_rest, b->direction, b->direction_saved) + b->direction_m * before;
 }
 
-/* A step of length `s`, then one four times as long, over a corner; direction_m was `m` before it. */
+/* A step of length `s` over a corner, then one four times as long; direction_m was `m` before it. */
 static bool step_over(ZpBranch *b, double m, double s) {
   go_back(b, m);
   if (!predict(b, s)) return false;
@@ -229,9 +229,9 @@ static bool step_over(ZpBranch *b, double m, double s) {
   return true;
 }
 
-/* Over a corner, where the stiffness jumps and the branch turns by any angle: not further ahead than `ahead`, or no
- * step would have failed. Eq. (10.2) holds across it, so the tangent beyond it says where the branch goes on. Where
- * the branch meets the corner at a grazing angle, corrections find what is beyond. */
+/* Pass a corner, where the stiffness jumps and the branch turns by any angle. It is at most `ahead` away, because
+ * otherwise no step would have failed. Eq. (10.2) holds across it, so the tangent beyond it shows where the branch
+ * continues. If the branch meets the corner at a grazing angle, corrections find the other side. */
 static bool turn_corner(ZpBranch *b, double ahead) {
   static const double farthest = 1e-4;
   double m = b->direction_m, s = ahead;

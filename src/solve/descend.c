@@ -1,4 +1,4 @@
-/* Letters: K stiffness, r forces left, c resistance per coordinate. */
+/* Letters: K stiffness, r residual forces, c resistance per coordinate. */
 #include "solve/descend.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@ static double largest_diagonal(const ZpBand *K) {
   return largest;
 }
 
-/* K + c, factored, with a c that makes it positive, which it is without if *c comes to 0. => false if none does */
+/* K + c, factored, with a c that makes it positive definite. *c becomes 0 if K alone is so. => false if no c is
+ * enough */
 static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewtonWork *work) {
   for (int k = 0; k < 100; k++) {
     system->stiffness(system->self, &work->K, NULL);

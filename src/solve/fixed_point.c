@@ -1,4 +1,5 @@
-/* Letters: r = G(x) - x; R the differences of r between pairs, as columns; g what of them makes r least, |r - R g|. */
+/* Letters: r = G(x) - x; R the differences of r between pairs, as columns; g their coefficients for which |r - R g| is
+ * least. */
 #include "solve/fixed_point.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 #include "math/vector.h"
 
 enum { DEPTH = ZP_FIXED_POINT_DEPTH };
-static const double dependent = 1e-10; /* what is left of a column, as a share of it, that is rounding */
+static const double dependent = 1e-10; /* share of a column whose remainder is rounding */
 
 void zp_fixed_point_carve(ZpFixedPoint *f, size_t n, ZpCarver *carver) {
   f->n = n;
@@ -31,7 +32,7 @@ static void subtract(size_t n, double share, const double *b, double *a) {
     a[i] -= share * b[i];
 }
 
-/* The newest differences, in the place of the oldest. */
+/* Put the newest differences in the place of the oldest. */
 static void remember(ZpFixedPoint *f, const double *x, const double *mapped) {
   if (f->pairs >= 0) {
     double *moved = f->moved[DEPTH - 1], *changed = f->changed[DEPTH - 1];
@@ -50,7 +51,7 @@ static void remember(ZpFixedPoint *f, const double *x, const double *mapped) {
     f->left[i] = mapped[i] - x[i];
 }
 
-/* R = Q T by Gram and Schmidt, twice; column k as far as it is independent of those before. False if it is not. */
+/* R = Q T by Gram and Schmidt, twice; column k is made orthogonal to those before. False if it depends on them. */
 static bool orthogonal(ZpFixedPoint *f, int k, double T[DEPTH][DEPTH]) {
   double *q = f->q[k], size = sqrt(zp_dot(f->n, f->changed[k], f->changed[k]));
   memcpy(q, f->changed[k], f->n * sizeof *q);

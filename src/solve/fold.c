@@ -43,7 +43,7 @@ void zp_fold_guess(ZpFold *f) {
 
 /* -- the test function ----------------------------------------------------------------------------- */
 
-/* => g, x; the negative eigenvalues of what is across c. */
+/* => g, x; the negative eigenvalues in the space orthogonal to c. */
 static void test(ZpFold *f) {
   size_t n = f->system->at_rest.n;
   memcpy(f->x, f->null, n * sizeof *f->x);
@@ -54,8 +54,8 @@ static void test(ZpFold *f) {
   f->negative--;
 }
 
-/* At h x from the present point => the stiffness times the steps (a, dm_a) and (along, dm_n), what dm does to it
- * included: K_m x = -d(dr/dm)/dx. The present point stays; its forces are to be found again. */
+/* At h x from the present point => the stiffness times the steps (a, dm_a) and (along, dm_n), with the effect of dm on
+ * it: K_m x = -d(dr/dm)/dx. The present point does not change, but its forces must be computed again. */
 static void beside(ZpFold *f, double h, double dm_a, double dm_n, double *by_a, double *by_n) {
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -83,9 +83,10 @@ static double change_of_test(ZpFold *f, double *y) {
 }
 
 /* Derivatives of g along the steps (a, dm_a) and (along, dm_n). Since (dK/dd) x = (dK/dx) d, one central difference
- * along x serves both: its even part is that of edges which turn, a million times stiffer than what bends. */
+ * along x serves both. It removes the even part, which comes from the rotation of edges and is a million times stiffer
+ * than bending. */
 static void changes_of_test(ZpFold *f, double dm_a, double dm_n, double *g_a, double *g_n) {
-  static const double small = 2e-6; /* of what linearisation stands: 1 urad, far below the contact depth */
+  static const double small = 2e-6; /* of the range of linearisation: 1 urad, far below the contact depth */
   const ZpStaticSystem *rest = &f->system->at_rest;
   double h = small / rest->length(rest->self, f->x), over = 1 / (2 * h);
   beside(f, h, dm_a, dm_n, f->by_a, f->by_n);
@@ -121,8 +122,8 @@ static void balance(ZpFold *f) {
   zp_band_solve(&f->newton->K, f->a);
 }
 
-/* The step that keeps the equilibrium and the part along c => a, its dm; the one along the null vector => along, its
- * dm. Both are bounded where K is singular. */
+/* The step that keeps the equilibrium and the component along c => a, its dm; the one along the null vector => along,
+ * its dm. Both are bounded where K is singular. */
 static void split_step(ZpFold *f, double *dm_a, double *dm_n) {
   size_t n = f->system->at_rest.n;
   double cx = -1 / f->test, left = zp_dot(n, f->null, f->a) / cx, by_m = zp_dot(n, f->null, f->along) / cx;
@@ -181,16 +182,16 @@ static bool step_to(ZpFold *f, const Goal *goal) {
   return goal->kind == TO_EVENT ? step_to_event(f, goal->event, goal->wanted) : step_to_rest(f);
 }
 
-/* Was the last step so small that the point is what was asked for? What the next step would change, as the last two
- * foretell, is below it. The last step to a limit point is where the test function falls to 0, not where the stiffness
- * along the null vector is least, close to 0. At rest under a given parameter m says nothing: there the step itself is
- * small, and what it began with in balance. */
+/* Was the last step so small that the point is accurate enough? The change by the next step, extrapolated from the last
+ * two, is below the accuracy. For a limit point the last step is the one to where the test function is 0, not to where
+ * the stiffness along the null vector, close to 0, is least. For an equilibrium under a given parameter m says nothing:
+ * the step itself is small, and its start was in balance. */
 static bool is_there(const ZpFold *f, const Goal *goal, double change_before, double test_before) {
   static const double exact = 1e-9, falls = 0.3, moved = 100, left = 1e-3;
   if (goal->kind == TO_REST) return f->moved < moved && f->left < left && !isinf(change_before);
   if (goal->to == ZP_FOLD_ROUGH) return f->moved < moved && !isinf(change_before);
   double rate = isinf(change_before) ? 1 : fmin(f->change / change_before, 1);
-  bool still = f->change < exact && change_before < exact; /* it began there: what is left is rounding */
+  bool still = f->change < exact && change_before < exact; /* it began there: the rest is rounding */
   bool fallen = goal->kind != TO_FOLD || still || fabs(f->test) < falls * fabs(test_before);
   return f->change * rate < exact && fallen;
 }
@@ -224,7 +225,7 @@ bool zp_fold_event(ZpFold *f, ZpEvent event, double value, ZpFoldTo to) {
 }
 
 ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *m) {
-  static const double near = 1e3; /* times the accuracy that is asked for: what is left is squared */
+  static const double near = 1e3; /* times the required accuracy: the remaining error is squared */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   if (!zp_fold_tangent(f)) return ZP_PASS_LOST;

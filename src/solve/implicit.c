@@ -9,12 +9,12 @@
 
 static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
-static const double newton_share = 1e-4;   /* of the accuracy: what the iteration may leave */
-static const double rounding_share = 1e-2; /* what it leaves at most where rounding stops it */
+static const double newton_share = 1e-4;   /* of the accuracy: the largest error that the iteration may leave */
+static const double rounding_share = 1e-2; /* the largest if rounding stops it */
 static const double fast_share = 0.1; /* of the work that a linear rate foresees: convergence is mostly quadratic, but
                                        * not of a film, whose tangent leaves out convection */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
-static const double start_growth = 4, far_below = 1e-3; /* where the error is far below what is allowed, as at first */
+static const double start_growth = 4, far_below = 1e-3; /* where the error is far below the limit, as at first */
 enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
 
 void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
@@ -48,7 +48,7 @@ static double rms(const ZpImplicitSystem *system, const double *x, size_t counte
   return counted > 0 ? sqrt(sum / zp_parts_unknowns(parts, counted)) : 0;
 }
 
-/* Of the first part: what comes after it is as large, but may count from another origin. */
+/* Largest unknown of the first part, in its scale: later parts are of equal size, but may count from another origin. */
 static double largest(const ZpImplicitSystem *system, const double *x) {
   const ZpParts *parts = &system->parts;
   size_t first_part = (system->n + parts->more * parts->count) / (1 + parts->more);
@@ -58,8 +58,8 @@ static double largest(const ZpImplicitSystem *system, const double *x) {
   return most;
 }
 
-/* As if all moved on as in the last step: its mean velocity has none of the fast modes that v alternates with.
- * Algebraic unknowns have no rate: they are guessed as they were. */
+/* A first guess: all unknowns change as in the last step, whose mean velocity has none of the fast modes with which v
+ * alternates. Algebraic unknowns have no rate: their guess is the last value. */
 static void predict(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
   const double *w = history->last > 0 ? history->w : v;
   for (size_t i = 0; i < s->system->n; i++)
@@ -82,12 +82,12 @@ static double algebraic_work(const ZpImplicit *s, const double *q) {
   return work;
 }
 
-/* Work of an unknown that has `moved`, its position rounded. */
+/* Work on an unknown that has `moved`, by the rounding of its position. */
 static double rounded_work(const ZpImplicit *s, size_t i, double stiffness, double moved) {
   return stiffness * (s->reach * scale_of(s->system, i)) * moved;
 }
 
-/* The same of all, from the sum of their squares. Like parts are rounded alike: their works add up. */
+/* The same for all unknowns, from the sum of their squares. Equal parts are rounded alike, so their works add up. */
 static double rounding_of(ZpImplicit *s, const double *q, double squares) {
   const ZpParts *parts = &s->system->parts;
   double all = (double)(1 + parts->more);
@@ -128,9 +128,9 @@ static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v
   return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
-/* Is the end found, a correction of `size` (in units of the accuracy) having followed one of `before`, 0 of the first?
- * What is left, of the distance and of the imbalance, is foreseen from both. Far below the accuracy a distance that
- * does not shrink any more is rounding, but only where energy balances: while faces meet it shrinks as slowly. */
+/* Has the end been found, if a correction of `size` (in units of the accuracy) followed one of `before`, 0 for the
+ * first? Both give an estimate of the remaining distance and imbalance. Far below the accuracy, a distance that no
+ * longer shrinks is rounding, but only if energy balances: while faces meet, it shrinks as slowly. */
 static bool is_found(double size, double before, Imbalance imbalance) {
   if (before == 0) return size == 0;
   double rate = size / before, left = rate < 0.5 ? 2 * rate : 1, foreseen = rate < 0.5 ? fast_share * left : 1;
@@ -174,9 +174,10 @@ static void add_inertia(ZpImplicit *s, double a, const double *x, double *f) {
   s->system->inertia(s->system->self, s->x, f);
 }
 
-/* From the change of acceleration since the last step => s->r; what is too fast for the step is filtered out of it by
- * the iteration's matrix. Inertia beyond the masses may be an upper bound, as that of a thin film, whose errors are to
- * count for more than their length, and far above what the matrix has: then the filter adds, but not without end. */
+/* Local error from the change of acceleration since the last step => s->r. The iteration's matrix filters motion too
+ * fast for the step. Inertia beyond the masses may be an upper bound, such as that of a thin film, whose errors should
+ * count for more than their length. If it is far above that of the matrix, the filter amplifies, so its effect is
+ * limited. */
 static void filtered_error(ZpImplicit *s, double h, const double *q, const double *v,
                            const ZpImplicitHistory *history) {
   static const double most_added = 10; /* times what is not filtered */
@@ -194,15 +195,15 @@ static void filtered_error(ZpImplicit *s, double h, const double *q, const doubl
   }
 }
 
-/* Of an unknown of first order: the change of its mean rate since the last step, over the time between their middles.
- */
+/* Second derivative of an unknown of first order: the change of its mean rate since the last step, over the time
+ * between their middles. */
 static double rate_change(double h, double w, size_t i, const ZpImplicitHistory *history) {
   return history->last > 0 ? 2 * (w - history->w[i]) / (h + history->last) : 0;
 }
 
 /* An unknown of first order has the error (18.9), from three steps, of which the first two count as equal; in a first
- * step, that of a decay by its scale. It is not filtered: what decays faster than a step changes its sign in each, and
- * is followed until it is gone. */
+ * step, that of a decay by its scale. It is not filtered: a decay faster than a step changes its sign in each step, and
+ * is resolved until it is complete. */
 static double first_order_error(const ZpImplicit *s, double h, double moved, size_t i,
                                 const ZpImplicitHistory *history) {
   double scale = scale_of(s->system, i), share = moved / scale, change = rate_change(h, moved / h, i, history);
@@ -210,7 +211,7 @@ static double first_order_error(const ZpImplicit *s, double h, double moved, siz
   return h * h * h / 3 * (change - history->a[i]) / (h + 3 * history->last);
 }
 
-/* Local error over the accuracy asked for. Algebraic unknowns follow from the others. */
+/* Local error relative to the required accuracy. Algebraic unknowns follow from the others. */
 static double local_error(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
   const ZpImplicitSystem *system = s->system;
   size_t counted = system->n;
@@ -253,7 +254,7 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
   s->counts.steps++;
 }
 
-/* The inertia beyond `mass` counts, too, or not. */
+/* Switch the inertia beyond `mass` on or off. */
 static void smooth(ZpImplicit *s, double h, bool all, int power, double *v) {
   size_t n = s->system->n;
   double *fast = s->r, *slow = s->q;
@@ -289,7 +290,7 @@ static void begin(ZpImplicit *s, const double *q, const double *v) {
 
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
   double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
-  bool cut = longest < try * (1 + 1e-6); /* a rest that is rounding only would be too short to be taken */
+  bool cut = longest < try * (1 + 1e-6); /* a remainder that is only rounding would be too short a step */
   begin(s, q, v);
   s->end = ZP_END_SHORTER;
   for (double h = cut ? longest : try; h >= shortest_step;) {
@@ -314,29 +315,29 @@ double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpI
     accept(s, h, q, v, history);
     const bool starts = error < far_below;
     double ease = iterations <= EASY ? (starts ? start_growth : fastest_growth) : iterations <= HARD ? 1 : 0.8;
-    if (growth > 1 && !starts) growth = sqrt(growth); /* all of it makes lengths swing about their mean */
+    if (growth > 1 && !starts) growth = sqrt(growth); /* with the full factor lengths would oscillate */
     if (!cut || growth < 1) history->next = h * fmin(growth, ease);
     return h;
   }
   return 0;
 }
 
-/* -- steps near one that is known ------------------------------------------------------------------ */
+/* -- steps of neighbouring systems ----------------------------------------------------------------- */
 
-/* A pass leaves what the factored matrix lacks of the exact tangent, mostly a hundredth; rounding of positions ends
- * it. */
+/* A pass leaves the part that the factored matrix lacks of the exact tangent, mostly a hundredth. Rounding of positions
+ * ends the passes. */
 static const double passed = 1e-11, most_left = 1e-6;
 
-/* What follows from positions and rates is differentiated by its formula, eqs. (20.8) and (20.9): as a difference it
- * would have the rounding of positions over the step. Letters: d is the derivative by the number. */
+/* Quantities that follow from positions and rates are differentiated by their formulas, eqs. (20.8) and (20.9): as a
+ * difference they would have the rounding of positions over the step. Letters: d is the derivative by the number. */
 typedef struct Rates {
   size_t n;
   double h, dh;            /* s */
-  double *dq, *dv, *dmass; /* [n] where the step begins, and of the masses */
+  double *dq, *dv, *dmass; /* [n] at the start of the step, and of the masses */
   double *dq1;             /* [n] and where it ends */
 } Rates;
 
-/* Quotient of what the near steps have: that of a number that is the same is exactly 0. */
+/* Difference quotient over the neighbouring steps; for equal numbers it is exactly 0. */
 static double quotient(const ZpNearSteps *steps, const double *(*of)(const ZpNearStep *near), size_t i) {
   double sum = 0, first = of(&steps->near[0])[i];
   for (int k = 1; k < steps->count; k++)
@@ -364,7 +365,7 @@ static const double *length(const ZpNearStep *near) {
   return &near->h;
 }
 
-/* Where the steps begin; ends are guessed as if all went on as in the last step. */
+/* The starts of the steps; ends are guessed as if all changed as in the last step. */
 static Rates start(const ZpNearSteps *steps, double *rate) {
   size_t n = steps->near[0].stepper->system->n;
   double *work = steps->work + n;
@@ -390,7 +391,7 @@ static Rates start(const ZpNearSteps *steps, double *rate) {
   return r;
 }
 
-/* Of the inertia 2 m (w - v0) / h = m a over the step. */
+/* Derivative of the inertia 2 m (w - v0) / h = m a over the step. */
 static double rate_of_inertia(const ZpNearSteps *steps, const Rates *r, size_t i) {
   const ZpImplicitHistory *lead = steps->lead;
   double m = mass_of(&steps->near[0])[i], a = lead->a[i], v = lead->w[i] - 0.5 * r->h * a;
@@ -398,7 +399,7 @@ static double rate_of_inertia(const ZpNearSteps *steps, const Rates *r, size_t i
   return (r->dmass[i] - 2 * m * r->dh / r->h) * a + 2 * m / (r->h * r->h) * late;
 }
 
-/* All ends where the rate leads them to, and the derivative of what is left there => left. */
+/* Move all ends along the rate, and differentiate the residual there => left. */
 static bool look(const ZpNearSteps *steps, const Rates *r, double *left) {
   memset(left, 0, r->n * sizeof *left);
   for (int k = 0; k < steps->count; k++) {
@@ -420,7 +421,7 @@ static bool factor(const ZpNearStep *near) {
   return linearise(near->stepper, near->h, near->q, near->v, &unused) == ZP_END_FOUND;
 }
 
-/* Size of a rate of what a step hands on: algebraic unknowns have no memory. */
+/* Size of a rate, of the unknowns that the next step depends on: algebraic unknowns have no memory. */
 static double size_of(const ZpImplicitSystem *system, const double *x) {
   double sum = 0;
   for (size_t i = 0; i < system->n; i++) {
@@ -430,8 +431,8 @@ static double size_of(const ZpImplicitSystem *system, const double *x) {
   return sqrt(sum / (double)system->n);
 }
 
-/* How much of the last pass a new one takes back, so that of the corrections of both least is left. A Jacobian that
- * lacks much, as of faces that land under tension, makes them shrink slowly or turn round. */
+/* Share of the last pass that a new pass takes back, such that the combined correction is least. With a Jacobian that
+ * lacks much, as where faces land under tension, corrections shrink slowly or alternate. */
 static double taken_back(const ZpImplicitSystem *system, const double *left, const double *before) {
   double along = 0, square = 0;
   for (size_t i = 0; i < system->n; i++) {
@@ -443,7 +444,7 @@ static double taken_back(const ZpImplicitSystem *system, const double *left, con
   return square > 0 ? along / square : 0;
 }
 
-/* One pass that leaves a correction: the rate moves by it and by what the pass before has shown of it. */
+/* One pass that leaves a correction: the rate changes by it and by what the previous pass has shown of it. */
 static void correct(const ZpNearSteps *steps, const Rates *r, bool first) {
   double *left = steps->work, *before = left + 4 * r->n, *moved = left + 5 * r->n;
   double share = first ? 0 : taken_back(steps->near[0].stepper->system, left, before);
@@ -455,7 +456,7 @@ static void correct(const ZpNearSteps *steps, const Rates *r, bool first) {
   }
 }
 
-/* By passes with the factored Jacobian of one of them: what it lacks of the exact tangent the next pass sees. */
+/* Passes with the factored Jacobian of one of the steps: the next pass corrects what it lacks of the exact tangent. */
 static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   enum { MOST_PASSES = 40 };
   ZpImplicit *s = steps->near[0].stepper;
@@ -472,7 +473,7 @@ static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   return false;
 }
 
-/* The end of a near step, of which the residual was found last. */
+/* The end of the neighbouring step whose residual was found last. */
 static void accept_near(const ZpNearSteps *steps, const Rates *r, const ZpNearStep *near) {
   const ZpImplicitHistory *lead = steps->lead;
   accept(near->stepper, near->h, near->q, near->v, near->history);

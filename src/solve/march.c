@@ -5,7 +5,7 @@
 
 #include "math/vector.h"
 
-static const double little = 5e-3; /* of the scale of q: what is too little to matter */
+static const double little = 5e-3; /* of the scale of q: a smaller motion does not matter */
 
 void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
                     ZpCarver *carver) {
@@ -30,8 +30,7 @@ static bool is_stable(ZpMarch *m) {
   return zp_fold_tangent(&m->fold) && m->fold.negative == 0;
 }
 
-/* The present point is good: remember it, and how far it is from there to a limit point. `first`: there is none before
- * it. */
+/* The present point is good: store it, and its distance from a limit point. `first`: there is none before it. */
 static void keep(ZpMarch *m, bool first) {
   const ZpBranchSystem *sys = m->fold.system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -56,7 +55,8 @@ static void go_back(ZpMarch *m) {
   rest->residual(rest->self, m->fold.newton->r, NULL);
 }
 
-/* From the last good point by `way` along its tangent, to parameter m.m + dm. False if that is too far. */
+/* From the last good point by `way` along its tangent, to parameter m.m + dm. False if that is too far for a
+ * tangent. */
 static bool predict(ZpMarch *m, double way, double dm) {
   static const double farthest = 0.6; /* of what linearisation stands */
   const ZpBranchSystem *sys = m->fold.system;
@@ -69,8 +69,8 @@ static bool predict(ZpMarch *m, double way, double dm) {
   return true;
 }
 
-/* Is the present point, which the branch must have come to from the last good one, where its tangents lead: `from`
- * times that of the last good point and `to` times its own? A jump to another branch is not. */
+/* Is the present point where the tangents from the last good point lead: `from` times the tangent there and `to` times
+ * its own? After a jump to another branch it is not. */
 static bool agrees(ZpMarch *m, double from, double to) {
   static const double part = 0.25; /* of what moved */
   const ZpBranchSystem *sys = m->fold.system;
@@ -85,7 +85,7 @@ static bool agrees(ZpMarch *m, double from, double to) {
   return sqrt(off) <= fmax(part * sqrt(all), little * sys->q_scale);
 }
 
-/* Does the value of the event change as its slopes at both ends say? It tells a jump which hardly moves the rest. */
+/* Does the value of the event change as its slopes at both ends say? This detects a jump that hardly moves the rest. */
 static bool value_agrees(ZpMarch *m, double dm) {
   static const double part = 0.25, least = 1e-3; /* of its change; of its limit */
   if (!m->event) return true;
@@ -94,9 +94,9 @@ static bool value_agrees(ZpMarch *m, double dm) {
   return fabs(change - 0.5 * dm * (m->slope + slope)) <= fmax(part * fabs(change), least * fabs(m->limit));
 }
 
-/* -- what may be ahead ------------------------------------------------------------------------------ */
+/* -- the limit point ahead -------------------------------------------------------------------------- */
 
-/* Solve for the limit point, which is `far` away, from the last good one. */
+/* Solve for the limit point at the distance `far` from the last good one. */
 static bool try_fold(ZpMarch *m, double sign, double far) {
   static const double part = 0.3;
   if (!predict(m, 2 * sign * far, sign * far)) return false;
@@ -107,14 +107,14 @@ static bool try_fold(ZpMarch *m, double sign, double far) {
   return found > 0 && fabs(found - far) < part * far && agrees(m, 2 * sign * found, 0);
 }
 
-/* From near to the equilibrium at the present parameter. Is it stable? */
+/* Converge from nearby to the equilibrium at the present parameter. Is it stable? */
 static bool polish(ZpMarch *m) {
   enum { MOST = 12 };
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   return zp_newton_good(zp_newton(rest, m->fold.tolerance, MOST, m->fold.newton).end) && is_stable(m);
 }
 
-/* The same as near as a step on the way needs it. */
+/* The same, as accurate as a step on the way needs it. */
 static bool settle(ZpMarch *m) {
   return m->to == ZP_FOLD_EXACT ? polish(m) : zp_fold_rest(&m->fold) && m->fold.negative == 0;
 }
@@ -131,7 +131,7 @@ static double scale(const ZpMarch *m) {
   return fmax(fabs(m->value), 1e-3 * fabs(m->limit));
 }
 
-/* Does the value change faster than the parameter, relative? */
+/* Does the value change faster than the parameter, relative to both? */
 static bool is_steep(const ZpMarch *m) {
   return m->event && fabs(m->slope * m->m) > scale(m);
 }
@@ -146,15 +146,15 @@ static double turn_of(ZpMarch *m) {
   return 1 / zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
 }
 
-/* Where the branch is as it was at the last good point, and not behind it: stable, m going the same way. */
+/* Is the branch as at the last good point, and not behind it: stable, with m in the same direction? */
 static bool is_before_fold(ZpMarch *m, double sign) {
   static const double rounding = 1e-10; /* of m, which is flat at a limit point */
   bool behind = sign * (parameter(m) - m->m) < -rounding * fabs(m->m);
   return !behind && is_stable(m) && turn_of(m) * m->slope > 0;
 }
 
-/* Halve the way to a limit point that lies between the last good point and `value`: a corner, where the stiffness
- * jumps. The last good point is then as near to it as counts. */
+/* Halve the distance to a limit point between the last good point and `value`. It is a corner, where the stiffness
+ * jumps. The last good point is then accurate enough. */
 static bool halve(ZpMarch *m, double sign, double value) {
   enum { MOST = 60 };
   static const double enough = 1e-10;
@@ -171,7 +171,8 @@ static bool halve(ZpMarch *m, double sign, double value) {
   return isfinite(before);
 }
 
-/* The same if it is smooth, to be solved as such from where the branch turns by the tangents at both ends. */
+/* The same if the limit point is smooth: solve it as such, starting where the tangents at both ends make the branch
+ * turn. */
 static bool solve_between(ZpMarch *m, double sign, double value) {
   double here = 1 / m->slope, there = turn_of(m), at = m->value + (value - m->value) * here / (here - there);
   if (!(here * there < 0)) return false;
@@ -199,7 +200,7 @@ typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
 
 /* One step along the value of the event, which changes to `value`. */
 static Step step_along_value(ZpMarch *m, double sign, double value) {
-  static const double off = 0.25;  /* of what m has changed by: more, and it has turned twice on the way */
+  static const double off = 0.25;  /* of the change of m: with more, it has turned twice on the way */
   static const double tiny = 1e-6; /* of m: less does not matter, and where the stiffness jumps no step agrees */
   double far = (value - m->value) / m->slope;
   if (!predict(m, far, far) || !solve_at(m, value, value == m->limit ? ZP_FOLD_EXACT : m->to)) return STEP_TOO_LONG;
@@ -213,7 +214,7 @@ static Step step_along_value(ZpMarch *m, double sign, double value) {
   return value == m->limit ? STEP_EVENT : STEP_GOOD;
 }
 
-/* The value that a step along it goes to: `part` of a factor of 3, not past the limit. */
+/* The value to which a step along it goes: `part` of a factor of 3, not past the limit. */
 static double next_value(const ZpMarch *m, double sign, double part) {
   static const double turn = 0.05;
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
@@ -224,7 +225,7 @@ static double next_value(const ZpMarch *m, double sign, double part) {
 
 /* -- the way --------------------------------------------------------------------------------------- */
 
-/* A step along m as long as it may be; what it turns by has `grown` while steps were good. */
+/* The longest allowed step along m; its rotation has `grown` while steps were good. */
 static double longest_step(ZpMarch *m, double target, double grown) {
   static const double part = 0.7, turn = 0.03, most = 0.75; /* of the way; of what linearisation stands; towards 0 */
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
@@ -245,7 +246,7 @@ static bool is_past(const ZpMarch *m, double before) {
   return m->event && (before - m->limit) * (m->event(m->fold.system->at_rest.self, m->guess) - m->limit) < 0;
 }
 
-/* One step along m, of at most `part` of what is thought best. */
+/* One step along m, of at most `part` of the best estimate. */
 static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
   static const double close = 0.35; /* of m at the limit point */
   double left = sign * (target - m->m);
@@ -261,8 +262,8 @@ static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
   return step_along_value(m, sign, m->limit);
 }
 
-/* No step was short enough: is the last good point as near as counts to a corner, where the stiffness jumps and beyond
- * which there is no stable state? The limit point there is none of those that can be solved as such. */
+/* No step was short enough: is the last good point, within the accuracy, a corner, where the stiffness jumps and beyond
+ * which there is no stable state? The limit point there cannot be solved as a smooth one. */
 static bool is_at_corner(ZpMarch *m, double sign) {
   enum { MOST = 200 };
   static const double first = 1e-4, enough = 1e-10; /* of m */
@@ -296,7 +297,7 @@ static ZpMarchEnd march(ZpMarch *m, double target) {
     if (beyond) {
       go_back(m);
       if (try_step(m, target - m->m, target - m->m)) return polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
-      step = STEP_TOO_LONG; /* the branch bends before it comes there */
+      step = STEP_TOO_LONG; /* the branch bends before it gets there */
     }
     if (step == STEP_FOLD) return ZP_MARCH_FOLD;
     if (step == STEP_EVENT) return ZP_MARCH_EVENT;

@@ -5,7 +5,7 @@
 
 #include "system/system.h"
 
-/* Has any gap, with what stands for its insulators, changed by more than this share since the last refresh? */
+/* Has any gap, insulators included, changed by more than this share since the last refresh? */
 static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
   const double *y = state->data + model->stride, *then = state->data + 7 * model->stride;
   for (size_t i = 0; i < model->nodes; i++) {
@@ -15,7 +15,7 @@ static bool gaps_changed(const ZpModel *model, const ZpState *state, double shar
   return false;
 }
 
-/* A gap with its insulators stands for no less than where breakdown sets in: has that changed as much? */
+/* A gap with its insulators counts at least as the one where breakdown sets in: has this changed as much? */
 static bool cap_changed(const ZpModel *model, const ZpState *state, double share) {
   double d = model->plates.d, before = fmax(d, zp_plates_least_h(&model->plates, state->held_U));
   return fabs(fmax(d, zp_plates_least_h(&model->plates, state->U)) - before) > share * before;
