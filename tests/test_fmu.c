@@ -643,8 +643,8 @@ START_TEST(resets) {
 }
 END_TEST
 
-/* A thousand instances at once, twice: each computes the same, and what they took is given back: the least block lost in
- * each would be 32 kB. */
+/* A thousand instances at once, twice: each computes the same, and what they took is given back: the least block lost
+ * in each would be 32 kB. */
 START_TEST(instances) {
   enum { MOST = 1000 };
   const int count = FULL_OR(MOST, 100);
