@@ -41,6 +41,9 @@ typedef struct ZpKeyGroup {
         (int)(offsetof(ZpKeyNumbers, group) + sizeof(((ZpKeyNumbers *)0)->group))                                      \
   }
 
+/* Word distance of a name from a key, or from the last part of the key plus 1, whichever is less. */
+int zp_key_distance(const char *name, const char *key);
+
 /* (name of a choice key, number of a word) => that word. */
 const char *zp_word_of(const char *key, int choice);
 

@@ -174,14 +174,17 @@ static const char *first_of_group(const char *name) {
   return first ? first : first_with(name, "");
 }
 
+int zp_key_distance(const char *name, const char *key) {
+  const char *dot = strrchr(key, '.');
+  int whole = zp_word_distance(name, key), last = dot ? zp_word_distance(name, dot + 1) + 1 : whole;
+  return whole < last ? whole : last;
+}
+
 const char *zp_key_nearest(const char *name) {
   const char *nearest = keys[0].name;
   int least = 1000;
   for (int i = 0; i < KEY_COUNT; i++) {
-    const char *dot = strrchr(keys[i].name, '.');
-    int whole = zp_word_distance(name, keys[i].name);
-    int last = dot ? zp_word_distance(name, dot + 1) + 1 : whole;
-    int distance = whole < last ? whole : last;
+    int distance = zp_key_distance(name, keys[i].name);
     if (distance < least) {
       least = distance;
       nearest = keys[i].name;

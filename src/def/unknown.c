@@ -5,6 +5,8 @@
 
 #include <zipact/def.h>
 
+#include "def/check.h"
+
 /* How a part of the name, between points and underscores, begins; what that is; what to give instead. */
 typedef struct NotModelled {
   const char *begins, *what, *instead;
@@ -128,10 +130,8 @@ static bool same_group(const char *name, const char *key) {
 
 /* Is the name a misspelling of the key, or a part of it in the same group, as medium.viscosity? */
 static bool resembles(const char *name, const char *key) {
-  const int length = (int)strlen(name), whole = zp_word_distance(name, key);
-  const int last = zp_word_distance(name, last_part(key)) + 1, least = whole < last ? whole : last;
   const bool is_part = strchr(name, '.') && *last_part(name) && strstr(last_part(key), last_part(name));
-  return (is_part && same_group(name, key)) || 3 * least <= length;
+  return (is_part && same_group(name, key)) || 3 * zp_key_distance(name, key) <= (int)strlen(name);
 }
 
 /* The key of any group whose last part contains the name and is shortest, as ribbon.young_modulus for young; NULL if

@@ -13,13 +13,13 @@ class Half {
     this.half = half;
     this.x = half.x.map((of) => of.map((x) => to.x(x + place)));
     this.y = half.y.map((of) => of.map((y) => to.y(y)));
-    this.upward = [turned ? to.scale : -to.scale, turned ? -to.scale : to.scale]; // px per m outward, of ribbons 0 and 1
+    this.outward = [turned ? to.scale : -to.scale, turned ? -to.scale : to.scale]; // px down per m outward of ribbon 0 and 1
   }
 
   /** Path along ribbon r at a distance from its face, m, up to place `end`, a number of points with its fraction; the
    * other way round: backwards. */
   along(context, r, outward, backwards = false, end = this.x[r].length - 1) {
-    const shift = outward * this.upward[r], whole = Math.floor(end);
+    const shift = outward * this.outward[r], whole = Math.floor(end);
     const places = Array.from({length: whole + 1}, (_, i) => i);
     if (whole < end) places.push(end);
     if (backwards) places.reverse();

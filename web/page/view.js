@@ -165,12 +165,12 @@ export class View {
 
   #scene(frame) {
     const strongest = frame.get('medium.breakdown_field'), word = this.#liquidWord(frame);
-    const geometry = geometryOf(frame, word === 'bead'), [half] = geometry.focus.halves, {length, field, film, pressure} = half;
+    const geometry = geometryOf(frame, word === 'bead'), [{length, field, lineForce, film, pressure}] = geometry.focus.halves;
     Object.assign(this.#liquid, {length, film, pressure});
     $('of-liquid').hidden = word === 'none';
-    Object.assign(this.#profile, {length, field, force: half.lineForce, largest: strongest});
+    Object.assign(this.#profile, {length, field, force: lineForce, largest: strongest});
     return {
-      geometry, field,
+      geometry,
       texts: this.#texts(frame, geometry, word),
       opening: frame.get('opening'),
       mass: frame.get('load.mass'),
@@ -181,15 +181,15 @@ export class View {
     };
   }
 
-  #numbers(frame, {field, opening}) {
-    const {tiles: shown} = this;
+  #numbers(frame, {geometry, opening}) {
+    const {tiles: shown} = this, fields = geometry.members.flatMap(({halves}) => halves.map(({field}) => largest(field)));
     shown.show('voltage', fixed(frame.get('voltage') / 1e3, 2));
     shown.show('stroke', fixed(1e3 * frame.get('stroke'), 2));
     shown.show('opening', fixed(1e3 * opening, 2));
     shown.show('contraction', fixed(100 * frame.get('contraction'), 1));
     shown.show('zipped', fixed(1e3 * frame.get('zipped_length'), 1));
     shown.show('force', fixed(frame.get('force'), 2));
-    shown.show('field', fixed(largest(field) / 1e6, 1));
+    shown.show('field', fixed(largest(fields) / 1e6, 1));
     shown.show('inside', fixed(frame.get('insulator_field') / 1e6, 1));
     shown.show('bent', fixed(frame.get('max_stress') / 1e6, 0));
     shown.show('capacitance', fixed(1e12 * frame.get('capacitance'), 0));

@@ -149,6 +149,8 @@ test('side by side: equal ones are copies, unequal ones have their own strips; a
   assert.deepEqual([equal.members.length, equal.members[0].places.length, unequal.members.length], [1, 3, 3]);
   assert.deepEqual(unequal.members.map(({metal}) => metal[0]), [50e-6, 80e-6, 50e-6]);
   assert.deepEqual(equal.members[0].places, unequal.members.map(({places}) => places[0]));
+  const floors = geometryAt({...dry, 'stack.parallel': '2', 'stack.series': '2'}); // they were drawn side by side
+  floors.members.forEach(({places}) => assert.equal(places.length, 2));
   const fold = geometryAt({'actuator.kind': 'hinge', 'mesh.nodes': '21', 'lower.insulator.thickness': '50 um'}), [{halves, platforms, insulator}] = fold.members;
   assert.deepEqual([halves.length, platforms.length, halves[0].x[0].length], [1, 0, 21]);
   assert.deepEqual(insulator, [130e-6, 50e-6]);
