@@ -137,10 +137,21 @@ static void define_axes(const ZpPlot *plot, FILE *file) {
   zp_plot_define_word(file, "x_column", column);
 }
 
+/* Runs that have closed and are open at the end. */
+static size_t count_reopened(const ZpPlot *plot) {
+  size_t reopened = 0;
+  for (size_t run = 0; run < plot->report->count; run++)
+    reopened += has_number(plot, run, "zip_time_s") && !has_number(plot, run, "closed_from_s") &&
+                zp_table_get(plot->table, run, "contraction") < 0.99;
+  return reopened;
+}
+
 static void define_answer(const ZpAnswer *a, const ZpPlot *plot, FILE *file) {
-  char counted[96];
-  snprintf(counted, sizeof counted, "%zu of %zu runs %s", zp_plot_count(plot->table, a->scalar[0]), plot->report->count,
-           a->count);
+  char counted[128];
+  int size = snprintf(counted, sizeof counted, "%zu of %zu runs %s", zp_plot_count(plot->table, a->scalar[0]),
+                      plot->report->count, a->count);
+  size_t reopened = count_reopened(plot);
+  if (reopened > 0) snprintf(counted + size, sizeof counted - (size_t)size, ", %zu of them end open", reopened);
   zp_plot_define_text(file, "answer", a->title);
   zp_plot_define_text(file, "answers", counted);
   zp_plot_define_text(file, "quantity", a->axis);
