@@ -14,7 +14,7 @@ if (exists('answer')) {
 }
 lowest_value = value('lowest_'.scalar)
 highest_value = value('highest_'.scalar)
-if (exists('panels') && panels > |panel_at|) remark = remark.sprintf('; %d of %d panels', |panel_at|, panels)
+if (exists('left_out')) remark = remark.left_out
 right = 0.77
 if (motion) foot = note
 load 'style.gp'
@@ -23,7 +23,7 @@ factor = scale(size, si)
 x_label = label(x_name, x_unit)
 y_label = label(y_name, y_unit)
 set xlabel x_label
-set ylabel y_label offset 0.5
+set ylabel y_label offset -0.5
 set cblabel label(what, unit(size, si)) offset 0.5
 if (x_log) set logscale x
 if (y_log) set logscale y

@@ -801,8 +801,9 @@ START_TEST(axes_without_a_unit_say_so) {
 }
 END_TEST
 
-/* Of three keys the first has a style of line and the second a shade. Where curves are left out, not every value of the
- * first key has as many, and each curve has a shade of its own. Names have at most four digits. */
+/* Of three keys the first has a style of line and the second a shade. Where there are too many curves, each value that is
+ * drawn of one key is drawn with all that are drawn of the other, and the picture says how many are left out. Names have
+ * at most four digits. */
 START_TEST(shades_of_three_keys) {
   write_rest("s", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 12 mm, 14 mm]", "ribbon.thickness=20 um .. 200 um : 3 log",
@@ -813,7 +814,26 @@ START_TEST(shades_of_three_keys) {
   write_rest("t", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 11 mm, 12 mm, 14 mm]",
                                    "ribbon.thickness=20 um .. 200 um : 3 log", "load.mass=[8 g, 20 g]", NULL});
-  ck_assert(file_says("t/plots/strokes.gp", "\nalike = 10\n") && file_says("t/plots/strokes.gp", "array curve[10]\n"));
+  ck_assert(file_says("t/plots/strokes.gp", "\nalike = 3\n") && file_says("t/plots/strokes.gp", "array curve[9]\n"));
+  ck_assert(file_says("t/plots/strokes.svg", "; 9 of 12 curves are drawn<") ||
+            file_says("t/plots/strokes.svg", ">9 of 12 curves are drawn<"));
+  ck_assert(file_says("t/plots/strokes.svg", ">10 mm, 20 µm<") && file_says("t/plots/strokes.svg", ">14 mm, 200 µm<"));
+  ck_assert(!file_says("s/plots/strokes.svg", "curves are drawn"));
+}
+END_TEST
+
+/* Ten maps in one picture: none is left out, and all have contours of the same levels. */
+START_TEST(maps_have_one_scale) {
+  write_rest("m", "stationary",
+             (const char *const[]){"ribbon.length=80 mm .. 130 mm : 10", "ribbon.thickness=40 um .. 100 um : 3",
+                                   "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
+  ck_assert(file_says("m/plots/maps.gp", "array panel_at[10]\n") && file_says("m/plots/maps.svg", ">130 mm<"));
+  ck_assert(file_says("m/plots/maps.gp", "set cntrparam levels incremental"));
+  ck_assert(!file_says("m/plots/maps.svg", "panels<"));
+  write_rest("n", "stationary",
+             (const char *const[]){"ribbon.length=80 mm .. 130 mm : 20", "ribbon.thickness=40 um .. 100 um : 3",
+                                   "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
+  ck_assert(file_says("n/plots/maps.svg", "; 12 of 20 panels<"));
 }
 END_TEST
 
@@ -1353,6 +1373,7 @@ static Suite *suite_of_report(void) {
                                sweeps_of_rest,
                                design_chart,
                                shades_of_three_keys,
+                               maps_have_one_scale,
                                contour_label_on_the_edge_of_a_map_is_cut,
                                largest_loads_are_those_of_no_load,
                                small_print_of_a_map,
