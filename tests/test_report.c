@@ -1351,64 +1351,81 @@ START_TEST(only_one_process_has_a_folder) {
 }
 END_TEST
 
-static const TTest *const test[] = {numbers_are_short_and_exact,
-                                    numbers_read_back,
-                                    numbers_are_those_of_the_library,
-                                    single_run_has_all_files,
-                                    summary_of_a_run,
-                                    table_of_a_run,
-                                    hdf5_of_a_run,
-                                    vtk_frame_reads_back,
-                                    same_result_same_bytes,
-                                    table_of_a_sweep,
-                                    summary_of_a_sweep,
-                                    hdf5_of_a_sweep,
-                                    old_results_go_and_others_stay,
-                                    little_to_write,
-                                    interrupted_before_the_first_run,
-                                    kind_ribbon,
-                                    diverged,
-                                    files_of_rest,
-                                    sweeps_of_rest,
-                                    design_chart,
-                                    shades_of_three_keys,
-                                    maps_have_one_scale,
-                                    contour_label_on_the_edge_of_a_map_is_cut,
-                                    largest_loads_are_those_of_no_load,
-                                    small_print_of_a_map,
-                                    axes_without_a_unit_say_so,
-                                    legend_names_what_is_drawn,
-                                    distribution_with_indices,
-                                    axes_of_a_fit,
-                                    error_bars_of_a_fit,
-                                    rest_is_the_same_each_time,
-                                    field_of_a_profile,
-                                    field_of_equal_permittivities,
-                                    frequencies_are_an_array,
-                                    no_pull_in_is_null,
-                                    folder_that_cannot_be,
-                                    name_taken_by_a_folder,
-                                    summary_to_a_full_device,
-                                    full_disk,
-                                    no_gnuplot,
-                                    broken_gnuplot,
-                                    hanging_gnuplot_is_given_up,
-                                    after_a_hanging_gnuplot_no_other_is_started,
-                                    no_pictures_where_plots_are_off,
-                                    no_animation_unless_asked,
-                                    pictures_are_drawn_at_once,
-                                    numbers_come_before_pictures,
-                                    folder_of_another_run_is_refused,
-                                    what_a_killed_run_left_is_cleaned_up,
-                                    only_one_process_has_a_folder};
+static TCase *case_of(const char *name, const TTest *const *test, size_t count) {
+  TCase *part = tcase_create(name);
+  tcase_add_checked_fixture(part, set_up, tear_down);
+  for (size_t i = 0; i < count; i++)
+    tcase_add_test(part, test[i]);
+  return part;
+}
+
+static TCase *numbers_and_files(void) {
+  const TTest *const test[] = {numbers_are_short_and_exact,
+                               numbers_read_back,
+                               numbers_are_those_of_the_library,
+                               single_run_has_all_files,
+                               summary_of_a_run,
+                               table_of_a_run,
+                               hdf5_of_a_run,
+                               vtk_frame_reads_back,
+                               same_result_same_bytes,
+                               table_of_a_sweep,
+                               summary_of_a_sweep,
+                               hdf5_of_a_sweep,
+                               old_results_go_and_others_stay,
+                               little_to_write,
+                               interrupted_before_the_first_run,
+                               kind_ribbon,
+                               diverged};
+  return case_of("numbers and files", test, sizeof test / sizeof test[0]);
+}
+
+static TCase *pictures(void) {
+  const TTest *const test[] = {files_of_rest,
+                               sweeps_of_rest,
+                               design_chart,
+                               shades_of_three_keys,
+                               maps_have_one_scale,
+                               contour_label_on_the_edge_of_a_map_is_cut,
+                               largest_loads_are_those_of_no_load,
+                               small_print_of_a_map,
+                               axes_without_a_unit_say_so,
+                               legend_names_what_is_drawn,
+                               distribution_with_indices,
+                               axes_of_a_fit,
+                               error_bars_of_a_fit,
+                               rest_is_the_same_each_time,
+                               field_of_a_profile,
+                               field_of_equal_permittivities,
+                               frequencies_are_an_array,
+                               no_pull_in_is_null};
+  return case_of("pictures", test, sizeof test / sizeof test[0]);
+}
+
+static TCase *failures(void) {
+  const TTest *const test[] = {folder_that_cannot_be,
+                               name_taken_by_a_folder,
+                               summary_to_a_full_device,
+                               full_disk,
+                               no_gnuplot,
+                               broken_gnuplot,
+                               hanging_gnuplot_is_given_up,
+                               after_a_hanging_gnuplot_no_other_is_started,
+                               no_pictures_where_plots_are_off,
+                               no_animation_unless_asked,
+                               pictures_are_drawn_at_once,
+                               numbers_come_before_pictures,
+                               folder_of_another_run_is_refused,
+                               what_a_killed_run_left_is_cleaned_up,
+                               only_one_process_has_a_folder};
+  return case_of("failures", test, sizeof test / sizeof test[0]);
+}
 
 static Suite *suite_of_report(void) {
   Suite *suite = suite_create("report");
-  TCase *part = tcase_create("files");
-  tcase_add_checked_fixture(part, set_up, tear_down);
-  for (size_t i = 0; i < sizeof test / sizeof test[0]; i++)
-    tcase_add_test(part, test[i]);
-  suite_add_tcase(suite, part);
+  suite_add_tcase(suite, numbers_and_files());
+  suite_add_tcase(suite, pictures());
+  suite_add_tcase(suite, failures());
   return suite;
 }
 
