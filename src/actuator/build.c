@@ -530,15 +530,17 @@ static double settling_time(const ZpModel *model) {
 
 /* Eq. (9.2). */
 static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
-  static const double least = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
-  double depth = fmin(fmax(part * model->plates.d, least), ZP_CLOSED_GAP);
+  static const double part = 1.0 / 150; /* of the liquid thickness that stands for the insulators */
   const ZpActuatorDef *def = &model->def;
+  double range = zp_faces_range(zp_insulation(def));
+  double depth = fmin(fmax(part * model->plates.d, zp_faces_range(0)), range);
   double stiffest = layer_stiffness(model, lower) * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
   return (ZpFacesParams){.nodes = model->nodes,
                          .l = model->l,
+                         .range = range,
                          .depth = depth,
                          .push = push,
                          .settling = settling_time(model),

@@ -305,11 +305,11 @@ static double closed_capacitance(const ZpStatics *s) {
  * contact depth, and a stronger attraction causes more. At a front the bent ribbons press on closed faces like a
  * lever. */
 static double deepest_overlap(const ZpStatics *s) {
-  static const double micrometre = 1e-6, of_insulators = 0.02, lever = 3;
+  static const double ranges = 2, of_insulators = 0.02, lever = 3;
   const ZpFacesParams *faces = &s->model->faces;
   double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
-  return fmax(fmax(micrometre, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
+  return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
 }
 
 const char *zp_statics_fault(const ZpStatics *s) {

@@ -105,7 +105,7 @@ static size_t front(const ZpModel *model, const ZpState *state) {
   size_t i = 0;
   if (!model->has_film) return state->zip.front;
   while (i < model->topology.platform.first &&
-         zp_plates_gap(&model->plates, y, i + 1) < fmax(ZP_CLOSED_GAP, model->plates.d))
+         zp_plates_gap(&model->plates, y, i + 1) < fmax(model->faces.range, model->plates.d))
     i++;
   return i;
 }

@@ -336,16 +336,16 @@ static double opening(const ZpModel *model, const ZpState *state) {
 
 /* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or where faces touch if that is
  * more. */
-static double closed_opening(const ZpState *state) {
-  return fmax(ZP_CLOSED_PART * state->opening0, ZP_CLOSED_GAP);
+static double closed_opening(const ZpModel *model, const ZpState *state) {
+  return fmax(ZP_CLOSED_PART * state->opening0, model->faces.range);
 }
 
 static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > closed_opening(state);
+  return opening(model, state) > closed_opening(model, state);
 }
 
 static bool started_open(const ZpSim *sim) {
-  return sim->step_start.opening > closed_opening(sim->state);
+  return sim->step_start.opening > closed_opening(sim->model, sim->state);
 }
 
 /* Has it gone from open to closed? An actuator that starts closed, as straight ribbons do, has to open first. */
@@ -376,7 +376,7 @@ static bool closed(const ZpSim *sim) {
 /* Do electrodes without an insulator touch under a voltage? */
 static bool has_short(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < model->faces.range;
 }
 
 static bool shorted(const ZpSim *sim) {
@@ -393,7 +393,7 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
 /* When the actuator closes: on the parabola of the midpoint rule, which has the opening and its rate at the start and
  * the opening at the end. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - closed_opening(state), taken = state->t - start.t;
+  double now = opening(model, state), left = start.opening - closed_opening(model, state), taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
@@ -404,7 +404,7 @@ double zp_sim_crossing(const ZpSim *sim) {
 
 /* Was that instant within the last step? */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  return start.opening > closed_opening(state) && !is_open(model, state);
+  return start.opening > closed_opening(model, state) && !is_open(model, state);
 }
 
 /* Has the last step closed the actuator? */
