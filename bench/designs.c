@@ -111,21 +111,26 @@ static double insulators(const ZpActuatorDef *def) {
   return 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
 }
 
-/* m, theory section 9 */
-static double contact_depth(const ZpActuatorDef *def) {
-  return fmax(fmin(0.5e-6, insulators(def) / 150), 1e-8);
+/* m, eq. (9.7) */
+static double contact_range(const ZpActuatorDef *def) {
+  return fmax(0.5e-6 * (2 * def->insulator.thickness / 260e-6), 1e-9);
 }
 
-/* How far faces may overlap, m: 1 um, 2 % of the insulators, or three times what the attraction of closed faces makes
+/* m, theory section 9 */
+static double contact_depth(const ZpActuatorDef *def) {
+  return fmin(contact_range(def), fmax(insulators(def) / 150, 1e-9));
+}
+
+/* How far faces may overlap, m: two ranges of contact, 2 % of the insulators, or three times what the attraction of closed faces makes
  * of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press
  * on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
 static double deepest(const ZpActuatorDef *def) {
-  static const double micrometre = 1e-6, of_insulators = 0.02, lever = 3;
+  static const double ranges = 2, of_insulators = 0.02, lever = 3;
   double depth = contact_depth(def);
   double at_breakdown = 2 * def->insulator.thickness * def->insulator.breakdown_field;
   double over = def->electro.breakdown_cap ? 1 : pow(def->drive.voltage / at_breakdown, 2);
   double pressed = lever * depth * cbrt(fmax(over, 1));
-  return fmax(fmax(micrometre, of_insulators * 2 * def->insulator.thickness), pressed);
+  return fmax(fmax(ranges * contact_range(def), of_insulators * 2 * def->insulator.thickness), pressed);
 }
 
 /* Of faces that overlap as far as they may, F. */

@@ -101,7 +101,7 @@ static ZpFieldParams wedge_params(void) {
                          .clip = 5e-3,
                          .platform = 5e-3,
                          .electrode = true,
-                         .mesh = zp_field_mesh()};
+                         .mesh = zp_field_mesh(1)};
 }
 
 static ZpFieldParams refined(ZpFieldParams p, size_t by) {

@@ -11,7 +11,8 @@
 enum { MIRRORED = 2, STATIONS = 3, TERMS = ZP_EDGE_TERMS };
 
 ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
-  ZpFieldMesh mesh = zp_field_mesh();
+  static const double usual = 12.7e-3; /* m */
+  ZpFieldMesh mesh = zp_field_mesh(p->w / usual);
   mesh.gap = 6;
   mesh.insulator = 2;
   mesh.clip = 12;
