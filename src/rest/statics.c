@@ -31,6 +31,10 @@ static void fill_model(const ZpModel *model, ZpStatics *s) {
   s->k0 = model->rod.k0;
 }
 
+static bool is_held(const ZpStatics *s) {
+  return !isnan(s->opening);
+}
+
 /* Apply this share of weight and natural curvature. */
 static void put_on(ZpStatics *s, double share) {
   s->share = share;
@@ -183,16 +187,21 @@ static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
 }
 
-/* Continue from the equilibrium without contact to the one with contact, if there are faces. */
+/* Continue from the equilibrium without contact to the one with contact, if there are faces. If the faces have passed
+ * through each other on the way, weight presses them together: they then lie on each other from the straight shape on,
+ * unless the platform is held open. */
 static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
   ZpStaticSystem system = zp_statics_system(s);
   memcpy(s->good, s->q, 2 * s->model->stride * sizeof *s->q);
   ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!zp_newton_good(contact.end)) {
+  if (!is_found(s, contact, work) || zp_statics_fault(s)) {
     memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
-    contact = zp_statics_fall(s, 0, work);
+    if (is_held(s))
+      contact = zp_statics_fall(s, 0, work);
+    else
+      contact = zp_statics_close(s, 0, work);
   }
   contact.iterations += info.iterations;
   return contact;
@@ -338,9 +347,6 @@ ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *roo
 
 /* The equation of a held platform replaces its balance of forces: the platform is where it is held. A step moves it
  * there while the edges rotate, so there is no closing error to spread along the ribbons. */
-static bool is_held(const ZpStatics *s) {
-  return !isnan(s->opening);
-}
 
 size_t zp_statics_platform(const ZpStatics *s) {
   return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
@@ -748,8 +754,8 @@ ZpStaticSystem zp_statics_system(ZpStatics *s) {
 static double fall_length(void *self, const double *step) {
   static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
   const ZpStatics *s = self;
-  bool pulls = s->model->field && s->U != 0;
-  return fmax(length(self, step) / longest, pulls ? gap_share(s, step) / share : 0);
+  bool meets = s->model->field && (s->U != 0 || s->contact_acts);
+  return fmax(length(self, step) / longest, meets ? gap_share(s, step) / share : 0);
 }
 
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
