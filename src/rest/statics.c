@@ -7,6 +7,7 @@
 #include "base/kernel.h"
 #include "def/check.h"
 #include "math/elementary.h"
+#include "rest/crossing.h"
 #include "solve/descend.h"
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
@@ -321,14 +322,22 @@ static double deepest_overlap(const ZpStatics *s) {
   return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
 }
 
+/* Ribbons that slide along each other by a little are not parted by it, because the gap is that of heights. */
+static double deepest_crossing(const ZpStatics *s) {
+  static const double of_insulators = 0.5;
+  return fmax(deepest_overlap(s), of_insulators * zp_insulation(&s->model->def));
+}
+
 const char *zp_statics_fault(const ZpStatics *s) {
   static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
-  double least = INFINITY, most = deepest_overlap(s);
-  for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
+  if (!s->model->field) return NULL;
+  double least = INFINITY, most = deepest_overlap(s), capacitance = zp_statics_capacitance(s);
+  for (size_t i = 0; i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
   if (s->contact_acts && least < -most) return "the insulators' faces overlap";
-  if (s->model->field && zp_statics_capacitance(s) > beyond_plates * closed_capacitance(s))
-    return "the capacitance is above that of closed faces";
+  if (s->contact_acts && zp_crossing_depth(s->model, s->q) > deepest_crossing(s)) return "the faces cross each other";
+  if (capacitance < 0) return "the capacitance is negative";
+  if (capacitance > beyond_plates * closed_capacitance(s)) return "the capacitance is above that of closed faces";
   return NULL;
 }
 
