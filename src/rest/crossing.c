@@ -40,13 +40,25 @@ static double depth_beyond(const ZpModel *model, const double *q, size_t station
   return next < model->nodes ? fmax(depth, distance_to_upper(model, q, next)) : depth;
 }
 
+/* Do both ribbons run to the right everywhere? */
+static bool runs_right(const ZpModel *model, const double *q) {
+  for (size_t j = 0; j + model->s < model->count; j++)
+    if (!(q[j + model->s] >= q[j])) return false;
+  return true;
+}
+
 double zp_crossing_depth(const ZpModel *model, const double *q) {
   double deepest = 0;
+  bool sorted = runs_right(model, q);
+  size_t from = 0; /* if sorted: edges of the upper ribbon before this one lie left of edge i */
   for (size_t i = 0; zp_is_pair(&model->topology) && i + 1 < model->nodes; i++) {
     Point a = node(model, q, 1, i), b = node(model, q, 1, i + 1);
     double left = fmin(a.x, b.x), right = fmax(a.x, b.x), bottom = fmin(a.y, b.y), top = fmax(a.y, b.y);
-    for (size_t k = 0; k + 1 < model->nodes; k++) {
+    while (sorted && from + 2 < model->nodes && node(model, q, 0, from + 1).x < left)
+      from++;
+    for (size_t k = from; k + 1 < model->nodes; k++) {
       Point c = node(model, q, 0, k), d = node(model, q, 0, k + 1);
+      if (sorted && c.x > right) break;
       if (fmax(c.x, d.x) < left || fmin(c.x, d.x) > right || fmax(c.y, d.y) < bottom || fmin(c.y, d.y) > top) continue;
       double of_a = side(c, d, a), of_b = side(c, d, b);
       if (!(of_a * of_b < 0 && side(a, b, c) * side(a, b, d) < 0)) continue;

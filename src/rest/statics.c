@@ -218,7 +218,9 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
   if (s->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
   info = let_faces_push(s, info, work);
-  return let_menisci_draw(s, suction, info, work);
+  info = let_menisci_draw(s, suction, info, work);
+  if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
+  return info;
 }
 
 static void open_to(ZpStatics *s, double opening) {
@@ -249,7 +251,7 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
 }
 
 bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  return grow(s, put_voltage, voltage, 0.05, work);
+  return grow(s, put_voltage, voltage, 0.05, work) && !zp_statics_fault(s);
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {

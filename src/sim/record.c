@@ -210,6 +210,7 @@ static double fill_electric(ZpSim *sim, double *row) {
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
   row[SIGNAL_capacitance] = parts * e.capacitance;
+  sim->negative |= e.capacitance < 0;
   row[SIGNAL_current] = passed > 0 ? parts * ((given - sim->row_charge) / passed) : 0;
   row[SIGNAL_electric_work] = parts * account.work;
   row[SIGNAL_source_energy] = sim->own_energy = fed ? state->source_energy : row[SIGNAL_electric_work];

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "rest/crossing.h"
 #include "sim/hooks.h"
 #include "sim/margins.h"
 #include "sim/run_rates.h"
@@ -540,6 +541,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     if (sample) {
       zp_sim_offer_record(sim);
       note_bounds(sim, info);
+      if (sim->negative) return ZP_DIVERGED;
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
     if (shorted(sim)) return ZP_SHORT_CIRCUIT;
@@ -547,6 +549,20 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
     if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
+}
+
+/* => what is impossible about the present state of one of the members; NULL: nothing. Faces overlap for a moment where
+ * they meet, but by less than the strips are thick. */
+static const char *fault_of(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m; m = m->below) {
+    const ZpModel *model = m->model;
+    const ZpActuatorDef *def = &model->def;
+    bool parted = model->field && def->contact.model == ZP_CONTACT_UNILATERAL;
+    if (m->negative) return "the capacitance is negative, because a ribbon folds back";
+    if (parted && zp_crossing_depth(model, zp_state_q(model, m->state)) > zp_insulation(def) + def->ribbon.thickness)
+      return "the faces cross each other";
+  }
+  return NULL;
 }
 
 static void describe(const ZpSim *sim, ZpRunInfo *info) {
@@ -569,7 +585,9 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              (long long)sim->settle_steps, sim->settle_residual);
     break;
   case ZP_DIVERGED:
-    if (sim->eval.fault)
+    if (sim->fault)
+      snprintf(text, size, "the state at %g s is impossible: %s; the results so far are kept", t, sim->fault);
+    else if (sim->eval.fault)
       snprintf(text, size, "the field could not be solved before %g s: %s; the results so far are kept", t,
                sim->eval.fault);
     else if (sim->stuck)
@@ -633,6 +651,8 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
     keep(sim);
     info.outcome = advance(sim, end_time, stop_when_zipped, hooks, &info);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
+    sim->fault = diverged(sim) || sim->stuck ? NULL : fault_of(sim);
+    if (sim->fault) info.outcome = ZP_DIVERGED;
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
   info.simulated_time = sim->state->t - start_time;
@@ -689,7 +709,7 @@ static void resume_one(ZpSim *sim) {
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
-  sim->cut = false;
+  sim->cut = sim->negative = false;
 }
 
 void zp_sim_resume(ZpSim *sim) {
