@@ -313,13 +313,20 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
+/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m. */
+static double pressed_by_load(const ZpModel *model) {
+  const ZpFacesParams *faces = &model->faces;
+  return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + 0.5 * faces->l) : 0;
+}
+
 /* The largest overlap that a state may have, m. By (9.1) the attraction at the breakdown of the insulators causes the
- * contact depth, and a stronger attraction causes more. At a front the bent ribbons press on closed faces like a
- * lever. */
+ * contact depth, and a stronger attraction or a load causes more. At a front the bent ribbons press on closed faces
+ * like a lever. */
 static double deepest_overlap(const ZpStatics *s) {
   static const double ranges = 2, of_insulators = 0.02, lever = 3;
   const ZpFacesParams *faces = &s->model->faces;
-  double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
+  double attraction = zp_plates_law(&s->model->plates, s->U, 0).W;
+  double pull = (attraction + pressed_by_load(s->model)) / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
   return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
 }
