@@ -14,10 +14,10 @@
  *   designs liquid [COUNT [SEED [FIRST]]]   zips in a bath or with beads of oil, of 0.5 to 5000 mm2/s, at 2 to 15 kV:
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
  *                                        the studies
- *   designs ramp [COUNT [SEED]]          do `limits` and a slow ramp of the voltage in time close and open the actuator
- *                                        at the same voltages to 1 %, with 61 nodes or more, or where the mesh is too
- *                                        coarse to 1 % beyond what half the elements' length changes? Status 1 if one
- *                                        does not
+ *   designs tilt [COUNT [SEED [NODES]]]  `stationary` and `limits` of whole actuators that lean by more than 90
+ * degrees, with at most NODES nodes (61): as for the studies designs ramp [COUNT [SEED]]          do `limits` and a
+ * slow ramp of the voltage in time close and open the actuator at the same voltages to 1 %, with 61 nodes or more, or
+ * where the mesh is too coarse to 1 % beyond what half the elements' length changes? Status 1 if one does not
  */
 #include <zipact/zipact.h>
 
@@ -111,21 +111,26 @@ static double insulators(const ZpActuatorDef *def) {
   return 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
 }
 
-/* m, theory section 9 */
-static double contact_depth(const ZpActuatorDef *def) {
-  return fmax(fmin(0.5e-6, insulators(def) / 150), 1e-8);
+/* m, eq. (9.7) */
+static double contact_range(const ZpActuatorDef *def) {
+  return fmax(0.5e-6 * (2 * def->insulator.thickness / 260e-6), 1e-9);
 }
 
-/* How far faces may overlap, m: 1 um, 2 % of the insulators, or three times what the attraction of closed faces makes
- * of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the bent ribbons press
- * on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
+/* m, theory section 9 */
+static double contact_depth(const ZpActuatorDef *def) {
+  return fmin(contact_range(def), fmax(insulators(def) / 150, 1e-9));
+}
+
+/* How far faces may overlap, m: two ranges of contact, 2 % of the insulators, or three times what the attraction of
+ * closed faces makes of the depth of contact where it exceeds the one at the insulators' breakdown. (Behind a front the
+ * bent ribbons press on closed faces like a lever: 8 times the attraction, measured.) Theory, eqs. (9.1) and (9.2). */
 static double deepest(const ZpActuatorDef *def) {
-  static const double micrometre = 1e-6, of_insulators = 0.02, lever = 3;
+  static const double ranges = 2, of_insulators = 0.02, lever = 3;
   double depth = contact_depth(def);
   double at_breakdown = 2 * def->insulator.thickness * def->insulator.breakdown_field;
   double over = def->electro.breakdown_cap ? 1 : pow(def->drive.voltage / at_breakdown, 2);
   double pressed = lever * depth * cbrt(fmax(over, 1));
-  return fmax(fmax(micrometre, of_insulators * 2 * def->insulator.thickness), pressed);
+  return fmax(fmax(ranges * contact_range(def), of_insulators * 2 * def->insulator.thickness), pressed);
 }
 
 /* Of faces that overlap as far as they may, F. */
@@ -217,6 +222,38 @@ static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512])
            result->message);
   zp_result_destroy(result);
   return good;
+}
+
+/* The whole of a design, leaning by more than 90 degrees to either side, so that its ribbons lie on each other. */
+static ZpActuatorDef design_that_leans(uint64_t *state, int most_nodes) {
+  static const double pi = 3.14159265358979323846;
+  ZpActuatorDef def = design(state);
+  def.mount.tilt = uniform(state, 0.5 * pi, pi) * (draw(state) < 0.5 ? -1 : 1);
+  def.actuator.symmetry = ZP_SYMMETRY_NONE;
+  if (def.mesh.nodes > most_nodes) def.mesh.nodes = most_nodes;
+  return def;
+}
+
+/* => how many of the designs have no answer */
+static int check_tilt(ZpStudy study, int designs, uint64_t seed, int most_nodes) {
+  int bad = 0;
+  double start = cpu_s(), slowest = 0;
+  for (int i = 0; i < designs; i++) {
+    char text[512];
+    ZpActuatorDef def = design_that_leans(&seed, most_nodes);
+    double begun = cpu_s();
+    bool answered = is_answered(study, &def, text);
+    slowest = fmax(slowest, cpu_s() - begun);
+    if (answered) continue;
+    bad++;
+    printf("design %d: zipact %s", i, zp_study_name(study));
+    print_design(&def);
+    printf("  %s\n", text);
+    fflush(stdout);
+  }
+  printf("tilt, %s: %d of %d designs answered, %.2f s of CPU, the slowest %.2f s\n", zp_study_name(study),
+         designs - bad, designs, cpu_s() - start, slowest);
+  return bad;
 }
 
 /* => how many of the designs have no answer */
@@ -721,12 +758,18 @@ int main(int argc, char **argv) {
   if (strcmp(word, "tolerance") == 0) return check_tolerances(designs, seed, 61), 0;
   if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
   if (strcmp(word, "liquid") == 0) return check_liquid(designs, seed, argc > 4 ? atoi(argv[4]) : 0) > 0;
+  if (strcmp(word, "tilt") == 0) {
+    int most = argc > 4 ? atoi(argv[4]) : 61;
+    bad = check_tilt(ZP_STUDY_STATIONARY, designs, seed, most);
+    return bad + check_tilt(ZP_STUDY_LIMITS, designs, seed, most) > 0;
+  }
   if (strcmp(word, "ramp") == 0) return check_ramp(designs, seed) > 0;
   for (size_t k = 0; k < sizeof every / sizeof every[0]; k++) {
     if (strcmp(word, "all") != 0 && strcmp(word, zp_study_name(every[k])) != 0) continue;
     bad += check_study(every[k], designs, seed);
     known++;
   }
-  if (known == 0) fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, ramp, liquid\n", word);
+  if (known == 0)
+    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, ramp, liquid\n", word);
   return known == 0 ? 2 : bad > 0;
 }

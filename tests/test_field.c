@@ -101,7 +101,7 @@ static ZpFieldParams wedge_params(void) {
                          .clip = 5e-3,
                          .platform = 5e-3,
                          .electrode = true,
-                         .mesh = zp_field_mesh()};
+                         .mesh = zp_field_mesh(1)};
 }
 
 static ZpFieldParams refined(ZpFieldParams p, size_t by) {
@@ -214,7 +214,7 @@ START_TEST(test_thin_strips_with_fringing) {
     double w = 10e-3, d = w / w_over_d[k], t = d / 50;
     ZpFieldParams p = {
         .stations = 3, .columns = 2, .w = 1, .b = 1e-6, .t = t, .eps_m = 1, .eps_i = 1, .eps_out = 1, .clip = 4e-3};
-    p.mesh = (ZpFieldMesh){.gap = 6, .insulator = 2, .strip = 1, .clip = 12, .platform = 1, .outside = 16};
+    p.mesh = (ZpFieldMesh){.gap = 6, .insulator = 2, .strip = 1, .clip = 12, .platform = 1, .outside = 16, .size = 1};
     p.mesh.first = 1e-5;
     double x[] = {0, 0.5e-3, 1e-3}, up[] = {0.5 * d - t, 0.5 * d - t, 0.5 * d - t}, low[] = {-up[0], -up[0], -up[0]};
     ZpField f;

@@ -40,7 +40,8 @@ END_TEST
 /* -- contact --------------------------------------------------------------------------------------- */
 
 static size_t front_of(const double *gap, size_t nodes) {
-  ZpFacesParams faces = {.nodes = nodes, .platform = nodes - 1, .platform_end = nodes - 1};
+  ZpFacesParams faces = {
+      .nodes = nodes, .range = zp_faces_range(260e-6), .platform = nodes - 1, .platform_end = nodes - 1};
   return zp_faces_front(&faces, gap);
 }
 

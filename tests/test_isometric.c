@@ -158,9 +158,10 @@ END_TEST
 static double peel(double d, int nodes, double *open) {
   const double s = MM(1), G = 1e-3, w = 12.7e-3, eps0 = 8.8541878128e-12, eps_m = 2.75, eps_i = 4.62;
   const double E = 200e9, nu = 0.285, b = 50e-6, EI = E * w * b * b * b / 12 / (1 - nu * nu),
-               delta = fmin(5e-7, d / 150), k = 0.5 * eps0 * eps_m * w;
+               k = 0.5 * eps0 * eps_m * w;
   ZpActuatorDef def = held_def(s, 0, false, nodes);
   def.insulator.thickness = d * eps_i / (2 * eps_m);
+  const double delta = fmin(5e-7 * 2 * def.insulator.thickness / 260e-6, d / 150);
   /* closed faces overlap, eqs. (9.1) and (9.2): what opens them costs W (d + overlap) less the layers' energy */
   double strength = 2 * def.insulator.thickness * def.insulator.breakdown_field / d, p_c = k * strength * strength;
   double W = G / d;
@@ -187,7 +188,8 @@ START_TEST(test_peeling) {
   ck_below(fabs(off[2]), 3e-3); /* measured 1.5e-3: the slope of the beam, 1/30, counts with its square */
   ck_below(open[2], 0.5 * open[1]);
   ck_below(open[1], 0.5 * open[0]);
-  ck_below(fabs(open[2]), 0.015); /* measured 1.0 %, an element is 0.4 % */
+  /* faces open over a length that goes with the root of the reach: the limit without; an element is 0.4 % */
+  ck_below(fabs(2 * open[2] - open[1]), 0.015);
 }
 END_TEST
 

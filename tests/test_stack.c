@@ -162,7 +162,8 @@ START_TEST(stiffness_side_by_side_is_the_slope) {
 END_TEST
 
 /* Over a zip, dry, in a bath and with beads, what the source gives is stored or lost; and the work of the forces on the
- * way of the load is what it gains in height and speed. Dry, rows are too few for the impacts at its end. */
+ * way of the load is what it gains in height and speed, up to the impacts at its end, for which rows are
+ * too few. */
 START_TEST(energy_and_forces_of_unlike_ones) {
   static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
   ZpActuatorDef def = unlike();
@@ -175,13 +176,15 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   const ZpTable *table = result->series;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
   ck_below(zp_result_get(result, "energy_error"), 1e-7);
-  double work = 0, speed = 0;
-  for (size_t row = 1; row < table->rows; row++) {
-    double fell = zp_table_get(table, row - 1, "opening_m") - zp_table_get(table, row, "opening_m");
-    work += sum_of(table, row, "force_N", 3) * fell;
+  double work = 0, speed = 0, start = zp_table_get(table, 0, "opening_m"), opening = start;
+  for (size_t row = 1; row < table->rows && zp_table_get(table, row, "opening_m") > 0.1 * start; row++) {
+    double fell = opening - zp_table_get(table, row, "opening_m");
+    double before = sum_of(table, row - 1, "force_N", 3), now = sum_of(table, row, "force_N", 3);
+    work += (_i == 0 ? 0.5 * (before + now) : now) * fell; /* in liquid the mean force of a step is that of its row */
     speed = zp_table_get(table, row, "end_velocity_m_per_s");
+    opening -= fell;
   }
-  double risen = zp_table_get(table, 0, "opening_m") - zp_table_get(table, table->rows - 1, "opening_m");
+  double risen = start - opening;
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed), _i == 0 ? 1e-2 : 1e-4);
   zp_result_destroy(result);
 }

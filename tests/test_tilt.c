@@ -136,6 +136,36 @@ START_TEST(energy_at_an_angle) {
 }
 END_TEST
 
+/* Weight that presses the faces together: equal ribbons lie on each other from the platform to the clip. Each carries
+ * itself, as one ribbon that is clamped there and guided at its end. The overlap of the faces parts them by less than
+ * 1e-4 of their length. */
+START_TEST(ribbons_lie_on_each_other) {
+  static const struct {
+    double tilt, length, thickness, width, young_modulus, density, mass;
+  } of[] = {{153, 130e-3, 15e-6, 3e-3, 4e9, 1390, 0.1e-3},
+            {150, 150e-3, 30e-6, 12.7e-3, 200e9, 7850, 0.1},
+            {95, 100e-3, 50e-6, 12.7e-3, 200e9, 7850, 8e-3},
+            {-121.3, 142.5e-3, 33.6e-6, 5.74e-3, 120e9, 8960, 0.198}};
+  ZpActuatorDef def = DEF({"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", of[_i].tilt / 180 * half_turn},
+                          {"ribbon.length", of[_i].length}, {"ribbon.thickness", of[_i].thickness},
+                          {"ribbon.width", of[_i].width}, {"ribbon.young_modulus", of[_i].young_modulus},
+                          {"ribbon.density", of[_i].density}, {"load.mass", of[_i].mass}, {"mesh.nodes", 31});
+  ZpActuatorDef one = def;
+  one.actuator.kind = ZP_KIND_RIBBON, one.actuator.right_end = ZP_END_GUIDED, one.actuator.symmetry = ZP_SYMMETRY_HALF;
+  one.ribbon.length = 0.5 * (def.ribbon.length - def.platform.length), one.load.mass = 0;
+  ZpResult *whole = answer_of(ZP_STUDY_STATIONARY, &def), *ribbon = answer_of(ZP_STUDY_STATIONARY, &one);
+  size_t clip = whole->series->rows - 1, platform = whole->series->rows / 2, end = ribbon->series->rows - 1;
+  static const char *const column[] = {"x_m", "y_m", "upper_x_m", "upper_y_m"};
+  for (int k = 0; k < 4; k++) {
+    double moved = zp_table_get(whole->series, clip, column[k]) - zp_table_get(whole->series, platform, column[k]);
+    double expected = zp_table_get(ribbon->series, end, column[k % 2]) - zp_table_get(ribbon->series, 0, column[k % 2]);
+    ck_below(fabs(moved - expected), 1e-4 * one.ribbon.length);
+  }
+  ck_below(fabs(zp_result_get(whole, "opening_m")), 2e-6);
+  zp_result_destroy(whole), zp_result_destroy(ribbon);
+}
+END_TEST
+
 START_TEST(half_is_vertical) {
   ZpActuatorDef def = DEF({"mount.tilt", 0.1});
   ck_refused(&def, "requires actuator.symmetry none");
@@ -153,6 +183,7 @@ int main(void) {
   tcase_add_loop_test(rest, force_outweighs_the_load, 0, 2);
   tcase_add_test(rest, guide_takes_what_is_not_vertical);
   tcase_add_test(rest, leaning_left_mirrors_leaning_right);
+  tcase_add_loop_test(rest, ribbons_lie_on_each_other, 0, 4);
   tcase_add_test(rest, half_is_vertical);
   suite_add_tcase(suite, rest);
   TCase *motion = tcase_create("motion");

@@ -239,8 +239,10 @@ static size_t columns_per_edge(size_t nodes) {
 }
 
 static ZpFieldParams cross_section_of(const ZpModel *model) {
-  static const double clip = 5e-3; /* m: the field behind it is that of its far end, wherever that is */
+  static const double usual = 0.1; /* m */
+  static const double clip = 5e-3; /* m, of that: the field behind it is that of its far end, wherever that is */
   const ZpActuatorDef *def = &model->def;
+  double size = def->ribbon.length / usual;
   return (ZpFieldParams){.stations = model->nodes,
                          .columns = columns_per_edge(model->nodes),
                          .w = def->ribbon.width,
@@ -249,10 +251,10 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity,
                          .eps_out = model->has_bead ? 1 : def->medium.permittivity,
-                         .clip = clip,
+                         .clip = clip * size,
                          .platform = def->platform.length / 2,
                          .electrode = def->platform.electrode,
-                         .mesh = zp_field_mesh()};
+                         .mesh = zp_field_mesh(size)};
 }
 
 /* Mass of the ribbon at a node. The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the
@@ -498,8 +500,8 @@ static double frequency_bound(const ZpModel *model) {
 
 /* Compliance of a layer under a pressure, m/Pa. */
 static double compliance_of(const ZpActuatorDef *def) {
-  static const double typical = 1e9;    /* Pa, of a polymer tape, where insulator.young_modulus is not given */
-  static const double thinnest = 10e-6; /* m */
+  static const double typical = 1e9;      /* Pa, of a polymer tape, where insulator.young_modulus is not given */
+  static const double thinnest = 0.26e-6; /* m: two of these have the least range of contact */
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
   return fmax(def->insulator.thickness, thinnest) / E;
 }
@@ -530,15 +532,17 @@ static double settling_time(const ZpModel *model) {
 
 /* Eq. (9.2). */
 static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
-  static const double least = 1e-8, part = 1.0 / 150; /* m; of the liquid thickness that stands for the insulators */
-  double depth = fmin(fmax(part * model->plates.d, least), ZP_CLOSED_GAP);
+  static const double part = 1.0 / 150; /* of the liquid thickness that stands for the insulators */
   const ZpActuatorDef *def = &model->def;
+  double range = zp_faces_range(zp_insulation(def));
+  double depth = fmin(fmax(part * model->plates.d, zp_faces_range(0)), range);
   double stiffest = layer_stiffness(model, lower) * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
   return (ZpFacesParams){.nodes = model->nodes,
                          .l = model->l,
+                         .range = range,
                          .depth = depth,
                          .push = push,
                          .settling = settling_time(model),

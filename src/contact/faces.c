@@ -8,6 +8,11 @@
 #include "base/kernel.h"
 #include "math/gauss.h"
 
+double zp_faces_range(double insulation) {
+  static const double usual = 5e-7, of = 260e-6, least = 1e-9; /* m */
+  return fmax(usual * (insulation / of), least);
+}
+
 void zp_faces_carve(const ZpFacesParams *p, ZpFacesEval *e, ZpCarver *carver) {
   e->push = zp_carve(carver, p->nodes);
   e->own = zp_carve(carver, p->nodes);
@@ -192,7 +197,7 @@ double zp_faces_kept_at(const ZpFacesParams *p, double gap, size_t i, double red
 
 size_t zp_faces_front(const ZpFacesParams *p, const double *gap) {
   size_t front = 0;
-  while (front < p->platform && gap[front + 1] < ZP_CLOSED_GAP)
+  while (front < p->platform && gap[front + 1] < p->range)
     front++;
   return front;
 }

@@ -16,6 +16,7 @@
 typedef struct ZpFacesParams {
   size_t nodes;                  /* N stations; the first is the clip, which is closed by itself */
   double l;                      /* element length, m */
+  double range;                  /* faces closer than that count as closed, m; zp_faces_range */
   double depth;                  /* delta: overlap at which the push is p_c, m */
   double push;                   /* p_c, N/m */
   double settling;               /* tau_c: what vibrates in contact settles in about that time, s; eq. (18.11) */
@@ -24,8 +25,8 @@ typedef struct ZpFacesParams {
   double flat_length;            /* of its faces, at the gap of each of these, m */
 } ZpFacesParams;
 
-/* Faces closer than that count as closed, m: far below a micrometre, far above rounding. */
-#define ZP_CLOSED_GAP 5e-7
+/* Range of contact of insulators that are so thick together, m: 0.5 um for 260 um, at least a nanometre. */
+double zp_faces_range(double insulation);
 
 /* Loss factor of the layers, as of a soft tape: their damper takes it at the frequency of the layers' own stiffness. */
 #define ZP_FACES_LOSS_FACTOR 0.5

@@ -11,7 +11,8 @@
 enum { MIRRORED = 2, STATIONS = 3, TERMS = ZP_EDGE_TERMS };
 
 ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
-  ZpFieldMesh mesh = zp_field_mesh();
+  static const double tape = 130e-6, widest = 50e-3; /* m: of size 1 */
+  ZpFieldMesh mesh = zp_field_mesh(fmax(p->t / tape, p->w / widest));
   mesh.gap = 6;
   mesh.insulator = 2;
   mesh.clip = 12;

@@ -16,8 +16,10 @@
 
 enum { SURFACES = 8, LAYERS = 7, LOWER_METAL = 1, LOWER_INSULATOR = 2, GAP = 3, UPPER_INSULATOR = 4, UPPER_METAL = 5 };
 
-/* The grid ends this far away, m. There a dipole's field is 1e-8 of the one a millimetre away. */
-static const double far_away = 10;
+/* The grid ends this far away, m. There a dipole's field is 1e-8 of the one at 1e-4 of the distance. */
+static double far_of(const ZpFieldMesh *mesh) {
+  return 10 * mesh->size;
+}
 
 struct ZpFieldColumn {
   size_t station; /* the face lies at (1 - share) of this station and share of the next, */
@@ -87,7 +89,7 @@ static size_t lay_rows(ZpFieldRow *row, size_t j, size_t layer, size_t n, double
 static void make_rows(ZpField *f) {
   const ZpFieldParams *p = &f->params;
   const ZpFieldMesh *m = &p->mesh;
-  double outside = growth_to_fill(m->first, far_away, m->outside);
+  double outside = growth_to_fill(m->first, far_of(m), m->outside);
   size_t j = 1, insulator = p->t > 0 ? m->insulator : 0;
   f->row[0] = (ZpFieldRow){0, 0};
   j = lay_rows(f->row, j, 0, m->outside, outside, true);
@@ -112,9 +114,9 @@ static void make_columns(ZpField *f) {
   const ZpFieldParams *p = &f->params;
   const ZpFieldMesh *m = &p->mesh;
   size_t i = 0, last = p->stations - 1;
-  double outside = growth_to_fill(m->first, far_away, m->outside), clip = growth_to_fill(m->first, p->clip, m->clip);
+  double outside = growth_to_fill(m->first, far_of(m), m->outside), clip = growth_to_fill(m->first, p->clip, m->clip);
   for (size_t k = 2 * m->outside; k > 0; k--)
-    f->column[i++] = (ZpFieldColumn){0, 0, -p->clip - far_away * graded(k, m->outside, outside), false};
+    f->column[i++] = (ZpFieldColumn){0, 0, -p->clip - far_of(m) * graded(k, m->outside, outside), false};
   for (size_t k = 0; k < 2 * m->clip; k++)
     f->column[i++] = (ZpFieldColumn){0, 0, -p->clip * (1 - graded(k, m->clip, clip)), true};
   f->first = i;
@@ -218,13 +220,13 @@ void zp_field_destroy(ZpField *f) {
 /* -- shape ---------------------------------------------------------------------------------------- */
 
 ZpFieldEnd zp_field_check(const ZpFieldParams *p, const ZpFaces *faces) {
-  static const double overlap = 1e-6; /* m: contact in equilibrium overlaps faces less than that */
+  const double overlap = 1e-6 * p->mesh.size; /* m: contact in equilibrium overlaps faces less than that */
   ZpFieldEnd end = ZP_FIELD_SOLVED;
   for (size_t i = 0; i < p->stations; i++) {
     size_t k = i * faces->step;
     double gap = faces->upper_y[k] - faces->lower_y[k];
     if (!(gap > -overlap)) return ZP_FIELD_CROSSING;
-    if (gap <= ZP_FIELD_LEAST_GAP && p->t == 0) end = ZP_FIELD_BARE;
+    if (gap <= zp_field_least_gap(&p->mesh) && p->t == 0) end = ZP_FIELD_BARE;
     if (i == 0) continue;
     double upper = faces->upper_x[k] - faces->upper_x[k - faces->step],
            lower = faces->lower_x[k] - faces->lower_x[k - faces->step];
@@ -250,10 +252,10 @@ static Point face_at(const ZpFaces *faces, const ZpFieldColumn *c, size_t r) {
 
 /* The eight points at which a column crosses the surfaces. Faces that overlap are put on each other. */
 static void cross(const ZpField *f, Point upper, Point lower, Point at[SURFACES]) {
-  double t = f->params.t, outer = t + f->params.b;
-  double apart = fmax(upper.y - lower.y, ZP_FIELD_LEAST_GAP), middle = 0.5 * (upper.y + lower.y);
+  double t = f->params.t, outer = t + f->params.b, far = far_of(&f->params.mesh);
+  double apart = fmax(upper.y - lower.y, zp_field_least_gap(&f->params.mesh)), middle = 0.5 * (upper.y + lower.y);
   double low = middle - 0.5 * apart, high = middle + 0.5 * apart;
-  const double height[SURFACES] = {-far_away, low - outer, low - t, low, high, high + t, high + outer, far_away};
+  const double height[SURFACES] = {-far, low - outer, low - t, low, high, high + t, high + outer, far};
   for (size_t s = 0; s < SURFACES; s++)
     at[s] = (Point){s < SURFACES / 2 ? lower.x : upper.x, height[s]};
 }
@@ -327,7 +329,7 @@ static void find_forces(ZpField *f) {
 /* Less the energy of the clip's closed part by the plates law. */
 static void find_energy(ZpField *f) {
   const ZpFieldParams *p = &f->params;
-  double h = 2 * p->t * p->eps_m / p->eps_i + ZP_FIELD_LEAST_GAP;
+  double h = 2 * p->t * p->eps_m / p->eps_i + zp_field_least_gap(&p->mesh);
   f->energy = p->w * (zp_grid_energy(&f->grid) - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
 }
 

@@ -13,18 +13,28 @@
 #include "electro/grid.h"
 #include "math/cover.h"
 
-/* Closed faces stay this far apart, m: far below what changes a force, far above rounding. */
-#define ZP_FIELD_LEAST_GAP 1e-9
-
 /* How fine the grid is: numbers of elements across or along each part, and the size of the smallest. */
 typedef struct ZpFieldMesh {
   size_t gap, insulator, strip, clip, platform, outside;
+  double size;  /* of the cross-section over that of an actuator of 100 mm: lengths of the grid go with it */
   double first; /* smallest elements, at the electrodes' ends and outer faces, m; they grow away from there */
 } ZpFieldMesh;
 
-/* What gives 0.1 % in force and profile. */
-static inline ZpFieldMesh zp_field_mesh(void) {
-  return (ZpFieldMesh){.gap = 3, .insulator = 1, .strip = 1, .clip = 8, .platform = 3, .outside = 12, .first = 5e-5};
+/* A mesh that gives 0.1 % in force and profile. */
+static inline ZpFieldMesh zp_field_mesh(double size) {
+  return (ZpFieldMesh){.gap = 3,
+                       .insulator = 1,
+                       .strip = 1,
+                       .clip = 8,
+                       .platform = 3,
+                       .outside = 12,
+                       .size = size,
+                       .first = 5e-5 * size};
+}
+
+/* Closed faces stay this far apart, m: far below what changes a force, far above rounding. */
+static inline double zp_field_least_gap(const ZpFieldMesh *mesh) {
+  return 1e-9 * mesh->size;
 }
 
 typedef struct ZpFieldParams {

@@ -47,7 +47,9 @@ void zp_surplus_destroy(ZpSurplus *s) {
 }
 
 /* Pairs closer than this, m, count as this far apart: in a narrower gap rounding exceeds the forces of the field. */
-static const double narrowest = 1e-7;
+static double narrowest_of(const ZpSurplus *s) {
+  return 1e-7 * s->field.params.mesh.size;
+}
 
 /* A bead's end within an element: the element counts as wet if liquid covers more than half of it. => whether this
  * changed. */
@@ -80,7 +82,7 @@ static double capped_gap(const ZpSurplus *s) {
  * distort the ribbons, so all stay where they are. */
 static void part_capped(ZpSurplus *s) {
   size_t stride = s->plates.stride;
-  double *y = s->floored + stride, capped = fmax(capped_gap(s), narrowest);
+  double *y = s->floored + stride, narrowest = narrowest_of(s), capped = fmax(capped_gap(s), narrowest);
   memcpy(s->floored, s->q, 2 * stride * sizeof *s->q);
   for (size_t i = 1; i < s->plates.nodes; i++) {
     double least = is_wet(s, i) ? capped : narrowest;

@@ -255,7 +255,8 @@ static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
-    bool found = fall(f, sign), jumped = zp_slow_is_closed(f) != was_closed;
+    bool found = fall(f, sign), impossible = zp_statics_fault(f->statics) != NULL;
+    bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
     if (!found) return ZP_SLOW_LOST;

@@ -7,6 +7,7 @@
 #include "base/kernel.h"
 #include "def/check.h"
 #include "math/elementary.h"
+#include "rest/crossing.h"
 #include "solve/descend.h"
 
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
@@ -29,6 +30,10 @@ static void fill_model(const ZpModel *model, ZpStatics *s) {
   *own = *model;
   own->rod.k0 = s->k0_now;
   s->k0 = model->rod.k0;
+}
+
+static bool is_held(const ZpStatics *s) {
+  return !isnan(s->opening);
 }
 
 /* Apply this share of weight and natural curvature. */
@@ -183,16 +188,21 @@ static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
 }
 
-/* Continue from the equilibrium without contact to the one with contact, if there are faces. */
+/* Continue from the equilibrium without contact to the one with contact, if there are faces. If the faces have passed
+ * through each other on the way, weight presses them together: they then lie on each other from the straight shape on,
+ * unless the platform is held open. */
 static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->model->field) return info;
   ZpStaticSystem system = zp_statics_system(s);
   memcpy(s->good, s->q, 2 * s->model->stride * sizeof *s->q);
   ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!zp_newton_good(contact.end)) {
+  if (!is_found(s, contact, work) || zp_statics_fault(s)) {
     memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
-    contact = zp_statics_fall(s, 0, work);
+    if (is_held(s))
+      contact = zp_statics_fall(s, 0, work);
+    else
+      contact = zp_statics_close(s, 0, work);
   }
   contact.iterations += info.iterations;
   return contact;
@@ -208,7 +218,9 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
   if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
   if (s->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
   info = let_faces_push(s, info, work);
-  return let_menisci_draw(s, suction, info, work);
+  info = let_menisci_draw(s, suction, info, work);
+  if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
+  return info;
 }
 
 static void open_to(ZpStatics *s, double opening) {
@@ -239,7 +251,7 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
 }
 
 bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  return grow(s, put_voltage, voltage, 0.05, work);
+  return grow(s, put_voltage, voltage, 0.05, work) && !zp_statics_fault(s);
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {
@@ -301,25 +313,40 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
+/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m. */
+static double pressed_by_load(const ZpModel *model) {
+  const ZpFacesParams *faces = &model->faces;
+  return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + 0.5 * faces->l) : 0;
+}
+
 /* The largest overlap that a state may have, m. By (9.1) the attraction at the breakdown of the insulators causes the
- * contact depth, and a stronger attraction causes more. At a front the bent ribbons press on closed faces like a
- * lever. */
+ * contact depth, and a stronger attraction or a load causes more. At a front the bent ribbons press on closed faces
+ * like a lever. */
 static double deepest_overlap(const ZpStatics *s) {
-  static const double micrometre = 1e-6, of_insulators = 0.02, lever = 3;
+  static const double ranges = 2, of_insulators = 0.02, lever = 3;
   const ZpFacesParams *faces = &s->model->faces;
-  double pull = zp_plates_law(&s->model->plates, s->U, 0).W / faces->push;
+  double attraction = zp_plates_law(&s->model->plates, s->U, 0).W;
+  double pull = (attraction + pressed_by_load(s->model)) / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
-  return fmax(fmax(micrometre, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
+  return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
+}
+
+/* Ribbons that slide along each other by a little are not parted by it, because the gap is that of heights. */
+static double deepest_crossing(const ZpStatics *s) {
+  static const double of_insulators = 0.5;
+  return fmax(deepest_overlap(s), of_insulators * zp_insulation(&s->model->def));
 }
 
 const char *zp_statics_fault(const ZpStatics *s) {
   static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
-  double least = INFINITY, most = deepest_overlap(s);
-  for (size_t i = 0; s->model->field && i < s->model->nodes; i++)
+  if (!s->model->field) return NULL;
+  double least = INFINITY, most = deepest_overlap(s), capacitance = zp_statics_capacitance(s);
+  for (size_t i = 0; i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
   if (s->contact_acts && least < -most) return "the insulators' faces overlap";
-  if (s->model->field && zp_statics_capacitance(s) > beyond_plates * closed_capacitance(s))
-    return "the capacitance is above that of closed faces";
+  if (s->contact_acts && zp_crossing_depth(s->model, s->q) > deepest_crossing(s)) return "the faces cross each other";
+  if (capacitance < 0) return "the capacitance is negative";
+  if (capacitance > beyond_plates * closed_capacitance(s)) return "the capacitance is above that of closed faces";
   return NULL;
 }
 
@@ -338,9 +365,6 @@ ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *roo
 
 /* The equation of a held platform replaces its balance of forces: the platform is where it is held. A step moves it
  * there while the edges rotate, so there is no closing error to spread along the ribbons. */
-static bool is_held(const ZpStatics *s) {
-  return !isnan(s->opening);
-}
 
 size_t zp_statics_platform(const ZpStatics *s) {
   return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
@@ -748,8 +772,8 @@ ZpStaticSystem zp_statics_system(ZpStatics *s) {
 static double fall_length(void *self, const double *step) {
   static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
   const ZpStatics *s = self;
-  bool pulls = s->model->field && s->U != 0;
-  return fmax(length(self, step) / longest, pulls ? gap_share(s, step) / share : 0);
+  bool meets = s->model->field && (s->U != 0 || s->contact_acts);
+  return fmax(length(self, step) / longest, meets ? gap_share(s, step) / share : 0);
 }
 
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user, ZpNewtonWork *work) {

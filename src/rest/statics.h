@@ -114,9 +114,9 @@ bool zp_statics_shorted(const ZpStatics *statics);
 /* The reason why the last solution of the field failed; NULL if it succeeded or no field was solved. */
 const char *zp_statics_trouble(const ZpStatics *statics);
 
-/* The reason why the present point is impossible: the faces overlap by more than 1 um, 1 % of their insulators and
- * three times the overlap that their attraction alone causes, or the capacitance exceeds that of closed faces. NULL if
- * there is none. Of the last residual. */
+/* The reason why the present point is impossible: the faces overlap by more than two ranges of contact, 2 % of their
+ * insulators and three times the overlap that their attraction alone causes, or the capacitance exceeds that of closed
+ * faces. NULL if there is none. Of the last residual. */
 const char *zp_statics_fault(const ZpStatics *statics);
 
 /* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */

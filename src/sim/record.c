@@ -105,7 +105,7 @@ static size_t front(const ZpModel *model, const ZpState *state) {
   size_t i = 0;
   if (!model->has_film) return state->zip.front;
   while (i < model->topology.platform.first &&
-         zp_plates_gap(&model->plates, y, i + 1) < fmax(ZP_CLOSED_GAP, model->plates.d))
+         zp_plates_gap(&model->plates, y, i + 1) < fmax(model->faces.range, model->plates.d))
     i++;
   return i;
 }
@@ -210,6 +210,7 @@ static double fill_electric(ZpSim *sim, double *row) {
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
   row[SIGNAL_capacitance] = parts * e.capacitance;
+  sim->negative |= e.capacitance < 0;
   row[SIGNAL_current] = passed > 0 ? parts * ((given - sim->row_charge) / passed) : 0;
   row[SIGNAL_electric_work] = parts * account.work;
   row[SIGNAL_source_energy] = sim->own_energy = fed ? state->source_energy : row[SIGNAL_electric_work];

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "rest/crossing.h"
 #include "sim/hooks.h"
 #include "sim/margins.h"
 #include "sim/run_rates.h"
@@ -337,16 +338,16 @@ static double opening(const ZpModel *model, const ZpState *state) {
 
 /* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or where faces touch if that is
  * more. */
-static double closed_opening(const ZpState *state) {
-  return fmax(ZP_CLOSED_PART * state->opening0, ZP_CLOSED_GAP);
+static double closed_opening(const ZpModel *model, const ZpState *state) {
+  return fmax(ZP_CLOSED_PART * state->opening0, model->faces.range);
 }
 
 static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > closed_opening(state);
+  return opening(model, state) > closed_opening(model, state);
 }
 
 static bool started_open(const ZpSim *sim) {
-  return sim->step_start.opening > closed_opening(sim->state);
+  return sim->step_start.opening > closed_opening(sim->model, sim->state);
 }
 
 /* Is it closed, after it was open? An actuator that starts closed, as straight ribbons do, has to open first. */
@@ -388,7 +389,7 @@ bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
 /* Do electrodes without an insulator touch under a voltage? */
 static bool has_short(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < ZP_CLOSED_GAP;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < model->faces.range;
 }
 
 static bool shorted(const ZpSim *sim) {
@@ -405,7 +406,7 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
 /* When the actuator closes: on the parabola of the midpoint rule, which has the opening and its rate at the start and
  * the opening at the end. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - closed_opening(state), taken = state->t - start.t;
+  double now = opening(model, state), left = start.opening - closed_opening(model, state), taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
@@ -416,7 +417,7 @@ double zp_sim_crossing(const ZpSim *sim) {
 
 /* Was that instant within the last step? */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  return start.opening > closed_opening(state) && !is_open(model, state);
+  return start.opening > closed_opening(model, state) && !is_open(model, state);
 }
 
 /* Has the opening left the bounds within which it counts as still? Then new ones begin here. */
@@ -567,6 +568,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks
     if (sample) {
       zp_sim_offer_record(sim);
       note_bounds(sim, info);
+      if (sim->negative) return ZP_DIVERGED;
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
     if (shorted(sim)) return ZP_SHORT_CIRCUIT;
@@ -574,6 +576,20 @@ static ZpOutcome advance(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks
     if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
+}
+
+/* => what is impossible about the present state of one of the members; NULL: nothing. Faces overlap for a moment where
+ * they meet, but by less than the strips are thick. */
+static const char *fault_of(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m; m = m->below) {
+    const ZpModel *model = m->model;
+    const ZpActuatorDef *def = &model->def;
+    bool parted = model->field && def->contact.model == ZP_CONTACT_UNILATERAL;
+    if (m->negative) return "the capacitance is negative, because a ribbon folds back";
+    if (parted && zp_crossing_depth(model, zp_state_q(model, m->state)) > zp_insulation(def) + def->ribbon.thickness)
+      return "the faces cross each other";
+  }
+  return NULL;
 }
 
 static void describe(const ZpSim *sim, ZpRunInfo *info) {
@@ -596,7 +612,9 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              (long long)sim->settle_steps, sim->settle_residual);
     break;
   case ZP_DIVERGED:
-    if (sim->eval.fault)
+    if (sim->fault)
+      snprintf(text, size, "the state at %g s is impossible: %s; the results so far are kept", t, sim->fault);
+    else if (sim->eval.fault)
       snprintf(text, size, "the field could not be solved before %g s: %s; the results so far are kept", t,
                sim->eval.fault);
     else if (sim->stuck)
@@ -661,6 +679,8 @@ ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHoo
     keep(sim);
     info.outcome = advance(sim, end_time, stop, hooks, &info);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
+    sim->fault = diverged(sim) || sim->stuck ? NULL : fault_of(sim);
+    if (sim->fault) info.outcome = ZP_DIVERGED;
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
   info.simulated_time = sim->state->t - start_time;
@@ -738,7 +758,7 @@ static void resume_one(ZpSim *sim) {
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
-  sim->cut = false;
+  sim->cut = sim->negative = false;
 }
 
 void zp_sim_resume(ZpSim *sim) {

@@ -113,6 +113,8 @@ struct ZpSim {
   ZpPaperMotion paper;        /* of the paper's steps */
   ZpStepStart step_start;     /* of the last step */
   bool stuck;                 /* no step succeeded */
+  bool negative;              /* a row has had a negative capacitance */
+  const char *fault;          /* why the state in which the last run ended is impossible; NULL: it is possible */
   bool stops_at_events;       /* the run ends at the first event */
   bool at_event;              /* the last step has ended at an event */
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */

@@ -41,7 +41,8 @@ typedef enum ZpNewtonEnd {
   ZP_NEWTON_FLOOR,     /* residual and corrections are limited by rounding, below 100 times the tolerance */
   ZP_NEWTON_SINGULAR,  /* the stiffness is singular */
   ZP_NEWTON_DIVERGED,  /* there is no residual, or `refresh` failed */
-  ZP_NEWTON_SLOW       /* the largest number of iterations was reached */
+  ZP_NEWTON_SLOW,      /* the largest number of iterations was reached */
+  ZP_NEWTON_REFUSED    /* the caller refuses the point that was found */
 } ZpNewtonEnd;
 
 typedef struct ZpNewtonInfo {

@@ -116,7 +116,7 @@ static bool hold(Profiler *p, bool *found) {
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
     ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation, &rest.branch.newton);
-    *found = zp_newton_good(info.end);
+    *found = zp_newton_good(info.end) && !zp_statics_fault(&rest.statics);
     ZpShape shape = zp_statics_shape(&rest.statics, 0, &rest.shape_room);
     if (*found) p->margins = zp_margins_of(model, &shape);
     zp_faces_smooth(model->nodes, model->is_rod, rest.statics.q, rest.statics.q + model->stride, &p->stations);

@@ -40,7 +40,7 @@ static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table)
   }
 }
 
-static const char *words_of(ZpNewtonEnd end) {
+static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
   switch (end) {
   case ZP_NEWTON_CONVERGED:
     return "residual below tolerance";
@@ -50,6 +50,8 @@ static const char *words_of(ZpNewtonEnd end) {
     return "no equilibrium found: the stiffness matrix is singular";
   case ZP_NEWTON_DIVERGED:
     return "no equilibrium found: the iteration diverged";
+  case ZP_NEWTON_REFUSED:
+    return zp_statics_fault(s);
   case ZP_NEWTON_SLOW:
     break;
   }
@@ -75,7 +77,9 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
   ZpNewtonInfo info = zp_statics_hang(s, &rest->branch.newton);
   bool found = zp_newton_good(info.end);
   result->outcome = found ? ZP_CONVERGED : s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-  snprintf(result->message, sizeof result->message, "%s", s->stopped ? "interrupted" : words_of(info.end));
+  snprintf(result->message, sizeof result->message, "%s%s",
+           info.end == ZP_NEWTON_REFUSED ? "the equilibrium found is impossible: " : "",
+           s->stopped ? "interrupted" : words_of(s, info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
   if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   if (zp_has_angle(&s->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);

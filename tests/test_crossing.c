@@ -1,0 +1,87 @@
+/* States that cannot be: faces that pass through each other, a negative capacitance. No study gives them as an answer;
+ * the release of a fold, whose closed state ends in one of them, converges with the mesh. */
+#include "check_util.h"
+
+#include "rest/crossing.h"
+#include "rest/rest.h"
+
+/* Two straight ribbons, the lower one turned by a small angle about a point 0.35 elements right of node 7: from node 8
+ * on it lies above the upper one, and the first two nodes there tell the depth. Ribbons that only touch, or that lie
+ * apart, do not cross. */
+START_TEST(depth_is_that_of_two_lines) {
+  enum { AT = 7 };
+  static const double slope = 0.02;
+  ZpActuatorDef def = DEF({"mesh.nodes", 21});
+  ZpModel *model = model_of(&def);
+  double *q = zp_calloc(2 * model->stride, sizeof *q), l = model->l, at = (AT + 0.35) * l;
+  double x0 = zp_straight_x(model, 0);
+  for (int sign = 1; sign >= -1; sign -= 2) {
+    for (size_t j = 0; j < model->count; j++) {
+      q[j] = zp_straight_x(model, j / 2);
+      q[model->stride + j] = j % 2 ? sign * slope * (q[j] - x0 - at) : 0;
+    }
+    double beyond = sign > 0 ? 1.65 : 1.35;
+    ck_near(zp_crossing_depth(model, q), slope * beyond * l, 1e-9);
+  }
+  for (size_t j = 1; j < model->count; j += 2)
+    q[model->stride + j] = -1e-6 * fabs(q[j] - x0 - at);
+  ck_assert_double_eq(zp_crossing_depth(model, q), 0);
+  zp_free(q);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The reason why a state is refused. */
+START_TEST(impossible_states_are_named) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21});
+  ZpModel *model = model_of(&def);
+  ZpRest *rest;
+  ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
+  ck_assert(zp_rest_hang(rest, 0));
+  ZpStatics *s = &rest->statics;
+  ZpStaticSystem system = zp_statics_system(s);
+  ck_assert_ptr_null(zp_statics_fault(s));
+  double *x = s->q, *y = x + model->stride, *r = rest->branch.newton.r;
+  for (size_t j = 0; j < model->count; j++) /* both run back to the left */
+    x[j] = -x[j];
+  ck_assert_int_eq(system.residual(s, r, NULL), ZP_END_FOUND);
+  ck_assert_str_eq(zp_statics_fault(s), "the capacitance is negative");
+  for (size_t j = 0; j < model->count; j++) { /* steep, the lower one beside the upper one */
+    x[j] = (j % 2 ? 2e-3 : 0) + 0.1 * (-x[j]);
+    y[j] = -0.7e-3 * (double)(j / 2) + (j % 2 && j > 2 ? -1e-4 : 0);
+  }
+  x[1] = x[0], y[1] = y[0];
+  x[3] = x[2] - 2e-4, x[5] = x[4] - 1e-3;
+  ck_assert_int_eq(system.residual(s, r, NULL), ZP_END_FOUND);
+  ck_assert_str_eq(zp_statics_fault(s), "the faces cross each other");
+  zp_rest_destroy(rest);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A fold that hangs steeply opens from its hinge on; its ends then come to lie inside the other face, where nothing
+ * could hold them. It has been released where it leaves its closed state: half as long elements leave less than half of
+ * the difference. */
+START_TEST(release_of_a_fold_converges) {
+  static const int nodes[] = {61, 121, 241};
+  double release[3];
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 0.25}, {"ribbon.thickness", 70e-6},
+                            {"ribbon.width", 23e-3}, {"insulator.thickness", 12e-6}, {"load.mass", 0.55e-3},
+                            {"drive.voltage", 14e3}, {"mesh.nodes", nodes[k]});
+    release[k] = answered_value(ZP_STUDY_LIMITS, &def, "release_voltage_V");
+  }
+  ck_below(fabs(release[2] - release[1]), 0.5 * fabs(release[1] - release[0]));
+  ck_near(release[1], release[2], 0.05);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("crossing");
+  TCase *states = tcase_create("states");
+  tcase_add_test(states, depth_is_that_of_two_lines);
+  tcase_add_test(states, impossible_states_are_named);
+  tcase_add_test(states, release_of_a_fold_converges);
+  suite_add_tcase(suite, states);
+  return run_suite(suite);
+}
