@@ -1,6 +1,7 @@
 #include "study/rates.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -115,31 +116,41 @@ static double zip_time_of(ZpSim *sim, void *unused) {
   return sim->state->zip_time;
 }
 
-static double peak_of(ZpSim *sim, void *unused) {
+static double closed_from_of(ZpSim *sim, void *unused) {
   (void)unused;
-  return zp_sim_currents(sim, sim->state->t).peak;
+  return sim->state->closed_from;
 }
 
-static double rms_of(ZpSim *sim, void *unused) {
-  (void)unused;
-  return zp_sim_currents(sim, sim->state->t).rms;
+/* A run that was interrupted, or has used up its steps, ends at an instant that no physics sets. */
+static double rate_at_end(const ZpRunRates *rates, size_t k, const ZpResult *result, const char *signal) {
+  bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
+  return none ? NAN : zp_run_rate_of(rates, k, signal_of, (void *)signal);
 }
 
-static double rate_at_end(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user) {
-  return isfinite(rates->key[k].lost) ? NAN : zp_run_rate_of(rates, k, number, user);
+/* An actuator that has closed before the derivatives were lost was open for no instant since then. */
+static double rate_of_closed_from(const ZpRunRates *rates, size_t k, const ZpResult *result) {
+  double from = zp_result_get(result, "closed_from_s");
+  return from < rates->key[k].lost ? zp_run_rate_of(rates, k, closed_from_of, NULL) : NAN;
+}
+
+static void add_currents(const ZpRunRates *rates, size_t k, ZpResult *result) {
+  bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
+  ZpCurrents rate = none ? (ZpCurrents){NAN, NAN} : zp_run_rate_of_currents(rates, k);
+  zp_result_add_sensitivity(result, "peak_current_A", rates->key[k].by.key, rate.peak);
+  zp_result_add_sensitivity(result, "rms_current_A", rates->key[k].by.key, rate.rms);
 }
 
 static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
   const ZpModel *model = rates->sim->model;
   int key = rates->key[k].by.key;
-  if (is_pair(model)) zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
+  if (is_pair(model)) {
+    zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
+    zp_result_add_sensitivity(result, "closed_from_s", key, rate_of_closed_from(rates, k, result));
+  }
   for (size_t i = 0; i < AT_END; i++)
     if (at_end[i].has(model))
-      zp_result_add_sensitivity(result, at_end[i].name, key,
-                                rate_at_end(rates, k, signal_of, (void *)at_end[i].signal));
-  if (!is_fed(model)) return;
-  zp_result_add_sensitivity(result, "peak_current_A", key, rate_at_end(rates, k, peak_of, NULL));
-  zp_result_add_sensitivity(result, "rms_current_A", key, rate_at_end(rates, k, rms_of, NULL));
+      zp_result_add_sensitivity(result, at_end[i].name, key, rate_at_end(rates, k, result, at_end[i].signal));
+  if (is_fed(model)) add_currents(rates, k, result);
 }
 
 /* What ends the derivatives by all keys ends them at once. */
@@ -150,6 +161,8 @@ static bool all_lost(const ZpRunRates *rates) {
 }
 
 static void note_lost(const ZpRunRates *rates, ZpResult *result) {
+  if (!zp_outcome_good(result->outcome))
+    zp_result_note(result, "sensitivity: numbers at the end have no derivatives, because the run did not reach its end");
   if (all_lost(rates)) {
     zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives: %s", 1e3 * rates->key[0].lost,
                    rates->key[0].cause);
@@ -161,11 +174,73 @@ static void note_lost(const ZpRunRates *rates, ZpResult *result) {
                      zp_key(of->by.key)->name, of->cause);
 }
 
+static void add_value(const ZpRunRates *rates, const EndNumber *number, ZpResult *result) {
+  if (!number->has(rates->sim->model) || zp_result_has(result, number->name)) return;
+  bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
+  zp_result_add(result, number->name, number->unit, sound ? zp_sim_get(rates->sim, number->signal) : NAN);
+}
+
 void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
-  for (size_t i = 0; rates->keys > 0 && i < AT_END; i++)
-    if (at_end[i].has(rates->sim->model) && isnan(zp_result_get(result, at_end[i].name)))
-      zp_result_add(result, at_end[i].name, at_end[i].unit, zp_sim_get(rates->sim, at_end[i].signal));
+  if (rates->keys == 0) return;
+  for (size_t i = 0; i < AT_END; i++)
+    add_value(rates, &at_end[i], result);
   for (size_t k = 0; k < rates->keys; k++)
     add_key(rates, k, result);
-  if (rates->keys > 0) note_lost(rates, result);
+  note_lost(rates, result);
+}
+
+/* -- are they settled? ----------------------------------------------------------------------------- */
+
+/* A derivative counts as settled if its error is at most `most` of it, or `little` of the number over the key. With
+ * `coarser` times the tolerance its error is `coarser` times as large, eq. (20.11); half of that is counted on. */
+static const double most = 0.01, little = 1e-5, coarser = 10, counted_on = 5;
+
+static bool is_settled(const ZpActuatorDef *def, const ZpResult *result, const ZpSensitivity *fine,
+                       const ZpSensitivity *coarse) {
+  double key = fabs(zp_def_get(def, fine->key)), change = fabs(coarse->value - fine->value);
+  double natural = key > 0 ? fabs(zp_result_get(result, fine->output)) / key : 0;
+  double allowed = fmax(most * fabs(fine->value), isfinite(natural) ? little * natural : 0);
+  return change / (counted_on - 1) <= allowed;
+}
+
+/* Derivatives that are not settled become null => a list of them for a note; their number. */
+static size_t withdraw(const ZpActuatorDef *def, const ZpResult *coarse, ZpResult *result, char *list, size_t size) {
+  size_t count = 0, used = 0;
+  *list = 0;
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    ZpSensitivity *s = &result->sensitivity[i];
+    if (isnan(s->value) || (i < coarse->sensitivities && is_settled(def, result, s, &coarse->sensitivity[i]))) continue;
+    s->value = NAN;
+    const char *comma = count++ > 0 ? ", " : "", *key = zp_key(s->key)->name;
+    size_t needed = strlen(comma) + strlen(s->output) + strlen(" by ") + strlen(key);
+    if (used + needed < size) used += (size_t)snprintf(list + used, size - used, "%s%s by %s", comma, s->output, key);
+  }
+  return count;
+}
+
+static bool has_any(const ZpResult *result) {
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (!isnan(result->sensitivity[i].value)) return true;
+  return false;
+}
+
+ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, ZpError *err) {
+  enum { LIST = 120 };
+  static const double largest = 0.1; /* tolerance */
+  if (!has_any(result) || !isnan(task->def->solver.time_step)) return ZP_OK;
+  ZpActuatorDef def = *task->def;
+  def.solver.tolerance = fmin(coarser * def.solver.tolerance, largest);
+  const ZpTask again = {&def, task->input, task->hooks};
+  ZpError reason;
+  char list[LIST];
+  ZpResult *coarse = zp_result_create(result->study);
+  if (!coarse) return zp_fail_memory(err);
+  ZpStatus status = run(&again, coarse, &reason);
+  size_t count = withdraw(task->def, coarse, result, list, sizeof list);
+  zp_result_destroy(coarse);
+  if (count > 0)
+    zp_result_note(result, "sensitivity: %zu derivatives are null, because the steps determine them to more than 1 %%: %s; "
+                           "reduce solver.tolerance",
+                   count, list);
+  return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
 }
