@@ -19,7 +19,7 @@ typedef struct ZpFeed {
   ZpFeedMode beyond;   /* the limit that the last step has passed */
   double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
   double current[ZP_FEED_CURRENTS]; /* of the last step, A */
-  int largest; /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
+  int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
 } ZpFeed;
 
 /* Is there a supply that acts? Else zp_feed_create to zp_feed_cable_energy, zp_sim_command

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "sim/feed.h"
 #include "study/sensitivity.h"
 
@@ -162,7 +163,8 @@ static bool all_lost(const ZpRunRates *rates) {
 
 static void note_lost(const ZpRunRates *rates, ZpResult *result) {
   if (!zp_outcome_good(result->outcome))
-    zp_result_note(result, "sensitivity: numbers at the end have no derivatives, because the run did not reach its end");
+    zp_result_note(result,
+                   "sensitivity: numbers at the end have no derivatives, because the run did not reach its end");
   if (all_lost(rates)) {
     zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives: %s", 1e3 * rates->key[0].lost,
                    rates->key[0].cause);
@@ -191,31 +193,73 @@ void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
 
 /* -- are they settled? ----------------------------------------------------------------------------- */
 
-/* A derivative counts as settled if its error is at most `most` of it, or `little` of the number over the key. With
- * `coarser` times the tolerance its error is `coarser` times as large, eq. (20.11); half of that is counted on. */
-static const double most = 0.01, little = 1e-5, coarser = 10, counted_on = 5;
+/* A run with other steps, and the error of a derivative over its change in that run. */
+typedef struct Other {
+  ZpActuatorDef def;
+  double error;
+} Other;
 
-static bool is_settled(const ZpActuatorDef *def, const ZpResult *result, const ZpSensitivity *fine,
-                       const ZpSensitivity *coarse) {
-  double key = fabs(zp_def_get(def, fine->key)), change = fabs(coarse->value - fine->value);
-  double natural = key > 0 ? fabs(zp_result_get(result, fine->output)) / key : 0;
-  double allowed = fmax(most * fabs(fine->value), isfinite(natural) ? little * natural : 0);
-  return change / (counted_on - 1) <= allowed;
+/* Errors are proportional to the tolerance, eq. (20.11), so a ninth of the change; three times that is counted on. */
+static Other with_tolerance(const ZpActuatorDef *def) {
+  static const double largest = 0.1;
+  Other c = {*def, 1.0 / 3};
+  c.def.solver.tolerance = fmin(10 * def->solver.tolerance, largest);
+  return c;
 }
 
-/* Derivatives that are not settled become null => a list of them for a note; their number. */
-static size_t withdraw(const ZpActuatorDef *def, const ZpResult *coarse, ZpResult *result, char *list, size_t size) {
-  size_t count = 0, used = 0;
-  *list = 0;
+/* And to the square of equal steps. They are shorter, because the drive limits longer ones. */
+static Other with_steps(const ZpActuatorDef *def, const ZpResult *result) {
+  Other c = {*def, 4.0 / 3};
+  c.def.solver.time_step = 0.5 * zp_result_get(result, "mean_time_step_s");
+  return c;
+}
+
+/* Is the error at most 1 % of the derivative, or rounding of the number over the key? */
+static bool is_settled(const Other *c, const ZpResult *result, const ZpSensitivity *own, const ZpSensitivity *other) {
+  static const double most = 0.01, rounding = 1e-7;
+  double key = fabs(zp_def_get(&c->def, own->key)), error = c->error * fabs(other->value - own->value);
+  double number = key > 0 ? fabs(zp_result_get(result, own->output)) / key : 0;
+  return error <= fmax(most * fabs(own->value), isfinite(number) ? rounding * number : 0);
+}
+
+/* Derivatives that are not settled become null. The other run has the same ones, in the same order. */
+static void withdraw(const Other *c, const ZpResult *other, ZpResult *result) {
   for (size_t i = 0; i < result->sensitivities; i++) {
     ZpSensitivity *s = &result->sensitivity[i];
-    if (isnan(s->value) || (i < coarse->sensitivities && is_settled(def, result, s, &coarse->sensitivity[i]))) continue;
-    s->value = NAN;
+    if (i >= other->sensitivities || !is_settled(c, result, s, &other->sensitivity[i])) s->value = NAN;
+  }
+}
+
+/* Compare with another run => the share of steps that it has taken. */
+static ZpStatus settle(const ZpTask *task, ZpStudyRun run, const Other *c, ZpResult *result, double *share,
+                       ZpError *err) {
+  const ZpTask again = {&c->def, task->input, task->hooks};
+  ZpError reason;
+  ZpResult *other = zp_result_create(result->study);
+  if (!other) return zp_fail_memory(err);
+  ZpStatus status = run(&again, other, &reason);
+  withdraw(c, other, result);
+  *share = zp_result_get(other, "steps") / zp_result_get(result, "steps");
+  zp_result_destroy(other);
+  return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
+}
+
+/* Name as many as fit of the derivatives that were there before. */
+static void note_unsettled(const ZpSensitivity *before, ZpResult *result) {
+  enum { LIST = 128 };
+  char list[LIST] = "";
+  size_t count = 0, used = 0;
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &before[i];
+    if (isnan(s->value) || !isnan(result->sensitivity[i].value)) continue;
     const char *comma = count++ > 0 ? ", " : "", *key = zp_key(s->key)->name;
     size_t needed = strlen(comma) + strlen(s->output) + strlen(" by ") + strlen(key);
-    if (used + needed < size) used += (size_t)snprintf(list + used, size - used, "%s%s by %s", comma, s->output, key);
+    if (used + needed < LIST) used += (size_t)snprintf(list + used, LIST - used, "%s%s by %s", comma, s->output, key);
   }
-  return count;
+  if (count > 0)
+    zp_result_note(result,
+                   "sensitivity: null because other steps change it by more than 1 %%: %s%s; reduce solver.tolerance",
+                   list, count > 1 ? ", ..." : "");
 }
 
 static bool has_any(const ZpResult *result) {
@@ -225,22 +269,17 @@ static bool has_any(const ZpResult *result) {
 }
 
 ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, ZpError *err) {
-  enum { LIST = 120 };
-  static const double largest = 0.1; /* tolerance */
+  static const double same = 0.6; /* share of the steps: the drive, not the tolerance, has set most of them */
   if (!has_any(result) || !isnan(task->def->solver.time_step)) return ZP_OK;
-  ZpActuatorDef def = *task->def;
-  def.solver.tolerance = fmin(coarser * def.solver.tolerance, largest);
-  const ZpTask again = {&def, task->input, task->hooks};
-  ZpError reason;
-  char list[LIST];
-  ZpResult *coarse = zp_result_create(result->study);
-  if (!coarse) return zp_fail_memory(err);
-  ZpStatus status = run(&again, coarse, &reason);
-  size_t count = withdraw(task->def, coarse, result, list, sizeof list);
-  zp_result_destroy(coarse);
-  if (count > 0)
-    zp_result_note(result, "sensitivity: %zu derivatives are null, because the steps determine them to more than 1 %%: %s; "
-                           "reduce solver.tolerance",
-                   count, list);
-  return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
+  ZpSensitivity *before = zp_calloc(result->sensitivities, sizeof *before);
+  if (!before) return zp_fail_memory(err);
+  memcpy(before, result->sensitivity, result->sensitivities * sizeof *before);
+  double share;
+  Other c = with_tolerance(task->def);
+  ZpStatus status = settle(task, run, &c, result, &share, err);
+  c = with_steps(task->def, result);
+  if (status == ZP_OK && share > same) status = settle(task, run, &c, result, &share, err);
+  note_unsettled(before, result);
+  zp_free(before);
+  return status;
 }
