@@ -456,19 +456,19 @@ static void correct(const ZpNearSteps *steps, const Rates *r, bool first) {
   }
 }
 
-/* Distance from the known system to the farthest one. */
-static double farthest(const ZpNearSteps *steps) {
-  double most = 0;
+/* Rounding of a derivative of numbers of size 1: a third of the sum of the weights' sizes, as errors mostly cancel. */
+static double rounding_of(const ZpNearSteps *steps) {
+  double sum = 0;
   for (int k = 0; k < steps->count; k++)
-    most = fmax(most, fabs(steps->near[k].offset));
-  return most;
+    sum += fabs(steps->near[k].weight);
+  return DBL_EPSILON * sum / 3;
 }
 
 /* Passes with the factored Jacobian of one of the steps: the next pass corrects what it lacks of the exact tangent. */
 static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   enum { MOST_PASSES = 40 };
   ZpImplicit *s = steps->near[0].stepper;
-  double *left = steps->work, before = INFINITY, rounding = DBL_EPSILON * s->reach / farthest(steps);
+  double *left = steps->work, before = INFINITY, rounding = rounding_of(steps) * s->reach;
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     if (!look(steps, r, left) || (pass == 0 && !factor(&steps->near[0]))) return false;
     zp_bordered_solve(&s->A, left);
