@@ -260,27 +260,6 @@ static bool follow_landing(ZpRunRates *rates, ZpKeyRates *of) {
   return isfinite(of->late) && follow_step(rates, of, true);
 }
 
-/* Derivatives of the range within which a closed actuator counts as still, and of the time since when. A new range
- * begins where the opening leaves the old one by its farther bound. */
-static void follow_rest(const ZpRunRates *rates, ZpKeyRates *of) {
-  const ZpModel *model = rates->sim->model;
-  const ZpState *now = rates->sim->state, *before = rates->before;
-  ZpStill *still = &of->still;
-  if (isnan(now->closed_from) || !zp_is_pair(&model->topology)) return;
-  double here = zp_opening(&model->topology, zp_state_motion(model, now).y),
-         rate = zp_opening(&model->topology, zp_state_motion(model, of->rate).y),
-         velocity = zp_opening(&model->topology, zp_state_motion(model, now).vy);
-  double range = ZP_STILL_RANGE * of->rate->opening0;
-  bool closes = now->closed_from != before->closed_from, anew = now->still.from != before->still.from;
-  if (closes)
-    still->from = of->rate->closed_from;
-  else if (anew)
-    still->from = ((here < before->still.least ? still->most - range : still->least + range) - rate) / velocity;
-  double along = closes || anew ? rate + velocity * still->from : rate;
-  if (now->still.least == here) still->least = along;
-  if (now->still.most == here) still->most = along;
-}
-
 static double rate_of_current(const ZpKeyRates *of, int which) {
   double sum = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
@@ -303,10 +282,9 @@ static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   bool moves = sim->dynamics.stepper.counts.steps > rates->taken, lands = sim->landing != ZP_LANDS_NOWHERE;
-  bool rests = sim->stop == ZP_STOP_HELD && zp_sim_stops(sim, sim->stop);
-  of->late = rests ? of->still.from : 0;
+  bool rests = sim->stop == ZP_STOP_HELD && zp_sim_stops(sim, sim->stop); /* as much later as it has closed later */
+  of->late = rests ? of->rate->closed_from : 0;
   if (lands ? !follow_landing(rates, of) : !follow_step(rates, of, moves)) return false;
-  follow_rest(rates, of);
   if (moves && zp_sim_is_fed(sim)) follow_currents(rates, of);
   return true;
 }

@@ -15,7 +15,6 @@ typedef struct ZpKeyRates {
   double to[ZP_NEAR_POINTS];   /* and their next one, s */
   double late;                 /* derivative of the end of the step, beyond that by corners, s */
   ZpState *rate;               /* derivatives of the numbers of the run's state; of its time where a key moves it */
-  ZpStill still;               /* of the range within which a closed actuator counts as still, */
   double square, peak;         /* of the integral of the current's square and of its largest size so far (feed.h) */
   double lost;                 /* when they ceased to exist, s; INFINITY: they have not */
   const char *cause;           /* and why */

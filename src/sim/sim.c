@@ -369,7 +369,8 @@ static bool has_closed(const ZpModel *model, const ZpState *state) {
 
 /* When it will have hardly moved for a while, s, if it goes on so; INFINITY: it is open. */
 static double due_to_rest(const ZpState *state) {
-  return isnan(state->closed_from) ? INFINITY : state->still.from + ZP_STILL_TIME;
+  static const double while_still = 0.1; /* s */
+  return isnan(state->closed_from) ? INFINITY : state->still.from + while_still;
 }
 
 /* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
@@ -432,10 +433,11 @@ static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart star
 
 /* Has the opening left the bounds within which it counts as still? Then new ones begin here. */
 static void note_still(ZpState *state, double opening) {
+  static const double range = 1e-4; /* of the contraction */
   ZpStill *still = &state->still;
   still->least = fmin(still->least, opening);
   still->most = fmax(still->most, opening);
-  if (still->most - still->least >= ZP_STILL_RANGE * state->opening0) *still = (ZpStill){state->t, opening, opening};
+  if (still->most - still->least >= range * state->opening0) *still = (ZpStill){state->t, opening, opening};
 }
 
 /* Has the last step closed the actuator, or opened it again? */

@@ -66,11 +66,6 @@ bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 /* An actuator is closed below this part of its hanging opening. */
 #define ZP_CLOSED_PART 0.01
 
-/* An actuator that has closed is at rest once its contraction has changed by less than ZP_STILL_RANGE for
- * ZP_STILL_TIME, s. */
-#define ZP_STILL_RANGE 1e-4
-#define ZP_STILL_TIME  0.1
-
 /* Arrays for the liquid of all members, in the uppermost simulation. */
 typedef struct ZpLiquidRoom {
   double *thickness, *pressure; /* [members nodes] */
