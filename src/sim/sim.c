@@ -577,7 +577,7 @@ static void land(ZpSim *sim, ZpLanding landing, const ZpFeed *feed, ZpStepLimit 
 
 /* -- a step of a run ------------------------------------------------------------------------------- */
 
-/* When the run ends if all members that have to rest go on to rest, s. */
+/* When the run ends if all members that have to rest stay at rest, s. */
 static double rest_due(const ZpSim *sim) {
   bool first = zp_is_opposed(sim->model);
   double due = first ? INFINITY : 0;

@@ -199,11 +199,11 @@ typedef struct Other {
   double error;
 } Other;
 
-/* Errors are proportional to the tolerance, eq. (20.11), so a ninth of the change; three times that is counted on. */
+/* Errors are proportional to the tolerance, eq. (20.11), so a third of the change; half of it is counted on. */
 static Other with_tolerance(const ZpActuatorDef *def) {
   static const double largest = 0.1;
-  Other c = {*def, 1.0 / 3};
-  c.def.solver.tolerance = fmin(10 * def->solver.tolerance, largest);
+  Other c = {*def, 0.5};
+  c.def.solver.tolerance = fmin(4 * def->solver.tolerance, largest);
   return c;
 }
 
@@ -269,7 +269,7 @@ static bool has_any(const ZpResult *result) {
 }
 
 ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, ZpError *err) {
-  static const double same = 0.6; /* share of the steps: the drive, not the tolerance, has set most of them */
+  static const double same = 0.7; /* share of the steps: the drive, not the tolerance, has set most of them */
   if (!has_any(result) || !isnan(task->def->solver.time_step)) return ZP_OK;
   ZpSensitivity *before = zp_calloc(result->sensitivities, sizeof *before);
   if (!before) return zp_fail_memory(err);
