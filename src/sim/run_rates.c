@@ -52,6 +52,7 @@ static ZpStatus open_key(ZpRunRates *rates, ZpRest *rest, int key, ZpKeyRates *o
   const ZpModel *model = rates->sim->model;
   bool hangs = zp_is_pair(&model->topology) || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
   of->lost = INFINITY;
+  of->last[0].t = of->last[1].t = NAN;
   of->rate = zp_calloc(1, zp_state_size(model));
   if (!of->rate) return zp_fail_memory(err);
   ZpStatus status = zp_near_open(&of->by, model, key, part, err);
@@ -267,16 +268,42 @@ static double rate_of_current(const ZpKeyRates *of, int which) {
   return sum;
 }
 
+/* (three currents, the largest in the middle) => the derivative at the vertex of the parabola through them. */
+static double rate_at_vertex(ZpCurrentRate a, ZpCurrentRate b, ZpCurrentRate c) {
+  double left = b.t - a.t, right = c.t - b.t, both = c.t - a.t;
+  double bend = ((c.I - b.I) / right - (b.I - a.I) / left) / both, slope = (b.I - a.I) / left + bend * left;
+  double bent = ((c.rate - b.rate) / right - (b.rate - a.rate) / left) / both,
+         along = (b.rate - a.rate) / left + bent * left;
+  double to = bend != 0 ? fmin(fmax(-0.5 * slope / bend, -left), right) : 0;
+  return b.rate + (along + bent * to) * to;
+}
+
+/* Derivative of the peak. It is mostly at the end of a step, or without a resistance in the middle of one. At a corner
+ * of the drive it stays there; otherwise the next step shows where between them it is. */
+static void follow_peak(const ZpRunRates *rates, ZpKeyRates *of) {
+  const ZpSim *sim = rates->sim;
+  const ZpFeed *feed = &sim->feed;
+  const int which = sim->model->supply.resistance > 0 ? ZP_CURRENT_AT_END : ZP_CURRENT_MEAN;
+  double start = rates->before->t, end = sim->state->t;
+  ZpCurrentRate now = {which == ZP_CURRENT_MEAN ? 0.5 * (start + end) : end, feed->current[which],
+                       rate_of_current(of, which)};
+  bool passed = of->at_peak && feed->largest == ZP_FEED_CURRENTS && start != rates->from && !isnan(of->last[1].t);
+  if (passed) of->peak = copysign(1, of->last[0].I) * rate_at_vertex(of->last[1], of->last[0], now);
+  if (feed->largest < ZP_FEED_CURRENTS)
+    of->peak = copysign(1, feed->current[feed->largest]) * rate_of_current(of, feed->largest);
+  of->at_peak = feed->largest == which;
+  of->last[1] = of->last[0];
+  of->last[0] = now;
+}
+
 /* Derivatives of the square's integral and of the peak, from those of the currents of the run's step. A difference of
  * the neighbours' peaks would compare instants at which only one of them has a peak. */
 static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
-  const ZpFeed *feed = &rates->sim->feed;
-  double mean = feed->current[ZP_CURRENT_MEAN], h = rates->sim->state->t - rates->before->t, dh = 0;
+  double mean = rates->sim->feed.current[ZP_CURRENT_MEAN], h = rates->sim->state->t - rates->before->t, dh = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
     if (of->near[k]) dh += of->by.weight[k] * (of->near[k]->state->t - of->near[k]->origin->t);
   of->square += 2 * mean * rate_of_current(of, ZP_CURRENT_MEAN) * h + mean * mean * dh;
-  if (feed->largest < ZP_FEED_CURRENTS)
-    of->peak = copysign(1, feed->current[feed->largest]) * rate_of_current(of, feed->largest);
+  follow_peak(rates, of);
 }
 
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {

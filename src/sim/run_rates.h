@@ -7,6 +7,11 @@
 #include "rest/near.h"
 #include "sim/sim_internal.h"
 
+/* A current of the run, its time and its derivative. */
+typedef struct ZpCurrentRate {
+  double t, I, rate;
+} ZpCurrentRate;
+
 /* Of one key. */
 typedef struct ZpKeyRates {
   ZpNear by;
@@ -16,8 +21,10 @@ typedef struct ZpKeyRates {
   double late;                 /* derivative of the end of the step, beyond that by corners, s */
   ZpState *rate;               /* derivatives of the numbers of the run's state; of its time where a key moves it */
   double square, peak;         /* of the integral of the current's square and of its largest size so far (feed.h) */
-  double lost;                 /* when they ceased to exist, s; INFINITY: they have not */
-  const char *cause;           /* and why */
+  ZpCurrentRate last[2]; /* the currents of the last two steps, the later one first; t is NAN before there is one */
+  bool at_peak;          /* the later one is the largest so far */
+  double lost;           /* when they ceased to exist, s; INFINITY: they have not */
+  const char *cause;     /* and why */
 } ZpKeyRates;
 
 typedef struct ZpRunRates {

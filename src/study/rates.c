@@ -269,7 +269,7 @@ static bool has_any(const ZpResult *result) {
 }
 
 ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, ZpError *err) {
-  static const double same = 0.7; /* share of the steps: the drive, not the tolerance, has set most of them */
+  static const double same = 0.55; /* share of the steps: the drive, not the tolerance, has set most of them */
   if (!has_any(result) || !isnan(task->def->solver.time_step)) return ZP_OK;
   ZpSensitivity *before = zp_calloc(result->sensitivities, sizeof *before);
   if (!before) return zp_fail_memory(err);
