@@ -199,10 +199,10 @@ typedef struct Other {
   double error;
 } Other;
 
-/* Errors are proportional to the tolerance, eq. (20.11), so a third of the change; half of it is counted on. */
+/* Errors are proportional to the tolerance, eq. (20.11), so a third of the change; three quarters are counted on. */
 static Other with_tolerance(const ZpActuatorDef *def) {
   static const double largest = 0.1;
-  Other c = {*def, 0.5};
+  Other c = {*def, 0.75};
   c.def.solver.tolerance = fmin(4 * def->solver.tolerance, largest);
   return c;
 }
