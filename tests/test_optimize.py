@@ -59,6 +59,16 @@ def check_known_optimum(zipact, scratch):
         ok("strip by %s: the thickness that bends by 0.3 mm" % method, run.returncode == 0 and best["feasible"] and abs(thickness / expected - 1) < 2e-3)
 
 
+def check_bound_of_a_motion(zipact, scratch):
+    """The least viscous loss until closing is that of the least viscosity: at constant time its derivative has the
+    other sign."""
+    sets = ["study=actuate", "liquid.model=submerged", "mesh.nodes=21", "solver.stop_when_zipped=true", "output.errors=false",
+            "optimize.variables=medium.kinematic_viscosity = 20 mm2/s .. 80 mm2/s", "optimize.objective=min viscous_loss_J", "optimize.evaluations=12"]
+    run = zipact.run(sets, scratch / "motion")
+    best = summary_of(scratch / "motion")["optimum"]["cases"][0]
+    ok("motion: the bound", run.returncode == 0 and abs(best["medium.kinematic_viscosity"] / 20e-6 - 1) < 1e-6)
+
+
 def check_known_front(zipact, scratch):
     """The same strip, much stroke for little stress, 3 P L / (w b^2): their quotient is L^2 (1 - nu^2) / (3 E b), so the
     thinnest strip is best, of any width, and where it is as wide as it may be, the thinnest that has the stress."""
@@ -202,6 +212,7 @@ def main():
     scratch.mkdir(parents=True)
     zipact = Zipact(program)
     check_known_optimum(zipact, scratch)
+    check_bound_of_a_motion(zipact, scratch)
     check_workers(zipact, scratch)
     check_known_front(zipact, scratch)
     check_kills(zipact, scratch)

@@ -4,8 +4,14 @@
 
 #include "base/fail.h"
 
-/* Of the range, where the value is 0. */
+/* Of the range, where value and default are 0. */
 static const double part_of_range = 1e-6;
+
+/* Step of a key of this value: a part of it, or where it is 0 of its default, which has the size of usual values. */
+static double step_of(const ZpKey *row, double value, double part) {
+  double size = value != 0 ? fabs(value) : fabs(row->def);
+  return size > 0 ? part * size : part_of_range * row->max;
+}
 
 /* Difference quotients of fourth order: around the value, below it, above it. */
 typedef struct Stencil {
@@ -45,7 +51,7 @@ ZpStatus zp_near_open(ZpNear *near, const ZpModel *model, int key, double part, 
   double value = zp_def_get(&model->def, key);
   ZpError reason = {ZP_OK, ""};
   ZpStatus status = ZP_BAD_INPUT;
-  near->step = value != 0 ? part * fabs(value) : part_of_range * row->max;
+  near->step = step_of(row, value, part);
   for (int k = 0; k < STENCILS && status == ZP_BAD_INPUT; k++)
     status = build(near, model, &stencils[k], &reason);
   if (status == ZP_MACHINE) return zp_fail_memory(err);

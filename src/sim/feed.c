@@ -196,13 +196,23 @@ void zp_feed_note_current(ZpSim *sim, double current, double h) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(current));
 }
 
-/* Behind a resistance the current is largest at the start or the end of a step, A; 0 at a limit, where it is
- * constant. */
-static double current_at_ends(const ZpSim *sim) {
+/* Behind a resistance the current is largest at the start or the end of a step, A; at a limit it is constant. */
+static double through(const ZpSim *sim, double drop, double mean) {
+  const ZpState *state = sim->state;
+  const bool varies = state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance > 0;
+  return varies ? drop / sim->model->supply.resistance : mean;
+}
+
+static void note_currents(ZpSim *sim, double mean, double h) {
   const ZpState *state = sim->state, *before = sim->before;
-  if (state->supply_mode != ZP_FEED_FREE || sim->model->supply.resistance == 0) return 0;
-  double drop = fmax(fabs(before->supply.voltage - before->U), fabs(state->supply.voltage - state->U));
-  return drop / sim->model->supply.resistance;
+  ZpFeed *feed = &sim->feed;
+  feed->current[ZP_CURRENT_MEAN] = mean;
+  feed->current[ZP_CURRENT_AT_START] = through(sim, before->supply.voltage - before->U, mean);
+  feed->current[ZP_CURRENT_AT_END] = through(sim, state->supply.voltage - state->U, mean);
+  feed->largest = ZP_FEED_CURRENTS;
+  feed->square += mean * mean * h;
+  for (int k = 0; k < ZP_FEED_CURRENTS; k++)
+    if (fabs(feed->current[k]) > feed->peak) feed->peak = fabs(feed->current[k]), feed->largest = k;
 }
 
 /* The books of a step, eqs. (23.6) and (23.7). */
@@ -210,7 +220,7 @@ static void book(ZpSim *sim) {
   ZpState *state = sim->state;
   const ZpState *before = sim->before;
   const ZpDynamics *d = &sim->dynamics;
-  double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
+  const double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
   double electrodes = sim->model->parts * (given(state, d->charge1) - given(before, d->charge0));
   double bled = h * sim->model->supply.conductance * U * U;
   double taken = electrodes + cable_of(sim) * U * (state->U - before->U) + bled;
@@ -219,8 +229,7 @@ static void book(ZpSim *sim) {
   state->source_energy += energy;
   state->source_loss += energy - taken;
   state->bleeder_loss += bled;
-  zp_feed_note_current(sim, charge / h, h);
-  sim->feed.peak = fmax(sim->feed.peak, current_at_ends(sim));
+  note_currents(sim, charge / h, h);
 }
 
 /* -- a step ---------------------------------------------------------------------------------------- */

@@ -9,12 +9,17 @@
 /* Which limit of the supply acts. */
 typedef enum ZpFeedMode { ZP_FEED_FREE, ZP_FEED_GIVES_MOST, ZP_FEED_SINKS_MOST } ZpFeedMode;
 
+/* Currents of a step that may be the largest one. */
+typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT_END, ZP_FEED_CURRENTS } ZpFeedCurrent;
+
 typedef struct ZpFeed {
   ZpSource source;     /* what the dynamics ask */
   double capacitance;  /* of electrodes and cable where the step begins, F */
   double scale;        /* V */
   ZpFeedMode beyond;   /* the limit that the last step has passed */
   double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
+  double current[ZP_FEED_CURRENTS]; /* of the last step, A */
+  int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
 } ZpFeed;
 
 /* Is there a supply that acts? Else zp_feed_create to zp_feed_cable_energy, zp_sim_command
@@ -42,7 +47,7 @@ bool zp_feed_step(ZpSim *sim, double latest);
 void zp_feed_begin(ZpSim *sim);
 void zp_feed_end(ZpSim *sim);
 
-/* A mean current has flowed for a time h. */
+/* A mean current has flowed for a time h behind an ideal source. */
 void zp_feed_note_current(ZpSim *sim, double current, double h);
 
 /* The current out of the source over a run so far, of that duration, A. NAN: the voltage of the electrodes has jumped,

@@ -52,6 +52,7 @@ static ZpStatus open_key(ZpRunRates *rates, ZpRest *rest, int key, ZpKeyRates *o
   const ZpModel *model = rates->sim->model;
   bool hangs = zp_is_pair(&model->topology) || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
   of->lost = INFINITY;
+  of->last[0].t = of->last[1].t = NAN;
   of->rate = zp_calloc(1, zp_state_size(model));
   if (!of->rate) return zp_fail_memory(err);
   ZpStatus status = zp_near_open(&of->by, model, key, part, err);
@@ -119,6 +120,7 @@ static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_c
   near->state->t = t;
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
   if (zp_sim_is_fed(near)) zp_feed_arrive(near);
+  memcpy(near->origin, near->state, zp_state_size(near->model));
   if (!at_corner) return;
   of->from[k] = t;
   of->to[k] = corner_of(near, end_time);
@@ -157,11 +159,17 @@ static bool meniscus_passes(ZpRunRates *rates) {
   return passes;
 }
 
+/* Does the run end in this step without being known where in it? */
+static bool ends_somewhere(const ZpSim *sim) {
+  return sim->stop == ZP_STOP_CLOSED && sim->landing == ZP_LANDS_NOWHERE && zp_sim_stops(sim, sim->stop);
+}
+
 /* An event in the run's step that has no derivative. What a meniscus leaves at a station that it passes, and how long a
  * supply is at its limit, depend on when within the step it happens. NULL: none. */
 static const char *cause_of_loss(ZpRunRates *rates) {
   if (rates->sim->state->supply_mode != rates->before->supply_mode)
     return "a limit of the supply's current begins or ends";
+  if (ends_somewhere(rates->sim)) return "the run ends at the end of a step, in which a pair joins";
   return meniscus_passes(rates) ? "the meniscus of a bead passes a station" : NULL;
 }
 
@@ -170,14 +178,19 @@ static bool takes_matrix(const ZpRunRates *rates) {
   return rates->sim->model->has_bead || rates->sim->dynamics.filters;
 }
 
+static double end_near(const ZpRunRates *rates, const ZpKeyRates *of, int k) {
+  return time_of(rates, of, k, rates->sim->state->t) + of->by.offset[k] * of->late;
+}
+
 /* The dynamics of all points of a key, from their present states to the end of the run's step. */
 static bool move(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
+  _Static_assert((int)ZP_NEAR_STEPS == (int)ZP_NEAR_POINTS, "one step per point");
   ZpNearSteps steps = {.q1 = sim->dynamics.q, .lead = &sim->dynamics.history, .work = rates->work};
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
     ZpSim *near = of->near[k];
     if (!near) continue;
-    double latest = time_of(rates, of, k, sim->state->t);
+    double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
     if (!zp_sim_prepare(near)) return false;
     if (zp_sim_is_fed(near)) zp_feed_begin(near);
@@ -194,28 +207,112 @@ static void arrive(ZpSim *near) {
   zp_sim_arrive(near);
 }
 
-/* The zip time of a neighbouring actuator at the end of the run's step. It follows from the same step, wherever the
- * neighbour's own path passes the limit. A platform that touches, or a front that arrives, is detected only at the end
- * of a step, which is not the exact instant. */
-static double zip_time_near(const ZpRunRates *rates, const ZpSim *near) {
-  const ZpState *state = rates->sim->state;
-  if (!isnan(rates->before->zip_time)) return near->state->zip_time;
-  return state->zip_time < state->t ? zp_sim_crossing(near) : NAN;
+/* When a neighbouring actuator closes, if the run closes in this step: where the neighbour's path of the same step
+ * passes the limit, even outside the step. A front that arrives is detected only at the end of a step, which is not the
+ * exact instant. `now` and `before` are of the run, at the end and the start of the step. */
+static double closing_near(const ZpRunRates *rates, const ZpSim *near, double before, double now, double carried) {
+  const ZpSim *sim = rates->sim;
+  if (isnan(now)) return NAN;
+  if (now == before) return carried;
+  if (sim->landing == ZP_LANDS_CLOSED) return near->state->t;
+  return now < sim->state->t ? zp_sim_crossing(near) : NAN;
+}
+
+/* Take the neighbours from the start of the run's step to its end. */
+static bool follow_step(ZpRunRates *rates, ZpKeyRates *of, bool moves) {
+  const ZpState *now = rates->sim->state, *before = rates->before;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (of->near[k]) memcpy(of->near[k]->state, of->near[k]->origin, zp_state_size(of->near[k]->model));
+  if (moves && !move(rates, of)) return false;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+    ZpSim *near = of->near[k];
+    if (!near) continue;
+    if (moves)
+      arrive(near);
+    else
+      near->state->t = end_near(rates, of, k);
+    ZpState *state = near->state;
+    const ZpState *origin = near->origin;
+    state->zip_time = closing_near(rates, near, before->zip_time, now->zip_time, origin->zip_time);
+    state->closed_from = closing_near(rates, near, before->closed_from, now->closed_from, origin->closed_from);
+  }
+  take_rate(rates, of);
+  return true;
+}
+
+/* Derivative at the end of the step of what is left until the run ends. */
+static double rate_of_left(const ZpRunRates *rates, const ZpKeyRates *of) {
+  double sum = 0;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (of->near[k]) sum += of->by.weight[k] * zp_sim_left(of->near[k], rates->sim->landing);
+  return sum;
+}
+
+/* The last step of a run that ends at an event, eq. (20.10): it ends where nothing is left in the neighbours, too. What
+ * is left there is linear in the derivative of the end. */
+static bool follow_landing(ZpRunRates *rates, ZpKeyRates *of) {
+  const ZpSim *sim = rates->sim;
+  if (!follow_step(rates, of, true)) return false;
+  double first = rate_of_left(rates, of), trial = first * (sim->state->t - rates->before->t) / sim->left_before;
+  if (first == 0) return true;
+  of->late = trial;
+  if (!follow_step(rates, of, true)) return false;
+  of->late = trial * first / (first - rate_of_left(rates, of));
+  return isfinite(of->late) && follow_step(rates, of, true);
+}
+
+static double rate_of_current(const ZpKeyRates *of, int which) {
+  double sum = 0;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (of->near[k]) sum += of->by.weight[k] * of->near[k]->feed.current[which];
+  return sum;
+}
+
+/* (three currents, the largest in the middle) => the derivative at the vertex of the parabola through them. */
+static double rate_at_vertex(ZpCurrentRate a, ZpCurrentRate b, ZpCurrentRate c) {
+  double left = b.t - a.t, right = c.t - b.t, both = c.t - a.t;
+  double bend = ((c.I - b.I) / right - (b.I - a.I) / left) / both, slope = (b.I - a.I) / left + bend * left;
+  double bent = ((c.rate - b.rate) / right - (b.rate - a.rate) / left) / both,
+         along = (b.rate - a.rate) / left + bent * left;
+  double to = bend != 0 ? fmin(fmax(-0.5 * slope / bend, -left), right) : 0;
+  return b.rate + (along + bent * to) * to;
+}
+
+/* Derivative of the peak. It is mostly at the end of a step, or without a resistance in the middle of one. At a corner
+ * of the drive it stays there; otherwise the next step shows where between them it is. */
+static void follow_peak(const ZpRunRates *rates, ZpKeyRates *of) {
+  const ZpSim *sim = rates->sim;
+  const ZpFeed *feed = &sim->feed;
+  const int which = sim->model->supply.resistance > 0 ? ZP_CURRENT_AT_END : ZP_CURRENT_MEAN;
+  double start = rates->before->t, end = sim->state->t;
+  ZpCurrentRate now = {which == ZP_CURRENT_MEAN ? 0.5 * (start + end) : end, feed->current[which],
+                       rate_of_current(of, which)};
+  bool passed = of->at_peak && feed->largest == ZP_FEED_CURRENTS && start != rates->from && !isnan(of->last[1].t);
+  if (passed) of->peak = copysign(1, of->last[0].I) * rate_at_vertex(of->last[1], of->last[0], now);
+  if (feed->largest < ZP_FEED_CURRENTS)
+    of->peak = copysign(1, feed->current[feed->largest]) * rate_of_current(of, feed->largest);
+  of->at_peak = feed->largest == which;
+  of->last[1] = of->last[0];
+  of->last[0] = now;
+}
+
+/* Derivatives of the square's integral and of the peak, from those of the currents of the run's step. A difference of
+ * the neighbours' peaks would compare instants at which only one of them has a peak. */
+static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
+  double mean = rates->sim->feed.current[ZP_CURRENT_MEAN], h = rates->sim->state->t - rates->before->t, dh = 0;
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (of->near[k]) dh += of->by.weight[k] * (of->near[k]->state->t - of->near[k]->origin->t);
+  of->square += 2 * mean * rate_of_current(of, ZP_CURRENT_MEAN) * h + mean * mean * dh;
+  follow_peak(rates, of);
 }
 
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
-  bool moves = sim->dynamics.stepper.counts.steps > rates->taken;
-  if (moves && !move(rates, of)) return false;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
-    if (!of->near[k]) continue;
-    if (moves)
-      arrive(of->near[k]);
-    else
-      of->near[k]->state->t = time_of(rates, of, k, sim->state->t);
-    of->near[k]->state->zip_time = zip_time_near(rates, of->near[k]);
-  }
-  take_rate(rates, of);
+  bool moves = sim->dynamics.stepper.counts.steps > rates->taken, lands = sim->landing != ZP_LANDS_NOWHERE;
+  bool rests = sim->stop == ZP_STOP_HELD && zp_sim_stops(sim, sim->stop); /* as much later as it has closed later */
+  of->late = rests ? of->rate->closed_from : 0;
+  if (lands ? !follow_landing(rates, of) : !follow_step(rates, of, moves)) return false;
+  if (moves && zp_sim_is_fed(sim)) follow_currents(rates, of);
   return true;
 }
 
@@ -237,4 +334,13 @@ double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim 
   for (int i = 0; i < ZP_NEAR_POINTS; i++)
     if (of->near[i]) sum += of->by.weight[i] * number(of->near[i], user);
   return sum;
+}
+
+ZpCurrents zp_run_rate_of_currents(const ZpRunRates *rates, size_t k) {
+  const ZpKeyRates *of = &rates->key[k];
+  double T = rates->sim->state->t;
+  ZpCurrents now = zp_sim_currents(rates->sim, T);
+  if (isnan(now.peak)) return now;
+  double by_T = now.rms * now.rms * of->rate->t;
+  return (ZpCurrents){of->peak, now.rms > 0 ? (of->square - by_T) / (2 * now.rms * T) : 0};
 }

@@ -7,15 +7,24 @@
 #include "rest/near.h"
 #include "sim/sim_internal.h"
 
+/* A current of the run, its time and its derivative. */
+typedef struct ZpCurrentRate {
+  double t, I, rate;
+} ZpCurrentRate;
+
 /* Of one key. */
 typedef struct ZpKeyRates {
   ZpNear by;
   ZpSim *near[ZP_NEAR_POINTS]; /* NULL where the point is not used */
   double from[ZP_NEAR_POINTS]; /* their last corner */
   double to[ZP_NEAR_POINTS];   /* and their next one, s */
-  ZpState *rate;               /* derivatives of the numbers of the run's state */
-  double lost;                 /* when they ceased to exist, s; INFINITY: they have not */
-  const char *cause;           /* and why */
+  double late;                 /* derivative of the end of the step, beyond that by corners, s */
+  ZpState *rate;               /* derivatives of the numbers of the run's state; of its time where a key moves it */
+  double square, peak;         /* of the integral of the current's square and of its largest size so far (feed.h) */
+  ZpCurrentRate last[2]; /* the currents of the last two steps, the later one first; t is NAN before there is one */
+  bool at_peak;          /* the later one is the largest so far */
+  double lost;           /* when they ceased to exist, s; INFINITY: they have not */
+  const char *cause;     /* and why */
 } ZpKeyRates;
 
 typedef struct ZpRunRates {
@@ -41,5 +50,8 @@ void zp_run_rates_follow(ZpRunRates *rates);
 
 /* The derivative by the k-th key of a number that a simulation has now. */
 double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user);
+
+/* The derivative by the k-th key of the peak and rms current of the run until now, behind a supply. */
+ZpCurrents zp_run_rate_of_currents(const ZpRunRates *rates, size_t k);
 
 #endif

@@ -65,14 +65,15 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
   size_t signals = zp_sim_row_size();
   sim->state = zp_calloc(1, zp_state_size(model));
+  sim->origin = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->before = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
-             sim->row && make_shape_room(sim);
+  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->origin && sim->kept && sim->before &&
+             sim->relax_work && sim->row && make_shape_room(sim);
   return own && (!uppermost || (sim->stepping->create(sim) && make_liquid_room(sim)));
 }
 
@@ -250,6 +251,7 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_paper_motion_destroy(&sim->paper);
   zp_system_destroy(&sim->eval);
   zp_free(sim->state);
+  zp_free(sim->origin);
   zp_free(sim->kept);
   zp_free(sim->before);
   zp_free(sim->relax_work);
@@ -358,19 +360,24 @@ static bool is_zipped(const ZpModel *model, const ZpState *state) {
   return state->opening0 > 0 && (state->zip.platform || !is_open(model, state));
 }
 
-/* Has it closed for the first time? With a margin, or in a liquid, in which it then creeps for seconds, this is so as
- * soon as it has zipped; otherwise when the platform has arrived or turns back. */
+/* Has it closed for the first time? In sequential contact without a margin also the platform has to arrive or turn
+ * back. */
 static bool has_closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
-  if (model->def.contact.complete_margin || model->has_film) return true;
+  if (model->def.contact.complete_margin || model->def.contact.model != ZP_CONTACT_SEQUENTIAL) return true;
   return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
+}
+
+/* When it will have hardly moved for a while, s, if it goes on so; INFINITY: it is open. */
+static double due_to_rest(const ZpState *state) {
+  static const double while_still = 0.1; /* s */
+  return isnan(state->closed_from) ? INFINITY : state->still.from + while_still;
 }
 
 /* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
 static bool stays_closed(const ZpModel *model, const ZpState *state) {
-  static const double while_still = 0.1; /* s */
   if (model->def.contact.model == ZP_CONTACT_SEQUENTIAL) return has_closed(model, state);
-  return !isnan(state->closed_from) && state->t - state->still.from >= while_still;
+  return state->t >= due_to_rest(state);
 }
 
 /* A series has closed when all its members have; antagonists have when one has. */
@@ -386,10 +393,15 @@ bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
   return is_true_of(sim, stop == ZP_STOP_CLOSED ? has_closed : stays_closed);
 }
 
+/* Distance of bare electrodes from a touch, m; INFINITY where none matters. */
+static double left_to_short(const ZpModel *model, const ZpState *state) {
+  if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return INFINITY;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.range;
+}
+
 /* Do electrodes without an insulator touch under a voltage? */
 static bool has_short(const ZpModel *model, const ZpState *state) {
-  if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) < model->faces.range;
+  return left_to_short(model, state) <= 0;
 }
 
 static bool shorted(const ZpSim *sim) {
@@ -484,28 +496,123 @@ void zp_sim_arrive(ZpSim *sim) {
   }
 }
 
+/* -- where a run ends within a step --------------------------------------------------------------- */
+
+static double left_to_close(const ZpModel *model, const ZpState *state) {
+  return opening(model, state) - closed_opening(state);
+}
+
+double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
+  const bool shorts = landing == ZP_LANDS_SHORTED, first = shorts || zp_is_opposed(sim->model);
+  double left = first ? INFINITY : -INFINITY;
+  for (const ZpSim *m = sim; m; m = m->below) {
+    double own = shorts ? left_to_short(m->model, m->state) : left_to_close(m->model, m->state);
+    if (first)
+      left = fmin(left, own);
+    else if (isnan(m->origin->zip_time)) /* members that have closed before may have opened again */
+      left = fmax(left, own);
+  }
+  return left;
+}
+
+/* The instant within the last step at which the run ends. Where pairs join one by one it is the step's end. */
+static ZpLanding landing_of(const ZpSim *sim) {
+  if (shorted(sim)) return ZP_LANDS_SHORTED;
+  bool closes = sim->stop == ZP_STOP_CLOSED && zp_sim_stops(sim, sim->stop);
+  return closes && sim->model->def.contact.complete_margin == 0 ? ZP_LANDS_CLOSED : ZP_LANDS_NOWHERE;
+}
+
+static void keep_origin(ZpSim *sim) {
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->origin, m->state, zp_state_size(m->model));
+}
+
+static void return_to_origin(ZpSim *sim, const ZpFeed *feed) {
+  for (ZpSim *m = sim; m; m = m->below)
+    memcpy(m->state, m->origin, zp_state_size(m->model));
+  sim->feed = *feed;
+}
+
+/* A step that ends at `latest` or before; false if none was found. */
+static bool take(ZpSim *sim, double latest, ZpStepLimit *limit) {
+  if (!zp_sim_prepare(sim)) return false;
+  sim->stuck = !sim->stepping->step(sim, latest, limit);
+  if (!sim->stuck) zp_sim_arrive(sim);
+  return !sim->stuck;
+}
+
+/* Instants in a step, s, and what is left at them: before and at or after the end of the run. */
+typedef struct Bracket {
+  double early, late, left_early, left_late;
+} Bracket;
+
+/* One trial of the method of false position, in which a point that stays counts half => whether a step was found. */
+static bool narrow(ZpSim *sim, ZpLanding landing, Bracket *b, ZpStepLimit *limit) {
+  if (!take(sim, b->late - b->left_late * (b->late - b->early) / (b->left_late - b->left_early), limit)) return false;
+  double left = zp_sim_left(sim, landing);
+  if (left > 0)
+    *b = (Bracket){sim->state->t, b->late, left, 0.5 * b->left_late};
+  else
+    *b = (Bracket){b->early, sim->state->t, 0.5 * b->left_early, left};
+  return true;
+}
+
+/* Take the last step again until it ends where the run does. */
+static void land(ZpSim *sim, ZpLanding landing, const ZpFeed *feed, ZpStepLimit *limit) {
+  enum { MOST_TRIES = 50 };
+  const double shortest = 1e-15 * sim->state->t, least = 1e-15 * sim->model->L; /* rounding */
+  Bracket b = {.late = sim->state->t, .left_late = zp_sim_left(sim, landing)};
+  return_to_origin(sim, feed);
+  b.early = sim->state->t;
+  b.left_early = sim->left_before = zp_sim_left(sim, landing);
+  bool inside = b.left_early > 0 && isfinite(b.left_early);
+  for (int k = 0; k < MOST_TRIES && inside && b.late - b.early > shortest && b.left_late < -least; k++) {
+    if (!narrow(sim, landing, &b, limit)) break;
+    if (sim->state->t != b.late || b.left_late < -least) return_to_origin(sim, feed);
+  }
+  if (inside) sim->landing = landing;
+  if (sim->state->t == b.late && !sim->stuck) return;
+  return_to_origin(sim, feed);
+  take(sim, b.late, limit);
+}
+
+/* -- a step of a run ------------------------------------------------------------------------------- */
+
+/* When the run ends if all members that have to rest stay at rest, s. */
+static double rest_due(const ZpSim *sim) {
+  bool first = zp_is_opposed(sim->model);
+  double due = first ? INFINITY : 0;
+  for (const ZpSim *m = sim; m; m = m->below)
+    due = first ? fmin(due, due_to_rest(m->state)) : fmax(due, due_to_rest(m->state));
+  return due;
+}
+
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   ZpState *state = sim->state;
   if (sim->rates) zp_run_rates_begin(sim->rates, end_time);
   if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
   if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
   double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
-  if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
+  const bool fine = sim->stepping->fine;
+  if (!fine && sim->stop == ZP_STOP_HELD) latest = fmin(latest, rest_due(sim));
+  if (!fine) latest = fmin(latest, state->t + resolution(sim));
   if (zp_sim_is_fed(sim)) {
     corner = fmin(corner, zp_feed_event(sim, latest));
     latest = fmin(latest, corner);
   }
   const size_t mode = state->supply_mode;
   const bool unzipped = isnan(zp_sim_zip_time(sim));
-  if (!zp_sim_prepare(sim)) return;
+  const ZpFeed feed = sim->feed;
   ZpStepLimit limit;
-  sim->stuck = !sim->stepping->step(sim, latest, &limit);
+  if (!fine) keep_origin(sim);
+  if (!take(sim, latest, &limit)) return;
+  ZpLanding landing = fine ? ZP_LANDS_NOWHERE : landing_of(sim);
+  if (landing != ZP_LANDS_NOWHERE) land(sim, landing, &feed, &limit);
   if (sim->stuck) return;
   info->steps++;
   limit = limit_of(sim, limit, corner, end_time);
   info->limited[limit]++;
-  zp_sim_arrive(sim);
-  if (!sim->stepping->fine) zp_sim_see(sim);
+  if (!fine) zp_sim_see(sim);
   if (sim->rates) zp_run_rates_follow(sim->rates);
   sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(zp_sim_zip_time(sim)));
 }
@@ -543,7 +650,7 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return zp_hooks_stop(hooks, "simulating", fraction);
 }
 
-static ZpOutcome advance(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks *hooks, ZpRunInfo *info) {
+static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRunInfo *info) {
   enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
   const int64_t between = sim->stepping->between_questions;
@@ -572,7 +679,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
     if (shorted(sim)) return ZP_SHORT_CIRCUIT;
-    if (zp_sim_stops(sim, stop)) return ZP_ZIPPED;
+    if (zp_sim_stops(sim, sim->stop)) return ZP_ZIPPED;
     if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
@@ -675,9 +782,11 @@ ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHoo
   double start_time = sim->state->t, start_clock = clock ? hooks->clock(hooks->user) : NAN;
   info.outcome = sim->settled;
   sim->cut = false;
+  sim->landing = ZP_LANDS_NOWHERE;
   if (info.outcome == ZP_REACHED_END) {
     keep(sim);
-    info.outcome = advance(sim, end_time, stop, hooks, &info);
+    sim->stop = stop;
+    info.outcome = advance(sim, end_time, hooks, &info);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
     sim->fault = diverged(sim) || sim->stuck ? NULL : fault_of(sim);
     if (sim->fault) info.outcome = ZP_DIVERGED;

@@ -78,9 +78,20 @@ typedef struct ZpStepStart {
   double t, opening, rate; /* s, m, m/s */
 } ZpStepStart;
 
+/* Where a run ends before its end time. */
+typedef enum ZpStop {
+  ZP_STOP_AT_END, /* nowhere */
+  ZP_STOP_CLOSED, /* where the actuator has closed for the first time */
+  ZP_STOP_HELD    /* where it has stayed closed for 0.1 s and its contraction has changed by less than 1e-4 in them */
+} ZpStop;
+
+/* Instants within a step at which a run ends. */
+typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_SHORTED } ZpLanding;
+
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
+  ZpState *origin; /* a copy of the state at the start of the step */
   ZpState *kept;   /* a copy of a valid state through which a longer run would also pass */
   ZpState *before; /* behind a supply: a copy of the state at the start of the step */
   ZpFeed feed;     /* the supply at the electrodes */
@@ -117,6 +128,9 @@ struct ZpSim {
   const char *fault;          /* why the state in which the last run ended is impossible; NULL: it is possible */
   bool stops_at_events;       /* the run ends at the first event */
   bool at_event;              /* the last step has ended at an event */
+  ZpStop stop;                /* where the run under way ends before its end time */
+  ZpLanding landing;          /* the run has ended at this instant, exactly at the end of the last step, */
+  double left_before;         /* and what was left until then at the start of that step: zp_sim_left */
   struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
   ZpState **states;           /* of the uppermost member: its state and those of all below */
   struct ZpRunRates *rates;   /* derivatives of the run; NULL: none */
@@ -129,15 +143,11 @@ struct ZpSim {
  * its hanging equilibrium. NULL: there is no memory. */
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 
-/* Where a run ends before its end time. */
-typedef enum ZpStop {
-  ZP_STOP_AT_END, /* nowhere */
-  ZP_STOP_CLOSED, /* where the actuator has closed for the first time */
-  ZP_STOP_HELD    /* where it has stayed closed for 0.1 s and its contraction has changed by less than 1e-4 in them */
-} ZpStop;
-
 /* Would a run end in the present state? */
 bool zp_sim_stops(const ZpSim *sim, ZpStop stop);
+
+/* Distance of the state from an instant of ending, m: positive before it, 0 at it. */
+double zp_sim_left(const ZpSim *sim, ZpLanding landing);
 
 /* As zp_sim_run, with this end. */
 ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks *hooks, ZpRunInfo *info);

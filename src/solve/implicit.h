@@ -99,8 +99,10 @@ typedef struct ZpNearStep {
   ZpImplicitHistory *history;
 } ZpNearStep;
 
+enum { ZP_NEAR_STEPS = 5 };
+
 typedef struct ZpNearSteps {
-  ZpNearStep near[4];
+  ZpNearStep near[ZP_NEAR_STEPS];
   int count;
   const double *q1;              /* [n] end of the known step */
   const ZpImplicitHistory *lead; /* rates of the known step */

@@ -182,12 +182,6 @@ static double error_of(const Findings *findings, const Meshes *meshes, int k) {
   return e->safety * of_either(findings, k, e->order);
 }
 
-static bool has(const ZpResult *result, const char *name) {
-  for (size_t i = 0; i < result->scalars; i++)
-    if (strcmp(result->scalar[i].name, name) == 0) return true;
-  return false;
-}
-
 static void forget_all(Findings *findings) {
   for (int mesh = 0; mesh < MESHES; mesh++) {
     findings->elements[mesh] = NAN;
@@ -243,7 +237,7 @@ ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpRe
     status = solve(task, run, study, mesh, &def, &findings, err);
   }
   for (int k = 0; k < COUNT && status == ZP_OK; k++)
-    if (estimated[k].study == study && has(result, estimated[k].value))
+    if (estimated[k].study == study && zp_result_has(result, estimated[k].value))
       zp_result_add(result, estimated[k].error, estimated[k].unit, error_of(&findings, &meshes, k));
   return status;
 }

@@ -1,9 +1,11 @@
 #include "study/rates.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "sim/feed.h"
 #include "study/sensitivity.h"
 
@@ -115,31 +117,41 @@ static double zip_time_of(ZpSim *sim, void *unused) {
   return sim->state->zip_time;
 }
 
-static double peak_of(ZpSim *sim, void *unused) {
+static double closed_from_of(ZpSim *sim, void *unused) {
   (void)unused;
-  return zp_sim_currents(sim, sim->state->t).peak;
+  return sim->state->closed_from;
 }
 
-static double rms_of(ZpSim *sim, void *unused) {
-  (void)unused;
-  return zp_sim_currents(sim, sim->state->t).rms;
+/* A run that was interrupted, or has used up its steps, ends at an instant that no physics sets. */
+static double rate_at_end(const ZpRunRates *rates, size_t k, const ZpResult *result, const char *signal) {
+  bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
+  return none ? NAN : zp_run_rate_of(rates, k, signal_of, (void *)signal);
 }
 
-static double rate_at_end(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user) {
-  return isfinite(rates->key[k].lost) ? NAN : zp_run_rate_of(rates, k, number, user);
+/* An actuator that has closed before the derivatives were lost was open for no instant since then. */
+static double rate_of_closed_from(const ZpRunRates *rates, size_t k, const ZpResult *result) {
+  double from = zp_result_get(result, "closed_from_s");
+  return from < rates->key[k].lost ? zp_run_rate_of(rates, k, closed_from_of, NULL) : NAN;
+}
+
+static void add_currents(const ZpRunRates *rates, size_t k, ZpResult *result) {
+  bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
+  ZpCurrents rate = none ? (ZpCurrents){NAN, NAN} : zp_run_rate_of_currents(rates, k);
+  zp_result_add_sensitivity(result, "peak_current_A", rates->key[k].by.key, rate.peak);
+  zp_result_add_sensitivity(result, "rms_current_A", rates->key[k].by.key, rate.rms);
 }
 
 static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
   const ZpModel *model = rates->sim->model;
   int key = rates->key[k].by.key;
-  if (is_pair(model)) zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
+  if (is_pair(model)) {
+    zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
+    zp_result_add_sensitivity(result, "closed_from_s", key, rate_of_closed_from(rates, k, result));
+  }
   for (size_t i = 0; i < AT_END; i++)
     if (at_end[i].has(model))
-      zp_result_add_sensitivity(result, at_end[i].name, key,
-                                rate_at_end(rates, k, signal_of, (void *)at_end[i].signal));
-  if (!is_fed(model)) return;
-  zp_result_add_sensitivity(result, "peak_current_A", key, rate_at_end(rates, k, peak_of, NULL));
-  zp_result_add_sensitivity(result, "rms_current_A", key, rate_at_end(rates, k, rms_of, NULL));
+      zp_result_add_sensitivity(result, at_end[i].name, key, rate_at_end(rates, k, result, at_end[i].signal));
+  if (is_fed(model)) add_currents(rates, k, result);
 }
 
 /* What ends the derivatives by all keys ends them at once. */
@@ -150,6 +162,9 @@ static bool all_lost(const ZpRunRates *rates) {
 }
 
 static void note_lost(const ZpRunRates *rates, ZpResult *result) {
+  if (!zp_outcome_good(result->outcome))
+    zp_result_note(result,
+                   "sensitivity: numbers at the end have no derivatives, because the run did not reach its end");
   if (all_lost(rates)) {
     zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives: %s", 1e3 * rates->key[0].lost,
                    rates->key[0].cause);
@@ -161,11 +176,110 @@ static void note_lost(const ZpRunRates *rates, ZpResult *result) {
                      zp_key(of->by.key)->name, of->cause);
 }
 
+static void add_value(const ZpRunRates *rates, const EndNumber *number, ZpResult *result) {
+  if (!number->has(rates->sim->model) || zp_result_has(result, number->name)) return;
+  bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
+  zp_result_add(result, number->name, number->unit, sound ? zp_sim_get(rates->sim, number->signal) : NAN);
+}
+
 void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
-  for (size_t i = 0; rates->keys > 0 && i < AT_END; i++)
-    if (at_end[i].has(rates->sim->model) && isnan(zp_result_get(result, at_end[i].name)))
-      zp_result_add(result, at_end[i].name, at_end[i].unit, zp_sim_get(rates->sim, at_end[i].signal));
+  if (rates->keys == 0) return;
+  for (size_t i = 0; i < AT_END; i++)
+    add_value(rates, &at_end[i], result);
   for (size_t k = 0; k < rates->keys; k++)
     add_key(rates, k, result);
-  if (rates->keys > 0) note_lost(rates, result);
+  note_lost(rates, result);
+}
+
+/* -- are they settled? ----------------------------------------------------------------------------- */
+
+/* A run with other steps, and the error of a derivative over its change in that run. */
+typedef struct Other {
+  ZpActuatorDef def;
+  double error;
+} Other;
+
+/* Errors are proportional to the tolerance, eq. (20.11), so a third of the change; three quarters are counted on. */
+static Other with_tolerance(const ZpActuatorDef *def) {
+  static const double largest = 0.1;
+  Other c = {*def, 0.75};
+  c.def.solver.tolerance = fmin(4 * def->solver.tolerance, largest);
+  return c;
+}
+
+/* And to the square of equal steps. They are shorter, because the drive limits longer ones. */
+static Other with_steps(const ZpActuatorDef *def, const ZpResult *result) {
+  Other c = {*def, 4.0 / 3};
+  c.def.solver.time_step = 0.5 * zp_result_get(result, "mean_time_step_s");
+  return c;
+}
+
+/* Is the error at most 1 % of the derivative, or rounding of the number over the key? */
+static bool is_settled(const Other *c, const ZpResult *result, const ZpSensitivity *own, const ZpSensitivity *other) {
+  static const double most = 0.01, rounding = 1e-7;
+  double key = fabs(zp_def_get(&c->def, own->key)), error = c->error * fabs(other->value - own->value);
+  double number = key > 0 ? fabs(zp_result_get(result, own->output)) / key : 0;
+  return error <= fmax(most * fabs(own->value), isfinite(number) ? rounding * number : 0);
+}
+
+/* Derivatives that are not settled become null. The other run has the same ones, in the same order. */
+static void withdraw(const Other *c, const ZpResult *other, ZpResult *result) {
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    ZpSensitivity *s = &result->sensitivity[i];
+    if (i >= other->sensitivities || !is_settled(c, result, s, &other->sensitivity[i])) s->value = NAN;
+  }
+}
+
+/* Compare with another run => the share of steps that it has taken. */
+static ZpStatus settle(const ZpTask *task, ZpStudyRun run, const Other *c, ZpResult *result, double *share,
+                       ZpError *err) {
+  const ZpTask again = {&c->def, task->input, task->hooks};
+  ZpError reason;
+  ZpResult *other = zp_result_create(result->study);
+  if (!other) return zp_fail_memory(err);
+  ZpStatus status = run(&again, other, &reason);
+  withdraw(c, other, result);
+  *share = zp_result_get(other, "steps") / zp_result_get(result, "steps");
+  zp_result_destroy(other);
+  return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
+}
+
+/* Name as many as fit of the derivatives that were there before. */
+static void note_unsettled(const ZpSensitivity *before, ZpResult *result) {
+  enum { LIST = 128 };
+  char list[LIST] = "";
+  size_t count = 0, used = 0;
+  for (size_t i = 0; i < result->sensitivities; i++) {
+    const ZpSensitivity *s = &before[i];
+    if (isnan(s->value) || !isnan(result->sensitivity[i].value)) continue;
+    const char *comma = count++ > 0 ? ", " : "", *key = zp_key(s->key)->name;
+    size_t needed = strlen(comma) + strlen(s->output) + strlen(" by ") + strlen(key);
+    if (used + needed < LIST) used += (size_t)snprintf(list + used, LIST - used, "%s%s by %s", comma, s->output, key);
+  }
+  if (count > 0)
+    zp_result_note(result,
+                   "sensitivity: null because other steps change it by more than 1 %%: %s%s; reduce solver.tolerance",
+                   list, count > 1 ? ", ..." : "");
+}
+
+static bool has_any(const ZpResult *result) {
+  for (size_t i = 0; i < result->sensitivities; i++)
+    if (!isnan(result->sensitivity[i].value)) return true;
+  return false;
+}
+
+ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, ZpError *err) {
+  static const double same = 0.55; /* share of the steps: the drive, not the tolerance, has set most of them */
+  if (!has_any(result) || !isnan(task->def->solver.time_step)) return ZP_OK;
+  ZpSensitivity *before = zp_calloc(result->sensitivities, sizeof *before);
+  if (!before) return zp_fail_memory(err);
+  memcpy(before, result->sensitivity, result->sensitivities * sizeof *before);
+  double share;
+  Other c = with_tolerance(task->def);
+  ZpStatus status = settle(task, run, &c, result, &share, err);
+  c = with_steps(task->def, result);
+  if (status == ZP_OK && share > same) status = settle(task, run, &c, result, &share, err);
+  note_unsettled(before, result);
+  zp_free(before);
+  return status;
 }

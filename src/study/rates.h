@@ -2,9 +2,8 @@
 #ifndef ZP_STUDY_RATES_H
 #define ZP_STUDY_RATES_H
 
-#include <zipact/study.h>
-
 #include "sim/run_rates.h"
+#include "study/studies.h"
 
 /* Check sensitivity.by of a run: keys and models that have derivatives in time. ZP_BAD_INPUT names the key. */
 ZpStatus zp_check_rates(const ZpActuatorDef *def, ZpError *err);
@@ -16,5 +15,9 @@ ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err);
 /* Where the run has ended: add its derivatives, the numbers that they are of where the summary lacks them, and a note
  * on what has none. */
 void zp_rates_add(const ZpRunRates *rates, ZpResult *result);
+
+/* (a task, what has filled its result, the result) => derivatives that the time steps do not determine are null, with a
+ * note: the run once more with a larger tolerance shows which. Nothing where solver.time_step sets the steps. */
+ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, ZpError *err);
 
 #endif

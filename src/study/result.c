@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "study/limits.h"
+#include "study/studies.h"
 
 ZpResult *zp_result_create(ZpStudy study) {
   ZpResult *result = zp_calloc(1, sizeof *result);
@@ -60,6 +61,12 @@ double zp_result_get(const ZpResult *result, const char *name) {
   for (size_t i = 0; i < result->scalars; i++)
     if (strcmp(result->scalar[i].name, name) == 0) return result->scalar[i].value;
   return NAN;
+}
+
+bool zp_result_has(const ZpResult *result, const char *name) {
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strcmp(result->scalar[i].name, name) == 0) return true;
+  return false;
 }
 
 static void add(ZpResult *result, ZpScalar scalar) {

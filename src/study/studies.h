@@ -20,6 +20,9 @@ bool zp_task_stops(const ZpTask *task, const char *stage, double fraction);
 /* Let a hanging equilibrium that is looked for ask so. `task` must outlive it. */
 void zp_task_watches(const ZpTask *task, ZpStatics *statics);
 
+/* Does a result have a number of this name? It may be null. */
+bool zp_result_has(const ZpResult *result, const char *name);
+
 /* What fills a result: a zp_study_WORD. */
 typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);
 

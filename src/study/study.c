@@ -3,6 +3,7 @@
 #include "def/check.h"
 #include "sim/hooks.h"
 #include "study/estimate.h"
+#include "study/rates.h"
 #include "study/series.h"
 #include "study/together.h"
 
@@ -163,6 +164,7 @@ ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInpu
   if (status != ZP_OK) return status;
   bool moves = table[study].files == FILES_course;
   status = zp_estimate_errors(&task, run, moves, result, err);
+  if (status == ZP_OK && moves) status = zp_rates_settle(&task, run, result, err);
   if (status == ZP_OK)
     *out = result;
   else
