@@ -499,7 +499,7 @@ void zp_sim_arrive(ZpSim *sim) {
 /* -- where a run ends within a step --------------------------------------------------------------- */
 
 static double left_to_close(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) - closed_opening(state);
+  return opening(model, state) - closed_opening(model, state);
 }
 
 double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
