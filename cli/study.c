@@ -53,7 +53,7 @@ static int write_report(const ZpReport *what, const Options *o) {
   if (cli_interrupted()) cli_watch_interrupts(); /* finished results are still drawn, unless Ctrl-C comes again */
   if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
-    if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
+    if (zp_summary_write(&report, stdout, &err) != ZP_OK) return ferror(stdout) ? EXIT_MACHINE : cli_fail(&err);
   } else if (!o->quiet) {
     summary_print(&report, !o->no_plots);
   }

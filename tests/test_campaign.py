@@ -154,7 +154,7 @@ def check_interrupt(zipact, scratch):
     for after in (0, 0.01, 0.02, 0.04, 0.08):
         shutil.rmtree(torn, ignore_errors=True)
         process = subprocess.Popen(zipact.command("rest", torn, *fine), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        while not (torn / "journal.sqlite-wal").exists():
+        while not (torn / "journal.sqlite-wal").exists() and process.poll() is None:
             time.sleep(0.002)
         time.sleep(after)
         process.send_signal(signal.SIGINT)

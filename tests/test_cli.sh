@@ -283,6 +283,15 @@ ok "3: -o where nothing can be made" status_is 3
 ok "3: says where" says '/proc/zipact-cannot-be'
 zp actuate $short -o ''
 ok "3: -o is empty" status_is 3
+zp_closed() { PATH=/nowhere "$zipact" "$@" >&- 2>stderr; status=$?; }
+zp_closed actuate $short --json -o closed-output
+ok "a closed standard output: 3" status_is 3
+ok "a closed standard output: it says so" says "standard output"
+ok "a closed standard output: the files are there" complete closed-output
+zp_closed stationary --set mesh.nodes=9 --set 'load.mass=[8 g, 9 g]' --json -o closed-output
+ok "a sweep and a closed standard output: 3" status_is 3
+zp_closed actuate $short --quiet -o closed-output
+ok "nothing is lost where nothing is printed: 0" status_is 0
 if [ -c /dev/full ]; then
   PATH=/nowhere "$zipact" actuate $short --json -o full >/dev/full 2>stderr
   status=$?
