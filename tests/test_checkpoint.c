@@ -357,8 +357,8 @@ static ZpActuatorDef user_of_numbers(int which) {
   switch (which) {
   case 0:
     return DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"control.kind", ZP_CONTROL_PI},
-               {"control.proportional", 1e6}, {"control.period", 1e-3}, {"control.delay", 3e-3}, {"control.noise", 1e-6},
-               {"setpoint.value", 10e-3});
+               {"control.proportional", 1e6}, {"control.period", 1e-3}, {"control.delay", 3e-3},
+               {"control.noise", 1e-6}, {"setpoint.value", 10e-3});
   case 1:
     return DEF({"mesh.nodes", 9}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e6},
                {"source.current_limit", 1e-3}, {"source.capacitance", 1e-10});
@@ -372,8 +372,8 @@ static ZpActuatorDef user_of_numbers(int which) {
   }
 }
 
-/* Every number of the state by values that no run leaves, with the right checksum: refused, or taken and then steps end.
- * An index from it that is out of bounds stops the sanitizers. */
+/* Every number of the state by values that no run leaves, with the right checksum: refused, or taken and then steps
+ * end. An index from it that is out of bounds stops the sanitizers. */
 START_TEST(test_forged_numbers) {
   static const double wrong[] = {-1, 0.5, 3, 1e18, -1e300, INFINITY, NAN};
   ZpActuatorDef def = user_of_numbers(_i);
