@@ -904,7 +904,7 @@ static const struct {
     {"drive: {waveform: table, file: word.csv}", {"word.csv:3", "voltage_kV", "text in a number column"}},
     {"drive: {waveform: table, file: unit.csv}", {"drive.file", "no column time_s"}},
     {"drive: {waveform: table, file: short.csv}", {"short.csv", "two rows"}},
-    {"drive: {waveform: table, file: bare.csv}", {"bare.csv", "two rows"}},
+    {"drive: {waveform: table, file: bare.csv}", {"bare.csv", "not a table"}},
 };
 
 START_TEST(refused) {

@@ -66,7 +66,7 @@ static bool is_no_part(const ZpKey *key) {
   { offsetof(ZpActuatorDef, field), sizeof(((ZpActuatorDef *)0)->field) }
   static const struct {
     size_t first, size;
-  } no_part[] = {PART(output.plots), PART(output.templates), PART(output.animation), PART(sampling), PART(optimize)};
+  } no_part[] = {PART(output.plots), PART(output.animation), PART(sampling), PART(optimize)};
 #undef PART
   for (size_t i = 0; i < sizeof no_part / sizeof no_part[0]; i++)
     if (key->offset >= no_part[i].first && key->offset - no_part[i].first < no_part[i].size) return true;
