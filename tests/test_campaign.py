@@ -155,6 +155,25 @@ def check_flipped_bits(zipact, scratch, flips):
     ok("flipped bits: %d of %d reported, %d with the right results, %d wrong" % (said, flips, repaired, wrong), wrong == 0)
 
 
+def check_time_limit(zipact, scratch):
+    """A case that takes too long is a row without numbers, which is tried again; the limit is not part of the case."""
+    folder, whole = scratch / "limited", scratch / "unlimited"
+    words = [zipact.program, "actuate", "--set", "solver.end_time=[0.1 ms, 100 ms]", "--set", "solver.tolerance=1e-6", "--set", "liquid.model=none", "--set", "output.errors=false", "--no-plots", "--quiet", "-o"]
+    limited = subprocess.run([*words, str(folder), "--set", "solver.max_cpu_time=0.1 s"])
+    rows = json.loads((folder / "summary.json").read_text())["rows"]
+    ok("time limit: status 1", limited.returncode == 1)
+    ok("time limit: the outcomes", [row["outcome"] for row in rows] == ["end_time", "time_limit"])
+    numbers = [value for name, value in rows[1].items() if isinstance(value, (int, float)) and name not in ("wall_time_s", "real_time_factor", "solver.end_time")]
+    ok("time limit: numbers are null, and the message says why", numbers == [] and "solver.max_cpu_time = 0.1 s" in rows[1]["message"])
+    before = blobs_of(folder)
+    ok("time limit: resumed without it", subprocess.run([*words, str(folder), "--resume"]).returncode == 0)
+    ok("time limit: the row that was done is kept", blobs_of(folder)[0] == before[0])
+    ok("time limit: a whole one", subprocess.run([*words, str(whole)]).returncode == 0)
+    ok("time limit: the same results", results(folder) == results(whole))
+    single = subprocess.run([*[word.replace("[0.1 ms, 100 ms]", "100 ms") for word in words], str(scratch / "limited-single"), "--set", "solver.max_cpu_time=0.1 s", "--json"], stdout=subprocess.PIPE, text=True)
+    ok("time limit: of a single run", single.returncode == 1 and json.loads(single.stdout)["outcome"] == "time_limit" and json.loads(single.stdout)["zip_time_s"] is None)
+
+
 def check_samples(zipact, scratch):
     """Statistics are those of the rows; a longer sequence begins with the same samples, whose rows are kept."""
     folder, longer = scratch / "samples-1", scratch / "samples-longer"
@@ -328,6 +347,7 @@ def main():
     check_kills(zipact, scratch, kills)
     check_resume(zipact, scratch)
     check_flipped_bits(zipact, scratch, flips)
+    check_time_limit(zipact, scratch)
     check_samples(zipact, scratch)
     check_unfinished(zipact, scratch)
     check_interrupt(zipact, scratch)

@@ -931,7 +931,7 @@ END_TEST
 /* What is written or drawn, or which cases are run, which no study knows: test_report, test_scenario,
  * test_campaign.py and test_optimize.py. */
 static bool is_of_files(const char *key) {
-  static const char *const files[] = {"output.series", "output.plots", "output.animation"};
+  static const char *const files[] = {"output.series", "output.plots", "output.animation", "solver.max_cpu_time"};
   bool found = strncmp(key, "sampling.", 9) == 0 || strncmp(key, "optimize.", 9) == 0;
   for (size_t i = 0; i < LENGTH_OF(files); i++)
     found |= strcmp(files[i], key) == 0;

@@ -29,7 +29,8 @@ typedef enum ZpOutcome {
   ZP_SHORT_CIRCUIT, /* "short_circuit": electrodes without an insulator touched under a voltage */
   ZP_PULLED_IN,     /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
   ZP_EVENT,         /* "event": zp_sim_step_to_event has ended at an event */
-  ZP_AT_BOUND       /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
+  ZP_AT_BOUND,      /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
+  ZP_TIME_LIMIT     /* "time_limit": solver.max_cpu_time was not enough */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" for any other number. */

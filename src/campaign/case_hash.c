@@ -59,14 +59,14 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
   return status;
 }
 
-/* Pictures are not part of a result, and the values of a case include how it was chosen. Called for all keys of every
- * case: no names are compared. */
+/* Pictures and a time limit are not part of a result, and the values of a case include how it was chosen. Called for
+ * all keys of every case: no names are compared. */
 static bool is_no_part(const ZpKey *key) {
 #define PART(field)                                                                                                    \
   { offsetof(ZpActuatorDef, field), sizeof(((ZpActuatorDef *)0)->field) }
   static const struct {
     size_t first, size;
-  } no_part[] = {PART(output.plots), PART(output.animation), PART(sampling), PART(optimize)};
+  } no_part[] = {PART(output.plots), PART(output.animation), PART(sampling), PART(optimize), PART(solver.max_cpu_time)};
 #undef PART
   for (size_t i = 0; i < sizeof no_part / sizeof no_part[0]; i++)
     if (key->offset >= no_part[i].first && key->offset - no_part[i].first < no_part[i].size) return true;

@@ -266,7 +266,7 @@ void zp_journal_close(ZpJournal *journal) {
 
 /* The outcome with this word; ZP_BAD_ARGUMENT for any other word. */
 static ZpOutcome outcome_of(const char *word) {
-  for (int i = 0; word && i <= ZP_PULLED_IN; i++)
+  for (int i = 0; word && strcmp(zp_outcome_name((ZpOutcome)i), "unknown") != 0; i++)
     if (strcmp(zp_outcome_name((ZpOutcome)i), word) == 0) return (ZpOutcome)i;
   return ZP_BAD_ARGUMENT;
 }
@@ -279,7 +279,7 @@ ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t n
     return fail_base(journal, err);
   while ((step = sqlite3_step(query)) == SQLITE_ROW) {
     const ZpOutcome outcome = outcome_of((const char *)sqlite3_column_text(query, OUTCOME));
-    if (is_whole(query))
+    if (outcome != ZP_TIME_LIMIT && is_whole(query)) /* more time, or another machine, may be enough */
       visit(user, (size_t)sqlite3_column_int64(query, NUMBER), (uint64_t)sqlite3_column_int64(query, HASH),
             zp_outcome_good(outcome));
   }

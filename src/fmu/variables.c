@@ -43,11 +43,26 @@ bool zp_fmu_follows(int index, ZpInput input) {
 }
 
 bool zp_fmu_is_parameter(int index, double value) {
-  static const char *const others[] = {
-      "preset",       "drive.",         "sense.",     "solver.end_time", "solver.stop_when_zipped",
-      "control.kind", "control.signal", "setpoint.",  "initial.",        "data.",
-      "calibrate.",   "modes.",         "isometric.", "profile.",        "cycle.",
-      "sensitivity.", "sampling.",      "optimize.",  "output."};
+  static const char *const others[] = {"preset",
+                                       "drive.",
+                                       "sense.",
+                                       "solver.end_time",
+                                       "solver.stop_when_zipped",
+                                       "solver.max_cpu_time",
+                                       "control.kind",
+                                       "control.signal",
+                                       "setpoint.",
+                                       "initial.",
+                                       "data.",
+                                       "calibrate.",
+                                       "modes.",
+                                       "isometric.",
+                                       "profile.",
+                                       "cycle.",
+                                       "sensitivity.",
+                                       "sampling.",
+                                       "optimize.",
+                                       "output."};
   if (!zp_fmu_has_number(index) || zp_key_is_material(index) || isnan(value)) return false;
   return !is_one_of(zp_key(index)->name, others, sizeof others / sizeof others[0]);
 }

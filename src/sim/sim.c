@@ -16,7 +16,7 @@
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",      "zipped",    "interrupted", "not_settled", "diverged",
                                       "step_limit",    "converged", "followed",    "branch_lost", "bad_argument",
-                                      "short_circuit", "pulled_in", "event",       "at_bound"};
+                                      "short_circuit", "pulled_in", "event",       "at_bound",    "time_limit"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
@@ -592,7 +592,8 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_BRANCH_LOST:
   case ZP_PULLED_IN:
   case ZP_AT_BOUND:
-    break; /* of studies of rest, of fits */
+  case ZP_TIME_LIMIT:
+    break; /* of studies of rest, of fits, of a clock */
   case ZP_EVENT:
     snprintf(text, size, "an event at %g s", t);
     break;
