@@ -110,9 +110,13 @@ const char *zp_fmu_unit(ZpFmuVariable variable) {
 
 const char *zp_fmu_help(ZpFmuVariable variable) {
   static const char *const of_input[ZP_INPUT_COUNT] = {
-      "commanded voltage of the source",
+      "commanded voltage of the source; it starts at the value that the scenario's waveform has at t = 0, and the "
+      "waveform "
+      "is not played",
       "force on the whole actuator in addition to load.mass, without inertia; positive pulls the lower platform down",
-      "setpoint of the controller, in the SI unit of control.signal"};
+      "setpoint of the controller, in the SI unit of control.signal; it starts at the value that the scenario's "
+      "waveform "
+      "has at t = 0, and the waveform is not played"};
   size_t count;
   if (variable.role == ZP_FMU_TIME) return "time since the start";
   if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];
