@@ -19,9 +19,10 @@
 static const double step_size = 1e-3; /* s, of the default experiment */
 enum { MOST_STEPS = 1000 };           /* of it */
 
-/* What builds of the sources may differ by that contract products and sums to one operation (-march=native): measured
- * by test_fmu_builds.py, and much less. */
-#define EXPECTED_TOLERANCE "1e-6"
+/* How far builds of the sources may be that contract products and sums: such a one (gcc -O2 -march=native, with a bead,
+ * 20 ms) was off by 1.5e-4 of the largest value of a column, by 0.013 of axial_energy, which vibrates, and by 0.02 of
+ * energy_imbalance, a sum of rounding errors. */
+#define EXPECTED_TOLERANCE "1e-3 of the largest value of each column, 0.1 of axial_energy, none of energy_imbalance"
 
 /* -- what it begins with --------------------------------------------------------------------------- */
 
@@ -131,7 +132,7 @@ static ZpStatus put_expected(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
     status = zp_fmu_step(fmu, k * plan->step, false, &step, err);
     if (status == ZP_OK) put_row(file, fmu);
   }
-  fputs("# relative tolerance " EXPECTED_TOLERANCE " of the largest value of each column\n", file);
+  fputs("# tolerance: " EXPECTED_TOLERANCE "\n", file);
   zp_fmu_destroy(fmu);
   return status;
 }
