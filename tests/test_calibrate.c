@@ -666,7 +666,7 @@ START_TEST(bad_input_is_refused) {
   refuse(ZP_STUDY_CALIBRATE, &nameless, "data.file: empty");
   refuse_file("", E, "empty");
   refuse_file("# only a remark\n\n", E, "empty");
-  refuse_file("load_g,stroke_mm\n", E, "0 rows of data");
+  refuse_file("load_g,stroke_mm\n", E, "not a table: below the row of names, no column has a number");
   refuse_file("load_g,stroke_mm\n\n8,abc\n", E, "bad.csv:3: column stroke_mm: \"abc\": text in a number column");
   refuse_file("load_g,stroke_mm\n8,nan\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm\n8,0x10\n", E, "text in a number column");
